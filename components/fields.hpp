@@ -1,0 +1,156 @@
+#pragma once
+
+#include "components/world.hpp"
+
+// The fields of every component, by name: what hashes, snapshots and the inspector go through. Eigen's types have padding and
+// are not trivially copyable, so nothing ever copies or hashes a component as bytes. A test compares the number of
+// fields visited with the number that the struct has.
+namespace handhold {
+
+template <typename V>
+void visit_fields(const PersistentId& c, V&& visit) {
+    visit("value", c.value);
+}
+template <typename V>
+void visit_fields(const RigidBody& c, V&& visit) {
+    visit("kind", c.kind);
+    visit("mass_kg", c.mass_kg);
+    visit("inertia_kgm2", c.inertia_kgm2);
+    visit("restitution", c.restitution);
+}
+template <typename V>
+void visit_fields(const BodyPose& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const BodyStart& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const BodyVelocity& c, V&& visit) {
+    visit("linear_mps", c.linear_mps);
+    visit("angular_radps", c.angular_radps);
+}
+template <typename V>
+void visit_fields(const Collider& c, V&& visit) {
+    visit("shape", c.shape);
+}
+template <typename V>
+void visit_fields(const LastValidPose& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+    visit("known", c.known);
+}
+template <typename V>
+void visit_fields(const Mover& c, V&& visit) {
+    visit("start_ws", c.start_ws);
+    visit("velocity_ws_mps", c.velocity_ws_mps);
+    visit("angular_velocity_ws_radps", c.angular_velocity_ws_radps);
+    visit("turns_with_body", c.turns_with_body);
+}
+template <typename V>
+void visit_fields(const PlayerBody& c, V&& visit) {
+    visit("mass_kg", c.mass_kg);
+}
+template <typename V>
+void visit_fields(const PlayerOrigin& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const PlayerStart& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const PlayerVelocity& c, V&& visit) {
+    visit("linear_mps", c.linear_mps);
+}
+template <typename V>
+void visit_fields(const PlayerCommands& c, V&& visit) {
+    visit("smooth_turn", c.smooth_turn);
+    visit("snap_turns", c.snap_turns);
+    visit("brake", c.brake);
+    visit("thrust_ps", c.thrust_ps);
+}
+template <typename V>
+void visit_fields(const ReferenceVelocity& c, V&& visit) {
+    visit("linear_mps", c.linear_mps);
+    visit("body", c.body);
+}
+template <typename V>
+void visit_fields(const HeadTracking& c, V&& visit) {
+    visit("pose_ps", c.pose_ps);
+    visit("start_ps", c.start_ps);
+    visit("sample_ps", c.sample_ps);
+    visit("sample_t_s", c.sample_t_s);
+    visit("state", c.state);
+}
+template <typename V>
+void visit_fields(const HeadIgnores& c, V&& visit) {
+    visit("bodies", c.bodies);
+    visit("next", c.next);
+}
+template <typename V>
+void visit_fields(const RenderPose::Hand& c, V&& visit) {
+    visit("tracked_ws", c.tracked_ws);
+    visit("shown_ws", c.shown_ws);
+    visit("ray_from_ws", c.ray_from_ws);
+    visit("ray_to_ws", c.ray_to_ws);
+    visit("grip", c.grip);
+}
+template <typename V>
+void visit_fields(const RenderPose& c, V&& visit) {
+    visit("head_ws", c.head_ws);
+    visit("head_center_ws", c.head_center_ws);
+    visit("hands", c.hands);
+    visit("push_back_m", c.push_back_m);
+}
+template <typename V>
+void visit_fields(const HandOwner& c, V&& visit) {
+    visit("player", c.player);
+    visit("side", c.side);
+}
+template <typename V>
+void visit_fields(const HandTracking& c, V&& visit) {
+    visit("pose_ps", c.pose_ps);
+    visit("start_ps", c.start_ps);
+    visit("sample_ps", c.sample_ps);
+    visit("sample_t_s", c.sample_t_s);
+    visit("state", c.state);
+    visit("resumed", c.resumed);
+    visit("edge", c.edge);
+    visit("edge_t_s", c.edge_t_s);
+    visit("edge_ps", c.edge_ps);
+    visit("pressed", c.pressed);
+    visit("raw_pressed", c.raw_pressed);
+    visit("release_velocity_ps_mps", c.release_velocity_ps_mps);
+    visit("release_spin_ps_radps", c.release_spin_ps_radps);
+}
+template <typename V>
+void visit_fields(const HandHistory::Entry& c, V&& visit) {
+    visit("t_s", c.t_s);
+    visit("hand_ps", c.hand_ps);
+}
+template <typename V>
+void visit_fields(const HandHistory& c, V&& visit) {
+    visit("entries", c.entries);
+    visit("next", c.next);
+    visit("count", c.count);
+}
+template <typename V>
+void visit_fields(const Grab& c, V&& visit) {
+    visit("kind", c.kind);
+    visit("phase", c.phase);
+    visit("body", c.body);
+    visit("hit_bs", c.hit_bs);
+    visit("hit_normal_bs", c.hit_normal_bs);
+    visit("anchor_bs", c.anchor_bs);
+    visit("target_ps", c.target_ps);
+    visit("target_velocity_ps_mps", c.target_velocity_ps_mps);
+    visit("target_spin_ps_radps", c.target_spin_ps_radps);
+    visit("error_m", c.error_m);
+}
+template <typename V>
+void visit_fields(const ControllerToHand& c, V&& visit) {
+    visit("hand_in_controller", c.hand_in_controller);
+}
+
+}  // namespace handhold

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "engine/math/math.hpp"
+
+// Small geometry of head and hands that more than one stage needs.
+namespace handhold {
+
+// The palm's ray of a hand in the world: from behind the palm through it, along its inward normal (the hand's -Y).
+struct PalmRay {
+    Vec3 from_ws;
+    Vec3 to_ws;
+    Vec3 palm_ws;  // the palm's skin
+};
+inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tuning) {
+    Vec3 palm = tuning.palm_center_m;
+    palm.x() *= side == HandSide::right ? 1.0 : -1.0;
+    const Vec3 inward_ws = hand_ws.rotation * -Vec3::UnitY();
+    const Vec3 palm_ws = transform_point(hand_ws, palm);
+    const Vec3 from_ws = palm_ws - tuning.ray_back_m * inward_ws;
+    return {from_ws, from_ws + tuning.ray_length_m * inward_ws, palm_ws};
+}
+
+// The centre of the head's collider.
+inline Vec3 head_center_ps(const HeadTracking& head, const HeadTuning& tuning) {
+    return transform_point(head.pose_ps, tuning.center_m);
+}
+
+}  // namespace handhold

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "components/grab.hpp"
+#include "engine/math/math.hpp"
+
+// What a host draws. Written by publish_pose.
+namespace handhold {
+
+struct RenderPose {
+    struct Hand {
+        Pose tracked_ws;                   // where the controller says the hand is
+        Pose shown_ws;                     // where it is drawn: on its anchor while it grips
+        Vec3 ray_from_ws = Vec3::Zero();   // the palm's ray
+        Vec3 ray_to_ws = Vec3::Zero();
+        GripKind grip = GripKind::none;
+    };
+    Pose head_ws;
+    Vec3 head_center_ws = Vec3::Zero();    // of the collider
+    std::array<Hand, k_hand_count> hands;  // by HandSide
+    double push_back_m = 0.0;              // how far this frame's contacts moved the player
+};
+
+}  // namespace handhold

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/math/math.hpp"
+
+// Every number a designer may turn. Each is declared here with its default and described once, with unit and range, in
+// visit_tuning: files, the report and the inspector read that.
+namespace handhold {
+
+struct TrackingTuning {
+    double lost_after_s = 0.25;
+    double release_window_s = 0.06;
+};
+
+struct HandTuning {
+    Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);   // wrist in the controller's frame, right hand
+    double controller_pitch_rad = -0.35;
+    Vec3 palm_center_m = Vec3(0.0, -0.01, -0.07);      // in the hand's frame
+    double ray_back_m = 0.03;
+    double ray_length_m = 0.15;
+    double reach_m = 0.10;
+    double max_stretch_m = 0.3;
+};
+
+struct HeadTuning {
+    double radius_m = 0.11;
+    Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // of the collider, in the tracked head's frame
+    double restitution = 0.2;
+};
+
+enum class SupportFollow : std::int32_t { off = 0, yaw = 1, full = 2 };
+
+struct LocomotionTuning {
+    double release_speed_max_mps = 6.0;
+    double object_speed_max_mps = 12.0;
+    double drift_drag_per_s = 0.02;
+    double brake_drag_per_s = 3.0;
+    double smooth_turn_radps = 1.5;
+    double snap_turn_rad = 0.5235987755982988;
+    double thruster_mps2 = 0.0;  // 0: no thrusters
+    SupportFollow support_follow = SupportFollow::off;
+};
+
+struct PhaseTuning {
+    double kappa_light_kg = 100.0;   // below: holding it never moves the player
+    double kappa_heavy_kg = 1000.0;  // from here on: momentum is exchanged exactly
+    double heavy_body_kg = 1000.0;   // from here on: gripped like a wall, unmoved by the forward phase
+};
+
+struct ContactTuning {
+    double margin_m = 0.02;
+    double sweep_m = 0.005;
+    double restitution_speed_mps = 0.2;
+    std::int32_t max_rounds = 4;
+};
+
+struct SolverTuning {
+    std::int32_t max_iterations = 30;
+    double tolerance_m = 1e-7;
+    double step_tolerance_m = 1e-8;
+};
+
+struct Tuning {
+    TrackingTuning tracking;
+    HandTuning hand;
+    HeadTuning head;
+    LocomotionTuning locomotion;
+    PhaseTuning phases;
+    ContactTuning contact;
+    SolverTuning solver;
+};
+
+// What is known of one number beside its value.
+struct TuningInfo {
+    const char* name;  // "hand.reach_m": as in files
+    const char* unit;  // "m", "1/s", "" for none
+    double low;        // inclusive range
+    double high;
+    const char* what;
+};
+
+// Calls visit(info, field) for every number; fields are double, std::int32_t, Vec3 (each component in the range) or SupportFollow.
+template <typename TuningType, typename Visit>
+void visit_tuning(TuningType& t, Visit&& visit) {
+    const auto see = [&visit](const char* name, auto& field, const char* unit, double low, double high,
+                              const char* what) {
+        visit(TuningInfo{name, unit, low, high, what}, field);
+    };
+    see("tracking.lost_after_s", t.tracking.lost_after_s, "s", 0.02, 10.0,
+        "a device silent or invalid for longer counts as lost");
+    see("tracking.release_window_s", t.tracking.release_window_s, "s", 0.01, 0.5,
+        "span before letting go over which the hand's velocity is measured");
+    see("hand.controller_offset_m", t.hand.controller_offset_m, "m", -0.5, 0.5,
+        "wrist in the controller's frame, right hand (x mirrored for the left)");
+    see("hand.controller_pitch_rad", t.hand.controller_pitch_rad, "rad", -3.2, 3.2,
+        "hand against controller about the controller's x, positive lifts the fingers");
+    see("hand.palm_center_m", t.hand.palm_center_m, "m", -0.5, 0.5,
+        "skin of the palm in the hand's frame");
+    see("hand.ray_back_m", t.hand.ray_back_m, "m", 0.0, 0.2, "the palm's ray starts this far behind the palm");
+    see("hand.ray_length_m", t.hand.ray_length_m, "m", 0.01, 2.0, "length of the palm's ray");
+    see("hand.reach_m", t.hand.reach_m, "m", 0.0, 1.0,
+        "where the ray misses, the nearest surface up to this far from the palm is gripped");
+    see("hand.max_stretch_m", t.hand.max_stretch_m, "m", 0.01, 10.0,
+        "a hand farther than this from its anchor lets go");
+    see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
+    see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
+        "centre of the head's collider in the tracked head's frame");
+    see("head.restitution", t.head.restitution, "", 0.0, 1.0, "bounce of a drifting head off a wall");
+    see("locomotion.release_speed_max_mps", t.locomotion.release_speed_max_mps, "m/s", 0.0, 1e6,
+        "a player who lets go or is pushed leaves at most this fast, against the reference velocity");
+    see("locomotion.object_speed_max_mps", t.locomotion.object_speed_max_mps, "m/s", 0.0, 1e6,
+        "a thrown object leaves at most this fast, against the reference velocity");
+    see("locomotion.drift_drag_per_s", t.locomotion.drift_drag_per_s, "1/s", 0.0, 100.0,
+        "drag of a drifting player, against the reference velocity");
+    see("locomotion.brake_drag_per_s", t.locomotion.brake_drag_per_s, "1/s", 0.0, 100.0,
+        "drag with the brake fully pressed");
+    see("locomotion.smooth_turn_radps", t.locomotion.smooth_turn_radps, "rad/s", 0.0, 20.0,
+        "turning speed with the stick fully pressed");
+    see("locomotion.snap_turn_rad", t.locomotion.snap_turn_rad, "rad", 0.0, 3.2, "angle of one snap turn");
+    see("locomotion.thruster_mps2", t.locomotion.thruster_mps2, "m/s^2", 0.0, 100.0,
+        "acceleration of the wrist thrusters; 0: none");
+    see("locomotion.support_follow", t.locomotion.support_follow, "", 0.0, 2.0,
+        "play space turns with what is gripped: 0 off, 1 in yaw, 2 fully");
+    see("phases.kappa_light_kg", t.phases.kappa_light_kg, "kg", 0.0, 1e9,
+        "an object lighter than this never moves the player who holds it in free space");
+    see("phases.kappa_heavy_kg", t.phases.kappa_heavy_kg, "kg", 1e-6, 1e9,
+        "from this mass on, momentum is exchanged exactly; above kappa_light_kg");
+    see("phases.heavy_body_kg", t.phases.heavy_body_kg, "kg", 1e-6, 1e9,
+        "from this mass on a free body is gripped like a wall");
+    see("contact.margin_m", t.contact.margin_m, "m", 1e-3, 0.2, "contacts are made up to this far ahead");
+    see("contact.sweep_m", t.contact.sweep_m, "m", 1e-4, 0.1,
+        "colliders that move farther in a frame are swept");
+    see("contact.restitution_speed_mps", t.contact.restitution_speed_mps, "m/s", 0.0, 100.0,
+        "slower impacts do not bounce");
+    see("contact.max_rounds", t.contact.max_rounds, "", 1.0, 16.0,
+        "times that a phase is solved again with contacts found on its result");
+    see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0, "Newton iterations a phase");
+    see("solver.tolerance_m", t.solver.tolerance_m, "m", 1e-12, 1e-3,
+        "constraint error at which a phase is solved; angles count times 0.1 m");
+    see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
+        "a smaller Newton step ends a phase");
+}
+
+}  // namespace handhold

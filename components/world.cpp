@@ -1,0 +1,90 @@
+#include "components/world.hpp"
+
+#include <string>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+Entity add_named(World& world, std::string_view name) {
+    const PersistentId id = persistent_id_from_name(name);
+    HH_CHECK(is_null(find_by_id(world, id)), "the name is taken", id.value);
+    const Entity entity = world.entities.create();
+    world.persistent_id.add(entity, id);
+    return entity;
+}
+
+}  // namespace
+
+Entity add_body(World& world, const BodyDescription& description) {
+    const RigidBody& body = description.body;
+    HH_CHECK(is_valid(description.pose_ws), "the pose is not valid", description.pose_ws.rotation.norm());
+    HH_CHECK(body.kind != BodyKind::free || (body.mass_kg > 0.0 && body.inertia_kgm2.minCoeff() > 0.0),
+             "a free body needs a mass and moments of inertia", body.mass_kg);
+    const Entity entity = add_named(world, description.name);
+    world.body.add(entity, body);
+    world.body_pose.add(entity, {description.pose_ws});
+    world.body_start.add(entity, {description.pose_ws});
+    world.body_velocity.add(entity, description.velocity);
+    world.collider.add(entity, {description.shape});
+    if (body.kind == BodyKind::free) {
+        world.last_valid.add(entity, {description.pose_ws});
+    }
+    return entity;
+}
+
+PlayerEntities add_player(World& world, const PlayerDescription& description) {
+    HH_CHECK(is_valid(description.origin_ws), "the origin is not valid", description.origin_ws.rotation.norm());
+    HH_CHECK(description.body.mass_kg > 0.0, "a player needs a mass", description.body.mass_kg);
+    PlayerEntities made;
+    made.player = add_named(world, description.name);
+    world.player.add(made.player, description.body);
+    world.player_origin.add(made.player, {description.origin_ws});
+    world.player_start.add(made.player, {description.origin_ws});
+    world.player_velocity.add(made.player, {description.velocity_mps});
+    world.player_commands.add(made.player);
+    world.reference_velocity.add(made.player, {world.reference_velocity_mps, k_no_entity});
+    world.head_tracking.add(made.player);
+    world.head_ignores.add(made.player);
+    world.collider.add(made.player, {description.head_shape});
+    world.last_valid.add(made.player, {description.origin_ws, false});
+    world.render_pose.add(made.player);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::string name =
+            std::string(description.name) + (side == HandSide::left ? "/left_hand" : "/right_hand");
+        const Entity hand = add_named(world, name);
+        made.hands[index_of(side)] = hand;
+        world.hand_owner.add(hand, {made.player, side});
+        world.hand_tracking.add(hand);
+        world.hand_history.add(hand);
+        world.grab.add(hand);
+    }
+    return made;
+}
+
+bool destroy(World& world, Entity entity) {
+    if (!world.entities.is_alive(entity)) {
+        return false;
+    }
+    if (world.player.contains(entity)) {
+        for (std::size_t row = world.hand_owner.size(); row-- > 0;) {
+            if (world.hand_owner.rows()[row].player == entity) {
+                destroy(world, world.hand_owner.owners()[row]);
+            }
+        }
+    }
+    visit_columns(world, [entity](const char*, auto& column) { column.remove(entity); });
+    return world.entities.destroy(entity);
+}
+
+Entity find_by_id(const World& world, PersistentId id) {
+    for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
+        if (world.persistent_id.rows()[row] == id) {
+            return world.persistent_id.owners()[row];
+        }
+    }
+    return k_no_entity;
+}
+
+}  // namespace handhold

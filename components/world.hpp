@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "components/body.hpp"
+#include "components/grab.hpp"
+#include "components/player.hpp"
+#include "components/render.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/column.hpp"
+#include "engine/ecs/entity.hpp"
+
+namespace handhold {
+
+struct FrameClock {
+    std::uint64_t frame = 0;  // frames stepped
+    double t_s = 0.0;         // end of the last frame
+};
+
+// The whole state, and its table of contents: one column a component. Nothing outside of it survives a frame.
+struct World {
+    EntityPool entities;
+    FrameClock clock;
+    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's
+    Column<PersistentId> persistent_id;          // every entity
+
+    Column<RigidBody> body;
+    Column<BodyPose> body_pose;          // every body
+    Column<BodyStart> body_start;        // every body
+    Column<BodyVelocity> body_velocity;  // every body
+    Column<Collider> collider;           // bodies that can be touched; players: the head
+    Column<Mover> mover;                 // kinematic bodies that move by themselves
+    Column<LastValidPose> last_valid;    // free bodies and players
+
+    Column<PlayerBody> player;
+    Column<PlayerOrigin> player_origin;
+    Column<PlayerStart> player_start;
+    Column<PlayerVelocity> player_velocity;
+    Column<PlayerCommands> player_commands;
+    Column<ReferenceVelocity> reference_velocity;
+    Column<HeadTracking> head_tracking;
+    Column<HeadIgnores> head_ignores;
+    Column<RenderPose> render_pose;
+
+    Column<HandOwner> hand_owner;
+    Column<HandTracking> hand_tracking;
+    Column<HandHistory> hand_history;
+    Column<Grab> grab;
+    Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
+};
+
+// Calls visit(name, column) for every column. The one list of them: hashing, destroying and snapshots follow it.
+template <typename WorldType, typename Visit>
+void visit_columns(WorldType& world, Visit&& visit) {
+    visit("persistent_id", world.persistent_id);
+    visit("body", world.body);
+    visit("body_pose", world.body_pose);
+    visit("body_start", world.body_start);
+    visit("body_velocity", world.body_velocity);
+    visit("collider", world.collider);
+    visit("mover", world.mover);
+    visit("last_valid", world.last_valid);
+    visit("player", world.player);
+    visit("player_origin", world.player_origin);
+    visit("player_start", world.player_start);
+    visit("player_velocity", world.player_velocity);
+    visit("player_commands", world.player_commands);
+    visit("reference_velocity", world.reference_velocity);
+    visit("head_tracking", world.head_tracking);
+    visit("head_ignores", world.head_ignores);
+    visit("render_pose", world.render_pose);
+    visit("hand_owner", world.hand_owner);
+    visit("hand_tracking", world.hand_tracking);
+    visit("hand_history", world.hand_history);
+    visit("grab", world.grab);
+    visit("controller_to_hand", world.controller_to_hand);
+}
+
+struct BodyDescription {
+    std::string_view name;  // unique in the world: gives the persistent id
+    RigidBody body;
+    Pose pose_ws;
+    BodyVelocity velocity;
+    ShapeId shape;
+};
+// A body with a collider. Throws PreconditionError for a name that is taken, a pose that is not valid, or a free body
+// without mass or inertia.
+Entity add_body(World& world, const BodyDescription& description);
+
+struct PlayerDescription {
+    std::string_view name;  // unique in the world
+    PlayerBody body;
+    Pose origin_ws;
+    Vec3 velocity_mps = Vec3::Zero();
+    ShapeId head_shape;  // a sphere
+};
+struct PlayerEntities {
+    Entity player;
+    Entity hands[k_hand_count];  // by HandSide
+};
+// A player and his two hands. Errors as add_body.
+PlayerEntities add_player(World& world, const PlayerDescription& description);
+
+// Removes the entity from every column; a player's hands go with him. False for a stale handle.
+bool destroy(World& world, Entity entity);
+
+// Null where no entity has the id.
+Entity find_by_id(const World& world, PersistentId id);
+
+}  // namespace handhold

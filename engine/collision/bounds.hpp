@@ -1,0 +1,37 @@
+#pragma once
+
+#include "engine/collision/shape_library.hpp"
+
+// Axis-aligned boxes that hold a shape on its whole way through a frame.
+namespace handhold {
+
+constexpr double k_rounding_m =
+    1e-6;  // added to bounds, so that rounding never hides a touch; far above that of 100 km
+
+struct Bounds {
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+
+    Bounds grown(double margin_m) const {
+        return {low - Vec3::Constant(margin_m), high + Vec3::Constant(margin_m)};
+    }
+    Bounds joined(const Bounds& other) const {
+        return {low.cwiseMin(other.low), high.cwiseMax(other.high)};
+    }
+};
+
+inline Bounds bounds_of(const Vec3& from, const Vec3& to) {
+    return {from.cwiseMin(to), from.cwiseMax(to)};
+}
+
+// What bounds need of a shape, found once: a mesh's takes a walk over its vertices.
+struct ShapeExtent {
+    Bounds box;             // in the shape's frame
+    double radius_m = 0.0;  // about its origin
+};
+ShapeExtent shape_extent(const Shape& shape);
+
+// Covers every point of the shape on the way from one pose to another.
+Bounds way_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);
+
+}  // namespace handhold

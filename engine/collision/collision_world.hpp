@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/collision/shape_library.hpp"
+#include "engine/math/math.hpp"
+
+// Broadphase, narrowphase and queries behind one interface without a type of the library that does
+// them (Bullet).
+namespace handhold {
+
+// One collider for the length of one call to find_contacts: where it was when it last touched
+// nothing wrongly, and where it is.
+struct ColliderProxy {
+    std::uint64_t id = 0;  // persistent id; unique among proxies, not 0
+    ShapeId shape;
+    Pose from_ws;  // last valid pose
+    Pose to_ws;  // present pose: contacts are found here, or where the way from from_ws first meets
+                 // something
+    bool free = false;  // two colliders that are both not free never make contacts
+};
+
+// A pair of colliders that must not touch each other's bodies: a held rock and its holder's head.
+struct IgnoredPair {
+    std::uint64_t id_a = 0;  // id_a < id_b
+    std::uint64_t id_b = 0;
+    friend auto operator<=>(const IgnoredPair&, const IgnoredPair&) = default;
+};
+
+// One point where two colliders touch or nearly do. Only local data: the separation follows the
+// bodies as separation = normal_ws . (point_a_ws - point_b_ws), negative where they overlap.
+struct ContactPoint {
+    std::uint64_t id_a = 0;  // always a free collider
+    std::uint64_t id_b =
+        0;  // the one whose frame holds the normal; where both are free id_a < id_b
+    Vec3 point_a_bs = Vec3::Zero();    // on a's surface, in a's frame
+    Vec3 point_b_bs = Vec3::Zero();    // on b's surface, in b's frame
+    Vec3 normal_b_bs = Vec3::UnitY();  // unit, from b towards a, in b's frame
+    double separation_m = 0.0;         // at a's and b's to_ws
+    std::uint32_t feature =
+        0;  // rank within the pair, by the point's place: stable for equal input
+};
+
+struct ContactLimits {
+    double margin_m = 0.02;  // contacts farther apart than this are left out; > 0
+    double sweep_m =
+        0.005;  // colliders that moved farther than this against each other are swept; > 0
+};
+
+struct RayHit {
+    std::uint64_t id = 0;
+    Vec3 point_ws = Vec3::Zero();
+    Vec3 normal_ws =
+        Vec3::UnitY();  // unit, towards the side the ray came from, whatever the triangle's winding
+    double distance_m = 0.0;  // from the ray's start
+};
+
+struct SurfacePoint {
+    std::uint64_t id = 0;
+    Vec3 point_ws = Vec3::Zero();
+    Vec3 normal_ws = Vec3::UnitY();  // unit, from the surface point towards the query point
+                                     // (outward where they meet)
+    double distance_m = 0.0;         // 0 inside of a box, sphere or capsule
+};
+
+// A cache over proxies, not state: a new one that is given the same proxies answers the same, bit
+// for bit. Not thread-safe: one thread at a time.
+class CollisionWorld {
+  public:
+    // Builds the acceleration structure of every mesh. `shapes` must outlive the world and not
+    // change.
+    explicit CollisionWorld(const ShapeLibrary& shapes);
+    ~CollisionWorld();
+    CollisionWorld(const CollisionWorld&) = delete;
+    CollisionWorld& operator=(const CollisionWorld&) = delete;
+
+    // Replaces all proxies: sorted by id, ids unique (PreconditionError otherwise). What did not
+    // change costs nothing but the comparison. No allocation once the largest number of proxies has
+    // been seen.
+    void set_proxies(std::span<const ColliderProxy> proxies);
+    // Replaces the pairs that make no contacts; sorted.
+    void set_ignored_pairs(std::span<const IgnoredPair> pairs);
+
+    // Contacts between all pairs with at least one free collider, made afresh: nothing of an
+    // earlier call is used. Replaces `contacts`; sorted by (id_a, id_b, feature). A pair that moved
+    // less than limits.sweep_m against each other is met at to_ws. Else a's way, relative to b, is
+    // swept from from_ws to to_ws, and the contacts are those at the place of first touch. A normal
+    // of a mesh faces the side on which a's centre was at from_ws (relative to b): walls have no
+    // inside.
+    void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
+
+    // First surface on the way between two points of the world, at to_ws; colliders with ids in
+    // `skip` are passed through.
+    std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
+                                   std::span<const std::uint64_t> skip = {}) const;
+    // First touch of a sphere moved along a line; distance_m is that of its centre from the start,
+    // 0 where it starts in touch.
+    std::optional<RayHit> cast_sphere(double radius_m, const Vec3& from_ws, const Vec3& to_ws,
+                                      std::span<const std::uint64_t> skip = {}) const;
+    // Nearest point on any surface within max_distance_m of the point. Exact on triangles (double
+    // precision, closed form).
+    std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
+                                              std::span<const std::uint64_t> skip = {}) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// The collision library's allocations since the process began (its allocator is hooked when the
+// first world is made): for tests that count them.
+std::uint64_t collision_allocation_count();
+
+}  // namespace handhold

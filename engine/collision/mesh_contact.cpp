@@ -1,0 +1,131 @@
+// Source: internal edges by the normal cone of the surface, after van den Bergen's and Catto's
+// talks (GDC 2013, 2020); here without adjacency: what touches the point decides, so that cracks
+// between parts, T-junctions and mixed winding need no preparation.
+#include "engine/collision/mesh_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+constexpr double k_touch_m = 1e-5;    // parts that are modelled to meet do so within this
+constexpr double k_rise_sine = 1e-6;  // the most that a kept normal may be bent: 6e-5 degrees
+constexpr double k_face_sine = 1e-6;  // normals nearer to a face's than this are the face's
+
+bool touches(const NearTriangle& triangle, const Vec3& point) {
+    const Vec3 reach = Vec3::Constant(k_touch_m);
+    if (((point - triangle.low_ns + reach).array() < 0.0).any() ||
+        ((triangle.high_ns - point + reach).array() < 0.0).any()) {
+        return false;
+    }
+    return (closest_on_triangle(point, triangle.corners_ns) - point).norm() <= k_touch_m;
+}
+
+bool rises_above(const NearTriangle& triangle, const Vec3& point, const Vec3& normal) {
+    return std::any_of(triangle.corners_ns.begin(), triangle.corners_ns.end(), [&](const Vec3& c) {
+        const Vec3 leg = c - point;
+        return leg.dot(normal) > k_touch_m * 1e-3 + k_rise_sine * leg.norm();
+    });
+}
+
+// The side of a triangle's plane on which the body was.
+Vec3 outward_normal(const NearTriangle& triangle, const Vec3& centre_from) {
+    return (centre_from - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0
+               ? triangle.normal
+               : Vec3(-triangle.normal);
+}
+
+// True where the way from one point to another changes sides of the triangle's plane.
+bool changes_side(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
+    const double before = (from - triangle.corners_ns[0]).dot(triangle.normal);
+    const double after = (to - triangle.corners_ns[0]).dot(triangle.normal);
+    return (before >= 0.0) != (after >= 0.0);
+}
+
+bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
+    if (!changes_side(triangle, from, to)) {
+        return false;
+    }
+    const double before = (from - triangle.corners_ns[0]).dot(triangle.normal);
+    const double after = (to - triangle.corners_ns[0]).dot(triangle.normal);
+    const Vec3 through = from + before / (before - after) * (to - from);
+    return (closest_on_triangle(through, triangle.corners_ns) - through).norm() <= k_touch_m;
+}
+
+// A sphere about a's core with the margin misses the triangle: tells most of them apart before
+// anything dear is done.
+bool is_far(const MeshContactIo& io, double core_reach_m, const NearTriangle& triangle) {
+    const double reach_m = core_reach_m + io.a.radius_m + io.margin_m;
+    const Vec3& centre = io.a.centre_ns;
+    if (std::abs((centre - triangle.corners_ns[0]).dot(triangle.normal)) > reach_m) {
+        return true;
+    }
+    return (closest_on_triangle(centre, triangle.corners_ns) - centre).norm() > reach_m;
+}
+
+void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle) {
+    const ConvexCore b = make_triangle_core(triangle.corners_ns, triangle.normal);
+    auto separation = separate_cores(io.a, b, io.margin_m + io.a.radius_m);
+    if (!separation || separation->separation_m - io.a.radius_m >= io.margin_m) {
+        return;
+    }
+    const double cosine = separation->normal.dot(triangle.normal);
+    const bool is_face = separation->normal.cross(triangle.normal).norm() < k_face_sine;
+    if (is_face) {
+        separation->normal = cosine > 0.0 ? triangle.normal : Vec3(-triangle.normal);
+    } else if (!in_normal_cone(io.triangles, separation->point_b_ns, separation->normal)) {
+        // Beside an internal edge the neighbour is nearer and answers. Sunk across it, no neighbour
+        // need be: then the face itself does.
+        if (separation->overlap) {
+            add_face_manifold(io.a, b, outward_normal(triangle, io.centre_from_ns), io.margin_m,
+                              io.contacts);
+        }
+        return;
+    }
+    add_manifold(io.a, b, *separation, io.margin_m, io.contacts);
+}
+
+}  // namespace
+
+bool make_near_triangle(const Corners& corners_ns, NearTriangle& triangle) {
+    const Vec3 area = area_vector(corners_ns);
+    const double length = area.norm();
+    if (!(length > 0.0)) {
+        return false;
+    }
+    triangle.corners_ns = corners_ns;
+    triangle.normal = area / length;
+    triangle.low_ns = corners_ns[0].cwiseMin(corners_ns[1]).cwiseMin(corners_ns[2]);
+    triangle.high_ns = corners_ns[0].cwiseMax(corners_ns[1]).cwiseMax(corners_ns[2]);
+    return true;
+}
+
+bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point,
+                    const Vec3& normal) {
+    return std::none_of(triangles.begin(), triangles.end(), [&](const NearTriangle& triangle) {
+        return touches(triangle, point) && rises_above(triangle, point, normal);
+    });
+}
+
+void add_mesh_contacts(const MeshContactIo& io) {
+    const Vec3& from = io.centre_from_ns;
+    const Vec3& to = io.a.centre_ns;
+    // A plane's side alone does not tell: a body that slides over the brink of a step changes sides
+    // of the step's front without ever touching it. Only a centre that went through the surface is
+    // on its wrong side.
+    const bool crossed =
+        std::any_of(io.triangles.begin(), io.triangles.end(),
+                    [&](const NearTriangle& triangle) { return goes_through(triangle, from, to); });
+    const double core_reach_m = (io.a.vertices_ns[0] - to).norm();
+    for (const NearTriangle& triangle : io.triangles) {
+        if (crossed && changes_side(triangle, from, to)) {
+            const ConvexCore b = make_triangle_core(triangle.corners_ns, triangle.normal);
+            add_face_manifold(io.a, b, outward_normal(triangle, from), io.margin_m, io.contacts);
+        } else if (!is_far(io, core_reach_m, triangle)) {
+            add_triangle_contacts(io, triangle);
+        }
+    }
+}
+
+}  // namespace handhold

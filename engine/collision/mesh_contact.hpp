@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/collision/convex_core.hpp"
+#include "engine/collision/manifold.hpp"
+
+// What a triangle mesh needs beyond convex shapes: which side is outside, and which normals its
+// surface really has.
+namespace handhold {
+
+// A triangle near a body, in near space: b's axes about a's place.
+struct NearTriangle {
+    Corners corners_ns;
+    Vec3 normal = Vec3::UnitY();  // unit; either side: winding is mixed in real levels
+    Vec3 low_ns = Vec3::Zero();   // bounds
+    Vec3 high_ns = Vec3::Zero();
+};
+
+// False, and nothing written, for a triangle without area: it has no normal, and its edges are its
+// neighbours'.
+bool make_near_triangle(const Corners& corners_ns, NearTriangle& triangle);
+
+// True where the triangles' surface nowhere rises above the plane through `point` (on the surface)
+// across `normal`: only then can something touch it there along that normal. False marks an
+// internal edge's bent normal.
+bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point, const Vec3& normal);
+
+struct MeshContactIo {
+    const ConvexCore& a;
+    Vec3 centre_from_ns;  // a's centre at its last valid pose, relative to the mesh: marks the
+                          // outside
+    std::span<const NearTriangle>
+        triangles;  // all within margin_m of a, and of the way from centre_from_ns to a's centre
+    double margin_m = 0.0;
+    std::vector<NearContact>& contacts;  // appended
+};
+// Contacts of a convex core with the triangles of one mesh. Walls have no inside: where the way of
+// a's centre went through a triangle, the sides that it left behind push back, as deep as a has
+// passed them.
+void add_mesh_contacts(const MeshContactIo& io);
+
+}  // namespace handhold

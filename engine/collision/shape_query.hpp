@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/collision/closest_point.hpp"
+#include "engine/collision/shape_library.hpp"
+
+// Rays and points against one shape in the shape's own frame, in closed form.
+namespace handhold {
+
+struct LocalRayHit {
+    double fraction = 0.0;        // of the way from `from` to `to`, in [0, 1]
+    Vec3 normal = Vec3::UnitY();  // unit, of the surface, on either side
+};
+// First point of the surface on the way; from inside, the point where the ray leaves. Not for
+// meshes.
+std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
+// Both sides of the triangle; its edges count, so that a ray cannot slip through between two
+// neighbours.
+std::optional<LocalRayHit> cast_ray_on_triangle(const Corners& corners, const Vec3& from,
+                                                const Vec3& to);
+
+struct LocalSurfacePoint {
+    Vec3 point = Vec3::Zero();    // on the surface, also for a query point inside
+    Vec3 normal = Vec3::UnitY();  // unit: towards the query point, or outward where that is inside
+                                  // or on the surface
+    double distance_m = 0.0;      // 0 inside
+};
+// Not for meshes.
+LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point);
+
+}  // namespace handhold

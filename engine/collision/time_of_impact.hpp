@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/collision/convex_core.hpp"
+
+// When a moving convex shape first touches a resting one.
+namespace handhold {
+
+// The way of a relative to b, in near space; position along a line, rotation along the shorter arc.
+class RelativeMotion {
+  public:
+    RelativeMotion(const Pose& from_ns, const Pose& to_ns);
+
+    Pose at(double fraction) const;
+    const Vec3& from_ns() const { return from_.position; }
+    const Vec3& move() const { return move_; }  // of the centre, over the whole way
+    const Vec3& turn_rad() const {
+        return turn_;
+    }  // rotation vector over the whole way, in near space
+    // Velocity, over the whole way, of the point of a that is at `point` at that fraction of it.
+    Vec3 velocity_at(const Vec3& point_ns, double fraction) const;
+
+  private:
+    Pose from_;
+    Pose to_;
+    Vec3 move_;
+    Vec3 turn_;
+};
+
+struct Impact {
+    double fraction = 0.0;           // of the way, in [0, 1]
+    Vec3 normal = Vec3::UnitY();     // unit, from b towards a
+    Vec3 point_b_ns = Vec3::Zero();  // on b's surface
+    bool overlap = false;            // the cores meet: the normal is the shallowest way out
+};
+
+// First fraction of the way at which a is within a micrometre of b, or nullopt where it is not
+// before `limit`. Never late: each step is one that no point of a can outrun. A start in touch is
+// an impact at 0.
+std::optional<Impact> time_of_impact(const Shape& a, const RelativeMotion& motion,
+                                     const ConvexCore& b, double limit);
+
+}  // namespace handhold

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+// Broken preconditions of an API: a programmer's error, never a player's or a file's.
+namespace handhold {
+
+class PreconditionError : public std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+// Throws PreconditionError: "column.at: no row for this entity (value 7)".
+[[noreturn]] inline void fail_precondition(const char* function, const char* what,
+                                           const std::string& value) {
+    throw PreconditionError(std::string(function) + ": " + what + " (value " + value + ")");
+}
+
+}  // namespace handhold
+
+// Checks what the caller guarantees. A macro only for the sake of __func__: Clang 14 has no
+// std::source_location.
+#define HH_CHECK(condition, what, value)                                          \
+    do {                                                                          \
+        if (!(condition)) [[unlikely]] {                                          \
+            ::handhold::fail_precondition(__func__, what, std::to_string(value)); \
+        }                                                                         \
+    } while (false)

@@ -1,0 +1,111 @@
+#include "engine/core/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <string>
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include "engine/core/check.hpp"
+#include "engine/core/thread_sanitizer.hpp"
+
+namespace handhold {
+namespace {
+
+// Threads are kept between calls; with a count of one there are none and nothing of TBB is ever
+// touched.
+struct Workers {
+    std::optional<tbb::global_control> limit;  // more threads than cores where the count says so
+    std::optional<tbb::task_arena> arena;
+    int count = 1;
+};
+
+Workers& workers() {
+    static Workers instance;
+    return instance;
+}
+
+// Inside a task. A nested call is serial: a thread that waits for it could otherwise begin another
+// of the outer tasks in the midst of its own.
+thread_local bool t_in_task = false;
+
+class InTask {
+  public:
+    InTask() { t_in_task = true; }
+    ~InTask() { t_in_task = false; }
+    InTask(const InTask&) = delete;
+    InTask& operator=(const InTask&) = delete;
+};
+
+// One call's work. Every runner claims the next index: what stands first, which callers make the
+// largest, begins first, and no range is cut beforehand that could turn out long.
+struct Job {
+    const std::size_t count;
+    void* const context;
+    const IndexedTask task;
+    std::atomic<std::size_t> next = 0;
+};
+
+void run_claimed(Job& job) {
+    take_over_memory(&job);
+    {
+        const InTask in_task;
+        const auto claim = [&] { return job.next.fetch_add(1, std::memory_order_relaxed); };
+        for (std::size_t i = claim(); i < job.count; i = claim()) {
+            job.task(job.context, i);
+        }
+    }
+    hand_over_memory(&job);
+}
+
+void run_serial(std::size_t count, void* context, IndexedTask task) {
+    for (std::size_t i = 0; i < count; ++i) {
+        task(context, i);
+    }
+}
+
+}  // namespace
+
+void set_thread_count(int count) {
+    HH_CHECK(count >= 1, "at least one thread is needed", count);
+    HH_CHECK(!t_in_task, "called from inside a task", count);
+    Workers& state = workers();
+    if (count == state.count) {
+        return;
+    }
+    state.arena.reset();
+    state.limit.reset();
+    state.count = count;
+    if (count > 1) {
+        const auto threads = static_cast<std::size_t>(count);
+        state.limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+        state.arena.emplace(count);
+    }
+}
+
+int thread_count() { return workers().count; }
+
+void parallel_for(std::size_t count, void* context, IndexedTask task) {
+    Workers& state = workers();
+    if (count < 2 || state.count == 1 || t_in_task) {
+        run_serial(count, context, task);
+        return;
+    }
+    Job job{count, context, task};
+    const std::size_t runners = std::min(count, static_cast<std::size_t>(state.count));
+    // How the captures of these two get to another thread is TBB's matter, which the sanitizer
+    // cannot judge: only run_claimed, which they lead to, is watched again.
+    const auto run = [&](std::size_t) __attribute__((no_sanitize("thread"))) { run_claimed(job); };
+    const auto run_all = [&]() __attribute__((no_sanitize("thread"))) {
+        tbb::parallel_for(std::size_t{0}, runners, run, tbb::simple_partitioner());
+    };
+    hand_over_memory(&job);
+    state.arena->execute(run_all);
+    take_over_memory(&job);
+}
+
+}  // namespace handhold

@@ -1,0 +1,29 @@
+#include "engine/core/thread_sanitizer.hpp"
+
+#ifdef HH_THREAD_SANITIZER
+
+// Of the sanitizer's run-time library.
+extern "C" void __tsan_release(void* address);
+extern "C" void __tsan_acquire(void* address);
+
+// Excuses what the task library and its headers do to their own objects, never
+// what runs inside a task: the patterns name the innermost function, or functions that no task is
+// called from.
+extern "C" const char* __tsan_default_suppressions() {
+    return "called_from_lib:libtbb.so\n"
+           "race_top:tbb::detail\n"
+           "race:tbb::detail::d1::wait_context\n"
+           "race:tbb::detail::d1::wait_node\n"
+           "race:tbb::detail::d1::tree_node\n"
+           "race:tbb::detail::d1::fold_tree\n"
+           "race:tbb::detail::d1::small_object_allocator\n";
+}
+
+namespace handhold {
+
+void hand_over_memory(const void* address) { __tsan_release(const_cast<void*>(address)); }
+void take_over_memory(const void* address) { __tsan_acquire(const_cast<void*>(address)); }
+
+}  // namespace handhold
+
+#endif

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+// The row of `other` from which on its owners are those of the driver's rows [begin, begin +
+// length), a whole block or the last one; k_npos where that is not so. Exact: two runs
+// (Column::is_run) are equal where their first owners are, all else is compared owner by owner.
+template <typename Driver, typename Other>
+std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_t length,
+                             const Other& other) {
+    static_assert(std::has_unique_object_representations_v<Entity>, "owners are compared as bytes");
+    const Entity* const owners = driver.owners().data() + begin;
+    const std::size_t row = other.find_row(owners[0]);
+    if (row == Other::k_npos || other.size() - row < length) {
+        return Other::k_npos;
+    }
+    const std::size_t block = begin / Driver::k_block_rows;
+    if (row == begin && driver.is_run(block) && other.is_run(block)) {
+        return row;
+    }
+    const bool equal =
+        std::memcmp(other.owners().data() + row, owners, length * sizeof(Entity)) == 0;
+    return equal ? row : Other::k_npos;
+}
+
+// Calls visit(entity, driver_row, other_rows...) for every entity that has a row in all columns, in
+// the order of the driver's rows. Columns may be const; none may gain or lose rows meanwhile.
+//
+// Columns that were filled together have equal orders: a block of the driver's rows whose owners
+// stand in the same sequence in every other column is walked as plain arrays. In all other blocks
+// every entity is looked up. Orders are compared at each call, never remembered.
+template <typename Driver, typename Visit, typename... Others>
+void join(Driver& driver, Visit&& visit, Others&... others) {
+    const std::size_t count = driver.size();
+    const Entity* const owners = driver.owners().data();
+    const auto driver_rows = driver.rows();
+    for (std::size_t begin = 0; begin < count; begin += Driver::k_block_rows) {
+        const std::size_t end = std::min(count, begin + Driver::k_block_rows);
+        const auto walk_arrays = [&](auto*... other_rows) {
+            for (std::size_t row = begin; row < end; ++row) {
+                visit(owners[row], driver_rows[row], other_rows[row - begin]...);
+            }
+        };
+        const auto look_up = [&] {
+            for (std::size_t row = begin; row < end; ++row) {
+                const auto visit_if_complete = [&](auto*... found) {
+                    if ((found && ...)) {
+                        visit(owners[row], driver_rows[row], *found...);
+                    }
+                };
+                visit_if_complete(others.find(owners[row])...);
+            }
+        };
+        const auto walk_or_look_up = [&](auto... first_rows) {
+            if (((first_rows != Driver::k_npos) && ...)) {
+                walk_arrays((others.rows().data() + first_rows)...);
+            } else {
+                look_up();
+            }
+        };
+        walk_or_look_up(find_equal_block(driver, begin, end - begin, others)...);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,142 @@
+#include "engine/io/csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/io/text_file.hpp"
+
+namespace handhold {
+
+namespace {
+
+// What an error message shows of a cell that somebody may have filled with a megabyte.
+std::string quote(std::string_view cell) {
+    constexpr std::size_t k_shown = 40;
+    std::string result = "\"";
+    result += cell.substr(0, k_shown);
+    result += cell.size() > k_shown ? "...\"" : "\"";
+    return result;
+}
+
+// Takes the next line off `rest`, without its end.
+std::string_view take_line(std::string_view& rest) {
+    const std::size_t end = rest.find('\n');
+    std::string_view line = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    if (!line.empty() && line.back() == '\r') {
+        line.remove_suffix(1);
+    }
+    return line;
+}
+
+std::size_t count_cells(std::string_view line) {
+    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+}
+
+bool parse_cell(std::string_view cell, NanCells nan, double& value) {
+    const char* end = cell.data() + cell.size();
+    const std::from_chars_result result = std::from_chars(cell.data(), end, value);
+    if (result.ec != std::errc() || result.ptr != end) {
+        return false;
+    }
+    // from_chars also reads "inf", "-nan" and "nan(2)".
+    return std::isfinite(value) || (nan == NanCells::allowed && (cell == "nan" || cell == "NaN"));
+}
+
+std::optional<FileError> parse_header(std::string_view line, const std::string& file,
+                                      std::vector<std::string>& columns) {
+    columns.reserve(count_cells(line));
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        const std::string_view name = line.substr(begin, end - begin);
+        if (name.empty() || name.find_first_of("\"\r\t ") != std::string_view::npos) {
+            return FileError{
+                file, "line 1",
+                "expected a column name without quotes and spaces, found " + quote(name)};
+        }
+        columns.emplace_back(name);
+        begin = end + 1;
+    }
+    std::vector<std::string> sorted = columns;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) {
+        return FileError{file, "line 1",
+                         "expected every column once, found " + quote(*twice) + " twice"};
+    }
+    return std::nullopt;
+}
+
+// Appends the cells of one row.
+std::optional<FileError> parse_row(std::string_view line, std::size_t line_number, NanCells nan,
+                                   const std::string& file, NumericTable& table) {
+    const auto refuse = [&](std::string expected) {
+        return FileError{file, "line " + std::to_string(line_number), std::move(expected)};
+    };
+    std::size_t column = 0;
+    for (std::size_t begin = 0; begin <= line.size(); ++column) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        const std::string_view cell = line.substr(begin, end - begin);
+        begin = end + 1;
+        if (column >= table.columns.size()) {
+            continue;  // counted below: the number of cells says more than the first one too many
+        }
+        double value = 0.0;
+        if (!parse_cell(cell, nan, value)) {
+            return refuse("expected a finite number under \"" + table.columns[column] + "\"" +
+                          (nan == NanCells::allowed ? " or nan" : "") + ", found " + quote(cell));
+        }
+        table.cells.push_back(value);
+    }
+    if (column != table.columns.size()) {
+        return refuse("expected " + std::to_string(table.columns.size()) + " cells, found " +
+                      std::to_string(column));
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::size_t> NumericTable::find_column(std::string_view name) const {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) {
+        return std::nullopt;
+    }
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+Result<NumericTable> parse_csv(std::string_view text, const std::string& file, NanCells nan) {
+    constexpr std::string_view k_byte_order_mark = "\xEF\xBB\xBF";
+    if (text.substr(0, k_byte_order_mark.size()) == k_byte_order_mark) {
+        text.remove_prefix(k_byte_order_mark.size());
+    }
+    if (text.empty()) {
+        return FileError{file, "line 1", "expected a row of column names, found an empty file"};
+    }
+    NumericTable table;
+    if (std::optional<FileError> error = parse_header(take_line(text), file, table.columns)) {
+        return *std::move(error);
+    }
+    // A cell is at least one character and its comma or line end.
+    const std::size_t lines =
+        static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+    table.cells.reserve(std::min(lines * table.columns.size(), text.size() / 2 + 1));
+    for (std::size_t line_number = 2; !text.empty(); ++line_number) {
+        const std::string_view line = take_line(text);
+        if (std::optional<FileError> error = parse_row(line, line_number, nan, file, table)) {
+            return *std::move(error);
+        }
+    }
+    return table;
+}
+
+Result<NumericTable> load_csv(const std::filesystem::path& path, NanCells nan) {
+    const Result<std::string> text = read_file(path);
+    if (!text) {
+        return text.error();
+    }
+    return parse_csv(text.value(), path.string(), nan);
+}
+
+}  // namespace handhold

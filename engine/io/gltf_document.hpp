@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/io/result.hpp"
+
+namespace handhold {
+
+// Turns the bytes of a .gltf or .glb into a .glb that holds only what geometry needs, ready for a
+// library that trusts its input: the container's lengths are right, every field that geometry reads
+// has the type and range the specification gives it, buffers claim no more than the binary chunk
+// has, nothing is nested deeply, and there are no images, textures, animations, skins and cameras
+// to decode. References between the sections are not checked here. `file` is for messages.
+Result<std::string> extract_geometry_glb(std::string_view bytes, const std::string& file);
+
+}  // namespace handhold

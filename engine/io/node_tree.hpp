@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/io/result.hpp"
+#include "engine/math/math.hpp"
+
+namespace handhold {
+
+// x -> linear * x + translation. Unlike a Pose it may scale, shear and mirror.
+struct Affine {
+    Mat3 linear = Mat3::Identity();
+    Vec3 translation = Vec3::Zero();
+};
+
+// A node of a scene file, as it stands there: nothing about the indices is known.
+struct FileNode {
+    Affine local;  // into the parent's frame
+    std::vector<int> children;
+};
+
+struct PlacedNode {
+    int node = 0;
+    Affine world;  // into the scene's frame
+};
+
+// The nodes that hang from `roots` (without a value: from every node that has no parent), parents
+// before children and siblings in order. Refused, with a JSON pointer of glTF: an index that is no
+// node, a node with two parents, a cycle anywhere, a root that has a parent or is listed twice.
+// `roots_place` is the pointer of the list of roots.
+Result<std::vector<PlacedNode>> place_nodes(const std::vector<FileNode>& nodes,
+                                            const std::optional<std::vector<int>>& roots,
+                                            const std::string& roots_place,
+                                            const std::string& file);
+
+}  // namespace handhold

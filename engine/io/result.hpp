@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+
+// Why a file was refused. Nothing of a refused file is loaded.
+struct FileError {
+    std::string file;
+    std::string place;  // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty for the
+                        // whole file
+    std::string expected;  // what should have been there, and what was
+
+    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2".
+    std::string message() const {
+        return file + ": " + (place.empty() ? std::string() : place + ": ") + expected;
+    }
+};
+
+// A value or the reason why there is none.
+template <typename T>
+class Result {
+  public:
+    Result(T value) : content_(std::move(value)) {}          // NOLINT(google-explicit-constructor)
+    Result(FileError error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+
+    bool ok() const { return std::holds_alternative<T>(content_); }
+    explicit operator bool() const { return ok(); }
+    // Precondition: ok().
+    T& value() {
+        HH_CHECK(ok(), "no value", 0);
+        return *std::get_if<T>(&content_);
+    }
+    const T& value() const {
+        HH_CHECK(ok(), "no value", 0);
+        return *std::get_if<T>(&content_);
+    }
+    // Precondition: !ok().
+    const FileError& error() const {
+        HH_CHECK(!ok(), "no error", 0);
+        return *std::get_if<FileError>(&content_);
+    }
+
+  private:
+    std::variant<T, FileError> content_;
+};
+
+}  // namespace handhold

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/io/result.hpp"
+
+namespace handhold {
+
+// Largest file that is read into memory: above it something other than one of our files was named.
+constexpr std::uint64_t k_max_file_bytes = 1ULL << 30;
+
+// The bytes of a regular file, as they are. Refused: what is absent, unreadable, not a regular file
+// (a folder, a pipe, a device), or larger than `max_bytes`.
+Result<std::string> read_file(const std::filesystem::path& path,
+                              std::uint64_t max_bytes = k_max_file_bytes);
+
+// Writes a temporary file beside `path` and renames it: a reader sees the old bytes or the new
+// ones, never a part. The folder must exist. Returns the reason where it failed; then `path` is as
+// it was and nothing is left behind.
+[[nodiscard]] std::optional<FileError> write_file_atomically(const std::filesystem::path& path,
+                                                             std::string_view text);
+
+}  // namespace handhold

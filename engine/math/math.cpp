@@ -1,0 +1,171 @@
+// Sources: range reduction after Cody and Waite 1980, with pi/2 in three parts; Taylor series with
+// remainders below half a unit in the last place on [-pi/4, pi/4]; arc tangent by argument halving
+// and series.
+#include "engine/math/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace handhold {
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+constexpr double k_two_over_pi = 0.63661977236758134308;
+// pi/2 = high + middle + low; the first two have trailing zeros, so that multiples up to 2^20 are
+// exact.
+constexpr double k_half_pi_high = 1.57079632673412561417e+00;
+constexpr double k_half_pi_middle = 6.07710050630396597660e-11;
+constexpr double k_half_pi_low = 2.02226624879595063154e-21;
+
+double sine_series(double x) {
+    const double z = x * x;
+    double sum = 2.8114572543455206e-15;  // 1/17!
+    sum = sum * z - 7.6471637318198164e-13;
+    sum = sum * z + 1.6059043836821613e-10;
+    sum = sum * z - 2.5052108385441720e-08;
+    sum = sum * z + 2.7557319223985893e-06;
+    sum = sum * z - 1.9841269841269841e-04;
+    sum = sum * z + 8.3333333333333332e-03;
+    sum = sum * z - 1.6666666666666666e-01;
+    return x + x * z * sum;
+}
+
+double cosine_series(double x) {
+    const double z = x * x;
+    double sum = 4.7794773323873853e-14;  // 1/16!
+    sum = sum * z - 1.1470745597729725e-11;
+    sum = sum * z + 2.0876756987868099e-09;
+    sum = sum * z - 2.7557319223985888e-07;
+    sum = sum * z + 2.4801587301587302e-05;
+    sum = sum * z - 1.3888888888888889e-03;
+    sum = sum * z + 4.1666666666666664e-02;
+    return 1.0 - 0.5 * z + z * z * sum;
+}
+
+// arctan on [0, 1]: three halvings bring the argument below 0.1, where ten terms reach full
+// precision.
+double arc_tangent_unit(double x) {
+    constexpr int k_halvings = 3;
+    for (int i = 0; i < k_halvings; ++i) {
+        x = x / (1.0 + std::sqrt(1.0 + x * x));
+    }
+    const double z = x * x;
+    double sum = 0.0;
+    for (int term = 10; term >= 1; --term) {
+        sum = -z * (1.0 / (2.0 * term + 1.0) + sum);
+    }
+    return (x + x * sum) * 8.0;
+}
+
+}  // namespace
+
+bool is_valid(const Pose& pose) {
+    const double norm = pose.rotation.squaredNorm();
+    return pose.position.allFinite() && std::isfinite(norm) && std::abs(norm - 1.0) < 2e-3;
+}
+
+void sin_cos(double angle_rad, double& sine, double& cosine) {
+    if (!(std::abs(angle_rad) <
+          1e6)) {  // NaN, infinity, or beyond exact reduction: no direction is right
+        sine = 0.0;
+        cosine = 1.0;
+        return;
+    }
+    const double quarters = std::floor(angle_rad * k_two_over_pi + 0.5);
+    double x = angle_rad - quarters * k_half_pi_high;
+    x -= quarters * k_half_pi_middle;
+    x -= quarters * k_half_pi_low;
+    const double s = sine_series(x);
+    const double c = cosine_series(x);
+    switch (static_cast<long>(quarters) & 3) {
+        case 0:
+            sine = s, cosine = c;
+            break;
+        case 1:
+            sine = c, cosine = -s;
+            break;
+        case 2:
+            sine = -s, cosine = -c;
+            break;
+        default:
+            sine = -c, cosine = s;
+            break;
+    }
+}
+
+double arc_tangent2(double y, double x) {
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    if (!(ax + ay > 0.0)) {  // (0, 0), NaN
+        return 0.0;
+    }
+    double angle = 0.25 * k_pi;  // equal lengths, also two infinities, which have no quotient
+    if (ay < ax) {
+        angle = arc_tangent_unit(ay / ax);
+    } else if (ay > ax) {
+        angle = 0.5 * k_pi - arc_tangent_unit(ax / ay);
+    }
+    if (x < 0.0) {
+        angle = k_pi - angle;
+    }
+    return y < 0.0 ? -angle : angle;
+}
+
+Quat rotation_from_vector(const Vec3& vector_rad) {
+    const double angle = vector_rad.norm();
+    if (angle < 1e-12) {
+        return Quat(1.0, 0.5 * vector_rad.x(), 0.5 * vector_rad.y(), 0.5 * vector_rad.z())
+            .normalized();
+    }
+    return rotation_about(vector_rad / angle, angle);
+}
+
+Vec3 rotation_to_vector(const Quat& rotation) {
+    // The shorter of the two rotations that a quaternion and its negative name.
+    const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
+    const Vec3 axis = sign * rotation.vec();
+    const double sine = axis.norm();
+    if (sine < 1e-12) {
+        return 2.0 * axis;
+    }
+    return axis * (2.0 * arc_tangent2(sine, sign * rotation.w()) / sine);
+}
+
+Quat rotation_about(const Vec3& axis, double angle_rad) {
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(0.5 * angle_rad, sine, cosine);
+    return Quat(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z()).normalized();
+}
+
+Quat rotation_between(const Vec3& from, const Vec3& to) {
+    const double cosine = from.dot(to);
+    Vec3 axis = from.cross(to);
+    if (cosine > -0.5) {
+        return Quat(1.0 + cosine, axis.x(), axis.y(), axis.z()).normalized();
+    }
+    // Near opposite directions 1 + cosine and the axis are left with few digits. The half angle's
+    // cosine and sine come from the sum and difference, which keep theirs; the axis may be any, if
+    // only it is square to `from`.
+    if (axis.norm() < 1e-14) {
+        axis = from.cross(std::abs(from.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY());
+    }
+    axis.normalize();
+    axis = (axis - from * from.dot(axis)).normalized();
+    const Vec3 vector = axis * (from - to).norm();
+    return Quat((from + to).norm(), vector.x(), vector.y(), vector.z()).normalized();
+}
+
+Pose interpolate(const Pose& a, const Pose& b, double t) {
+    const Vec3 turn = rotation_to_vector(a.rotation.conjugate() * b.rotation);
+    return {a.position + t * (b.position - a.position),
+            (a.rotation * rotation_from_vector(t * turn)).normalized()};
+}
+
+double smooth_step(double x, double from, double to) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace handhold

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+// The only place where Eigen enters. Right-handed, +Y up, -Z forward, +X right; metres, seconds,
+// radians. Never `auto` an Eigen expression: it would hold references to temporaries.
+namespace handhold {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;
+
+// A rigid transform: rotation first, then position. `a * b` applies b, then a.
+struct Pose {
+    Vec3 position = Vec3::Zero();
+    Quat rotation = Quat::Identity();  // unit
+};
+
+inline Vec3 transform_point(const Pose& pose, const Vec3& point) {
+    return pose.position + pose.rotation * point;
+}
+inline Vec3 inverse_transform_point(const Pose& pose, const Vec3& point) {
+    return pose.rotation.conjugate() * (point - pose.position);
+}
+inline Pose operator*(const Pose& a, const Pose& b) {
+    return {transform_point(a, b.position), (a.rotation * b.rotation).normalized()};
+}
+inline Pose inverse(const Pose& pose) {
+    const Quat rotation = pose.rotation.conjugate();
+    return {-(rotation * pose.position), rotation};
+}
+
+// [v]x, the matrix with cross_matrix(v) * u == v.cross(u).
+inline Mat3 cross_matrix(const Vec3& v) {
+    Mat3 m;
+    m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+    return m;
+}
+
+inline bool is_finite(const Vec3& v) { return v.allFinite(); }
+// True where every number is finite and the rotation's length is within 1e-3 of one.
+bool is_valid(const Pose& pose);
+
+// Sine and cosine of our own: libm picks its code by CPU, so its last bits differ between machines,
+// and these reach state. Absolute error below 1e-15 for |angle| <= 1e3, below 1e-14 up to 1e6. The
+// sine and cosine of 0 for angles of 1e6 and more, infinities and NaN; -0.0 is 0.0.
+void sin_cos(double angle_rad, double& sine, double& cosine);
+// Angle of (x, y) from +X towards +Y in (-pi, pi]; error below 1e-15. Only lengths' ratios count:
+// any of them may be tiny, huge or infinite; -0.0 is 0.0. 0 for (0, 0) and where either is NaN. See
+// sin_cos for why.
+double arc_tangent2(double y, double x);
+
+// The rotation about `vector`'s direction by its length (radians), as a unit quaternion, and the
+// inverse: the shortest rotation vector of a unit quaternion, length in [0, pi].
+Quat rotation_from_vector(const Vec3& vector_rad);
+Vec3 rotation_to_vector(const Quat& rotation);
+// Rotation of `turn` radians about the unit vector `axis`.
+Quat rotation_about(const Vec3& axis, double angle_rad);
+// The shortest rotation that carries unit vector `from` onto unit vector `to`; any half turn where
+// they oppose.
+Quat rotation_between(const Vec3& from, const Vec3& to);
+
+// Between two poses, t in [0, 1]: positions along the line, rotations along the shorter arc at
+// constant speed.
+Pose interpolate(const Pose& a, const Pose& b, double t);
+
+// 0 up to `from`, 1 from `to` on, 3t^2 - 2t^3 of the way t between them; from < to.
+double smooth_step(double x, double from, double to);
+
+}  // namespace handhold

@@ -1,0 +1,111 @@
+#include "engine/solver/islands.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace handhold {
+namespace {
+
+constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t node) {
+    while (parent[node] != node) {
+        parent[node] = parent[parent[node]];
+        node = parent[node];
+    }
+    return node;
+}
+
+bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
+
+// The smaller index is the root, so that an island is found at its first body.
+void unite_blocks(ConstraintGraph& graph) {
+    graph.parent.resize(graph.bodies.size());
+    for (std::uint32_t i = 0; i < graph.parent.size(); ++i) {
+        graph.parent[i] = i;
+    }
+    for (const RowBlock& block : graph.blocks) {
+        if (is_movable(graph.bodies[block.a]) && is_movable(graph.bodies[block.b])) {
+            const std::uint32_t root_a = find_root(graph.parent, block.a);
+            const std::uint32_t root_b = find_root(graph.parent, block.b);
+            graph.parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+        }
+    }
+}
+
+std::uint32_t root_of(ConstraintGraph& graph, const RowBlock& block) {
+    return find_root(graph.parent, is_movable(graph.bodies[block.a]) ? block.a : block.b);
+}
+
+// Counting sort: counts into the `end`s, offsets, then places in ascending order.
+void place_members(ConstraintGraph& graph) {
+    std::uint32_t bodies = 0;
+    std::uint32_t blocks = 0;
+    for (Island& island : graph.islands) {
+        island.bodies_begin = bodies;
+        bodies += island.bodies_end;
+        island.bodies_end = island.bodies_begin;
+        island.blocks_begin = blocks;
+        blocks += island.blocks_end;
+        island.blocks_end = island.blocks_begin;
+    }
+    graph.island_bodies.resize(bodies);
+    graph.island_blocks.resize(blocks);
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        const std::uint32_t index = graph.island_of_root[find_root(graph.parent, i)];
+        if (is_movable(graph.bodies[i]) && index != k_none) {
+            Island& island = graph.islands[index];
+            graph.bodies[i].slot = island.bodies_end - island.bodies_begin;
+            graph.island_bodies[island.bodies_end++] = i;
+        }
+    }
+    for (std::uint32_t i = 0; i < graph.blocks.size(); ++i) {
+        Island& island = graph.islands[graph.island_of_root[root_of(graph, graph.blocks[i])]];
+        graph.island_blocks[island.blocks_end++] = i;
+    }
+}
+
+}  // namespace
+
+std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id) {
+    const auto found = std::lower_bound(
+        graph.bodies.begin(), graph.bodies.end(), id,
+        [](const SolverBody& body, std::uint64_t wanted) { return body.id < wanted; });
+    return found != graph.bodies.end() && found->id == id
+               ? static_cast<std::size_t>(found - graph.bodies.begin())
+               : graph.bodies.size();
+}
+
+void sort_blocks(std::vector<RowBlock>& blocks) {
+    std::sort(blocks.begin(), blocks.end(), [](const RowBlock& x, const RowBlock& y) {
+        return std::tie(x.a, x.b, x.kind, x.key) < std::tie(y.a, y.b, y.kind, y.key);
+    });
+}
+
+void build_islands(ConstraintGraph& graph) {
+    unite_blocks(graph);
+    graph.islands.clear();
+    graph.island_of_root.assign(graph.bodies.size(), k_none);
+    for (const RowBlock& block : graph.blocks) {
+        graph.island_of_root[root_of(graph, block)] = 0;  // has an island; numbered below
+    }
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        if (graph.parent[i] == i && graph.island_of_root[i] != k_none) {
+            graph.island_of_root[i] = static_cast<std::uint32_t>(graph.islands.size());
+            graph.islands.push_back({});
+        }
+    }
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        const std::uint32_t index = graph.island_of_root[find_root(graph.parent, i)];
+        if (is_movable(graph.bodies[i]) && index != k_none) {
+            ++graph.islands[index].bodies_end;
+        }
+    }
+    for (const RowBlock& block : graph.blocks) {
+        ++graph.islands[graph.island_of_root[root_of(graph, block)]].blocks_end;
+    }
+    place_members(graph);
+}
+
+}  // namespace handhold

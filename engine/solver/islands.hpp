@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/solver/rows.hpp"
+
+// The frame's constraints as a graph, and its islands: sets of bodies that can push one another.
+namespace handhold {
+
+struct Island {
+    std::uint32_t bodies_begin = 0;  // into ConstraintGraph::island_bodies
+    std::uint32_t bodies_end = 0;
+    std::uint32_t blocks_begin = 0;  // into ConstraintGraph::island_blocks
+    std::uint32_t blocks_end = 0;
+};
+
+struct ConstraintGraph {
+    std::vector<SolverBody> bodies;  // sorted by id
+    std::vector<RowBlock> blocks;    // sorted: see sort_blocks
+    // Written by build_islands.
+    std::vector<Island> islands;               // by their first body
+    std::vector<std::uint32_t> island_bodies;  // ascending within an island: so by id
+    std::vector<std::uint32_t> island_blocks;  // ascending within an island
+
+    std::span<const std::uint32_t> bodies_of(const Island& island) const {
+        return std::span(island_bodies).subspan(island.bodies_begin, island.bodies_end - island.bodies_begin);
+    }
+    std::span<const std::uint32_t> blocks_of(const Island& island) const {
+        return std::span(island_blocks).subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
+    }
+
+    // Scratch of build_islands.
+    std::vector<std::uint32_t> parent;
+    std::vector<std::uint32_t> island_of_root;
+};
+
+// Index of the body with this id, or bodies.size(). Bodies are sorted by id.
+std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id);
+
+// By the bodies' ids, then kind, then key: the order in which rows were found never shows.
+void sort_blocks(std::vector<RowBlock>& blocks);
+
+// Connected components over the bodies that any phase may move: everything but fixed ones. Bodies without a block have no island.
+void build_islands(ConstraintGraph& graph);
+
+}  // namespace handhold

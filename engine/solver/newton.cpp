@@ -1,0 +1,332 @@
+// Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness after Tournier, Nesme,
+// Gilles and Faure, Stable Constrained Dynamics (2015).
+#include "engine/solver/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace handhold {
+namespace {
+
+constexpr double k_softness_cap = 1e-2;
+constexpr double k_softness_floor = 1e-9;
+constexpr double k_contact_alpha = 1e-7;      // of the row's diagonal
+constexpr double k_stiffness_from_m = 1e-4;   // residual above which geometric stiffness is added
+constexpr double k_largest_turn_rad = 1.0;    // of a step
+constexpr double k_smallest_scale = 0.3;      // below: regularise more instead of scaling further
+constexpr int k_retries = 3;
+
+bool takes_part(const IslandView& island, const RowBlock& block) {
+    if (island.filter != BlockFilter::all && is_hand(block) != (island.filter == BlockFilter::hands)) {
+        return false;
+    }
+    return island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0;
+}
+
+void collect_rows(const IslandView& island, std::vector<Row>& rows) {
+    rows.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        if (takes_part(island, island.blocks[index])) {
+            append_rows(island.bodies, island.blocks[index], index, rows);
+        }
+    }
+}
+
+double worst_of(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (const Row& row : rows) {
+        worst = std::max(worst, row.unilateral ? -row.value_m : std::abs(row.value_m));
+    }
+    return worst;
+}
+
+// The part of (l.r) I - sym(l r^T) (sign +1) or of its negative (-1) with eigenvalues above zero, in closed form: its
+// eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r.
+Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
+    const double product = force.norm() * arm.norm();
+    if (product < 1e-12) {
+        return Mat3::Zero();
+    }
+    const double along = force.dot(arm);
+    const Vec3 axis = force.normalized() - sign * arm.normalized();
+    const Vec3 normal = force.cross(arm);
+    Mat3 sum = Mat3::Zero();
+    if (axis.squaredNorm() > 1e-12) {
+        sum += (0.5 * (product + sign * along) / axis.squaredNorm()) * (axis * axis.transpose());
+    }
+    if (sign * along > 0.0 && normal.squaredNorm() > 1e-12 * product * product) {
+        sum += (sign * along / normal.squaredNorm()) * (normal * normal.transpose());
+    }
+    return sum;
+}
+
+void clear_stiffness(const IslandView& island, SolveScratch& scratch) {
+    scratch.stiffness.assign(island.island_bodies.size(), Mat3::Zero());
+}
+
+// From the multipliers of the last step. The three rows of a point come one after the other.
+void gather_stiffness(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+    clear_stiffness(island, scratch);
+    for (std::size_t i = 0; i + 2 < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        if (!row.hand || row.linear_a != Vec3::UnitX()) {
+            continue;
+        }
+        const Vec3 force(lambda[i], lambda[i + 1], lambda[i + 2]);
+        const RowBlock& block = island.blocks[row.block];
+        const SolverBody& b = island.bodies[row.b];
+        if (b.inverse_inertia_bs.squaredNorm() > 0.0) {
+            scratch.stiffness[b.slot] +=
+                positive_stiffness(force, b.pose_ws.rotation * block.point_b_bs, -1.0);
+        }
+    }
+}
+
+void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
+    scratch.inverse_inertia_ws.resize(island.island_bodies.size());
+    for (const std::uint32_t index : island.island_bodies) {
+        const SolverBody& body = island.bodies[index];
+        Mat3& inverse = scratch.inverse_inertia_ws[body.slot];
+        if (body.inverse_inertia_bs.squaredNorm() == 0.0) {
+            inverse.setZero();
+            continue;
+        }
+        inverse = inverse_inertia_ws(body);
+        const Mat3& stiffness = scratch.stiffness[body.slot];
+        if (!stiffness.isZero(0.0)) {
+            const Mat3 stiffened = inverse.inverse() + stiffness;
+            inverse = stiffened.inverse();
+        }
+    }
+}
+
+void regularise(std::span<const Row> rows, double softness, double factor, DenseSystem& system) {
+    double inverse_sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < system.size(); ++i) {
+        if (system.diagonal(i) > 0.0) {
+            inverse_sum += 1.0 / system.diagonal(i);
+            count += 1.0;
+        }
+    }
+    const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;
+    for (std::size_t i = 0; i < system.size(); ++i) {
+        system.alpha()[i] =
+            factor * (rows[i].hand ? softness * mean : k_contact_alpha * system.diagonal(i));
+    }
+}
+
+// W J^T lambda by slot; returns the largest turn in radians.
+double gather_moves(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+    scratch.moves_m.assign(island.island_bodies.size(), Vec3::Zero());
+    scratch.turns_rad.assign(island.island_bodies.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        const SolverBody& a = island.bodies[row.a];
+        const SolverBody& b = island.bodies[row.b];
+        if (a.inverse_mass > 0.0) {
+            scratch.moves_m[a.slot] += (a.inverse_mass * lambda[i]) * row.linear_a;
+            scratch.turns_rad[a.slot] += lambda[i] * row.angular_a;
+        }
+        if (b.inverse_mass > 0.0) {
+            scratch.moves_m[b.slot] -= (b.inverse_mass * lambda[i]) * row.linear_a;
+            scratch.turns_rad[b.slot] += lambda[i] * row.angular_b;
+        }
+    }
+    double largest = 0.0;
+    for (std::size_t slot = 0; slot < scratch.turns_rad.size(); ++slot) {
+        const Vec3 turn = scratch.inverse_inertia_ws[slot] * scratch.turns_rad[slot];
+        scratch.turns_rad[slot] = turn;
+        largest = std::max(largest, turn.norm());
+    }
+    return largest;
+}
+
+// Returns the longest step, metres.
+double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
+    double longest = 0.0;
+    for (const std::uint32_t index : island.island_bodies) {
+        SolverBody& body = island.bodies[index];
+        if (!(body.inverse_mass > 0.0)) {
+            continue;
+        }
+        const Vec3 move = scale * scratch.moves_m[body.slot];
+        const Vec3 turn = scale * scratch.turns_rad[body.slot];
+        body.pose_ws.position += move;
+        if (turn.squaredNorm() > 0.0) {
+            body.pose_ws.rotation = (rotation_from_vector(turn) * body.pose_ws.rotation).normalized();
+        }
+        longest = std::max({longest, move.norm(), k_angle_m * turn.norm()});
+    }
+    return longest;
+}
+
+// One Newton step; returns its length, metres.
+double step(const IslandView& island, double softness, SolveScratch& scratch) {
+    double factor = 1.0;
+    double scale = 1.0;
+    for (int attempt = 0; attempt <= k_retries; ++attempt) {
+        prepare_inertia(island, scratch);
+        scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
+        regularise(scratch.rows, softness, factor, scratch.system);
+        const std::span<const double> lambda = scratch.system.solve(scratch.rows);
+        const double turn = gather_moves(island, lambda, scratch);
+        scale = turn > k_largest_turn_rad ? k_largest_turn_rad / turn : 1.0;
+        scratch.lambda.assign(lambda.begin(), lambda.end());
+        if (scale >= k_smallest_scale) {
+            break;
+        }
+        factor *= 100.0;
+    }
+    return apply_moves(island, scale, scratch);
+}
+
+void write_errors(const IslandView& island) {
+    for (const std::uint32_t index : island.island_blocks) {
+        island.blocks[index].error_m = block_error_m(island.bodies, island.blocks[index]);
+    }
+}
+
+}  // namespace
+
+NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
+                             SolveScratch& scratch) {
+    NewtonResult result;
+    double softness = settings.hand_softness;
+    double previous = std::numeric_limits<double>::infinity();
+    clear_stiffness(island, scratch);
+    scratch.lambda.clear();
+    for (;;) {
+        collect_rows(island, scratch.rows);
+        result.residual_m = worst_of(scratch.rows);
+        result.converged = result.residual_m < settings.tolerance_m;
+        if (result.converged || result.iterations == settings.max_iterations) {
+            break;
+        }
+        if (result.iterations > 0) {
+            softness = result.residual_m < 0.5 * previous ? std::max(softness * 0.03, k_softness_floor)
+                                                          : std::min(softness * 10.0, k_softness_cap);
+            if (result.residual_m > k_stiffness_from_m) {
+                gather_stiffness(island, scratch.lambda, scratch);
+            } else {
+                clear_stiffness(island, scratch);
+            }
+        }
+        previous = result.residual_m;
+        const double length = step(island, softness, scratch);
+        ++result.iterations;
+        if (length < settings.step_tolerance_m) {
+            collect_rows(island, scratch.rows);
+            result.residual_m = worst_of(scratch.rows);
+            result.converged = result.residual_m < settings.tolerance_m;
+            break;
+        }
+    }
+    write_errors(island);
+    return result;
+}
+
+namespace {
+
+double normal_velocity(const IslandView& island, const Row& row) {
+    const SolverBody& a = island.bodies[row.a];
+    const SolverBody& b = island.bodies[row.b];
+    return row.linear_a.dot(a.velocity_mps - b.velocity_mps) + row.angular_a.dot(a.spin_radps) +
+           row.angular_b.dot(b.spin_radps);
+}
+
+void collect_velocity_rows(const IslandView& island, const VelocitySettings& settings,
+                           SolveScratch& scratch) {
+    scratch.rows.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        RowBlock& block = island.blocks[index];
+        block.impulse_ws_ns.setZero();
+        block.couple_ws_nms.setZero();
+        const bool counts = is_hand(block) || contact_separation_m(island.bodies, block) < settings.touch_m;
+        if (counts && takes_part(island, block)) {
+            append_rows(island.bodies, block, index, scratch.rows);
+        }
+    }
+    scratch.approach_mps.clear();
+    for (const Row& row : scratch.rows) {
+        const double speed = normal_velocity(island, row);
+        const bool bounces = row.unilateral && speed < -settings.restitution_speed_mps;
+        scratch.approach_mps.push_back(bounces ? island.blocks[row.block].restitution * speed : 0.0);
+    }
+}
+
+// What each row's velocity lacks.
+void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        Row& row = scratch.rows[i];
+        const RowBlock& block = island.blocks[row.block];
+        double speed = normal_velocity(island, row) + scratch.approach_mps[i];
+        if (row.hand) {
+            speed += row.linear_a.dot(block.drive_velocity_ws_mps);
+            if (row.linear_a.isZero(0.0)) {
+                speed += row.angular_a.dot(block.drive_spin_ws_radps);
+            }
+        }
+        row.value_m = speed;  // metres a second here
+    }
+}
+
+void apply_impulses(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+    gather_moves(island, lambda, scratch);
+    for (const std::uint32_t index : island.island_bodies) {
+        SolverBody& body = island.bodies[index];
+        if (body.inverse_mass > 0.0) {
+            body.velocity_mps += scratch.moves_m[body.slot];
+            body.spin_radps += scratch.turns_rad[body.slot];
+        }
+    }
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        RowBlock& block = island.blocks[row.block];
+        block.impulse_ws_ns += lambda[i] * row.linear_a;
+        if (row.linear_a.isZero(0.0)) {
+            block.couple_ws_nms += lambda[i] * row.angular_a;
+        }
+    }
+}
+
+// Of the rows that act.
+double worst_speed(std::span<const Row> rows, const DenseSystem& system) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].value_m)) : worst;
+    }
+    return worst;
+}
+
+}  // namespace
+
+void solve_velocities(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch) {
+    constexpr double k_velocity_softness = 1e-6;
+    constexpr double k_speed_tolerance_mps = 1e-10;
+    constexpr int k_refinements = 8;  // each takes the error of regularisation down, by a factor that long levers make small
+    collect_velocity_rows(island, settings, scratch);
+    evaluate_velocity_rows(island, scratch);
+    clear_stiffness(island, scratch);
+    prepare_inertia(island, scratch);
+    scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
+    regularise(scratch.rows, k_velocity_softness, 1.0, scratch.system);
+    apply_impulses(island, scratch.system.solve(scratch.rows), scratch);
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < k_refinements; ++i) {
+        evaluate_velocity_rows(island, scratch);
+        const double worst = worst_speed(scratch.rows, scratch.system);
+        if (worst < k_speed_tolerance_mps || worst > 0.5 * previous) {
+            return;  // met, or not to be met: more would only press contradicting rows against each other
+        }
+        previous = worst;
+        scratch.values.clear();
+        for (const Row& row : scratch.rows) {
+            scratch.values.push_back(row.value_m);
+        }
+        apply_impulses(island, scratch.system.solve_again(scratch.values), scratch);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,198 @@
+#include "game/built_in_scenes.hpp"
+
+#include <utility>
+
+#include "game/session_script.hpp"
+#include "game/station.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_half_pi = 1.5707963267948966;
+
+Scene empty_scene(std::string name, std::string description) {
+    Scene scene;
+    scene.name = std::move(name);
+    scene.description = std::move(description);
+    scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
+    scene.session = SceneSession{{}, scene.name};
+    return scene;
+}
+
+// A structure's spawns say where the head is; players are put where their feet are.
+void add_spawns(const Structure& structure, Scene& scene) {
+    constexpr double k_eye_height_m = 1.6;
+    for (const SpawnPoint& spawn : structure.spawns) {
+        Pose origin = spawn.pose;
+        origin.position -= origin.rotation * Vec3(0.0, k_eye_height_m, 0.0);
+        scene.spawns.push_back({spawn.name, origin});
+    }
+}
+
+// --- station ---------------------------------------------------------------------------------------------------------
+
+const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
+
+SessionScript station_script() {
+    SessionScript script;
+    const Vec3 ahead = -Vec3::UnitZ();
+    script.duration_s = 17.0;
+    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a catch at its far hatch.
+    script.body = {{0.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
+                   {1.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
+                   {2.0, Vec3(-0.52, 0.26, 5.35), 0.5 * ahead},
+                   {7.0, Vec3(-0.52, 0.26, 2.85), 0.5 * ahead},
+                   {9.2, Vec3(-0.05, 0.34, 2.05), Vec3(0.25, 0.0, -0.35)},
+                   {11.0, Vec3(0.02, 0.30, 1.25), 0.6 * ahead},
+                   {11.5, Vec3(0.02, 0.30, 0.92), 0.75 * ahead},
+                   {13.5, Vec3(0.02, 0.30, -0.58), 0.75 * ahead},
+                   {14.6, Vec3(0.02, 0.34, -0.86), Vec3::Zero()},
+                   {17.0, Vec3(0.02, 0.34, -0.86), Vec3::Zero()}};
+    ScriptedCrawl crawl;
+    crawl.bar_start = k_hab_rail;
+    crawl.along = ahead;
+    crawl.away = Vec3::UnitX();
+    crawl.fingers = Vec3::UnitY();
+    crawl.from_s = 0.8;
+    crawl.until_s = 7.6;
+    add_crawl(crawl, script);
+    // Bars over the hatch: palms under them, fingers up.
+    const Vec3 under = -Vec3::UnitY();
+    const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
+        script.holds.push_back({side, from_s, until_s, on_axis + 0.02 * under, under, ahead});
+    };
+    hold(HandSide::right, 7.45, 10.1, Vec3(0.16, 0.885, 1.893));
+    hold(HandSide::left, 8.30, 9.9, Vec3(-0.18, 0.885, 1.893));
+    hold(HandSide::left, 10.0, 11.5, Vec3(-0.18, 0.885, 1.178));
+    hold(HandSide::right, 10.6, 11.5, Vec3(0.18, 0.885, 1.178));
+    hold(HandSide::right, 13.5, 17.0, Vec3(0.18, 0.885, -1.178));
+    hold(HandSide::left, 14.2, 17.0, Vec3(-0.18, 0.885, -1.178));
+    return script;
+}
+
+Scene make_station_scene() {
+    Scene scene = empty_scene("station", "three modules round a node: rails, racks and hatches to crawl along");
+    Structure station = make_station();
+    for (std::size_t i = 0; i < station.parts.size(); ++i) {
+        const std::string name = station.parts[i].name;
+        add_static_mesh(scene, name, std::make_shared<const Mesh>(std::move(station.parts[i])), {}, station.looks[i]);
+    }
+    scene.lamps = station.lamps;
+    scene.spawns.push_back({"rail", session_origin(station_script())});
+    add_spawns(station, scene);
+    return scene;
+}
+
+// --- ship ------------------------------------------------------------------------------------------------------------
+
+constexpr double k_ship_speed_mps = 20.0;
+constexpr double k_ship_spin_radps = 0.06;
+constexpr double k_rock_radius_m = 0.08;
+constexpr double k_rock_mass_kg = 5.0;
+constexpr double k_pick_s = 6.6;                    // when the session takes the rock
+const Vec3 k_rock_place(-1.10, 0.12, -0.95);        // then, in the ship's frame
+const Vec3 k_ship_rail(-1.593, 0.530, 0.0);         // ship/wall_upper, along z
+constexpr double k_ship_wall_x = -1.65;             // about: the session shoves well into it
+
+SessionScript ship_script() {
+    SessionScript script;
+    script.play_space = rotation_about(Vec3::UnitY(), k_half_pi);  // facing the wall, -x; the right hand is towards -z
+    script.duration_s = 14.0;
+    const Vec3 along = -Vec3::UnitZ();
+    script.body = {{0.0, Vec3(-1.02, 0.72, 1.60), Vec3::Zero()},
+                   {0.8, Vec3(-1.02, 0.72, 1.60), Vec3::Zero()},
+                   {1.6, Vec3(-1.02, 0.72, 1.40), 0.45 * along},
+                   {5.0, Vec3(-1.02, 0.72, -0.13), 0.45 * along},
+                   {6.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()},
+                   {14.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()}};
+    ScriptedCrawl crawl;
+    crawl.bar_start = k_ship_rail;
+    crawl.along = along;
+    crawl.away = Vec3::UnitX();
+    crawl.fingers = Vec3::UnitY();
+    crawl.speed_mps = 0.45;
+    crawl.from_s = 0.35;
+    crawl.until_s = 4.9;
+    add_crawl(crawl, script);
+    script.holds.push_back({HandSide::left, 5.2, 10.2, k_ship_rail + Vec3(0.02, 0.0, -0.10), Vec3::UnitX(), Vec3::UnitY()});
+    // The rock: taken from above, waved about, then shoved into the wall; the wall shoves back.
+    const Vec3 up = Vec3::UnitY();
+    const Vec3 fingers = -Vec3::UnitX();
+    const Vec3 on_rock = k_rock_place + (k_rock_radius_m + 0.005) * up;
+    script.holds.push_back({HandSide::right, k_pick_s, 11.9, on_rock, up, fingers});
+    const auto move = [&](double t_s, const Vec3& by, double roll) {
+        const Quat turn = rotation_about(Vec3::UnitX(), roll);
+        script.reaches.push_back({HandSide::right, t_s, on_rock + by, turn * up, fingers});
+    };
+    move(7.2, Vec3(0.15, 0.25, 0.10), 0.5);
+    move(7.8, Vec3(0.25, 0.10, -0.20), -0.6);
+    move(8.4, Vec3(0.05, 0.30, -0.10), 0.7);
+    move(9.0, Vec3(0.25, 0.25, 0.15), -0.3);
+    move(9.8, Vec3(0.20, 0.10, 0.0), 0.0);
+    move(10.6, Vec3(0.20, 0.10, 0.0), 0.0);
+    move(11.4, Vec3(k_ship_wall_x - k_rock_place.x() - 0.25, 0.10, 0.0), 0.0);
+    return script;
+}
+
+Scene make_ship_scene() {
+    Scene scene = empty_scene("ship", "a shuttle's deck that flies past at 20 m/s and turns: walls, rails and a rock");
+    scene.tuning.locomotion.support_follow = SupportFollow::full;
+    const Vec3 velocity(0.0, 0.0, -k_ship_speed_mps);
+    const Vec3 spin(0.0, k_ship_spin_radps, 0.0);
+    scene.world.reference_velocity_mps = velocity;
+    Structure ship = make_ship();
+    for (std::size_t i = 0; i < ship.parts.size(); ++i) {
+        BodyDescription part;
+        const std::string name = ship.parts[i].name;
+        const auto mesh = std::make_shared<const Mesh>(std::move(ship.parts[i]));
+        part.name = name;
+        part.body.kind = BodyKind::kinematic;
+        part.shape = scene.shapes->add_mesh(mesh);
+        part.velocity = {velocity, spin};
+        const Entity entity = add_body(scene.world, part);
+        scene.world.mover.add(entity, {{}, velocity, spin, false});
+        scene.body_names.push_back(name);
+        scene.visuals.push_back({entity, mesh, std::nullopt, ship.looks[i]});
+    }
+    BodyDescription rock;
+    rock.name = "rock";
+    rock.shape = scene.shapes->add_sphere(k_rock_radius_m);
+    rock.body = {BodyKind::free, k_rock_mass_kg, solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
+    // It floats straight on while the ship turns: placed so that the turning brings it to the session's hand in time.
+    rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
+    rock.velocity = {velocity, Vec3::Zero()};
+    const Entity entity = add_body(scene.world, rock);
+    scene.body_names.emplace_back("rock");
+    scene.visuals.push_back({entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
+    scene.lamps = ship.lamps;
+    scene.spawns.push_back({"rail", session_origin(ship_script())});
+    add_spawns(ship, scene);
+    return scene;
+}
+
+}  // namespace
+
+std::vector<std::string_view> built_in_scenes() { return {"station", "ship"}; }
+
+std::optional<Scene> make_built_in_scene(std::string_view name) {
+    if (name == "station") {
+        return make_station_scene();
+    }
+    if (name == "ship") {
+        return make_ship_scene();
+    }
+    return std::nullopt;
+}
+
+std::optional<Recording> make_built_in_session(std::string_view name) {
+    const HandTuning tuning;
+    if (name == "station") {
+        return record_session(station_script(), tuning);
+    }
+    if (name == "ship") {
+        return record_session(ship_script(), tuning);
+    }
+    return std::nullopt;
+}
+
+}  // namespace handhold

@@ -1,0 +1,245 @@
+#include "game/film.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/collision/collision_world.hpp"
+#include "game/render/figures.hpp"
+#include "game/render/primitives.hpp"
+#include "game/render/renderer.hpp"
+#include "game/render/video_writer.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr Color k_ray_color = {0.1F, 0.75F, 1.0F};
+constexpr Color k_hit_color = {0.2F, 1.0F, 0.35F};
+constexpr Color k_constraint_color = {1.0F, 0.55F, 0.05F};
+
+enum class View { first_person, outside };
+
+}  // namespace
+
+struct SessionFilm::Impl {
+    const Scene& scene;
+    FilmSettings settings;
+    double session_s;
+    // Each renderer has its own meshes.
+    struct Stage {
+        Renderer renderer;
+        std::vector<MeshId> visuals;  // by Scene::visuals
+        std::vector<MeshId> head;
+        std::array<std::array<std::vector<MeshId>, 2>, k_hand_count> hands;  // by side, then open or grip
+    };
+    std::optional<Stage> still;
+    std::optional<Stage> moving;
+    std::unique_ptr<VideoWriter> video;
+    std::string video_failure;
+    CollisionWorld walls;  // static surfaces, so that the outside camera stays in the room
+    double next_video_s = 0.0;
+    double next_shot_s = 0.0;
+    std::array<int, k_hand_count> last_grip{};
+    std::vector<FilmShot> shots;
+    Image image;
+
+    Impl(const Scene& of_scene, const FilmSettings& with) : scene(of_scene), settings(with), session_s(0.0), walls(*of_scene.shapes) {}
+
+    static std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
+        std::vector<MeshId> ids;
+        for (const Mesh& mesh : meshes) {
+            ids.push_back(renderer.add_mesh(mesh));
+        }
+        return ids;
+    }
+
+    std::optional<Stage> make_stage(int width_px, int height_px, std::string& why_not) const {
+        std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not);
+        if (!renderer) {
+            return std::nullopt;
+        }
+        Stage stage{std::move(*renderer), {}, {}, {}};
+        for (const SceneVisual& visual : scene.visuals) {
+            stage.visuals.push_back(stage.renderer.add_mesh(*visual.mesh));
+        }
+        stage.head = add_all(stage.renderer, make_head());
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const FigureSide figure = side == 0 ? FigureSide::left : FigureSide::right;
+            stage.hands[side][0] = add_all(stage.renderer, make_hand(figure, HandShape::open));
+            stage.hands[side][1] = add_all(stage.renderer, make_hand(figure, HandShape::grip));
+        }
+        return stage;
+    }
+
+    void place_walls() {
+        std::vector<ColliderProxy> proxies;
+        const World& world = scene.world;
+        for (std::size_t row = 0; row < world.body.size(); ++row) {
+            const Entity body = world.body.owners()[row];
+            if (world.body.rows()[row].kind != BodyKind::free) {
+                const Pose& pose = world.body_pose.at(body).pose_ws;
+                proxies.push_back({world.persistent_id.at(body).value, world.collider.at(body).shape, pose, pose, false});
+            }
+        }
+        std::sort(proxies.begin(), proxies.end(),
+                  [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });
+        walls.set_proxies(proxies);
+    }
+
+    // Behind and above the head, in the room with it.
+    Pose outside_camera(const RenderPose& render) {
+        const Vec3 up = scene.up_ws;
+        Vec3 ahead = render.head_ws.rotation * -Vec3::UnitZ();
+        ahead = (ahead - up * up.dot(ahead)).normalized();
+        const Vec3 target = render.head_ws.position - 0.25 * up + 0.25 * ahead;
+        const Vec3 side = ahead.cross(up);
+        constexpr std::array<std::array<double, 3>, 5> k_tries = {
+            {{-1.3, 0.45, 0.75}, {-1.3, 0.45, -0.75}, {-1.4, 0.2, 0.0}, {0.9, 0.3, 0.9}, {0.9, 0.3, -0.9}}};
+        Vec3 best = target - 0.3 * ahead;
+        place_walls();
+        for (const auto& [forward, height, sideways] : k_tries) {
+            const Vec3 wanted = target + forward * ahead + height * up + sideways * side;
+            const auto hit = walls.cast_sphere(0.08, target, wanted);
+            const double share = hit ? hit->distance_m / (wanted - target).norm() : 1.0;
+            const Vec3 place = target + std::max(0.0, share - 0.02) * (wanted - target);
+            if ((place - target).norm() > (best - target).norm() + 0.15) {
+                best = place;
+            }
+        }
+        return look_along(best, target - best, up);
+    }
+
+    void add_figures(const Stage& stage, const RenderPose& render, View view, bool own, RenderFrame& frame) const {
+        if (!(own && view == View::first_person)) {
+            for (const MeshId mesh : stage.head) {
+                frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
+            }
+        }
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const RenderPose::Hand& hand = render.hands[side];
+            const bool grips = hand.grip != GripKind::none;
+            for (const MeshId mesh : stage.hands[side][grips ? 1 : 0]) {
+                frame.instances.push_back({mesh, hand.shown_ws, std::nullopt, {}});
+            }
+            frame.lines.push_back({hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
+            if (grips) {
+                frame.lines.push_back({render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
+                frame.lines.push_back({hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
+            }
+        }
+    }
+
+    void draw(Stage& stage, View view, double fov_rad) {
+        const World& world = scene.world;
+        RenderFrame frame;
+        frame.backdrop = Backdrop::space;
+        frame.up_ws = scene.up_ws;
+        frame.lamps = scene.lamps;
+        if (scene.lamps.empty()) {
+            frame.head_light = 0.55F;  // a level without lamps of its own
+        }
+        for (std::size_t i = 0; i < scene.visuals.size(); ++i) {
+            const SceneVisual& visual = scene.visuals[i];
+            frame.instances.push_back(
+                {stage.visuals[i], world.body_pose.at(visual.body).pose_ws, visual.color, visual.look});
+        }
+        move_lamps(frame);
+        const auto players = world.render_pose.rows();
+        for (std::size_t i = 0; i < players.size(); ++i) {
+            add_figures(stage, players[i], view, i == 0, frame);
+        }
+        frame.camera.pose_ws = view == View::first_person ? players[0].head_ws : outside_camera(players[0]);
+        frame.camera.vertical_fov_rad = fov_rad;
+        stage.renderer.draw(frame, image);
+    }
+
+    // The lamps of a ship fly with it: they are given in the frame of the first kinematic body.
+    void move_lamps(RenderFrame& frame) const {
+        if (scene.world.mover.empty()) {
+            return;
+        }
+        const Pose& ship = scene.world.body_pose.at(scene.world.mover.owners()[0]).pose_ws;
+        for (Lamp& lamp : frame.lamps) {
+            lamp.position_ws = transform_point(ship, lamp.position_ws);
+        }
+    }
+
+    void add_shot(View view, const FrameLog& frame) {
+        if (!still) {
+            return;
+        }
+        draw(*still, view, view == View::first_person ? 1.45 : 1.05);
+        std::array<char, 96> text{};
+        const char* const what = view == View::first_person ? "first person" : "from outside";
+        std::snprintf(text.data(), text.size(), "%s at %.2f s", what, frame.t_s);
+        std::array<char, 32> name{};
+        std::snprintf(name.data(), name.size(), "%02d_%s", static_cast<int>(shots.size()),
+                      view == View::first_person ? "first_person" : "outside");
+        shots.push_back({name.data(), text.data(), encode_png(image)});
+    }
+
+    void watch(const FrameLog& frame) {
+        bool grabbed = false;
+        for (std::size_t side = 0; side < k_hand_count && !frame.players.empty(); ++side) {
+            const int grip = frame.players[0].hands[side].grip;
+            grabbed = grabbed || (grip != 0 && last_grip[side] == 0);
+            last_grip[side] = grip;
+        }
+        const double interval = session_s / std::max(1, settings.shots / 2);
+        const bool due = frame.t_s >= next_shot_s && (grabbed || frame.t_s >= next_shot_s + 0.6 * interval);
+        if (due && static_cast<int>(shots.size()) + 1 < settings.shots + 1) {
+            add_shot(View::first_person, frame);
+            add_shot(View::outside, frame);
+            next_shot_s = frame.t_s + interval;
+        }
+        if (video != nullptr && frame.t_s >= next_video_s && frame.t_s <= settings.longest_video_s) {
+            next_video_s += 1.0 / settings.video_fps;
+            // Four seconds with the player's eyes, four from outside.
+            const View view = std::fmod(frame.t_s, 8.0) < 4.0 ? View::first_person : View::outside;
+            draw(*moving, view, view == View::first_person ? 1.45 : 1.05);
+            video->add(image);
+        }
+    }
+};
+
+SessionFilm::SessionFilm(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SessionFilm::~SessionFilm() = default;
+
+std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double session_s, const FilmSettings& settings,
+                                               std::string& why_not) {
+    auto impl = std::make_unique<Impl>(scene, settings);
+    impl->session_s = session_s;
+    impl->next_shot_s = std::min(1.0, 0.1 * session_s);
+    impl->still = impl->make_stage(settings.width_px, settings.height_px, why_not);
+    if (!impl->still) {
+        return nullptr;
+    }
+    if (!settings.video.empty()) {
+        VideoSettings video;
+        video.width_px = settings.video_width_px;
+        video.height_px = settings.video_height_px;
+        video.frames_per_s = settings.video_fps;
+        impl->video = VideoWriter::open(settings.video.string(), video, impl->video_failure);
+        if (impl->video != nullptr) {
+            impl->moving = impl->make_stage(settings.video_width_px, settings.video_height_px, why_not);
+            if (!impl->moving) {
+                return nullptr;
+            }
+        }
+    }
+    return std::unique_ptr<SessionFilm>(new SessionFilm(std::move(impl)));
+}
+
+void SessionFilm::watch(const FrameLog& frame) { impl_->watch(frame); }
+
+std::vector<FilmShot> SessionFilm::finish(std::string& why_not) {
+    why_not = impl_->video_failure;
+    if (impl_->video != nullptr) {
+        impl_->video->finish(why_not);
+        impl_->video.reset();
+    }
+    return std::move(impl_->shots);
+}
+
+}  // namespace handhold

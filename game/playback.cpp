@@ -1,0 +1,30 @@
+#include "game/playback.hpp"
+
+namespace handhold {
+
+Playback::Playback(const Recording& recording) {
+    const double first_s = recording.samples.empty() ? 0.0 : recording.samples.front().t_s;
+    samples_.reserve(recording.samples.size());
+    for (const RecordedSample& recorded : recording.samples) {
+        TrackingSample sample;
+        sample.t_s = recorded.t_s - first_s;
+        sample.head_ps = recorded.head;
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            sample.controllers[side].controller_ps = recorded.hands[side].controller;
+            sample.controllers[side].grab = (recorded.hands[side].buttons & k_grab_buttons) != 0;
+        }
+        samples_.push_back(sample);
+    }
+    duration_s_ = samples_.empty() ? 0.0 : samples_.back().t_s;
+}
+
+std::span<const TrackingSample> Playback::window(double frame_end_s) {
+    const std::size_t begin = next_;
+    while (next_ < samples_.size() && samples_[next_].t_s <= frame_end_s) {
+        ++next_;
+    }
+    const std::size_t end = next_ < samples_.size() ? next_ + 1 : next_;
+    return std::span(samples_).subspan(begin, end - begin);
+}
+
+}  // namespace handhold

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "components/tracking.hpp"
+#include "game/recording.hpp"
+
+namespace handhold {
+
+// A recording as the runtime wants it: samples on the frame clock from 0, handed out frame by frame.
+class Playback {
+  public:
+    explicit Playback(const Recording& recording);
+
+    double duration_s() const { return duration_s_; }
+    // The samples since the last call's end, up to frame_end_s, and the one after it where there is one. Each sample before the
+    // frame's end is handed out once; frame_end_s must not fall.
+    std::span<const TrackingSample> window(double frame_end_s);
+
+  private:
+    std::vector<TrackingSample> samples_;
+    std::size_t next_ = 0;  // first sample not yet consumed
+    double duration_s_ = 0.0;
+};
+
+}  // namespace handhold

@@ -1,0 +1,216 @@
+#include "game/recording.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "engine/io/csv.hpp"
+#include "engine/io/text_file.hpp"
+
+namespace handhold {
+
+namespace {
+
+constexpr double k_max_time_s = 1e9;
+constexpr double k_max_coordinate_m = 1e6;
+constexpr double k_max_buttons = 65535.0;
+constexpr double k_length_tolerance = 1e-2;
+// A quaternion so near to unit length is as unit as rounding allows; dividing again could move its
+// last bits, and a saved recording has to load as what it was.
+constexpr double k_unit_tolerance = 1e-14;
+
+constexpr std::size_t k_pose_cells = 7;
+constexpr std::size_t k_hand_cells = k_pose_cells + 2;
+constexpr std::size_t k_head_begin = 1;
+constexpr std::array<std::size_t, 2> k_hand_begin = {8, 17};
+
+// The columns in the order in which they are written: t, head, left hand, right hand.
+constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells> k_columns = {
+    "t",  "hx", "hy",  "hz",  "hqx", "hqy", "hqz",  "hqw",   "lx",
+    "ly", "lz", "lqx", "lqy", "lqz", "lqw", "lbtn", "ltrig", "rx",
+    "ry", "rz", "rqx", "rqy", "rqz", "rqw", "rbtn", "rtrig"};
+
+// One row's cells in the order of k_columns.
+using Cells = std::array<double, k_columns.size()>;
+
+// Reads rows into samples; the first bad cell is kept as the error.
+class RowReader {
+  public:
+    explicit RowReader(std::string file) : file_(std::move(file)) {}
+
+    bool read(const Cells& cells, std::size_t line, RecordedSample& sample) {
+        line_ = line;
+        sample.t_s = cells[0];
+        bool is_good = check(0, std::abs(cells[0]) <= k_max_time_s, "a time within 1e9 s", cells) &&
+                       read_pose(cells, k_head_begin, sample.head);
+        for (std::size_t hand = 0; hand < sample.hands.size() && is_good; ++hand) {
+            is_good = read_hand(cells, k_hand_begin[hand], sample.hands[hand]);
+        }
+        return is_good;
+    }
+
+    bool refuse(std::string expected) {
+        error_ = FileError{file_, "line " + std::to_string(line_), std::move(expected)};
+        return false;
+    }
+
+    const std::optional<FileError>& error() const { return error_; }
+
+  private:
+    bool check(std::size_t cell, bool is_good, const char* expected, const Cells& cells) {
+        return is_good || refuse(std::string("expected ") + expected + " under \"" +
+                                 k_columns[cell] + "\", found " + std::to_string(cells[cell]));
+    }
+
+    bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
+        for (std::size_t i = begin; i < begin + k_pose_cells; ++i) {
+            if (std::isnan(cells[i])) {
+                constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+                pose = {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+                return true;
+            }
+        }
+        for (std::size_t i = begin; i < begin + 3; ++i) {
+            if (!check(i, std::abs(cells[i]) <= k_max_coordinate_m, "a coordinate within 1e6 m",
+                       cells)) {
+                return false;
+            }
+        }
+        pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
+        pose.rotation =
+            Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
+        const double length = pose.rotation.norm();
+        if (!(std::abs(length - 1.0) <= k_length_tolerance)) {
+            return refuse(std::string("expected a quaternion of length 1 from \"") +
+                          k_columns[begin + 3] + "\" on, found one of length " +
+                          std::to_string(length));
+        }
+        if (std::abs(length - 1.0) > k_unit_tolerance) {
+            pose.rotation.normalize();
+        }
+        return true;
+    }
+
+    bool read_hand(const Cells& cells, std::size_t begin, RecordedHand& hand) {
+        const std::size_t buttons = begin + k_pose_cells;
+        const std::size_t trigger = buttons + 1;
+        // Written so that NaN, allowed for poses only, fails.
+        if (!read_pose(cells, begin, hand.controller) ||
+            !check(buttons,
+                   cells[buttons] >= 0.0 && cells[buttons] <= k_max_buttons &&
+                       cells[buttons] == std::floor(cells[buttons]),
+                   "a mask of buttons, an integer in [0, 65535],", cells) ||
+            !check(trigger, cells[trigger] >= 0.0 && cells[trigger] <= 1.0, "a number in [0, 1]",
+                   cells)) {
+            return false;
+        }
+        hand.buttons = static_cast<int>(cells[buttons]);
+        hand.trigger = cells[trigger];
+        return true;
+    }
+
+    std::string file_;
+    std::size_t line_ = 0;
+    std::optional<FileError> error_;
+};
+
+void append_number(std::string& text, double value) {
+    if (std::isnan(value)) {
+        text += "nan";
+        return;
+    }
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+void append_pose(std::string& text, const Pose& pose) {
+    const Quat& q = pose.rotation;
+    for (const double value :
+         {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()}) {
+        text += ',';
+        append_number(text, value);
+    }
+}
+
+}  // namespace
+
+Result<Recording> parse_recording(std::string_view text, const std::string& file) {
+    const Result<NumericTable> table = parse_csv(text, file, NanCells::allowed);
+    if (!table) {
+        return table.error();
+    }
+    std::array<std::size_t, k_columns.size()> column_of{};
+    for (std::size_t i = 0; i < k_columns.size(); ++i) {
+        const std::optional<std::size_t> column = table.value().find_column(k_columns[i]);
+        if (!column) {
+            return FileError{file, "line 1",
+                             std::string("expected a column \"") + k_columns[i] + "\", found none"};
+        }
+        column_of[i] = *column;
+    }
+    constexpr std::size_t k_least_samples = 2;
+    if (table.value().row_count() < k_least_samples) {
+        return FileError{
+            file, "",
+            "expected at least 2 samples, found " + std::to_string(table.value().row_count())};
+    }
+    Recording recording;
+    recording.samples.resize(table.value().row_count());
+    RowReader reader(file);
+    for (std::size_t row = 0; row < recording.samples.size(); ++row) {
+        Cells cells{};
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            cells[i] = table.value().at(row, column_of[i]);
+        }
+        RecordedSample& sample = recording.samples[row];
+        constexpr std::size_t k_first_line = 2;
+        if (!reader.read(cells, row + k_first_line, sample)) {
+            return *reader.error();
+        }
+        if (row > 0 && sample.t_s <= recording.samples[row - 1].t_s) {
+            reader.refuse("expected a time after " +
+                          std::to_string(recording.samples[row - 1].t_s) + ", found " +
+                          std::to_string(sample.t_s));
+            return *reader.error();
+        }
+    }
+    return recording;
+}
+
+Result<Recording> load_recording(const std::filesystem::path& path) {
+    const Result<std::string> text = read_file(path);
+    if (!text) {
+        return text.error();
+    }
+    return parse_recording(text.value(), path.string());
+}
+
+std::optional<FileError> save_recording(const std::filesystem::path& path,
+                                        const Recording& recording) {
+    constexpr std::size_t k_bytes_per_row =
+        480;  // 26 cells of up to 17 digits: one allocation for nearly all
+    std::string text;
+    text.reserve((recording.samples.size() + 1) * k_bytes_per_row);
+    for (const char* column : k_columns) {
+        text += text.empty() ? "" : ",";
+        text += column;
+    }
+    text += '\n';
+    for (const RecordedSample& sample : recording.samples) {
+        append_number(text, sample.t_s);
+        append_pose(text, sample.head);
+        for (const RecordedHand& hand : sample.hands) {
+            append_pose(text, hand.controller);
+            text += ',';
+            text += std::to_string(hand.buttons);
+            text += ',';
+            append_number(text, hand.trigger);
+        }
+        text += '\n';
+    }
+    return write_file_atomically(path, text);
+}
+
+}  // namespace handhold

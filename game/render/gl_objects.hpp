@@ -1,0 +1,81 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "game/render/gl_context.hpp"
+
+// Owners of OpenGL names. Included by sources of game/render only: no other header shows an OpenGL type.
+namespace handhold {
+
+// Owns one name and frees it with `Free`. The context that made it must be current when it goes.
+template <auto Free>
+class GlName {
+  public:
+    GlName() = default;
+    explicit GlName(GLuint name) : name_(name) {}
+    GlName(GlName&& other) noexcept : name_(std::exchange(other.name_, 0U)) {}
+    GlName& operator=(GlName&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~GlName() {
+        if (name_ != 0U) {
+            Free(name_);
+        }
+    }
+    operator GLuint() const { return name_; }  // NOLINT(google-explicit-constructor)
+
+  private:
+    GLuint name_ = 0;
+};
+
+inline void free_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void free_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void free_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void free_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void free_program(GLuint name) { glDeleteProgram(name); }
+
+using GlBuffer = GlName<free_buffer>;
+using GlVertexArray = GlName<free_vertex_array>;
+using GlTexture = GlName<free_texture>;
+using GlFramebuffer = GlName<free_framebuffer>;
+using GlProgram = GlName<free_program>;
+
+GlBuffer make_buffer();
+GlVertexArray make_vertex_array();
+
+// How a texture is stored and read.
+struct TextureKind {
+    GLint internal_format = GL_RGBA8;
+    GLenum format = GL_RGBA;
+    GLenum type = GL_UNSIGNED_BYTE;
+    GLint filter = GL_LINEAR;
+};
+inline constexpr TextureKind k_color_texture{};
+inline constexpr TextureKind k_depth_texture{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT,
+                                             GL_UNSIGNED_INT, GL_NEAREST};
+GlTexture make_texture(int width_px, int height_px, const TextureKind& kind);
+
+// A framebuffer over what is given; 0 leaves that part out.
+GlFramebuffer make_framebuffer(GLuint color_texture, GLuint depth_texture);
+// Of the framebuffer that is bound for drawing.
+bool is_framebuffer_complete();
+
+// Sources without their version line. Name 0, and the compiler's words, where they do not compile.
+GlProgram make_program(GlApi api, std::string_view vertex, std::string_view fragment,
+                       std::string& why_not);
+
+// Uniforms by name of the program in use; a name that the compiler removed is ignored.
+void set_uniform(GLuint program, const char* name, float value);
+void set_uniform(GLuint program, const char* name, int value);
+void set_uniform(GLuint program, const char* name, const std::array<float, 2>& value);
+void set_uniform(GLuint program, const char* name, const std::array<float, 3>& value);
+void set_uniform(GLuint program, const char* name, const std::array<float, 4>& value);
+void set_uniform(GLuint program, const char* name, const std::array<float, 16>& column_major);
+
+}  // namespace handhold

@@ -1,0 +1,457 @@
+#include "game/render/primitives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "engine/core/check.hpp"
+#include "engine/core/hash.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_two_pi = 6.28318530717958647692;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+std::uint32_t index_of(std::size_t i) { return static_cast<std::uint32_t>(i); }
+
+void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+}
+
+// Skin between the rings that start at vertices `low` and `high`; either may be one point.
+void add_band(Mesh& mesh, std::pair<std::uint32_t, std::size_t> low,
+              std::pair<std::uint32_t, std::size_t> high) {
+    const std::size_t count = std::max(low.second, high.second);
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::uint32_t here = index_of(j);
+        const std::uint32_t next = index_of((j + 1) % count);
+        if (low.second == 1) {
+            mesh.triangles.push_back({low.first, high.first + next, high.first + here});
+        } else if (high.second == 1) {
+            mesh.triangles.push_back({low.first + here, low.first + next, high.first});
+        } else {
+            add_quad(mesh, low.first + here, low.first + next, high.first + next,
+                     high.first + here);
+        }
+    }
+}
+
+Vec3 mean_of(const Ring& ring) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& point : ring) {
+        sum += point;
+    }
+    return sum / static_cast<double>(ring.size());
+}
+
+// An axis-aligned box corner's sign triple, bit 0 for x.
+Vec3 corner_sign(unsigned corner) {
+    return {(corner & 1U) != 0U ? 1.0 : -1.0, (corner & 2U) != 0U ? 1.0 : -1.0,
+            (corner & 4U) != 0U ? 1.0 : -1.0};
+}
+
+// Turns every triangle of a convex mesh about the origin so that it faces away from it.
+void face_outward(Mesh& mesh) {
+    for (Triangle& t : mesh.triangles) {
+        const Vec3& a = mesh.positions[t[0]];
+        const Vec3 normal = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+        if (normal.dot(a) < 0.0) {
+            std::swap(t[1], t[2]);
+        }
+    }
+}
+
+// Carries +Z onto the line from a to b.
+Pose along(const Vec3& a, const Vec3& b) {
+    return {a, rotation_between(Vec3::UnitZ(), (b - a).normalized())};
+}
+
+// Smooth noise in [-1, 1] over space, cells of 1 m: random values at lattice points, blended.
+double lattice_noise(const Vec3& point, unsigned seed) {
+    const Vec3 cell(std::floor(point.x()), std::floor(point.y()), std::floor(point.z()));
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 at = cell + 0.5 * (corner_sign(corner) + Vec3::Ones());
+        double weight = 1.0;
+        std::uint64_t hash = seed;
+        for (int axis = 0; axis < 3; ++axis) {
+            weight *= smooth_step(1.0 - std::abs(point[axis] - at[axis]), 0.0, 1.0);
+            hash = mix64(hash + 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(at[axis] + 4096.0));
+        }
+        sum += weight * (static_cast<double>(hash >> 11U) * 0x1p-52 - 1.0);
+    }
+    return sum;
+}
+
+}  // namespace
+
+Mesh make_loft(std::span<const Ring> rings, LoftEnds ends) {
+    HH_CHECK(rings.size() >= 2, "a loft needs two rings", rings.size());
+    Mesh mesh;
+    std::vector<std::pair<std::uint32_t, std::size_t>> bands;
+    const auto add_ring = [&](const Ring& ring) {
+        bands.emplace_back(index_of(mesh.positions.size()), ring.size());
+        mesh.positions.insert(mesh.positions.end(), ring.begin(), ring.end());
+    };
+    const bool is_capped = ends == LoftEnds::capped;
+    if (is_capped && rings.front().size() > 1) {
+        add_ring({mean_of(rings.front())});
+    }
+    for (const Ring& ring : rings) {
+        add_ring(ring);
+    }
+    if (is_capped && rings.back().size() > 1) {
+        add_ring({mean_of(rings.back())});
+    }
+    for (std::size_t i = 0; i + 1 < bands.size(); ++i) {
+        add_band(mesh, bands[i], bands[i + 1]);
+    }
+    if (!is_capped) {
+        add_band(mesh, bands.back(), bands.front());
+    }
+    return mesh;
+}
+
+Ring make_outline(const RoundedRect& rect, double z_m) {
+    HH_CHECK(rect.corner_m < std::min(rect.half_x_m, rect.half_y_m), "corner too wide",
+             rect.corner_m);
+    const double inner_x = rect.half_x_m - rect.corner_m;
+    const double inner_y = rect.half_y_m - rect.corner_m;
+    constexpr std::array<std::array<double, 2>, 4> k_corners = {
+        {{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}}};
+    Ring corners;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        const Vec3 centre(k_corners[corner][0] * inner_x, k_corners[corner][1] * inner_y, z_m);
+        for (int step = 0; step <= rect.corner_steps; ++step) {
+            double sine = 0.0;
+            double cosine = 1.0;
+            sin_cos(0.25 * k_two_pi *
+                        (static_cast<double>(corner) + step / static_cast<double>(rect.corner_steps)),
+                    sine, cosine);
+            corners.emplace_back(centre + rect.corner_m * Vec3(cosine, sine, 0.0));
+        }
+    }
+    Ring outline;
+    const auto arc = static_cast<std::size_t>(rect.corner_steps) + 1;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec3& here = corners[i];
+        const Vec3& next = corners[(i + 1) % corners.size()];
+        const int steps = i % arc == arc - 1 ? rect.side_steps : 1;
+        for (int step = 0; step < steps; ++step) {
+            outline.emplace_back(here + (next - here) * (step / static_cast<double>(steps)));
+        }
+    }
+    return outline;
+}
+
+Ring round_outline(const Ring& outline, double radius_m) {
+    Ring circle = outline;
+    for (Vec3& point : circle) {
+        const double scale = radius_m / std::sqrt(point.x() * point.x() + point.y() * point.y());
+        point = Vec3(scale * point.x(), scale * point.y(), point.z());
+    }
+    return circle;
+}
+
+Ring at_height(Ring ring, double z_m) {
+    for (Vec3& point : ring) {
+        point.z() = z_m;
+    }
+    return ring;
+}
+
+Mesh make_revolved(std::span<const ProfilePoint> profile, int segments) {
+    std::vector<Ring> rings;
+    for (const ProfilePoint& point : profile) {
+        Ring ring;
+        const int count = point.radius_m > 0.0 ? segments : 1;
+        for (int j = 0; j < count; ++j) {
+            double sine = 0.0;
+            double cosine = 1.0;
+            sin_cos(k_two_pi * j / segments, sine, cosine);
+            ring.emplace_back(point.radius_m * cosine, point.radius_m * sine, point.z_m);
+        }
+        rings.push_back(std::move(ring));
+    }
+    return make_loft(rings, LoftEnds::capped);
+}
+
+Mesh make_box(const Vec3& half_m) {
+    Mesh mesh;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        mesh.positions.emplace_back(corner_sign(corner).cwiseProduct(half_m));
+    }
+    add_quad(mesh, 0, 2, 3, 1);
+    add_quad(mesh, 4, 5, 7, 6);
+    add_quad(mesh, 0, 1, 5, 4);
+    add_quad(mesh, 2, 6, 7, 3);
+    add_quad(mesh, 0, 4, 6, 2);
+    add_quad(mesh, 1, 3, 7, 5);
+    return mesh;
+}
+
+Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
+    HH_CHECK(bevel_m > 0.0 && bevel_m < half_m.minCoeff(), "bevel out of range", bevel_m);
+    Mesh mesh;
+    // Vertex 3 * corner + axis: the corner drawn in along both other axes, so it lies on the face across `axis`.
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 extent = half_m - Vec3::Constant(bevel_m);
+            extent[axis] = half_m[axis];
+            mesh.positions.emplace_back(corner_sign(corner).cwiseProduct(extent));
+        }
+        mesh.triangles.push_back({3 * corner, 3 * corner + 1, 3 * corner + 2});
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const unsigned u = 1U << ((axis + 1) % 3);
+        const unsigned v = 1U << ((axis + 2) % 3);
+        for (const unsigned side : {0U, 1U << axis}) {
+            add_quad(mesh, 3 * side + axis, 3 * (side | u) + axis, 3 * (side | u | v) + axis,
+                     3 * (side | v) + axis);
+        }
+        // The four edges along `axis`: between the faces across the other two axes.
+        const unsigned first = (axis + 1) % 3;
+        const unsigned second = (axis + 2) % 3;
+        for (const unsigned edge : {0U, u, v, u | v}) {
+            const unsigned far_end = edge | (1U << axis);
+            add_quad(mesh, 3 * edge + first, 3 * edge + second, 3 * far_end + second,
+                     3 * far_end + first);
+        }
+    }
+    face_outward(mesh);
+    return mesh;
+}
+
+Mesh make_bevelled_slab(const Vec3& half_m, double bevel_m) {
+    HH_CHECK(bevel_m > 0.0 && bevel_m < half_m.minCoeff(), "bevel out of range", bevel_m);
+    Mesh mesh;
+    const auto add_ring = [&](double inset, double y) {
+        const double x = half_m.x() - inset;
+        const double z = half_m.z() - inset;
+        mesh.positions.insert(mesh.positions.end(),
+                              {Vec3(-x, y, -z), Vec3(-x, y, z), Vec3(x, y, z), Vec3(x, y, -z)});
+    };
+    add_ring(0.0, -half_m.y());
+    add_ring(0.0, half_m.y() - bevel_m);
+    add_ring(bevel_m, half_m.y());
+    add_quad(mesh, 3, 2, 1, 0);
+    for (std::uint32_t low = 0; low < 8; low += 4) {
+        for (std::uint32_t j = 0; j < 4; ++j) {
+            const std::uint32_t next = (j + 1) % 4;
+            add_quad(mesh, low + j, low + next, low + 4 + next, low + 4 + j);
+        }
+    }
+    add_quad(mesh, 8, 9, 10, 11);
+    return mesh;
+}
+
+Mesh make_sphere(double radius_m, int segments) {
+    std::vector<ProfilePoint> profile;
+    const int steps = std::max(segments / 2, 3);
+    for (int i = 0; i <= steps; ++i) {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(0.5 * k_two_pi * i / steps, sine, cosine);
+        const bool is_pole = i == 0 || i == steps;
+        profile.push_back({is_pole ? 0.0 : radius_m * sine, -radius_m * cosine});
+    }
+    return make_revolved(profile, segments);
+}
+
+Mesh make_capsule(const Vec3& a, const Vec3& b, double radius_m, int segments) {
+    std::vector<ProfilePoint> profile;
+    const double length = (b - a).norm();
+    const int steps = std::max(segments / 4, 2);
+    for (int i = 0; i <= 2 * steps + 1; ++i) {
+        const bool is_far = i > steps;
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(0.25 * k_two_pi * (is_far ? i - 1 : i) / steps, sine, cosine);
+        const bool is_pole = i == 0 || i == 2 * steps + 1;
+        profile.push_back(
+            {is_pole ? 0.0 : radius_m * sine, (is_far ? length : 0.0) - radius_m * cosine});
+    }
+    Mesh mesh;
+    append(mesh, make_revolved(profile, segments), along(a, b));
+    return mesh;
+}
+
+Mesh make_cylinder(const Vec3& a, const Vec3& b, double radius_m, int segments) {
+    const std::array<ProfilePoint, 2> profile = {{{radius_m, 0.0}, {radius_m, (b - a).norm()}}};
+    Mesh mesh;
+    append(mesh, make_revolved(profile, segments), along(a, b));
+    return mesh;
+}
+
+Mesh make_tube(std::span<const Vec3> path, double radius_m, int segments) {
+    HH_CHECK(path.size() >= 2, "a tube needs two points", path.size());
+    std::vector<Ring> rings;
+    Vec3 direction = (path[1] - path[0]).normalized();
+    // Carried along by the shortest turn from piece to piece: a bar that does not twist.
+    Quat frame = rotation_between(Vec3::UnitZ(), direction);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const Vec3 next =
+            i + 1 < path.size() ? Vec3((path[i + 1] - path[i]).normalized()) : direction;
+        const Vec3 tangent = (direction + next).normalized();
+        const Quat tilt = rotation_between(direction, tangent);
+        const Vec3 bend = direction.cross(next);
+        const double stretch_at_mitre = 1.0 / std::max(direction.dot(tangent), 0.5);
+        const Vec3 outward =
+            bend.norm() > 1e-9 ? Vec3(tangent.cross(bend).normalized()) : Vec3(Vec3::Zero());
+        Ring ring;
+        for (int j = 0; j < segments; ++j) {
+            double sine = 0.0;
+            double cosine = 1.0;
+            sin_cos(k_two_pi * j / segments, sine, cosine);
+            Vec3 offset = tilt * (frame * (radius_m * Vec3(cosine, sine, 0.0)));
+            offset += (stretch_at_mitre - 1.0) * offset.dot(outward) * outward;
+            ring.emplace_back(path[i] + offset);
+        }
+        rings.push_back(std::move(ring));
+        frame = (rotation_between(direction, next) * frame).normalized();
+        direction = next;
+    }
+    return make_loft(rings, LoftEnds::capped);
+}
+
+Mesh make_torus(double radius_m, double bar_radius_m, int segments, int bar_segments) {
+    std::vector<Ring> rings;
+    for (int i = 0; i < bar_segments; ++i) {
+        // Backwards round the bar: inner side first, then down and out, as a loft with a hole goes.
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(k_two_pi * i / bar_segments, sine, cosine);
+        const double radius = radius_m - bar_radius_m * cosine;
+        Ring ring;
+        for (int j = 0; j < segments; ++j) {
+            double sine_about = 0.0;
+            double cosine_about = 1.0;
+            sin_cos(k_two_pi * j / segments, sine_about, cosine_about);
+            ring.emplace_back(radius * cosine_about, radius * sine_about, -bar_radius_m * sine);
+        }
+        rings.push_back(std::move(ring));
+    }
+    return make_loft(rings, LoftEnds::looped);
+}
+
+Mesh make_icosphere(double radius_m, int levels) {
+    Mesh mesh;
+    const double golden = 0.5 * (1.0 + std::sqrt(5.0));
+    for (int axis = 0; axis < 3; ++axis) {
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            Vec3 point = Vec3::Zero();
+            point[axis] = corner_sign(corner).x();
+            point[(axis + 1) % 3] = golden * corner_sign(corner).y();
+            mesh.positions.emplace_back(point.normalized());
+        }
+    }
+    // The twenty triples of vertices that are each other's neighbours.
+    const double reach = 1.01 * 2.0 / std::sqrt(golden * golden + 1.0);
+    const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
+        return (mesh.positions[a] - mesh.positions[b]).norm() < reach;
+    };
+    for (std::uint32_t a = 0; a < 12; ++a) {
+        for (std::uint32_t b = a + 1; b < 12; ++b) {
+            for (std::uint32_t c = b + 1; c < 12; ++c) {
+                if (is_near(a, b) && is_near(b, c) && is_near(a, c)) {
+                    mesh.triangles.push_back({a, b, c});
+                }
+            }
+        }
+    }
+    face_outward(mesh);
+    for (int level = 0; level < levels; ++level) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [at, is_new] =
+                middles.try_emplace(std::minmax(a, b), index_of(mesh.positions.size()));
+            if (is_new) {
+                const Vec3 point = (mesh.positions[a] + mesh.positions[b]).normalized();
+                mesh.positions.push_back(point);
+            }
+            return at->second;
+        };
+        std::vector<Triangle> finer;
+        for (const Triangle& t : mesh.triangles) {
+            const std::uint32_t ab = middle(t[0], t[1]);
+            const std::uint32_t bc = middle(t[1], t[2]);
+            const std::uint32_t ca = middle(t[2], t[0]);
+            finer.insert(finer.end(),
+                         {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
+        }
+        mesh.triangles = std::move(finer);
+    }
+    stretch(mesh, Vec3::Constant(radius_m));
+    return mesh;
+}
+
+Mesh make_rock(double radius_m, unsigned seed) {
+    Mesh mesh = make_icosphere(1.0, 3);
+    for (Vec3& point : mesh.positions) {
+        double swell = 0.30 * lattice_noise(1.3 * point, seed);
+        swell += 0.14 * lattice_noise(2.9 * point, seed + 1);
+        swell += 0.05 * lattice_noise(7.0 * point, seed + 2);
+        point *= radius_m * (0.96 + swell);
+    }
+    return mesh;
+}
+
+void append(Mesh& into, const Mesh& part, const Pose& at) {
+    const std::uint32_t first = index_of(into.positions.size());
+    for (const Vec3& point : part.positions) {
+        into.positions.push_back(transform_point(at, point));
+    }
+    for (const Triangle& t : part.triangles) {
+        into.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+}
+
+void mirror_x(Mesh& mesh) {
+    for (Vec3& point : mesh.positions) {
+        point.x() = -point.x();
+    }
+    for (Triangle& t : mesh.triangles) {
+        std::swap(t[1], t[2]);
+    }
+}
+
+void stretch(Mesh& mesh, const Vec3& factors) {
+    for (Vec3& point : mesh.positions) {
+        point = point.cwiseProduct(factors);
+    }
+}
+
+void weld(Mesh& mesh) {
+    std::map<std::array<double, 3>, std::uint32_t> places;
+    std::vector<Vec3> kept;
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) {
+            const Vec3& p = mesh.positions[corner];
+            const auto [at, is_new] =
+                places.try_emplace({p.x(), p.y(), p.z()}, index_of(kept.size()));
+            if (is_new) {
+                kept.push_back(p);
+            }
+            corner = at->second;
+        }
+    }
+    mesh.positions = std::move(kept);
+}
+
+Pose look_along(const Vec3& position, const Vec3& forward, const Vec3& up) {
+    const Vec3 back = -forward.normalized();
+    const Vec3 right = up.cross(back).normalized();
+    Mat3 axes;
+    axes.col(0) = right;
+    axes.col(1) = back.cross(right);
+    axes.col(2) = back;
+    return {position, Quat(axes).normalized()};
+}
+
+}  // namespace handhold

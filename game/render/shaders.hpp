@@ -1,0 +1,387 @@
+#pragma once
+
+// The programs of the renderer, in the common subset of GLSL 3.30 and GLSL ES 3.00 (the version line is added when
+// they are compiled). All positions are relative to the camera, with the world's axes (suffix _cs).
+// Sources: shadow maps after Williams 1978 with percentage closer filtering (Reeves et al. 1987); ambient occlusion
+// after McGuire et al. 2011 ("The Alchemy Screen-Space Ambient Obscurance Algorithm"), half resolution; interleaved
+// gradient noise after Jimenez 2014; the edge filter is of the kind of Lottes 2009 (FXAA).
+namespace handhold::shaders {
+
+inline constexpr const char* k_mesh_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 model_to_cs;
+uniform mat4 cs_to_clip;
+invariant gl_Position;  // the depth pass below must give the same depths
+out vec3 position_cs;
+out vec3 normal_cs;
+out vec3 position_ms;
+void main() {
+    vec4 p = model_to_cs * vec4(position, 1.0);
+    position_cs = p.xyz;
+    normal_cs = mat3(model_to_cs) * normal;
+    position_ms = position;
+    gl_Position = cs_to_clip * p;
+}
+)";
+
+// Alpha of the opaque pass is what of the pixel takes ambient occlusion: 1 for surfaces, 0 for what glows.
+inline constexpr const char* k_mesh_fragment = R"(
+const int k_max_lamps = 12;
+in vec3 position_cs;
+in vec3 normal_cs;
+in vec3 position_ms;
+uniform vec3 albedo;
+uniform float emissive;
+uniform float opacity;
+uniform float gloss;
+uniform vec3 up;
+uniform vec3 sky_ambient;
+uniform vec3 ground_ambient;
+uniform vec4 lamp_place[k_max_lamps];   // xyz: position_cs, w: 1 / reach squared
+uniform vec3 lamp_color[k_max_lamps];
+uniform int lamp_count;
+uniform vec3 key_towards;
+uniform vec3 key_color;
+uniform mat4 cs_to_shadow;
+uniform float shadow_texel;
+uniform float shadow_bias_m;
+uniform sampler2DShadow shadow_map;
+uniform float head_light;
+uniform float exposure;
+uniform float haze_per_m;
+uniform vec3 haze;
+out vec4 color;
+
+float hash(vec3 p) {
+    p = fract(p * 0.3183099 + vec3(0.71, 0.113, 0.419));
+    p *= 17.0;
+    return fract(p.x * p.y * p.z * (p.x + p.y + p.z));
+}
+
+// Blotches in [-1, 1]: keeps large plain surfaces from looking like paper.
+float blotches(vec3 p) {
+    vec3 cell = floor(p);
+    vec3 f = p - cell;
+    f = f * f * (3.0 - 2.0 * f);
+    float low = mix(mix(hash(cell), hash(cell + vec3(1, 0, 0)), f.x),
+                    mix(hash(cell + vec3(0, 1, 0)), hash(cell + vec3(1, 1, 0)), f.x), f.y);
+    float high = mix(mix(hash(cell + vec3(0, 0, 1)), hash(cell + vec3(1, 0, 1)), f.x),
+                     mix(hash(cell + vec3(0, 1, 1)), hash(cell + vec3(1, 1, 1)), f.x), f.y);
+    return 2.0 * mix(low, high, f.z) - 1.0;
+}
+
+float key_visibility(vec3 n) {
+    vec3 at = (cs_to_shadow * vec4(position_cs + n * shadow_bias_m, 1.0)).xyz;
+    vec2 from_edge = min(at.xy, 1.0 - at.xy);
+    if (min(from_edge.x, from_edge.y) < 0.0 || at.z > 1.0) return 1.0;
+    // Nine taps a texel apart, each of them bilinear: a soft edge four texels wide.
+    float sum = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        vec2 offset = vec2(float(i % 3) - 1.0, float(i / 3) - 1.0) * shadow_texel;
+        sum += texture(shadow_map, vec3(at.xy + offset, at.z));
+    }
+    float inside = clamp(min(from_edge.x, from_edge.y) * 12.0, 0.0, 1.0);
+    return mix(1.0, sum / 9.0, inside);
+}
+
+vec3 shine(vec3 n, vec3 view, vec3 towards) {
+    float aligned = max(dot(n, normalize(towards + view)), 0.0);
+    return vec3(gloss * (0.35 + 0.7 * gloss) * pow(aligned, 8.0 + 56.0 * gloss));
+}
+
+// Filmic curve: dark toe, nearly straight middle, shoulder towards 1.
+vec3 tone(vec3 x) { return x * (x + 0.05) / (x * (x + 0.55) + 0.13); }
+vec3 to_srgb(vec3 x) {
+    return mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThan(x, vec3(0.0031308)));
+}
+
+void main() {
+    vec3 n = normalize(gl_FrontFacing ? normal_cs : -normal_cs);
+    float distance_m = length(position_cs);
+    vec3 view = -position_cs / distance_m;
+    float height = 0.5 + 0.5 * dot(n, up);
+    float rim = pow(1.0 - max(dot(n, view), 0.0), 4.0);
+    vec3 ambient = mix(ground_ambient, sky_ambient, height);
+    vec3 sum = ambient * (albedo + vec3(0.5 * gloss * rim));
+    // Highlights cost a power each: one for all lamps, from their mean direction.
+    vec3 lamp_light = vec3(0.0);
+    vec3 mean_towards = vec3(0.0);
+    for (int i = 0; i < lamp_count; ++i) {
+        vec3 to_lamp = lamp_place[i].xyz - position_cs;
+        float d2 = dot(to_lamp, to_lamp);
+        float share = min(d2 * lamp_place[i].w, 1.0);
+        float window = 1.0 - share * share;
+        float facing = max(dot(n, to_lamp) * inversesqrt(d2 + 1e-6) * 0.8 + 0.2, 0.0);
+        float arriving = facing * window * window / (d2 + 0.12);
+        lamp_light += arriving * lamp_color[i];
+        mean_towards += arriving * to_lamp;
+    }
+    sum += lamp_light * (albedo + shine(n, view, normalize(mean_towards + 1e-6 * n)));
+    float key_facing = max(dot(n, key_towards), 0.0);
+    if (key_facing > 0.0) {
+        sum += key_color * (key_facing * key_visibility(n)) * (albedo + shine(n, view, key_towards));
+    }
+    sum += albedo * (head_light * max(dot(n, view), 0.0) / (0.4 + 0.25 * distance_m * distance_m));
+    sum *= 1.0 + 0.05 * blotches(position_ms * 4.1);
+    sum += albedo * emissive;
+    sum = mix(haze, sum, exp(-distance_m * haze_per_m));
+    float surface = clamp(1.0 - 0.8 * emissive, 0.0, 1.0);
+    color = vec4(to_srgb(tone(sum * exposure)), opacity < 1.0 ? opacity + rim * 0.3 : surface);
+}
+)";
+
+inline constexpr const char* k_depth_vertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 model_to_cs;
+uniform mat4 cs_to_clip;
+invariant gl_Position;
+void main() {
+    vec4 p = model_to_cs * vec4(position, 1.0);
+    gl_Position = cs_to_clip * p;
+}
+)";
+inline constexpr const char* k_depth_fragment = "void main() {}\n";
+
+inline constexpr const char* k_line_vertex = R"(
+layout(location = 0) in vec4 position;  // clip space
+layout(location = 1) in vec3 line_color;
+out vec3 tint;
+void main() {
+    tint = line_color;
+    gl_Position = position;
+}
+)";
+inline constexpr const char* k_line_fragment = R"(
+in vec3 tint;
+uniform float strength;
+out vec4 color;
+void main() { color = vec4(pow(tint, vec3(1.0 / 2.2)), strength); }
+)";
+
+// One triangle that covers the picture; depth at the far end.
+inline constexpr const char* k_screen_vertex = R"(
+out vec2 uv;
+void main() {
+    uv = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+    gl_Position = vec4(2.0 * uv - 1.0, 1.0, 1.0);
+}
+)";
+
+inline constexpr const char* k_backdrop_fragment = R"(
+in vec2 uv;
+uniform vec3 view_right;    // scaled by the half width at distance 1
+uniform vec3 view_up;       // scaled by the half height
+uniform vec3 view_forward;
+uniform vec3 planet;
+uniform vec3 sun;
+out vec4 color;
+
+float hash(vec3 p) {
+    p = fract(p * vec3(0.1031, 0.1030, 0.0973));
+    p += dot(p, p.yxz + 33.33);
+    return fract((p.x + p.y) * p.z);
+}
+float noise(vec3 p) {
+    vec3 c = floor(p);
+    vec3 f = p - c;
+    f = f * f * (3.0 - 2.0 * f);
+    return mix(mix(mix(hash(c), hash(c + vec3(1, 0, 0)), f.x),
+                   mix(hash(c + vec3(0, 1, 0)), hash(c + vec3(1, 1, 0)), f.x), f.y),
+               mix(mix(hash(c + vec3(0, 0, 1)), hash(c + vec3(1, 0, 1)), f.x),
+                   mix(hash(c + vec3(0, 1, 1)), hash(c + vec3(1, 1, 1)), f.x), f.y), f.z);
+}
+float layers(vec3 p) {
+    return 0.5 * noise(p) + 0.25 * noise(2.1 * p) + 0.125 * noise(4.3 * p) + 0.0625 * noise(8.7 * p);
+}
+
+vec3 stars(vec3 d) {
+    vec3 p = d * 160.0;
+    vec3 cell = floor(p);
+    float pick = hash(cell);
+    vec3 at = cell + 0.25 + 0.5 * vec3(hash(cell + 7.0), hash(cell + 13.0), hash(cell + 29.0));
+    float bright = smoothstep(0.30, 0.0, length(p - at)) * smoothstep(0.965, 1.0, pick);
+    return bright * mix(vec3(1.0, 0.82, 0.65), vec3(0.75, 0.85, 1.0), hash(cell + 3.0));
+}
+
+// The planet is a unit sphere 1.35 from the eye: its limb lies 48 degrees off its centre.
+void main() {
+    vec3 d = normalize(view_forward + (2.0 * uv.x - 1.0) * view_right + (2.0 * uv.y - 1.0) * view_up);
+    const float k_distance = 1.35;
+    float along = dot(d, planet) * k_distance;
+    float miss2 = k_distance * k_distance - along * along;
+    vec3 sum = stars(d);
+    float height = sqrt(max(miss2, 0.0)) - 1.0;
+    vec3 rim_normal = normalize(d * along - planet * k_distance);
+    float day = smoothstep(-0.25, 0.35, dot(rim_normal, sun));
+    if (along > 0.0 && height > 0.0) sum += vec3(0.12, 0.28, 0.62) * exp(-height * 55.0) * day;
+    if (along > 0.0 && miss2 < 1.0) {
+        vec3 n = d * (along - sqrt(1.0 - miss2)) - planet * k_distance;
+        float land = smoothstep(0.47, 0.53, layers(n * 5.0 + 2.0));
+        vec3 ground = mix(vec3(0.01, 0.045, 0.13), mix(vec3(0.10, 0.17, 0.06), vec3(0.34, 0.26, 0.15),
+                          layers(n * 11.0)), land);
+        float cloud = smoothstep(0.45, 0.72, layers(n * vec3(9.0, 16.0, 9.0) + 3.0 * layers(n * 4.0)));
+        ground = mix(ground, vec3(0.85), 0.9 * cloud);
+        float lit = smoothstep(-0.08, 0.9, dot(n, sun));
+        float edge = pow(1.0 - max(dot(n, -d), 0.0), 3.0);
+        sum = ground * lit * 0.85 + vec3(0.12, 0.27, 0.60) * (0.05 + 0.8 * edge) * lit;
+    }
+    color = vec4(pow(sum / (sum + 0.55) * 1.45, vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+// Ambient obscurance and distance, from the depth of the picture.
+inline constexpr const char* k_occlusion_fragment = R"(
+in vec2 uv;
+uniform sampler2D depth_map;
+uniform vec2 depth_terms;   // P22, P32 of the projection
+uniform vec2 half_extent;   // of the picture at distance 1
+uniform vec2 texel;         // of depth_map
+uniform float radius_m;
+out vec4 color;
+
+// The middle of the pixel that `at` lies in: between two pixels, rounding would choose one or the other in stripes.
+vec3 view_at(vec2 at) {
+    at = (floor(at / texel) + 0.5) * texel;
+    float d = depth_terms.y / (2.0 * texture(depth_map, at).r - 1.0 + depth_terms.x);
+    return vec3((2.0 * at - 1.0) * half_extent * d, -d);
+}
+// The shorter of the steps to both neighbours: does not reach across an edge.
+vec3 slope(vec3 p, vec2 pixel, vec2 step_uv) {
+    vec3 ahead = view_at(pixel + step_uv) - p;
+    vec3 behind = p - view_at(pixel - step_uv);
+    return abs(ahead.z) < abs(behind.z) ? ahead : behind;
+}
+
+void main() {
+    vec2 pixel = uv + 0.25 * texel;  // off the seam between four pixels
+    vec3 p = view_at(pixel);
+    float distance_m = -p.z;
+    if (distance_m > 60.0) {
+        color = vec4(1.0, 1.0, 0.0, 1.0);
+        return;
+    }
+    vec3 n = normalize(cross(slope(p, pixel, vec2(texel.x, 0.0)), slope(p, pixel, vec2(0.0, texel.y))));
+    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    float reach_uv = clamp(0.5 * radius_m / (distance_m * half_extent.y), 0.006, 0.16);
+    float sum = 0.0;
+    const int k_taps = 10;
+    for (int i = 0; i < k_taps; ++i) {
+        float part = (float(i) + 0.5) / float(k_taps);
+        float angle = turn + part * 18.849556;
+        vec2 offset = vec2(cos(angle), sin(angle)) * part * reach_uv;
+        offset.x *= half_extent.y / half_extent.x;
+        vec3 v = view_at(pixel + offset) - p;
+        float v2 = dot(v, v);
+        float fade = max(1.0 - v2 / (radius_m * radius_m * 1.6), 0.0);
+        sum += fade * max(dot(v, n) - 0.004 * distance_m, 0.0) / (v2 + 0.0006);
+    }
+    float open = max(1.0 - radius_m * 1.7 * sum / float(k_taps), 0.0);
+    color = vec4(open, distance_m / (distance_m + 2.0), 0.0, 1.0);  // eight bits: fine where near
+}
+)";
+
+// Light of what glows, at a quarter of the resolution.
+inline constexpr const char* k_glow_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture;
+uniform vec2 texel;
+out vec4 color;
+void main() {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec2 at = uv + texel * vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
+        vec4 c = texture(picture, at);
+        sum += c.rgb * c.rgb * (1.0 - c.a);
+    }
+    color = vec4(0.25 * sum, 1.0);
+}
+)";
+inline constexpr const char* k_blur_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture;
+uniform vec2 step_uv;
+out vec4 color;
+void main() {
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    for (int i = -6; i <= 6; ++i) {
+        float weight = exp(-0.5 * float(i * i) / 9.0);
+        sum += weight * texture(picture, uv + float(i) * step_uv).rgb;
+        total += weight;
+    }
+    color = vec4(sum / total, 1.0);
+}
+)";
+
+// Averages the occlusion over the 4 x 4 pixels that its noise repeats in, staying on one surface.
+inline constexpr const char* k_smooth_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture;
+uniform vec2 texel;
+out vec4 color;
+void main() {
+    float here = texture(picture, uv).g;
+    float sum = 0.0;
+    float total = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        vec2 offset = vec2(float(i & 3) - 1.5, float(i >> 2) - 1.5) * texel;
+        vec2 tap = texture(picture, uv + offset).rg;
+        float step_up = 20.0 * (tap.g - here);
+        float weight = 1.0 / (1.0 + step_up * step_up);
+        sum += weight * tap.r;
+        total += weight;
+    }
+    color = vec4(sum / total, here, 0.0, 1.0);
+}
+)";
+
+// Puts the picture together, upside down: rows are read back from the top. Where the scene has four samples a pixel,
+// the linear filter reads their mean.
+inline constexpr const char* k_composite_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture;
+uniform sampler2D occlusion;
+uniform sampler2D glow;
+uniform float glow_strength;
+out vec4 color;
+void main() {
+    vec2 at = vec2(uv.x, 1.0 - uv.y);
+    vec4 c = texture(picture, at);
+    // The picture is already in display space, where a factor on the light is its 2.2nd root.
+    float open = pow(texture(occlusion, at).r, 0.4545);
+    vec3 rgb = c.rgb * mix(1.0, open, c.a);
+    rgb = 1.0 - (1.0 - rgb) * (1.0 - glow_strength * texture(glow, at).rgb);
+    color = vec4(rgb, dot(rgb, vec3(0.3, 0.6, 0.1)));
+}
+)";
+
+// Softens stairs: where brightness (in alpha) jumps, averages along the edge, up to four pixels each way. A long
+// average that leaves the range of the neighbourhood has crossed another edge; the short one stands in.
+inline constexpr const char* k_edges_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture;
+uniform vec2 texel;
+out vec4 color;
+void main() {
+    vec4 here = texture(picture, uv);
+    float a = texture(picture, uv + vec2(-0.75, -0.75) * texel).a;
+    float b = texture(picture, uv + vec2(0.75, -0.75) * texel).a;
+    float c = texture(picture, uv + vec2(-0.75, 0.75) * texel).a;
+    float d = texture(picture, uv + vec2(0.75, 0.75) * texel).a;
+    float low = min(here.a, min(min(a, b), min(c, d)));
+    float high = max(here.a, max(max(a, b), max(c, d)));
+    vec2 gradient = vec2(b + d - a - c, c + d - a - b);
+    vec2 along = vec2(-gradient.y, gradient.x);
+    float least = max(min(abs(along.x), abs(along.y)), 0.03 * (a + b + c + d) + 0.004);
+    along = clamp(along / least, -4.0, 4.0) * texel;
+    vec4 near = 0.5 * (texture(picture, uv - 0.17 * along) + texture(picture, uv + 0.17 * along));
+    vec4 far = 0.5 * (texture(picture, uv - 0.5 * along) + texture(picture, uv + 0.5 * along));
+    vec4 wide = 0.5 * (near + far);
+    bool is_wide_good = wide.a > low && wide.a < high;
+    vec4 smooth_color = is_wide_good ? wide : near;
+    color = vec4(high - low < 0.035 ? here.rgb : smooth_color.rgb, 1.0);
+}
+)";
+
+}  // namespace handhold::shaders

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "game/report/run_summary.hpp"
+#include "game/report/svg_plot.hpp"
+#include "game/run_log.hpp"
+
+// What report.html shows as plots. Where there are several players, paths are those of the first
+// k_plot_colors; errors and push-back are the worst player's in each frame.
+namespace handhold {
+
+// Equal axes; the head in the world, seen against +Y and against -X. Forward (-Z) is up, or to the
+// right.
+LinePlot plot_head_from_above(const RunLog& log);
+LinePlot plot_head_from_side(const RunLog& log);
+// Against time. A hand that does not grip has no error.
+LinePlot plot_grab_errors(const RunLog& log);
+LinePlot plot_residual(const RunLog& log);
+LinePlot plot_push_back(const RunLog& log);
+// The whole frame and the stages that cost most, logarithmic: a rare slow frame does not press the
+// others flat.
+LinePlot plot_stage_times(const RunLog& log, const RunSummary& summary);
+
+}  // namespace handhold

@@ -1,0 +1,243 @@
+#include "game/run_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "engine/core/profile.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/built_in_scenes.hpp"
+#include "game/film.hpp"
+#include "game/render/image.hpp"
+#include "game/report/frames_csv.hpp"
+#include "game/report/report_html.hpp"
+#include "game/report/report_json.hpp"
+#include "game/report/run_summary.hpp"
+#include "game/session_run.hpp"
+#include "game/spawn.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_exit_bad_file = 2;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "%s\n", error.message().c_str());
+    return k_exit_bad_file;
+}
+
+struct Session {
+    std::optional<Recording> recording;
+    std::string name;  // file, "built-in <name>", or empty
+};
+
+// What drives the players: the given file, else the scene's own session, else nothing.
+Result<Session> load_session(const RunOptions& options, const Scene& scene) {
+    Session session;
+    std::filesystem::path file = options.input;
+    if (file.empty() && scene.session) {
+        if (!scene.session->built_in.empty()) {
+            session.recording = make_built_in_session(scene.session->built_in);
+            if (!session.recording) {
+                return FileError{options.scene, "/session",
+                                 "expected the name of a built-in session, found \"" + scene.session->built_in + "\""};
+            }
+            session.name = "built-in " + scene.session->built_in;
+            return session;
+        }
+        file = scene.session->file;
+    }
+    if (file.empty()) {
+        return session;
+    }
+    Result<Recording> recording = load_recording(file);
+    if (!recording) {
+        return recording.error();
+    }
+    session.recording = std::move(recording.value());
+    session.name = file.filename().string();
+    return session;
+}
+
+struct Place {
+    Pose origin_ws;
+    std::string name;
+};
+
+Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameCaches& caches, const Session& session) {
+    if (options.spawn == "auto") {
+        if (!session.recording) {
+            return FileError{options.scene, "", "expected a session for --spawn auto, found none"};
+        }
+        const FoundSpawn found = find_spawn(scene, caches, *session.recording, options.hz);
+        const Vec3& at = found.origin_ws.position;
+        std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(), at.y(), at.z(),
+                    found.gripped, found.onsets);
+        return Place{found.origin_ws, "auto"};
+    }
+    for (const SceneSpawnPoint& spawn : scene.spawns) {
+        if (options.spawn.empty() || spawn.name == options.spawn) {
+            return Place{spawn.pose_ws, spawn.name};
+        }
+    }
+    if (!options.spawn.empty()) {
+        std::string names;
+        for (const SceneSpawnPoint& spawn : scene.spawns) {
+            names += spawn.name + ", ";
+        }
+        return FileError{options.scene, "/spawns", "expected " + names + "or auto, found \"" + options.spawn + "\""};
+    }
+    return Place{{}, "origin"};
+}
+
+// The scene's own players where it has some and no place was asked for; else `count` players: the first at the place, others at the
+// scene's further spawns, going round.
+std::vector<PlayerEntities> add_players(Scene& scene, const Place& place, const RunOptions& options) {
+    std::vector<PlayerEntities> players;
+    if (!scene.players.empty() && options.spawn.empty() && options.players == 1) {
+        for (const ScenePlayerStart& start : scene.players) {
+            players.push_back(add_scene_player(scene, start));
+        }
+        return players;
+    }
+    for (int i = 0; i < options.players; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        const Pose& origin = i == 0 || scene.spawns.empty() ? place.origin_ws
+                                                            : scene.spawns[index % scene.spawns.size()].pose_ws;
+        players.push_back(add_scene_player(scene, {"player" + std::to_string(i), origin, 80.0}));
+    }
+    return players;
+}
+
+std::optional<FileError> write_pictures(const std::filesystem::path& folder, std::vector<FilmShot> shots,
+                                        ReportMedia& media) {
+    std::error_code ignored;
+    std::filesystem::create_directories(folder / "shots", ignored);
+    for (FilmShot& shot : shots) {
+        const std::string bytes(shot.png.begin(), shot.png.end());
+        if (auto error = write_file_atomically(folder / "shots" / (shot.name + ".png"), bytes)) {
+            return error;
+        }
+        media.pictures.push_back({shot.caption, std::move(shot.png)});
+    }
+    return std::nullopt;
+}
+
+std::optional<FileError> write_output(const std::filesystem::path& folder, const RunLog& log, ReportMedia media,
+                                      std::vector<FilmShot> shots) {
+    if (auto error = write_pictures(folder, std::move(shots), media)) {
+        return error;
+    }
+    if (auto error = write_frames_csv(folder / "frames.csv", log)) {
+        return error;
+    }
+    if (auto error = write_bodies_csv(folder / "bodies.csv", log)) {
+        return error;
+    }
+    if (auto error = write_report_json(folder / "report.json", log)) {
+        return error;
+    }
+    return write_report_html(folder / "report.html", log, media);
+}
+
+void print_summary(const RunLog& log) {
+    const RunSummary summary = summarize_run(log);
+    std::printf("%s: %zu frames at %g Hz, %.2f s simulated, %.0f frames a second\n", log.scene.c_str(),
+                log.frames.size(), log.hz, summary.duration_s, summary.frames_per_s);
+    std::printf("grabs: %llu onsets, %llu gripped; path of the origin %.2f m\n",
+                static_cast<unsigned long long>(summary.totals.grab_onsets),
+                static_cast<unsigned long long>(summary.totals.grabs_gripped),
+                summary.players.empty() ? 0.0 : summary.players[0].path_m);
+    std::printf("hand error, one hand free of contact: %.6f mm; two hands: %.3f mm; worst overlap: %.6f mm\n",
+                summary.hand_error.one_hand_free_m * 1e3, summary.hand_error.two_hands_m * 1e3,
+                summary.residual_m * 1e3);
+    std::printf("frame: median %.1f us, p99 %.1f us\n", summary.frame.median_us, summary.frame.p99_us);
+}
+
+struct Film {
+    std::unique_ptr<SessionFilm> camera;
+    ReportMedia media;
+};
+
+Film open_film(const RunOptions& options, const Scene& scene, double session_s) {
+    Film film;
+    if (options.out.empty() || !options.pictures) {
+        return film;
+    }
+    FilmSettings settings;
+    settings.video = std::filesystem::path(options.out) / "run.mp4";
+    std::string why_not;
+    film.camera = SessionFilm::open(scene, session_s, settings, why_not);
+    if (film.camera == nullptr) {
+        std::printf("no pictures: %s\n", why_not.c_str());
+    }
+    return film;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+    Result<Scene> loaded = load_scene(options.scene);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    Scene& scene = loaded.value();
+    const Result<Session> session = load_session(options, scene);
+    if (!session) {
+        return refuse(session.error());
+    }
+    if (!options.out.empty()) {
+        std::error_code failure;
+        std::filesystem::create_directories(options.out, failure);
+        if (failure) {
+            return refuse({options.out, "", "expected a folder that can be made: " + failure.message()});
+        }
+    }
+    FrameCaches caches(*scene.shapes);
+    const Result<Place> place = choose_place(options, scene, caches, session.value());
+    if (!place) {
+        return refuse(place.error());
+    }
+    const std::vector<PlayerEntities> players = add_players(scene, place.value(), options);
+
+    const Recording* const recording = session.value().recording ? &*session.value().recording : nullptr;
+    const RunSettings settings{options.hz, options.seconds, options.threads};
+    Film film = open_film(options, scene, session_length_s(recording, settings));
+    if (!options.trace.empty()) {
+        start_trace();
+    }
+    RunLog log = run_session(scene, caches, players, recording, settings, [&film](const Scene&, const FrameLog& frame) {
+        if (film.camera != nullptr) {
+            film.camera->watch(frame);
+        }
+    });
+    log.input = session.value().name;
+    log.spawn = place.value().name;
+    if (!options.trace.empty()) {
+        stop_trace();
+        if (!write_trace(options.trace)) {
+            return refuse({options.trace, "", "expected a file that can be written"});
+        }
+    }
+    if (!options.out.empty()) {
+        std::vector<FilmShot> shots;
+        if (film.camera != nullptr) {
+            std::string why_not;
+            shots = film.camera->finish(why_not);
+            if (why_not.empty()) {
+                film.media.video = "run.mp4";
+            } else {
+                std::printf("no video: %s\n", why_not.c_str());
+            }
+        }
+        if (auto error = write_output(options.out, log, std::move(film.media), std::move(shots))) {
+            return refuse(*error);
+        }
+    }
+    print_summary(log);
+    std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
+    return 0;
+}
+
+}  // namespace handhold

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "components/tuning.hpp"
+#include "components/world.hpp"
+#include "engine/collision/shape_library.hpp"
+#include "engine/geometry/mesh.hpp"
+#include "engine/io/result.hpp"
+#include "game/render/render_frame.hpp"
+#include "game/scene_file.hpp"
+
+// A scene ready to be played: the world without its players, the shapes and tuning it runs with, and what to draw.
+namespace handhold {
+
+// A mesh that is drawn at a body's pose. The body's collider may be something simpler.
+struct SceneVisual {
+    Entity body;
+    std::shared_ptr<const Mesh> mesh;
+    std::optional<Color> color;  // the mesh's own where empty
+    Look look;
+};
+
+struct SceneSpawnPoint {
+    std::string name;
+    Pose pose_ws;  // of the play space: its floor point
+};
+
+// A player before he is in the world.
+struct ScenePlayerStart {
+    std::string name;
+    Pose origin_ws;
+    double mass_kg = 80.0;
+};
+
+struct Scene {
+    std::string name;
+    std::string description;
+    World world;
+    std::unique_ptr<ShapeLibrary> shapes = std::make_unique<ShapeLibrary>();  // its address stays: caches refer to it
+    Tuning tuning;
+    ShapeId head_shape;  // a sphere of the tuning's head radius
+    std::vector<SceneVisual> visuals;
+    std::vector<Lamp> lamps;
+    Vec3 up_ws = Vec3::UnitY();
+    std::vector<SceneSpawnPoint> spawns;  // the first is the default; may be empty
+    std::vector<ScenePlayerStart> players;  // that the scene asks for; may be empty
+    std::vector<std::string> body_names;  // by world.body's rows at load
+    std::optional<SceneSession> session;  // what shows it
+};
+
+// A built-in scene's name, a scene file (.json), or any level (.glb, .gltf: every mesh node a static body). Nothing half loaded.
+Result<Scene> load_scene(const std::string& name_or_file);
+// From a checked scene file; loads the levels and meshes that it names.
+Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path);
+
+// Adds a player who moves with the scene's reference velocity.
+PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
+
+// A static body that is drawn as it collides.
+Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws = {},
+                       const Look& look = {});
+
+}  // namespace handhold

@@ -1,0 +1,273 @@
+#include "game/scene_file.hpp"
+
+#include <initializer_list>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "engine/io/json.hpp"
+#include "engine/io/text_file.hpp"
+
+namespace handhold {
+
+namespace {
+
+constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
+constexpr NumberRange k_extent_m = {0.0, 1e6, true};
+constexpr NumberRange k_speed_mps = {-1e5, 1e5, false};
+constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
+constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
+constexpr NumberRange k_inertia_kgm2 = {1e-12, 1e18, false};
+constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
+
+// Reads the sections of one document; errors are kept there.
+class SceneReader {
+  public:
+    SceneReader(const JsonValue& root, std::filesystem::path folder)
+        : root_(root), folder_(std::move(folder)) {}
+
+    SceneFile read();
+
+  private:
+    SceneLevel read_level(const JsonValue& value) const;
+    SceneShape read_shape(const JsonValue& value) const;
+    SceneBody read_body(const JsonValue& value);
+    void read_free_body(const JsonValue& value, SceneBody& body) const;
+    SceneMotion read_motion(const JsonValue& value) const;
+    SceneSpawn read_spawn(const JsonValue& value);
+    ScenePlayer read_player(const JsonValue& value);
+    SceneSession read_session(const JsonValue& value) const;
+    Pose read_pose(const JsonValue& value) const;
+    std::filesystem::path read_path(const JsonValue& value) const;
+
+    JsonValue root_;
+    std::filesystem::path folder_;
+    std::set<std::string> entity_names_;  // bodies and players: they share the persistent ids
+    std::set<std::string> spawn_names_;
+};
+
+std::string read_new_name(const JsonValue& value, std::set<std::string>& taken) {
+    std::string name = value.text();
+    if (!taken.insert(name).second) {
+        value.refuse("a name that nothing else has");
+    }
+    return name;
+}
+
+void refuse_keys(const JsonValue& object, std::initializer_list<const char*> keys,
+                 const std::string& reason) {
+    for (const char* key : keys) {
+        if (const JsonValue value = object[key]; value.exists()) {
+            value.refuse("nothing: " + reason);
+        }
+    }
+}
+
+BodyKind read_kind(const JsonValue& value) {
+    const std::string kind = value.text();
+    if (kind == "static") {
+        return BodyKind::fixed;
+    }
+    if (kind == "kinematic") {
+        return BodyKind::kinematic;
+    }
+    if (kind != "free") {
+        value.refuse("\"static\", \"kinematic\" or \"free\"");
+    }
+    return BodyKind::free;
+}
+
+std::array<float, 3> read_color(const JsonValue& value) {
+    const Vec3 color = value.vector(k_unit_interval);
+    return {static_cast<float>(color.x()), static_cast<float>(color.y()),
+            static_cast<float>(color.z())};
+}
+
+Pose SceneReader::read_pose(const JsonValue& value) const {
+    return {value["position_m"].vector_or(Vec3::Zero(), k_coordinate_m),
+            value["rotation_xyzw"].rotation_or(Quat::Identity())};
+}
+
+std::filesystem::path SceneReader::read_path(const JsonValue& value) const {
+    return (folder_ / value.text()).lexically_normal();
+}
+
+SceneLevel SceneReader::read_level(const JsonValue& value) const {
+    value.allow_only({"file", "position_m", "rotation_xyzw"});
+    return {read_path(value["file"]), read_pose(value)};
+}
+
+SceneShape SceneReader::read_shape(const JsonValue& value) const {
+    SceneShape shape;
+    const std::string type = value["type"].text();
+    if (type == "box") {
+        value.allow_only({"type", "half_m"});
+        shape.half_m = value["half_m"].vector(k_extent_m);
+    } else if (type == "sphere") {
+        value.allow_only({"type", "radius_m"});
+        shape.type = SceneShapeType::sphere;
+        shape.radius_m = value["radius_m"].number(k_extent_m);
+    } else if (type == "capsule") {
+        value.allow_only({"type", "radius_m", "half_height_m"});
+        shape.type = SceneShapeType::capsule;
+        shape.radius_m = value["radius_m"].number(k_extent_m);
+        shape.half_height_m = value["half_height_m"].number(k_extent_m);
+    } else if (type == "mesh") {
+        value.allow_only({"type", "file"});
+        shape.type = SceneShapeType::mesh;
+        shape.file = read_path(value["file"]);
+    } else {
+        value["type"].refuse("\"box\", \"sphere\", \"capsule\" or \"mesh\"");
+    }
+    return shape;
+}
+
+SceneMotion SceneReader::read_motion(const JsonValue& value) const {
+    value.allow_only({"velocity_mps", "angular_velocity_radps", "turns_with_body"});
+    return {value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps),
+            value["angular_velocity_radps"].vector_or(Vec3::Zero(), k_turn_rate_radps),
+            value["turns_with_body"].flag_or(false)};
+}
+
+void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) const {
+    body.mass_kg = value["mass_kg"].number(k_mass_kg);
+    body.velocity_mps = value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps);
+    body.angular_velocity_radps =
+        value["angular_velocity_radps"].vector_or(Vec3::Zero(), k_turn_rate_radps);
+    if (body.shape.type == SceneShapeType::mesh) {
+        value["shape"]["type"].refuse("\"box\", \"sphere\" or \"capsule\" for a free body");
+    }
+    if (const JsonValue inertia = value["inertia_kgm2"]; inertia.exists()) {
+        body.inertia_kgm2 = inertia.vector(k_inertia_kgm2);
+        // No distribution of mass has a moment above the sum of the two others: int (y^2 + z^2) <=
+        // int (x^2 + z^2) + int (x^2 + y^2). A thin plate reaches it: leave room for rounding.
+        const double largest = body.inertia_kgm2->maxCoeff();
+        if (largest > (body.inertia_kgm2->sum() - largest) * (1.0 + 1e-6)) {
+            inertia.refuse("moments of which none is above the sum of the others");
+        }
+    }
+}
+
+SceneBody SceneReader::read_body(const JsonValue& value) {
+    value.allow_only({"name", "kind", "shape", "position_m", "rotation_xyzw", "mass_kg",
+                      "inertia_kgm2", "velocity_mps", "angular_velocity_radps", "motion", "color",
+                      "restitution"});
+    SceneBody body;
+    body.name = read_new_name(value["name"], entity_names_);
+    body.kind = read_kind(value["kind"]);
+    body.shape = read_shape(value["shape"]);
+    body.pose = read_pose(value);
+    if (body.kind == BodyKind::free) {
+        read_free_body(value, body);
+    } else {
+        refuse_keys(value, {"mass_kg", "inertia_kgm2", "velocity_mps", "angular_velocity_radps"},
+                    "only free bodies have it; a kinematic one has \"motion\"");
+    }
+    if (body.kind != BodyKind::kinematic) {
+        refuse_keys(value, {"motion"}, "only kinematic bodies have it");
+    } else if (const JsonValue motion = value["motion"]; motion.exists()) {
+        body.motion = read_motion(motion);
+    }
+    if (const JsonValue color = value["color"]; color.exists()) {
+        body.color = read_color(color);
+    }
+    body.restitution = value["restitution"].number_or(body.restitution, k_unit_interval);
+    return body;
+}
+
+SceneSpawn SceneReader::read_spawn(const JsonValue& value) {
+    value.allow_only({"name", "position_m", "rotation_xyzw", "yaw_deg"});
+    SceneSpawn spawn = {read_new_name(value["name"], spawn_names_), read_pose(value)};
+    if (const JsonValue yaw = value["yaw_deg"]; yaw.exists()) {
+        if (value["rotation_xyzw"].exists()) {
+            yaw.refuse("nothing beside \"rotation_xyzw\"");
+        }
+        const double yaw_rad = yaw.number(k_angle_deg) * std::numbers::pi / 180.0;
+        spawn.pose.rotation = rotation_about(Vec3::UnitY(), yaw_rad);
+    }
+    return spawn;
+}
+
+ScenePlayer SceneReader::read_player(const JsonValue& value) {
+    value.allow_only({"name", "spawn", "mass_kg"});
+    ScenePlayer player;
+    player.name = read_new_name(value["name"], entity_names_);
+    player.spawn = value["spawn"].text();
+    if (!spawn_names_.contains(player.spawn)) {
+        value["spawn"].refuse("the name of one of the scene's spawns");
+    }
+    player.mass_kg = value["mass_kg"].number_or(player.mass_kg, k_mass_kg);
+    return player;
+}
+
+SceneSession SceneReader::read_session(const JsonValue& value) const {
+    if (value.is_text()) {
+        return {{}, value.text()};
+    }
+    if (!value.is_object()) {
+        value.refuse("the name of a built-in session or an object with a \"file\"");
+        return {};
+    }
+    value.allow_only({"file"});
+    return {read_path(value["file"]), {}};
+}
+
+SceneFile SceneReader::read() {
+    root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "spawns",
+                      "players", "session", "world_transform", "tuning"});
+    SceneFile scene;
+    scene.name = root_["name"].text();
+    scene.description = root_["description"].text_or({});
+    scene.reference_velocity_mps =
+        root_["reference_velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps);
+    for (const JsonValue& level : root_["levels"].optional_items()) {
+        scene.levels.push_back(read_level(level));
+    }
+    for (const JsonValue& body : root_["bodies"].optional_items()) {
+        scene.bodies.push_back(read_body(body));
+    }
+    for (const JsonValue& spawn : root_["spawns"].optional_items()) {
+        scene.spawns.push_back(read_spawn(spawn));
+    }
+    for (const JsonValue& player : root_["players"].optional_items()) {
+        scene.players.push_back(read_player(player));
+    }
+    if (const JsonValue session = root_["session"]; session.exists()) {
+        scene.session = read_session(session);
+    }
+    if (const JsonValue transform = root_["world_transform"]; transform.exists()) {
+        transform.allow_only({"position_m", "rotation_xyzw"});
+        scene.world_transform = read_pose(transform);
+    }
+    if (const JsonValue tuning = root_["tuning"]; tuning.exists()) {
+        if (!tuning.is_object()) {
+            tuning.refuse("an object");
+        }
+        scene.tuning_json = tuning.dump_without({});
+    }
+    return scene;
+}
+
+}  // namespace
+
+Result<SceneFile> parse_scene_file(std::string_view text, const std::filesystem::path& path) {
+    const Result<JsonDocument> document = JsonDocument::parse(text, path.string());
+    if (!document) {
+        return document.error();
+    }
+    SceneFile scene = SceneReader(document.value().root(), path.parent_path()).read();
+    if (document.value().failed()) {
+        return document.value().error();
+    }
+    return scene;
+}
+
+Result<SceneFile> load_scene_file(const std::filesystem::path& path) {
+    const Result<std::string> text = read_file(path);
+    if (!text) {
+        return text.error();
+    }
+    return parse_scene_file(text.value(), path);
+}
+
+}  // namespace handhold

@@ -1,0 +1,134 @@
+#include "game/session_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parallel.hpp"
+#include "engine/core/profile.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_seconds_without_recording = 10.0;
+
+// Entity -> index in RunLog::body_names, -1 for none.
+class BodyIndex {
+  public:
+    explicit BodyIndex(const World& world) {
+        for (std::size_t row = 0; row < world.body.size(); ++row) {
+            index_.add(world.body.owners()[row], static_cast<std::int32_t>(row));
+        }
+    }
+    std::int32_t of(Entity body) const {
+        const std::int32_t* const found = index_.find(body);
+        return found != nullptr ? *found : -1;
+    }
+
+  private:
+    Column<std::int32_t> index_;
+};
+
+PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntities& player, const BodyIndex& bodies) {
+    const RenderPose& render = world.render_pose.at(player.player);
+    PlayerLog log;
+    log.player = index;
+    log.origin_ws = world.player_origin.at(player.player).pose_ws.position;
+    log.velocity_mps = world.player_velocity.at(player.player).linear_mps;
+    log.head_ws = render.head_ws.position;
+    log.push_back_m = render.push_back_m;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const Grab& grab = world.grab.at(player.hands[side]);
+        HandLog& hand = log.hands[side];
+        hand.target_ws = render.hands[side].tracked_ws.position;
+        hand.shown_ws = render.hands[side].shown_ws.position;
+        hand.grip = static_cast<int>(grab.kind);
+        hand.body = bodies.of(grab.body);
+        hand.error_m = grab.kind != GripKind::none ? grab.error_m : 0.0;
+    }
+    return log;
+}
+
+FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& players, const BodyIndex& bodies,
+                   const StageStats& stats) {
+    const World& world = scene.world;
+    FrameLog log;
+    log.frame = world.clock.frame;
+    log.t_s = world.clock.t_s;
+    log.stats = stats;
+    for (std::uint32_t i = 0; i < players.size(); ++i) {
+        log.players.push_back(log_player(world, i, players[i], bodies));
+    }
+    for (std::size_t row = 0; row < world.body.size(); ++row) {
+        if (world.body.rows()[row].kind == BodyKind::fixed) {
+            continue;
+        }
+        const Entity body = world.body.owners()[row];
+        const BodyVelocity& velocity = world.body_velocity.at(body);
+        log.bodies.push_back({static_cast<std::uint32_t>(row), world.body_pose.at(body).pose_ws, velocity.linear_mps,
+                              velocity.angular_radps});
+    }
+    return log;
+}
+
+RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players, const RunSettings& settings) {
+    RunLog log;
+    log.scene = scene.name;
+    log.hz = settings.hz;
+    log.threads = settings.threads;
+    for (std::size_t i = 0; i < players.size(); ++i) {
+        log.player_names.push_back("player" + std::to_string(i));
+        log.player_mass_kg.push_back(scene.world.player.at(players[i].player).mass_kg);
+    }
+    log.body_names = scene.body_names;
+    for (const RigidBody& body : scene.world.body.rows()) {
+        log.body_mass_kg.push_back(body.kind == BodyKind::free ? body.mass_kg : 0.0);
+    }
+    return log;
+}
+
+}  // namespace
+
+double session_length_s(const Recording* recording, const RunSettings& settings) {
+    if (settings.seconds > 0.0) {
+        return settings.seconds;
+    }
+    return recording != nullptr ? recording->samples.back().t_s - recording->samples.front().t_s
+                                : k_seconds_without_recording;
+}
+
+RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
+                   const Recording* recording, const RunSettings& settings, const FrameObserver& observe) {
+    set_thread_count(settings.threads);
+    const double dt_s = 1.0 / settings.hz;
+    std::optional<Playback> playback;
+    if (recording != nullptr) {
+        playback.emplace(*recording);
+    }
+    const double seconds = session_length_s(recording, settings);
+    const auto frames = static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + 1e-9)));
+
+    RunLog log = begin_log(scene, players, settings);
+    log.frames.reserve(frames);
+    const BodyIndex bodies(scene.world);
+    std::vector<PlayerInput> inputs(players.size());
+    StageStats stats;
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        const double end_s = scene.world.clock.t_s + dt_s;
+        const std::span<const TrackingSample> samples =
+            playback ? playback->window(end_s) : std::span<const TrackingSample>{};
+        for (std::size_t i = 0; i < players.size(); ++i) {
+            inputs[i] = {players[i].player, samples, {}};
+        }
+        const std::int64_t begin_ns = now_ns();
+        step_frame(scene.world, caches, scene.tuning, {dt_s, inputs}, stats);
+        log.wall_s += 1e-9 * static_cast<double>(now_ns() - begin_ns);
+        log.frames.push_back(log_frame(scene, players, bodies, stats));
+        if (observe) {
+            observe(scene, log.frames.back());
+        }
+    }
+    log.state_hash = hash_state(scene.world);
+    return log;
+}
+
+}  // namespace handhold

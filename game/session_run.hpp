@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "game/playback.hpp"
+#include "game/recording.hpp"
+#include "game/run_log.hpp"
+#include "game/scene.hpp"
+#include "systems/frame.hpp"
+
+namespace handhold {
+
+struct RunSettings {
+    double hz = 90.0;       // (0, 1000]
+    double seconds = 0.0;   // 0: as long as the recording; 10 without one
+    int threads = 1;
+};
+
+// How long run_session will play, seconds. `recording` may be null.
+double session_length_s(const Recording* recording, const RunSettings& settings);
+
+// Called after each frame: for pictures.
+using FrameObserver = std::function<void(const Scene&, const FrameLog&)>;
+
+// Plays a recording in a scene without a window, as fast as it can: every player is driven by the same recording. Players must be in the
+// world already. Leaves the world at the last frame.
+RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
+                   const Recording* recording, const RunSettings& settings, const FrameObserver& observe = {});
+
+}  // namespace handhold

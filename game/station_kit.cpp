@@ -1,0 +1,142 @@
+#include "game/station_kit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "engine/core/hash.hpp"
+#include "game/render/primitives.hpp"
+
+namespace handhold {
+namespace {
+
+struct MaterialLook {
+    const char* name;
+    Color color;
+    Look look;
+};
+
+// In the order of Material.
+constexpr std::array<MaterialLook, k_material_count> k_materials = {{
+    {"hull", {0.62F, 0.63F, 0.66F}, {0.0F, 1.0F, 0.35F}},
+    {"liner", {0.115F, 0.120F, 0.130F}, {0.0F, 1.0F, 0.10F}},
+    {"panels", {0.56F, 0.56F, 0.53F}, {0.0F, 1.0F, 0.22F}},
+    {"accents", {0.5F, 0.5F, 0.5F}, {0.0F, 1.0F, 0.25F}},
+    {"metal", {0.36F, 0.37F, 0.39F}, {0.0F, 1.0F, 0.60F}},
+    {"lamps", {1.0F, 0.97F, 0.90F}, {1.9F, 1.0F, 0.0F}},
+    {"rails", {0.80F, 0.42F, 0.03F}, {0.0F, 1.0F, 0.55F}},
+    {"cables", {0.05F, 0.07F, 0.12F}, {0.0F, 1.0F, 0.30F}},
+    {"stowage", {0.58F, 0.54F, 0.46F}, {0.0F, 1.0F, 0.0F}},
+    {"screens", {0.10F, 0.42F, 0.60F}, {1.1F, 1.0F, 0.5F}},
+    {"glass", {0.10F, 0.13F, 0.16F}, {0.0F, 0.10F, 1.0F}},
+    {"dark", {0.035F, 0.037F, 0.042F}, {0.0F, 1.0F, 0.30F}},
+}};
+
+constexpr double k_post_spacing_m = 0.75;
+
+double bevel_of(const Vec3& half_m) { return std::min(0.006, 0.4 * half_m.minCoeff()); }
+
+}  // namespace
+
+StationKit::StationKit(Structure& out, std::string section, const Color& accent)
+    : out_(out), section_(std::move(section)) {
+    for (std::size_t i = 0; i < k_material_count; ++i) {
+        meshes_[i].name = section_ + "/" + k_materials[i].name;
+        meshes_[i].color = k_materials[i].color;
+    }
+    meshes_[static_cast<std::size_t>(Material::accent)].color = accent;
+}
+
+void StationKit::finish() {
+    for (std::size_t i = 0; i < k_material_count; ++i) {
+        if (!meshes_[i].triangles.empty()) {
+            weld(meshes_[i]);
+            out_.parts.push_back(std::move(meshes_[i]));
+            out_.looks.push_back(k_materials[i].look);
+        }
+    }
+}
+
+void StationKit::add(Material material, const Mesh& solid, const Pose& frame) {
+    append(meshes_[static_cast<std::size_t>(material)], solid, frame);
+}
+
+void StationKit::panel(Material material, const Pose& frame, const Vec3& center,
+                       const Vec3& half_m) {
+    add(material, make_bevelled_slab(half_m, bevel_of(half_m)),
+        frame * Pose{center, Quat::Identity()});
+}
+
+void StationKit::beam(Material material, const Pose& frame, const Vec3& center,
+                      const Vec3& half_m) {
+    add(material, make_bevelled_box(half_m, bevel_of(half_m)),
+        frame * Pose{center, Quat::Identity()});
+}
+
+void StationKit::rim(Material material, const Pose& frame, const RimShape& shape) {
+    // Rings lie in X and Z, counter-clockwise seen from +Y, in the order of a loft with a hole.
+    const auto ring = [&](double inset, double y) {
+        const double x = shape.half_x - inset;
+        const double z = shape.half_z - inset;
+        const Vec3 center(shape.x, y, shape.z);
+        return Ring{center + Vec3(-x, 0.0, -z), center + Vec3(-x, 0.0, z),
+                    center + Vec3(x, 0.0, z), center + Vec3(x, 0.0, -z)};
+    };
+    const double bevel = 0.004;
+    const std::array<Ring, 6> rings = {ring(shape.width, shape.y0),
+                                       ring(0.0, shape.y0),
+                                       ring(0.0, shape.y1 - bevel),
+                                       ring(bevel, shape.y1),
+                                       ring(shape.width - bevel, shape.y1),
+                                       ring(shape.width, shape.y1 - bevel)};
+    add(material, make_loft(rings, LoftEnds::looped), frame);
+}
+
+void StationKit::block(Material material, const Pose& frame, const Vec3& center,
+                       const Vec3& half_m) {
+    add(material, make_box(half_m), frame * Pose{center, Quat::Identity()});
+}
+
+void StationKit::handrail(const std::string& name, const Pose& frame, const Vec3& a,
+                          const Vec3& b) {
+    const double height = k_rail_clearance_m + k_rail_radius_m;
+    const Vec3 up(0.0, height, 0.0);
+    const Vec3 low(0.0, -0.012, 0.0);  // the bar's ends and the posts are sunk into the wall
+    const Vec3 along = (b - a).normalized();
+    const double bend = 0.028;
+    const std::array<Vec3, 6> path = {a + low,
+                                      a + up - Vec3(0.0, bend, 0.0),
+                                      a + up + bend * along,
+                                      b + up - bend * along,
+                                      b + up - Vec3(0.0, bend, 0.0),
+                                      b + low};
+    add(Material::rail, make_tube(path, k_rail_radius_m, 12), frame);
+    const double length = (b - a).norm();
+    const int spans = std::max(1, static_cast<int>(std::lround(length / k_post_spacing_m)));
+    for (int i = 0; i <= spans; ++i) {
+        const Vec3 foot = a + along * (length * i / spans);
+        add(Material::rail, make_cylinder(foot + low, foot + Vec3(0.0, 0.008, 0.0), 0.030, 8),
+            frame);
+        if (i > 0 && i < spans) {
+            add(Material::rail, make_cylinder(foot + low, foot + up, 0.011, 6), frame);
+        }
+    }
+    out_.rails.push_back({section_ + "/" + name, transform_point(frame, a + up + bend * along),
+                          transform_point(frame, b + up - bend * along), k_rail_radius_m});
+}
+
+void StationKit::lamp(const Vec3& position, const Color& color, double reach_m) {
+    out_.lamps.push_back({position, color, reach_m});
+}
+
+void StationKit::spawn(const std::string& name, const Pose& pose) {
+    out_.spawns.push_back({name, pose});
+}
+
+double chance(std::size_t a, std::size_t b, std::size_t c) {
+    const std::uint64_t hash = mix64(mix64(mix64(a + 0x9e3779b97f4a7c15ULL) + b) + 31 * c);
+    return static_cast<double>(hash >> 11U) * 0x1p-53;
+}
+
+}  // namespace handhold

@@ -1,0 +1,34 @@
+#include "systems/body/publish_pose.hpp"
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
+    for (std::size_t row = 0; row < io.render.size(); ++row) {
+        const Entity player = io.render.owners()[row];
+        RenderPose& out = io.render.rows()[row];
+        const Pose& origin_ws = io.origin.at(player).pose_ws;
+        const HeadTracking& head = io.head.at(player);
+        out.head_ws = origin_ws * head.pose_ps;
+        out.head_center_ws = transform_point(origin_ws, head_center_ps(head, tuning.head));
+        const std::size_t body = find_body(io.frame.graph, io.persistent_id.at(player).value);
+        out.push_back_m = body < io.frame.phase.size() ? io.frame.phase[body].push_back_m : 0.0;
+    }
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Entity entity = io.owner.owners()[row];
+        const HandOwner& owner = io.owner.rows()[row];
+        const Grab& grab = io.grab.at(entity);
+        RenderPose::Hand& out = io.render.at(owner.player).hands[index_of(owner.side)];
+        out.tracked_ws = io.origin.at(owner.player).pose_ws * io.hand.at(entity).pose_ps;
+        out.shown_ws = out.tracked_ws;
+        out.grip = grab.kind;
+        if (const BodyPose* const body = io.body_pose.find(grab.body); body != nullptr && grab.kind != GripKind::none) {
+            out.shown_ws = body->pose_ws * grab.anchor_bs;
+        }
+        const PalmRay ray = palm_ray(out.tracked_ws, owner.side, tuning.hand);
+        out.ray_from_ws = ray.from_ws;
+        out.ray_to_ws = ray.to_ws;
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,222 @@
+#include "systems/input/read_tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_half_turn_rad = 3.14159265358979323846;
+
+bool is_stale(double t_s, bool has_sample, double last_t_s) {
+    return !std::isfinite(t_s) || (has_sample && t_s <= last_t_s);
+}
+
+// The same for the head and for hands: state and the pose at the end of the frame.
+// `later` is the first pose after the frame's end, or null.
+template <typename Device>
+void finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s, double end_s,
+                   double lost_after_s, StageStats& stats) {
+    if (!has_sample && later == nullptr) {
+        return;  // never tracked
+    }
+    const bool first = device.state == TrackingState::never;
+    if (!has_sample) {
+        device.sample_ps = *later;  // the session begins between two samples
+        device.sample_t_s = later_t_s;
+    }
+    if (later == nullptr && end_s - device.sample_t_s > lost_after_s) {
+        if (device.state != TrackingState::lost) {
+            stats.count(Fallback::tracking_lost);
+        }
+        device.state = TrackingState::lost;
+        return;
+    }
+    device.state = TrackingState::tracked;
+    device.pose_ps = device.sample_ps;
+    if (later != nullptr && later_t_s > device.sample_t_s) {
+        const double t = (end_s - device.sample_t_s) / (later_t_s - device.sample_t_s);
+        device.pose_ps = interpolate(device.sample_ps, *later, std::clamp(t, 0.0, 1.0));
+    }
+    if (first) {
+        device.start_ps = device.pose_ps;
+    }
+}
+
+void remember(HandHistory& history, const HandTracking& hand) {
+    history.entries[history.next] = {hand.sample_t_s, hand.sample_ps};
+    history.next = (history.next + 1) % HandHistory::k_capacity;
+    history.count = std::min<std::uint32_t>(history.count + 1, HandHistory::k_capacity);
+}
+
+// Least-squares slope of position and rotation over the window before t_s. Two samples give their difference, one gives zero.
+void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand) {
+    double weight = 0.0;
+    double mean_t = 0.0;
+    const auto for_window = [&](auto&& visit) {
+        for (std::uint32_t i = 0; i < history.count; ++i) {
+            const HandHistory::Entry& entry = history.entries[i];
+            if (entry.t_s >= t_s - window_s && entry.t_s <= t_s) {
+                visit(entry);
+            }
+        }
+    };
+    for_window([&](const HandHistory::Entry& entry) {
+        weight += 1.0;
+        mean_t += entry.t_s - t_s;
+    });
+    hand.release_velocity_ps_mps.setZero();
+    hand.release_spin_ps_radps.setZero();
+    if (weight < 2.0) {
+        return;
+    }
+    mean_t /= weight;
+    double spread = 0.0;
+    Vec3 linear = Vec3::Zero();
+    Vec3 angular = Vec3::Zero();
+    for_window([&](const HandHistory::Entry& entry) {
+        const double dt = entry.t_s - t_s - mean_t;
+        spread += dt * dt;
+        linear += dt * (entry.hand_ps.position - hand.edge_ps.position);
+        angular += dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
+    });
+    if (spread > 1e-12) {
+        hand.release_velocity_ps_mps = linear / spread;
+        hand.release_spin_ps_radps = angular / spread;
+    }
+}
+
+void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, const Pose& hand_ps,
+                const TrackingTuning& tuning) {
+    hand.pressed = !hand.pressed;
+    hand.edge = hand.pressed ? GrabEdge::onset : GrabEdge::release;
+    hand.edge_t_s = t_s;
+    hand.edge_ps = hand_ps;
+    if (hand.edge == GrabEdge::release) {
+        measure_release(history, t_s, tuning.release_window_s, hand);
+    }
+}
+
+struct HandRows {
+    HandTracking& hand;
+    HandHistory& history;
+    Pose joint;  // hand in controller
+    HandSide side;
+};
+
+void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackingIo& io,
+               const TrackingTuning& tuning, StageStats& stats) {
+    HandTracking& hand = rows.hand;
+    const TrackingState before = hand.state;
+    bool has_sample = hand.state != TrackingState::never;
+    hand.start_ps = hand.pose_ps;
+    hand.edge = GrabEdge::none;
+    const bool may_begin_now = before == TrackingState::tracked || (before == TrackingState::lost && hand.pressed);
+    if (hand.raw_pressed != hand.pressed && may_begin_now) {
+        begin_edge(hand, rows.history, io.frame_start_s, hand.start_ps, tuning);
+    }
+    Pose later;
+    const Pose* later_or_null = nullptr;
+    double later_t_s = 0.0;
+    for (const TrackingSample& sample : input.samples) {
+        const ControllerSample& reading = sample.controllers[index_of(rows.side)];
+        const Pose hand_ps = reading.controller_ps * rows.joint;
+        if (sample.t_s > io.frame_end_s) {
+            if (is_valid(reading.controller_ps)) {
+                later = hand_ps;
+                later_or_null = &later;
+                later_t_s = sample.t_s;
+            }
+            break;
+        }
+        if (is_stale(sample.t_s, has_sample, hand.sample_t_s)) {
+            continue;  // counted once a player, by the head
+        }
+        hand.raw_pressed = reading.grab;
+        if (is_valid(reading.controller_ps)) {
+            hand.sample_ps = hand_ps;
+            hand.sample_t_s = sample.t_s;
+            has_sample = true;
+            remember(rows.history, hand);
+        } else {
+            stats.count(Fallback::sample_not_finite);
+        }
+        // A hand that cannot be seen may let go, but waits with closing until it is seen again.
+        const bool may_begin = has_sample && (is_valid(reading.controller_ps) || !reading.grab);
+        if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
+            begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps, tuning);
+        }
+    }
+    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+    hand.resumed = before == TrackingState::lost && hand.state == TrackingState::tracked;
+    if (hand.resumed) {
+        hand.start_ps = hand.pose_ps;
+    }
+}
+
+void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingIo& io,
+               const TrackingTuning& tuning, StageStats& stats) {
+    bool has_sample = head.state != TrackingState::never;
+    head.start_ps = head.pose_ps;
+    const Pose* later = nullptr;
+    double later_t_s = 0.0;
+    for (const TrackingSample& sample : input.samples) {
+        if (sample.t_s > io.frame_end_s) {
+            later = is_valid(sample.head_ps) ? &sample.head_ps : nullptr;
+            later_t_s = sample.t_s;
+            break;
+        }
+        if (is_stale(sample.t_s, has_sample, head.sample_t_s)) {
+            stats.count(Fallback::sample_out_of_order);
+        } else if (!is_valid(sample.head_ps)) {
+            stats.count(Fallback::sample_not_finite);
+        } else {
+            head.sample_ps = {sample.head_ps.position, sample.head_ps.rotation.normalized()};
+            head.sample_t_s = sample.t_s;
+            has_sample = true;
+        }
+    }
+    finish_device(head, has_sample, later, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+}
+
+}  // namespace
+
+Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
+    const double outward = side == HandSide::right ? 1.0 : -1.0;
+    Vec3 offset = tuning.controller_offset_m;
+    offset.x() *= outward;
+    // A fist around the handle: the back of the hand faces outward, the fingers' root points along the controller.
+    const Quat pitch = rotation_about(Vec3::UnitX(), tuning.controller_pitch_rad);
+    const Quat roll = rotation_about(Vec3::UnitZ(), -0.5 * k_half_turn_rad * outward);
+    return {offset, (pitch * roll).normalized()};
+}
+
+void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
+    HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length", io.frame_end_s - io.frame_start_s);
+    const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
+                                       default_controller_to_hand(HandSide::right, tuning.hand)};
+    for (const PlayerInput& input : io.inputs) {
+        if (HeadTracking* const head = io.head.find(input.player)) {
+            read_head(*head, input, io, tuning.tracking, stats);
+        }
+        if (PlayerCommands* const commands = io.commands.find(input.player)) {
+            *commands = input.commands;
+        }
+    }
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Entity entity = io.owner.owners()[row];
+        const HandOwner& owner = io.owner.rows()[row];
+        const auto input = std::find_if(io.inputs.begin(), io.inputs.end(), [&owner](const PlayerInput& candidate) {
+            return candidate.player == owner.player;
+        });
+        static const PlayerInput k_silence{};
+        const ControllerToHand* const own = io.controller_to_hand.find(entity);
+        const HandRows rows{io.hand.at(entity), io.history.at(entity),
+                            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)], owner.side};
+        read_hand(rows, input == io.inputs.end() ? k_silence : *input, io, tuning.tracking, stats);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,116 @@
+#include "systems/locomotion/locomote_players.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace handhold {
+namespace {
+
+// One player's hands that hold on to something, first hand first.
+struct Grips {
+    struct Grip {
+        const Grab* grab = nullptr;
+        const HandTracking* hand = nullptr;
+    };
+    std::array<Grip, k_hand_count> grips;
+    std::size_t count = 0;
+};
+
+Grips grips_of(const LocomotePlayersIo& io, Entity player) {
+    Grips found;
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const Entity entity = io.owner.owners()[row];
+        const Grab& grab = io.grab.at(entity);
+        const bool holds = grab.phase == GrabPhase::holding || grab.phase == GrabPhase::releasing;
+        if (io.owner.rows()[row].player == player && holds && found.count < k_hand_count) {
+            found.grips[found.count++] = {&grab, &io.hand.at(entity)};
+        }
+    }
+    return found;
+}
+
+bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
+
+// Rotates the play space about a point that stays where it is in the world.
+void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws) {
+    const Vec3 pivot_ws = transform_point(origin.pose_ws, pivot_ps);
+    origin.pose_ws.rotation = (turn_ws * origin.pose_ws.rotation).normalized();
+    origin.pose_ws.position = pivot_ws - origin.pose_ws.rotation * pivot_ps;
+}
+
+Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands, const Quat& play_space,
+                    const LocomotionTuning& tuning) {
+    const double smooth = std::clamp(commands.smooth_turn, -1.0, 1.0) * tuning.smooth_turn_radps * io.dt_s;
+    const double angle = smooth + commands.snap_turns * tuning.snap_turn_rad;
+    return rotation_about(play_space * Vec3::UnitY(), angle);
+}
+
+// How the support turned the play space in this frame.
+Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& play_space,
+                  const LocomotionTuning& tuning) {
+    const bool both_on_one = grips.count == 2 && is_on_surface(grips.grips[0]) &&
+                             grips.grips[0].grab->body == grips.grips[1].grab->body;
+    if (grips.count == 0 || !is_on_surface(grips.grips[0]) ||
+        (tuning.support_follow == SupportFollow::off && !both_on_one)) {
+        return Quat::Identity();
+    }
+    const Vec3 spin = io.body_velocity.at(grips.grips[0].grab->body).angular_radps;
+    if (tuning.support_follow == SupportFollow::yaw && !both_on_one) {
+        const Vec3 up = play_space * Vec3::UnitY();
+        return rotation_about(up, up.dot(spin) * io.dt_s);
+    }
+    return rotation_from_vector(spin * io.dt_s);
+}
+
+void update_reference(const LocomotePlayersIo& io, const Grips& grips, const Vec3& at_ws,
+                      ReferenceVelocity& reference) {
+    if (grips.count > 0 && is_on_surface(grips.grips[0])) {
+        reference.body = grips.grips[0].grab->body;
+    }
+    const BodyVelocity* const support = io.body_velocity.find(reference.body);
+    if (support == nullptr) {
+        reference.body = k_no_entity;
+        reference.linear_mps = io.scene_velocity_mps;
+        return;
+    }
+    const Vec3 arm = at_ws - io.body_pose.at(reference.body).pose_ws.position;
+    reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
+}
+
+void drive(const LocomotePlayersIo& io, const PlayerCommands& commands, const Quat& play_space,
+           const Vec3& reference_mps, const LocomotionTuning& tuning, Vec3& velocity_mps) {
+    const double brake = std::clamp(commands.brake, 0.0, 1.0) * tuning.brake_drag_per_s;
+    const double drag = (tuning.drift_drag_per_s + brake) * io.dt_s;
+    // Exact for 1/(1 + x) drag over a frame: stable for any drag, no exponential needed.
+    velocity_mps = reference_mps + (velocity_mps - reference_mps) / (1.0 + drag);
+    const Vec3 thrust_ps = commands.thrust_ps.cwiseMax(-1.0).cwiseMin(1.0);
+    velocity_mps += (tuning.thruster_mps2 * io.dt_s) * (play_space * thrust_ps);
+}
+
+}  // namespace
+
+void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning) {
+    for (std::size_t row = 0; row < io.origin.size(); ++row) {
+        const Entity player = io.origin.owners()[row];
+        PlayerOrigin& origin = io.origin.rows()[row];
+        const PlayerCommands& commands = io.commands.at(player);
+        const HeadTracking& head = io.head.at(player);
+        const Grips grips = grips_of(io, player);
+        update_reference(io, grips, transform_point(origin.pose_ws, head.start_ps.position), io.reference.at(player));
+
+        const Vec3 pivot_ps = grips.count > 0 ? grips.grips[0].hand->start_ps.position : head.start_ps.position;
+        const Quat play_space = origin.pose_ws.rotation;
+        const Quat turn = support_turn(io, grips, play_space, tuning) *
+                          commanded_turn(io, commands, play_space, tuning);
+        if (turn.vec().squaredNorm() > 0.0) {
+            turn_about(origin, pivot_ps, turn);
+        }
+        const auto* const end = grips.grips.begin() + grips.count;
+        if (std::none_of(grips.grips.begin(), end, is_on_surface)) {
+            drive(io, commands, play_space, io.reference.at(player).linear_mps, tuning,
+                  io.velocity.at(player).linear_mps);
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,124 @@
+#include "systems/locomotion/settle_grabs.hpp"
+
+#include <algorithm>
+
+namespace handhold {
+namespace {
+
+// Where things were at one instant within the frame, 0 its start, 1 its end.
+struct Instant {
+    const SettleGrabsIo& io;
+    double t = 0.0;
+
+    Pose body_ws(Entity body) const {
+        return interpolate(io.body_start.at(body).pose_ws, io.body_pose.at(body).pose_ws, t);
+    }
+    Pose origin_ws(Entity player) const {
+        return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);
+    }
+    Pose hand_ps(const HandTracking& hand) const { return interpolate(hand.start_ps, hand.pose_ps, t); }
+};
+
+double fraction_of(const SettleGrabsIo& io, double t_s) {
+    return std::clamp((t_s - io.start_s) / (io.end_s - io.start_s), 0.0, 1.0);
+}
+
+// The row of the same player's other hand, or the column's size.
+std::size_t other_hand(const SettleGrabsIo& io, std::size_t row) {
+    const HandOwner& own = io.owner.at(io.grab.owners()[row]);
+    for (std::size_t other = 0; other < io.grab.size(); ++other) {
+        if (other != row && io.owner.at(io.grab.owners()[other]).player == own.player) {
+            return other;
+        }
+    }
+    return io.grab.size();
+}
+
+// The player's origin at an instant: from a hand that already holds on to something fixed, exact; else on the predicted way.
+Pose origin_at(const Instant& now, Entity player, const Grab* holding, const HandTracking* holding_hand) {
+    Pose origin_ws = now.origin_ws(player);
+    if (holding != nullptr && holding->kind == GripKind::surface && holding->phase == GrabPhase::holding) {
+        const Vec3 anchor_ws = transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
+        origin_ws.position = anchor_ws - origin_ws.rotation * now.hand_ps(*holding_hand).position;
+    }
+    return origin_ws;
+}
+
+void take_anchor(const Instant& now, const Pose& origin_ws, const Pose& hand_ps, Grab& grab) {
+    grab.anchor_bs = inverse(now.body_ws(grab.body)) * (origin_ws * hand_ps);
+}
+
+void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
+    const double dt_s = io.end_s - io.start_s;
+    if (grab.phase == GrabPhase::releasing) {
+        const double rest_s = std::max(0.0, io.end_s - hand.edge_t_s);
+        grab.target_velocity_ps_mps = hand.release_velocity_ps_mps;
+        grab.target_spin_ps_radps = hand.release_spin_ps_radps;
+        grab.target_ps.position = hand.edge_ps.position + rest_s * hand.release_velocity_ps_mps;
+        grab.target_ps.rotation =
+            (rotation_from_vector(rest_s * hand.release_spin_ps_radps) * hand.edge_ps.rotation).normalized();
+        return;
+    }
+    grab.target_ps = hand.pose_ps;
+    grab.target_velocity_ps_mps = (hand.pose_ps.position - hand.start_ps.position) / dt_s;
+    grab.target_spin_ps_radps =
+        rotation_to_vector(hand.pose_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
+}
+
+// True where the two hands hold the player, or one body, together.
+bool share_hold(const Grab& a, const Grab& b) {
+    const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
+    return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
+}
+
+// The leaving hand drops its row now; the staying one starts afresh from where the pair had put the player (or the body).
+void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTracking& leaving_hand, Grab& staying,
+                       const HandTracking& staying_hand, Entity player) {
+    const Instant now{io, fraction_of(io, leaving_hand.edge_t_s)};
+    Pose origin_ws = now.origin_ws(player);
+    if (staying.kind == GripKind::surface) {
+        const auto held_origin = [&](const Grab& grab, const Vec3& hand_ps) -> Vec3 {
+            return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) - origin_ws.rotation * hand_ps;
+        };
+        const Vec3 from_staying = held_origin(staying, now.hand_ps(staying_hand).position);
+        const Vec3 from_leaving = held_origin(leaving, leaving_hand.edge_ps.position);
+        origin_ws.position = 0.5 * (from_staying + from_leaving);
+    }
+    take_anchor(now, origin_ws, now.hand_ps(staying_hand), staying);
+    leaving = {};
+}
+
+}  // namespace
+
+void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        Grab& grab = io.grab.rows()[row];
+        if (grab.kind == GripKind::none) {
+            continue;
+        }
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        const Entity player = io.owner.at(entity).player;
+        const std::size_t other_row = other_hand(io, row);
+        Grab* const other = other_row < io.grab.size() ? &io.grab.rows()[other_row] : nullptr;
+        const HandTracking* const other_tracking =
+            other != nullptr ? &io.hand.at(io.grab.owners()[other_row]) : nullptr;
+        if (grab.phase == GrabPhase::fresh) {
+            const Instant now{io, fraction_of(io, hand.edge_t_s)};
+            take_anchor(now, origin_at(now, player, other, other_tracking), hand.edge_ps, grab);
+            grab.phase = GrabPhase::holding;
+        } else if (grab.phase == GrabPhase::releasing && other != nullptr &&
+                   other->phase == GrabPhase::holding && share_hold(grab, *other)) {
+            leave_shared_hold(io, grab, hand, *other, *other_tracking, player);
+            stats.count(Fallback::hand_left_two_hand_grip);
+            continue;
+        } else if (grab.phase == GrabPhase::holding && hand.resumed) {
+            const Instant now{io, 0.0};
+            take_anchor(now, origin_at(now, player, other, other_tracking), hand.pose_ps, grab);
+            stats.count(Fallback::grip_reanchored);
+        }
+        aim(io, hand, grab);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,106 @@
+#include "systems/locomotion/update_grabs.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+namespace {
+
+struct Surface {
+    Entity body;
+    Vec3 point_ws;
+    Vec3 normal_ws;
+};
+
+Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
+    for (std::size_t row = 0; row < io.body.size(); ++row) {
+        const Entity entity = io.body.owners()[row];
+        if (io.persistent_id.at(entity).value == id) {
+            return entity;
+        }
+    }
+    return k_no_entity;
+}
+
+// Heads are colliders too, but nothing to hold on to.
+std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray, const HandTuning& tuning) {
+    if (const auto hit = io.collision.cast_ray(ray.from_ws, ray.to_ws)) {
+        const Entity body = owner_of_id(io, hit->id);
+        if (!is_null(body)) {
+            return Surface{body, hit->point_ws, hit->normal_ws};
+        }
+    }
+    if (const auto nearest = io.collision.closest_point(ray.palm_ws, tuning.reach_m)) {
+        const Entity body = owner_of_id(io, nearest->id);
+        if (!is_null(body)) {
+            return Surface{body, nearest->point_ws, nearest->normal_ws};
+        }
+    }
+    return std::nullopt;
+}
+
+GripKind grip_kind(const RigidBody& body, const PhaseTuning& tuning) {
+    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg ? GripKind::held : GripKind::surface;
+}
+
+void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
+    if (std::find(ignores.bodies.begin(), ignores.bodies.end(), body) != ignores.bodies.end()) {
+        return;
+    }
+    Entity& place = ignores.bodies[ignores.next];
+    if (!is_null(place)) {
+        stats.count(Fallback::head_ignores_full);
+    }
+    place = body;
+    ignores.next = (ignores.next + 1) % HeadIgnores::k_capacity;
+}
+
+void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand, Grab& grab,
+                const Tuning& tuning, StageStats& stats) {
+    ++stats.grab_onsets;
+    const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
+    const auto surface = find_surface(io, palm_ray(hand_ws, owner.side, tuning.hand), tuning.hand);
+    if (!surface) {
+        stats.count(Fallback::grab_no_surface);
+        return;
+    }
+    ++stats.grabs_gripped;
+    const Pose& body_ws = io.body_pose.at(surface->body).pose_ws;
+    grab = {};
+    grab.kind = grip_kind(io.body.at(surface->body), tuning.phases);
+    grab.phase = GrabPhase::fresh;
+    grab.body = surface->body;
+    grab.hit_bs = inverse_transform_point(body_ws, surface->point_ws);
+    grab.hit_normal_bs = body_ws.rotation.conjugate() * surface->normal_ws;
+    if (grab.kind == GripKind::held) {
+        ignore_for_head(io.head_ignores.at(owner.player), grab.body, stats);
+    }
+}
+
+}  // namespace
+
+void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        Grab& grab = io.grab.rows()[row];
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        if (grab.kind != GripKind::none && !io.body.contains(grab.body)) {
+            stats.count(Fallback::grip_body_gone);
+            grab = {};
+        }
+        if (grab.kind != GripKind::none && grab.error_m > tuning.hand.max_stretch_m) {
+            stats.count(Fallback::grip_stretched);
+            grab = {};
+        }
+        if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
+            grab.phase = GrabPhase::releasing;
+        }
+        if (hand.edge == GrabEdge::onset) {
+            begin_grab(io, io.owner.at(entity), hand, grab, tuning, stats);
+        }
+    }
+}
+
+}  // namespace handhold

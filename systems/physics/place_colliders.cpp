@@ -1,0 +1,42 @@
+#include "systems/physics/place_colliders.hpp"
+
+#include <algorithm>
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+namespace {
+
+ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuning& tuning) {
+    ColliderProxy proxy;
+    proxy.id = io.persistent_id.at(entity).value;
+    proxy.shape = io.collider.at(entity).shape;
+    if (const PlayerOrigin* const origin = io.origin.find(entity)) {
+        proxy.to_ws = origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
+        const LastValidPose& valid = io.last_valid.at(entity);
+        proxy.from_ws = valid.known ? valid.pose_ws : proxy.to_ws;
+        proxy.free = true;
+        return proxy;
+    }
+    proxy.to_ws = io.body_pose.at(entity).pose_ws;
+    proxy.free = io.body.at(entity).kind == BodyKind::free;
+    proxy.from_ws = proxy.free ? io.last_valid.at(entity).pose_ws : io.body_start.at(entity).pose_ws;
+    return proxy;
+}
+
+}  // namespace
+
+void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
+    FrameGraph& frame = io.frame;
+    frame.entities.assign(io.collider.owners().begin(), io.collider.owners().end());
+    std::sort(frame.entities.begin(), frame.entities.end(), [&io](Entity x, Entity y) {
+        return io.persistent_id.at(x) < io.persistent_id.at(y);
+    });
+    frame.proxies.clear();
+    for (const Entity entity : frame.entities) {
+        frame.proxies.push_back(proxy_of(io, entity, tuning));
+    }
+    io.collision.set_proxies(frame.proxies);
+}
+
+}  // namespace handhold

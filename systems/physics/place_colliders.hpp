@@ -1,0 +1,30 @@
+#pragma once
+
+#include "components/body.hpp"
+#include "components/frame_graph.hpp"
+#include "components/player.hpp"
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "engine/collision/collision_world.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct PlaceCollidersIo {
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<Collider>& collider;           // in
+    const Column<RigidBody>& body;              // in
+    const Column<BodyPose>& body_pose;          // in
+    const Column<BodyStart>& body_start;        // in
+    const Column<PlayerOrigin>& origin;         // in
+    const Column<HeadTracking>& head;           // in
+    const Column<LastValidPose>& last_valid;    // in
+    CollisionWorld& collision;                  // out
+    FrameGraph& frame;                          // out: proxies, entities
+};
+
+// Brings every collider to the collision world, sorted by persistent id: from its last valid pose to its present one. Players are
+// the spheres of their heads, at the end of the frame.
+void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
+
+}  // namespace handhold

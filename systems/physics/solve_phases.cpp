@@ -1,0 +1,345 @@
+#include "systems/physics/solve_phases.hpp"
+
+#include <algorithm>
+
+#include "engine/core/parallel.hpp"
+#include "engine/core/profile.hpp"
+#include "engine/solver/contact_rows.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_violated_m = 2e-7;      // twice the solver's tolerance: what a solved phase leaves is no violation
+constexpr double k_touching_m = 1e-5;       // contacts closer than this may be what holds something up
+constexpr double k_moved_m = 1e-5;         // colliders that moved less keep their contacts
+constexpr double k_new_overlap_m = 2e-5;   // a contact found on a phase's result counts from here: Bullet's own noise is below
+constexpr double k_hand_softness = 1e-6;
+constexpr double k_forward_hand_softness = 1e-3;
+
+enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
+
+struct Solve {
+    const SolvePhasesIo& io;
+    const Tuning& tuning;
+    StageStats& stats;
+
+    ConstraintGraph& graph() const { return io.frame.graph; }
+    FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
+};
+
+// --- What each island looks like -------------------------------------------------------------------------------------
+
+bool has_role(const Solve& s, const Island& island, BodyRole role) {
+    return std::ranges::any_of(s.graph().bodies_of(island),
+                               [&](std::uint32_t i) { return s.graph().bodies[i].role == role; });
+}
+
+double worst_error(const Solve& s, const Island& island, BlockFilter filter) {
+    double worst = 0.0;
+    for (const std::uint32_t i : s.graph().blocks_of(island)) {
+        const RowBlock& block = s.graph().blocks[i];
+        if (filter == BlockFilter::all || is_hand(block) == (filter == BlockFilter::hands)) {
+            worst = std::max(worst, block_error_m(s.graph().bodies, block));
+        }
+    }
+    return worst;
+}
+
+// True where the island has two players, or holds on to or presses against something that the forward phase cannot move.
+bool may_push(const Solve& s, const Island& island) {
+    const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
+        return s.graph().bodies[i].role == BodyRole::player;
+    });
+    if (players == 0) {
+        return false;
+    }
+    const auto is_unmoved = [&](std::uint32_t i) {
+        return s.graph().bodies[i].role == BodyRole::fixed || s.graph().bodies[i].role == BodyRole::heavy;
+    };
+    return players > 1 || std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
+               const RowBlock& block = s.graph().blocks[i];
+               const bool active =
+                   is_hand(block) || contact_separation_m(s.graph().bodies, block) < k_touching_m;
+               return active && (is_unmoved(block.a) || is_unmoved(block.b));
+           });
+}
+
+// --- Masses of a phase -----------------------------------------------------------------------------------------------
+
+// How much of 1/mass a body has in a phase.
+double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase phase) {
+    const SolverBody& body = s.graph().bodies[index];
+    const FrameGraph::PhaseBody& info = s.phase_of(index);
+    switch (body.role) {
+        case BodyRole::fixed: return 0.0;
+        case BodyRole::free: return 1.0;
+        case BodyRole::heavy: return phase == Phase::forward ? 0.0 : 1.0;
+        case BodyRole::player: break;
+    }
+    switch (phase) {
+        case Phase::reach: return info.grips_surface ? 1.0 : info.forward_share;
+        case Phase::forward: return info.grips_surface ? 0.0 : info.forward_share;
+        case Phase::backward: return 1.0;
+        case Phase::contradiction: break;
+    }
+    // Without hands only his own collider moves him.
+    const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
+        const RowBlock& block = s.graph().blocks[i];
+        return !is_hand(block) && (block.a == index || block.b == index);
+    });
+    return touches ? 1.0 : 0.0;
+}
+
+void set_masses(const Solve& s, const Island& island, Phase phase) {
+    for (const std::uint32_t i : s.graph().bodies_of(island)) {
+        SolverBody& body = s.graph().bodies[i];
+        const double share = share_of(s, island, i, phase);
+        body.inverse_mass = share / body.mass_kg;
+        body.inverse_inertia_bs.setZero();
+        if (body.role != BodyRole::player && share > 0.0) {
+            body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
+        }
+    }
+}
+
+// --- Solving many islands --------------------------------------------------------------------------------------------
+
+NewtonSettings settings_of(const Solve& s, Phase phase) {
+    const SolverTuning& tuning = s.tuning.solver;
+    return {tuning.max_iterations, tuning.tolerance_m, tuning.step_tolerance_m,
+            phase == Phase::forward ? k_forward_hand_softness : k_hand_softness};
+}
+
+BlockFilter filter_of(Phase phase) {
+    switch (phase) {
+        case Phase::reach: return BlockFilter::hands;
+        case Phase::contradiction: return BlockFilter::contacts;
+        default: return BlockFilter::all;
+    }
+}
+
+// Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no body: who solves which never shows.
+template <typename Wanted>
+std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
+    FrameGraph& frame = s.io.frame;
+    ConstraintGraph& graph = s.graph();
+    frame.island_order.clear();
+    for (std::uint32_t i = 0; i < graph.islands.size(); ++i) {
+        if (wanted(graph.islands[i])) {
+            frame.island_order.push_back(i);
+        }
+    }
+    const auto size_of = [&graph](std::uint32_t i) { return graph.blocks_of(graph.islands[i]).size(); };
+    std::sort(frame.island_order.begin(), frame.island_order.end(), [&](std::uint32_t x, std::uint32_t y) {
+        return size_of(x) != size_of(y) ? size_of(x) > size_of(y) : x < y;
+    });
+    if (frame.island_scratch.size() < frame.island_order.size()) {
+        frame.island_scratch.resize(frame.island_order.size());
+    }
+    frame.island_results.assign(frame.island_order.size(), {});
+    const NewtonSettings settings = settings_of(s, phase);
+    auto solve_one = [&](std::size_t i) {
+        HH_DETAIL_ZONE("island");
+        const Island& island = graph.islands[frame.island_order[i]];
+        set_masses(s, island, phase);
+        const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
+                              graph.blocks_of(island)};
+        frame.island_results[i] = solve_positions(view, settings, frame.island_scratch[i]);
+    };
+    parallel_for(frame.island_order.size(), solve_one);
+    for (const NewtonResult& result : frame.island_results) {
+        s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
+    }
+    return frame.island_order.size();
+}
+
+// --- Contacts on a phase's result ------------------------------------------------------------------------------------
+
+// Moves the proxies after the solver's bodies; true where any went farther than contacts stay good for.
+bool move_proxies(const Solve& s) {
+    bool moved = false;
+    for (std::size_t i = 0; i < s.graph().bodies.size(); ++i) {
+        const SolverBody& body = s.graph().bodies[i];
+        ColliderProxy& proxy = s.io.frame.proxies[i];
+        if (body.role == BodyRole::fixed) {
+            continue;
+        }
+        const Pose now = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
+        const double turn = 2.0 * (now.rotation.conjugate() * proxy.to_ws.rotation).vec().norm();
+        if ((now.position - proxy.to_ws.position).norm() + turn * 0.5 > k_moved_m) {
+            proxy.to_ws = now;
+            moved = true;
+        }
+    }
+    return moved;
+}
+
+bool is_same_pair(const ContactPoint& x, const ContactPoint& y) { return x.id_a == y.id_a && x.id_b == y.id_b; }
+
+// New contacts replace the old ones of their pairs; old pairs that are no longer near stay, they hold back what they held back.
+void merge_contacts(FrameGraph& frame) {
+    const auto first_fresh = static_cast<std::ptrdiff_t>(frame.fresh_contacts.size());
+    for (const ContactPoint& old : frame.contacts) {
+        const bool replaced = std::any_of(frame.fresh_contacts.begin(), frame.fresh_contacts.begin() + first_fresh,
+                                          [&old](const ContactPoint& fresh) { return is_same_pair(old, fresh); });
+        if (!replaced) {
+            frame.fresh_contacts.push_back(old);
+        }
+    }
+    std::swap(frame.contacts, frame.fresh_contacts);
+}
+
+// Finds contacts where the phase left everything. True where some overlap, so that the phase has to be solved again with them.
+bool refresh_contacts(const Solve& s) {
+    FrameGraph& frame = s.io.frame;
+    if (!move_proxies(s)) {
+        return false;
+    }
+    ++s.stats.contact_rounds;
+    s.io.collision.set_proxies(frame.proxies);
+    s.io.collision.find_contacts({s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, frame.fresh_contacts);
+    const bool overlaps = std::ranges::any_of(frame.fresh_contacts, [](const ContactPoint& contact) {
+        return contact.separation_m < -k_new_overlap_m;
+    });
+    merge_contacts(frame);
+    replace_contact_rows(frame.contacts, s.graph());
+    return overlaps;
+}
+
+// Solves a phase until no new contact overlaps; counts where the rounds did not suffice.
+template <typename Wanted>
+void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
+    for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
+        if (solve_islands(s, phase, wanted) == 0 || !refresh_contacts(s)) {
+            return;
+        }
+    }
+    s.stats.count(Fallback::contact_rounds_exhausted);
+}
+
+// --- The phases ------------------------------------------------------------------------------------------------------
+
+void reach(const Solve& s) {
+    HH_DETAIL_ZONE("reach");
+    solve_islands(s, Phase::reach, [&](const Island& island) {
+        return worst_error(s, island, BlockFilter::hands) > 0.0;
+    });
+    for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
+        s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
+    }
+    refresh_contacts(s);
+}
+
+void forward(const Solve& s) {
+    HH_DETAIL_ZONE("forward");
+    solve_rounds(s, Phase::forward, [&](const Island& island) {
+        return has_role(s, island, BodyRole::free) &&
+               worst_error(s, island, BlockFilter::contacts) > s.tuning.solver.tolerance_m;
+    });
+}
+
+bool wants_backward(const Solve& s, const Island& island) {
+    return worst_error(s, island, BlockFilter::all) > k_violated_m && may_push(s, island);
+}
+
+// Marks the islands to push, and puts players and held objects back to where the hands want them.
+void prepare_backward(const Solve& s) {
+    for (const Island& island : s.graph().islands) {
+        if (!wants_backward(s, island)) {
+            continue;
+        }
+        ++s.stats.islands_pushed;
+        for (const std::uint32_t i : s.graph().bodies_of(island)) {
+            SolverBody& body = s.graph().bodies[i];
+            s.phase_of(i).pushed = true;
+            if (body.role == BodyRole::player || s.phase_of(i).held) {
+                body.pose_ws = s.phase_of(i).reached_ws;
+            }
+        }
+    }
+}
+
+bool is_pushed(const Solve& s, const Island& island) {
+    return std::ranges::any_of(s.graph().bodies_of(island), [&](std::uint32_t i) { return s.phase_of(i).pushed; });
+}
+
+void backward(const Solve& s) {
+    HH_DETAIL_ZONE("backward");
+    prepare_backward(s);
+    solve_rounds(s, Phase::backward, [&](const Island& island) {
+        return is_pushed(s, island) && worst_error(s, island, BlockFilter::all) > k_violated_m;
+    });
+}
+
+void contradiction(const Solve& s) {
+    HH_DETAIL_ZONE("contradiction");
+    const auto wanted = [&](const Island& island) {
+        return worst_error(s, island, BlockFilter::contacts) > k_violated_m;
+    };
+    for (const Island& island : s.graph().islands) {
+        if (!wanted(island)) {
+            continue;
+        }
+        s.stats.count(Fallback::contacts_contradict);
+        for (const std::uint32_t i : s.graph().bodies_of(island)) {
+            s.phase_of(i).pushed = true;
+        }
+    }
+    solve_rounds(s, Phase::contradiction, wanted);
+}
+
+// --- Results ---------------------------------------------------------------------------------------------------------
+
+void write_poses(const Solve& s) {
+    for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
+        const SolverBody& body = s.graph().bodies[i];
+        const Entity entity = s.io.frame.entities[i];
+        if (body.role == BodyRole::player) {
+            s.io.origin.at(entity).pose_ws.position = body.pose_ws.position;
+            s.phase_of(i).push_back_m = (body.pose_ws.position - s.phase_of(i).reached_ws.position).norm();
+        } else if (body.role != BodyRole::fixed) {
+            s.io.body_pose.at(entity).pose_ws = body.pose_ws;
+        }
+    }
+}
+
+void write_errors(const Solve& s) {
+    for (std::size_t row = 0; row < s.io.grab.size(); ++row) {
+        s.io.grab.rows()[row].error_m = 0.0;
+    }
+    for (const RowBlock& block : s.graph().blocks) {
+        if (!is_hand(block)) {
+            const double overlap = block_error_m(s.graph().bodies, block);
+            s.stats.residual_m = std::max(s.stats.residual_m, overlap);
+            if (overlap > k_new_overlap_m) {
+                s.stats.count(Fallback::contacts_unresolved);
+            }
+            continue;
+        }
+        RowBlock point = block;
+        point.kind = RowKind::hand_point;
+        const double error = block_error_m(s.graph().bodies, point);
+        s.stats.hand_error_m = std::max(s.stats.hand_error_m, error);
+        for (std::size_t row = 0; row < s.io.grab.size(); ++row) {
+            if (s.io.persistent_id.at(s.io.grab.owners()[row]).value == block.key) {
+                s.io.grab.rows()[row].error_m = error;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
+    const Solve s{io, tuning, stats};
+    reach(s);
+    forward(s);
+    backward(s);
+    contradiction(s);
+    write_poses(s);
+    write_errors(s);
+    stats.islands += s.graph().islands.size();
+    stats.contacts += io.frame.contacts.size();
+}
+
+}  // namespace handhold

@@ -1,0 +1,196 @@
+#include "systems/physics/update_velocities.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/core/parallel.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_valid_overlap_m = 1e-4;  // colliders deeper in something are not where the next sweep may begin
+
+bool has_hand(const ConstraintGraph& graph, const Island& island) {
+    return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) { return is_hand(graph.blocks[i]); });
+}
+
+// Momentum is exchanged by the masses of the phase that moved the island: true ones where it was pushed or holds on to something fixed.
+void set_masses(FrameGraph& frame, const Island& island) {
+    const bool reached = has_hand(frame.graph, island);
+    for (const std::uint32_t i : frame.graph.bodies_of(island)) {
+        SolverBody& body = frame.graph.bodies[i];
+        const FrameGraph::PhaseBody& info = frame.phase[i];
+        double share = 1.0;
+        if (body.role == BodyRole::player) {
+            share = info.pushed || info.grips_surface ? 1.0 : info.forward_share;
+        } else if (body.role == BodyRole::heavy) {
+            share = info.pushed || reached ? 1.0 : 0.0;
+        }
+        body.inverse_mass = share / body.mass_kg;
+        body.inverse_inertia_bs.setZero();
+        if (body.role != BodyRole::player && share > 0.0) {
+            body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
+        }
+    }
+}
+
+void solve_islands(FrameGraph& frame, const ContactTuning& tuning) {
+    ConstraintGraph& graph = frame.graph;
+    if (frame.island_scratch.size() < graph.islands.size()) {
+        frame.island_scratch.resize(graph.islands.size());
+    }
+    auto solve_one = [&](std::size_t i) {
+        const Island& island = graph.islands[i];
+        set_masses(frame, island);
+        const IslandView view{BlockFilter::all, graph.bodies, graph.blocks, graph.bodies_of(island),
+                              graph.blocks_of(island)};
+        solve_velocities(view, {k_valid_overlap_m, tuning.restitution_speed_mps}, frame.island_scratch[i]);
+    };
+    parallel_for(graph.islands.size(), solve_one);
+}
+
+void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec3& linear, const Vec3& angular) {
+    ledger.linear_kgmps[receiver] += linear;
+    ledger.angular_kgm2ps[receiver] += angular;
+}
+
+// One side of a row's impulse, by who takes it.
+void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse, const Vec3& couple,
+                  MomentumLedger& ledger) {
+    const Vec3 angular = point_ws.cross(impulse) + couple;
+    if (body.role != BodyRole::player) {
+        const bool moves = body.inverse_mass > 0.0;
+        add_to(ledger, moves ? MomentumLedger::objects : MomentumLedger::statics, impulse, angular);
+        return;
+    }
+    // The play space cannot turn and may be heavier than its player: what does not become his own momentum is the virtual player's.
+    const Vec3 own = (body.inverse_mass * body.mass_kg) * impulse;
+    const Vec3 own_angular = body.pose_ws.position.cross(own);
+    add_to(ledger, MomentumLedger::players, own, own_angular);
+    add_to(ledger, MomentumLedger::virtual_player, impulse - own, angular - own_angular);
+}
+
+void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
+    for (const RowBlock& block : graph.blocks) {
+        const SolverBody& a = graph.bodies[block.a];
+        const SolverBody& b = graph.bodies[block.b];
+        // Both sides at one point, as the rows have it: b's point for hands, a's for contacts.
+        const Vec3 point_ws = is_hand(block) ? transform_point(b.pose_ws, block.point_b_bs)
+                                             : transform_point(a.pose_ws, block.point_a_bs);
+        book_impulse(a, point_ws, block.impulse_ws_ns, block.couple_ws_nms, ledger);
+        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.couple_ws_nms, ledger);
+    }
+}
+
+// At most `limit` against the reference; true where it was faster.
+bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
+    const Vec3 relative = velocity_mps - reference_mps;
+    const double speed = relative.norm();
+    if (speed <= limit_mps) {
+        return false;
+    }
+    velocity_mps = reference_mps + relative * (limit_mps / speed);
+    return true;
+}
+
+void write_velocities(const UpdateVelocitiesIo& io) {
+    for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
+        const SolverBody& body = io.frame.graph.bodies[i];
+        const Entity entity = io.frame.entities[i];
+        if (body.role == BodyRole::player) {
+            io.player_velocity.at(entity).linear_mps = body.velocity_mps;
+        } else if (body.role != BodyRole::fixed) {
+            io.body_velocity.at(entity) = {body.velocity_mps, body.spin_radps};
+        }
+    }
+}
+
+// What pushed a player may be a jump of his tracking: it must not shoot him away.
+void clamp_pushed(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
+    for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
+        if (io.frame.graph.bodies[i].role != BodyRole::player || !io.frame.phase[i].pushed) {
+            continue;
+        }
+        const Entity player = io.frame.entities[i];
+        if (clamp_speed(io.reference.at(player).linear_mps, tuning.release_speed_max_mps,
+                        io.player_velocity.at(player).linear_mps)) {
+            stats.count(Fallback::release_speed_clamped);
+        }
+    }
+}
+
+void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        Grab& grab = io.grab.rows()[row];
+        if (grab.phase != GrabPhase::releasing) {
+            continue;
+        }
+        const Entity player = io.owner.at(io.grab.owners()[row]).player;
+        const Vec3& reference = io.reference.at(player).linear_mps;
+        bool clamped = false;
+        if (grab.kind == GripKind::held) {
+            clamped = clamp_speed(reference, tuning.object_speed_max_mps, io.body_velocity.at(grab.body).linear_mps);
+        } else {
+            clamped = clamp_speed(reference, tuning.release_speed_max_mps, io.player_velocity.at(player).linear_mps);
+        }
+        if (clamped) {
+            stats.count(Fallback::release_speed_clamped);
+        }
+        grab = {};
+    }
+}
+
+// For each body its deepest contact's other body; its own index where none is too deep.
+void find_overlaps(FrameGraph& frame) {
+    const ConstraintGraph& graph = frame.graph;
+    frame.overlap_m.assign(graph.bodies.size(), k_valid_overlap_m);
+    frame.overlaps_with.resize(graph.bodies.size());
+    std::iota(frame.overlaps_with.begin(), frame.overlaps_with.end(), 0U);
+    const auto note = [&frame](std::uint32_t body, std::uint32_t other, double depth_m) {
+        if (depth_m > frame.overlap_m[body]) {
+            frame.overlap_m[body] = depth_m;
+            frame.overlaps_with[body] = other;
+        }
+    };
+    for (const RowBlock& block : graph.blocks) {
+        if (!is_hand(block)) {
+            const double depth_m = block_error_m(graph.bodies, block);
+            note(block.a, block.b, depth_m);
+            note(block.b, block.a, depth_m);
+        }
+    }
+}
+
+void write_last_valid(const UpdateVelocitiesIo& io) {
+    FrameGraph& frame = io.frame;
+    find_overlaps(frame);
+    for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
+        LastValidPose* const valid = io.last_valid.find(frame.entities[i]);
+        if (valid == nullptr) {
+            continue;
+        }
+        const SolverBody& body = frame.graph.bodies[i];
+        const HeadTracking* const head = io.head.find(frame.entities[i]);
+        valid->known = head == nullptr || head->state != TrackingState::never;
+        if (frame.overlaps_with[i] == i) {
+            valid->pose_ws = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
+            continue;
+        }
+        // Stuck: keep the way back, and let it ride along with what the body is stuck in.
+        const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
+        valid->pose_ws = other.to_ws * (inverse(other.from_ws) * valid->pose_ws);
+    }
+}
+
+}  // namespace
+
+void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
+    solve_islands(io.frame, tuning.contact);
+    book_impulses(io.frame.graph, stats.ledger);
+    write_velocities(io);
+    clamp_pushed(io, tuning.locomotion, stats);
+    finish_releases(io, tuning.locomotion, stats);
+    write_last_valid(io);
+}
+
+}  // namespace handhold

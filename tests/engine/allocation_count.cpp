@@ -1,0 +1,45 @@
+#include "allocation_count.hpp"
+
+#include <cstdlib>
+#include <new>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HH_SANITIZER_OPERATORS 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HH_SANITIZER_OPERATORS 1
+#endif
+#endif
+
+namespace {
+
+thread_local std::size_t t_allocations = 0;
+
+}  // namespace
+
+#ifndef HH_SANITIZER_OPERATORS
+// The library's other forms (arrays, nothrow, sized) call these.
+void* operator new(std::size_t size) {
+    ++t_allocations;
+    if (void* const memory = std::malloc(size == 0 ? 1 : size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
+
+namespace handhold {
+
+std::size_t allocation_count() { return t_allocations; }
+
+bool counts_allocations() {
+#ifdef HH_SANITIZER_OPERATORS
+    return false;
+#else
+    return true;
+#endif
+}
+
+}  // namespace handhold

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+
+namespace handhold {
+
+// How often the calling thread has called operator new, in any form but the over-aligned ones,
+// since it began. The whole test executable counts: allocation_count.cpp replaces the global
+// operators. Only equality of two counts means anything, and nothing where counts_allocations() is
+// false: the sanitizers bring operators of their own.
+std::size_t allocation_count();
+bool counts_allocations();
+
+}  // namespace handhold

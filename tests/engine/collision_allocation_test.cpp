@@ -1,0 +1,63 @@
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "allocation_count.hpp"
+#include "collision_scene.hpp"
+
+namespace handhold {
+namespace {
+
+using test::at;
+using test::Random;
+
+TEST(CollisionWorld, WarmWorldAllocatesNothing) {
+    ShapeLibrary shapes;
+    const std::array<ShapeId, 3> kinds = {shapes.add_box({0.1, 0.05, 0.2}), shapes.add_sphere(0.12),
+                                          shapes.add_capsule(0.06, 0.15)};
+    const ShapeId level = shapes.add_mesh(test::make_wavy_ball(1.2, 24, 40));
+    CollisionWorld world(shapes);
+    std::vector<ColliderProxy> proxies;
+    std::vector<ContactPoint> contacts;
+    std::size_t most = 0;
+    // The bodies go to and fro, and some are away in some rounds: the second hundred rounds repeat
+    // the first.
+    const auto round_trip = [&](int round) {
+        proxies.clear();
+        proxies.push_back({1, level, {}, {}, false});
+        for (std::uint64_t id = 2; id < 40; ++id) {
+            if ((static_cast<int>(id) + round) % 11 == 0) {
+                continue;
+            }
+            Random random(id);
+            const Vec3 start = 1.05 * random.direction();
+            const Vec3 velocity = random.vector(0.02);
+            const Quat rotation = random.rotation();
+            proxies.push_back({id, kinds[id % 3], at(start + (round % 10) * velocity, rotation),
+                               at(start + (round % 10 + 1) * velocity, rotation), true});
+        }
+        world.set_proxies(proxies);
+        world.find_contacts({}, contacts);
+        most = std::max(most, contacts.size());
+        for (int i = 0; i < 4; ++i) {
+            (void)world.cast_ray({0.0, 0.1 * i, 0.0}, {2.0, 0.3, 0.1 * round});
+            (void)world.cast_sphere(0.05, {0.0, 0.1 * i, 0.0}, {2.0, 0.3, 0.1});
+            (void)world.closest_point({0.2 * i, 0.1, 0.0}, 2.0);
+        }
+    };
+    for (int round = 0; round < 110; ++round) {
+        round_trip(round);
+    }
+    const std::size_t news = allocation_count();
+    const std::uint64_t library = collision_allocation_count();
+    EXPECT_GT(library, 0U);  // the hook works
+    for (int round = 110; round < 220; ++round) {
+        round_trip(round);
+    }
+    EXPECT_EQ(allocation_count() - news, 0U);
+    EXPECT_EQ(collision_allocation_count() - library, 0U);
+    EXPECT_GT(most, 50U);
+}
+
+}  // namespace
+}  // namespace handhold

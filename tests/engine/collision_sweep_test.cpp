@@ -1,0 +1,207 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "collision_scene.hpp"
+#include "engine/collision/time_of_impact.hpp"
+
+// Bodies that move far in one call: contacts where they first touch, depth at the end of the way.
+namespace handhold {
+namespace {
+
+using test::at;
+using test::contacts_of;
+using test::Random;
+using test::resting;
+
+ColliderProxy moving(std::uint64_t id, ShapeId shape, const Pose& from, const Pose& to,
+                     bool free = true) {
+    return {id, shape, from, to, free};
+}
+
+TEST(Sweep, BoxShotThroughAThinBoxMeetsItsNearSide) {
+    ShapeLibrary shapes;
+    const ShapeId wall = shapes.add_box({1.0, 0.005, 1.0});
+    const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
+    const auto contacts = contacts_of(
+        shapes,
+        {resting(1, wall, {}, false), moving(2, box, at({0.0, 0.5, 0.0}), at({0.0, -2.0, 0.0}))});
+    ASSERT_EQ(contacts.size(), 4U);
+    for (const ContactPoint& contact : contacts) {
+        EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-12);
+        EXPECT_NEAR(contact.separation_m, -2.0 - 0.105,
+                    1e-9);  // the centre is that far below where it would rest
+        EXPECT_NEAR(contact.point_b_bs.y(), 0.005, 1e-12);
+    }
+}
+
+TEST(Sweep, BoxShotThroughAMeshMeetsItFromBothSides) {
+    ShapeLibrary shapes;
+    const ShapeId wall = shapes.add_mesh(test::make_floor(4.0, 12, test::Winding::mixed));
+    const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
+    for (const double side : {1.0, -1.0}) {
+        const auto contacts = contacts_of(
+            shapes, {resting(1, wall, {}, false),
+                     moving(2, box, at({0.01, 0.5 * side, 0.02}), at({0.3, -2.0 * side, 0.1}))});
+        ASSERT_GE(contacts.size(), 4U);
+        for (const ContactPoint& contact : contacts) {
+            EXPECT_NEAR(contact.normal_b_bs.y(), side, 1e-9);
+            EXPECT_NEAR(contact.separation_m, -2.1, 1e-6);
+        }
+    }
+}
+
+TEST(Sweep, FreeBodiesStopEachOther) {
+    ShapeLibrary shapes;
+    const ShapeId ball = shapes.add_sphere(0.1);
+    // Head on, both 1 m: they pass each other within the frame. Relative to b, a goes from -1 to
+    // +1.
+    const auto contacts =
+        contacts_of(shapes, {moving(1, ball, at({-0.5, 0.0, 0.0}), at({0.5, 0.0, 0.0})),
+                             moving(2, ball, at({0.5, 0.0, 0.0}), at({-0.5, 0.0, 0.0}))});
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_EQ(contacts[0].id_a, 1U);
+    EXPECT_NEAR(contacts[0].normal_b_bs.x(), -1.0, 1e-12);
+    EXPECT_NEAR(contacts[0].separation_m, -1.2, 1e-9);
+}
+
+TEST(Sweep, LeavingAndSlidingBodiesAreNotStopped) {
+    ShapeLibrary shapes;
+    const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 31, test::Winding::mixed));
+    const ShapeId slab = shapes.add_box({2.0, 0.5, 2.0});
+    const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
+    for (const auto& ground :
+         {resting(1, floor, {}, false), resting(1, slab, at({0.0, -0.5, 0.0}), false)}) {
+        for (const double sunk : {1e-7, 0.0, -1e-7, -1e-5, -0.001}) {
+            // Sliding 0.7 m: contacts are under the place where it ends.
+            const auto slid = contacts_of(
+                shapes,
+                {ground, moving(2, box, at({-0.3, 0.1 + sunk, 0.0}), at({0.4, 0.1 + sunk, 0.1}))});
+            ASSERT_GE(slid.size(), 4U) << sunk;
+            for (const ContactPoint& contact : slid) {
+                EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-9) << sunk;
+                EXPECT_NEAR(contact.separation_m, sunk, 1e-9);
+                EXPECT_NEAR(contact.point_b_bs.x(), 0.4, 0.1001);
+            }
+            // Leaving upwards: nothing holds it.
+            EXPECT_TRUE(contacts_of(shapes, {ground, moving(2, box, at({0.0, 0.1 + sunk, 0.0}),
+                                                            at({0.0, 0.6, 0.0}))})
+                            .empty());
+        }
+    }
+}
+
+TEST(Sweep, BodySlidingOverTheFloorIsStoppedByTheWallOfTheSameMesh) {
+    auto mesh = test::make_floor(4.0, 31, test::Winding::mixed);
+    const auto base = static_cast<std::uint32_t>(mesh->positions.size());
+    mesh->positions.insert(mesh->positions.end(),
+                           {{0.3, 0.0, -1.0}, {0.3, 0.0, 1.0}, {0.3, 1.0, 1.0}, {0.3, 1.0, -1.0}});
+    mesh->triangles.push_back({base, base + 1, base + 2});
+    mesh->triangles.push_back({base, base + 2, base + 3});
+    ShapeLibrary shapes;
+    const ShapeId room = shapes.add_mesh(mesh);
+    for (const ShapeId body : {shapes.add_box(Vec3::Constant(0.1)), shapes.add_sphere(0.1)}) {
+        for (const double sink :
+             {0.0, 1e-7, 1e-5}) {  // the solver's residual: it slides ever so slightly down
+            const auto contacts = contacts_of(
+                shapes, {resting(1, room, {}, false),
+                         moving(2, body, at({-0.3, 0.1, 0.0}), at({0.9, 0.1 - sink, 0.0}))});
+            int on_wall = 0;
+            for (const ContactPoint& contact : contacts) {
+                const bool floor = contact.normal_b_bs.y() > 0.5;
+                on_wall += floor ? 0 : 1;
+                EXPECT_NEAR(contact.separation_m, floor ? -sink : -0.7, 2e-6);
+                EXPECT_NEAR(contact.normal_b_bs.x(), floor ? 0.0 : -1.0, 1e-6);
+            }
+            EXPECT_GE(on_wall, 1);
+        }
+    }
+}
+
+TEST(Sweep, TurningBoxIsCaughtByItsCorner) {
+    // A bar 0.5 m long that turns by a right angle about its middle, 0.3 m above the floor: its tip
+    // sweeps below it.
+    ShapeLibrary shapes;
+    const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
+    const ShapeId bar = shapes.add_box({0.5, 0.02, 0.02});
+    const auto contacts =
+        contacts_of(shapes, {resting(1, floor, {}, false),
+                             moving(2, bar, at({0.0, 0.3, 0.0}),
+                                    at({0.0, 0.3, 0.0}, rotation_about(Vec3::UnitZ(), 1.5)))});
+    ASSERT_GE(contacts.size(), 2U);
+    for (const ContactPoint& contact : contacts) {
+        EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-9);
+    }
+    // At the end the tip that touched first (its left lower edge) stands at this height.
+    EXPECT_NEAR(test::deepest(contacts), 0.3 - 0.5 * std::sin(1.5) - 0.02 * std::cos(1.5), 1e-6);
+}
+
+TEST(Sweep, ShipThatTurnsSweepsRelativeToItself) {
+    // Ship and passenger turn and fly together: nothing moves relative to the ship, however far
+    // both go.
+    Random random(31);
+    ShapeLibrary shapes;
+    const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
+    const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
+    for (int round = 0; round < 20; ++round) {
+        const Pose before = at(random.vector(100.0), random.rotation());
+        const Pose after = at(before.position + random.vector(20.0), random.rotation());
+        const Pose seat = at({0.4, 0.099, -0.3}, rotation_about(Vec3::UnitY(), 0.5));
+        const auto contacts = contacts_of(shapes, {moving(1, floor, before, after, false),
+                                                   moving(2, box, before * seat, after * seat)});
+        ASSERT_EQ(contacts.size(), 4U);
+        for (const ContactPoint& contact : contacts) {
+            EXPECT_NEAR(contact.separation_m, -0.001, 1e-9);
+        }
+    }
+}
+
+TEST(Sweep, ShallowAndSweptPathsAgreeOnDepth) {
+    // The same motion, met at its end or at first touch: the contacts' plane is the same, hence the
+    // depth too.
+    ShapeLibrary shapes;
+    const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
+    const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
+    const std::vector<ColliderProxy> proxies = {
+        resting(1, floor, {}, false),
+        moving(2, box, at({0.0, 0.103, 0.0}), at({0.002, 0.097, 0.0}))};
+    EXPECT_NEAR(test::deepest(contacts_of(shapes, proxies, {0.02, 0.1})), -0.003, 1e-9);
+    EXPECT_NEAR(test::deepest(contacts_of(shapes, proxies, {0.02, 0.001})), -0.003, 1e-9);
+}
+
+// Oracle: small steps along the way with the exact distance at each.
+TEST(TimeOfImpact, IsNeverLateAndHardlyEarly) {
+    Random random(32);
+    int hits = 0;
+    for (int round = 0; round < 300; ++round) {
+        Shape a;
+        a.kind = round % 3 == 0   ? ShapeKind::sphere
+                 : round % 3 == 1 ? ShapeKind::capsule
+                                  : ShapeKind::box;
+        a.radius_m = a.kind == ShapeKind::box ? 0.0 : 0.05;
+        a.half_height_m = a.kind == ShapeKind::capsule ? 0.2 : 0.0;
+        a.half_m = {0.1, 0.15, 0.05};
+        const Corners corners{random.vector(0.6), random.vector(0.6), random.vector(0.6)};
+        const ConvexCore b = make_triangle_core(corners, area_vector(corners).normalized());
+        const Vec3 start = random.direction();
+        const RelativeMotion motion(at(start, random.rotation()),
+                                    at(-start + random.vector(0.3), random.rotation()));
+        const auto impact = time_of_impact(a, motion, b, 1.0);
+        const auto gap_at = [&](double fraction) {
+            const ConvexCore core = make_core(a, motion.at(fraction));
+            return separate_cores(core, b)->separation_m - core.radius_m;
+        };
+        const double end = impact ? impact->fraction : 1.0;
+        for (int i = 0; i < 400; ++i) {
+            ASSERT_GT(gap_at(end * i / 400.0), -1e-9) << "touched before " << end;
+        }
+        if (impact) {
+            ++hits;
+            ASSERT_LT(gap_at(impact->fraction), 1e-3);
+        }
+    }
+    EXPECT_GT(hits, 100);
+}
+
+}  // namespace
+}  // namespace handhold

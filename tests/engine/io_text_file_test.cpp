@@ -1,0 +1,66 @@
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/text_file.hpp"
+
+namespace handhold {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TextFile : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() /
+                  (std::string("handhold_text_file_") +
+                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    auto count_entries() const {
+        return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(TextFile, ReturnsEveryByteThatWasWritten) {
+    std::string bytes;
+    for (int i = 0; i < 256; ++i) {
+        bytes += static_cast<char>(i);
+    }
+    for (const std::string& text : {bytes, std::string(), std::string("\r\n\n\0x", 5)}) {
+        ASSERT_FALSE(write_file_atomically(folder_ / "a", text));
+        const Result<std::string> read = read_file(folder_ / "a");
+        ASSERT_TRUE(read.ok());
+        EXPECT_EQ(read.value(), text);
+    }
+    EXPECT_EQ(count_entries(), 1);  // no temporary file stays
+}
+
+TEST_F(TextFile, FailedWriteLeavesNothingBehind) {
+    fs::create_directories(folder_ / "is_a_folder" / "not_empty");
+    const std::optional<FileError> error = write_file_atomically(folder_ / "is_a_folder", "text");
+    ASSERT_TRUE(error.has_value());
+    EXPECT_EQ(error->file, (folder_ / "is_a_folder").string());
+    EXPECT_TRUE(write_file_atomically(folder_ / "absent" / "a", "text").has_value());
+    EXPECT_EQ(count_entries(), 1);
+}
+
+TEST_F(TextFile, RefusesAbsentFolderDeviceAndTooLarge) {
+    ASSERT_FALSE(write_file_atomically(folder_ / "a", "12345"));
+    EXPECT_TRUE(read_file(folder_ / "a", 5).ok());
+    EXPECT_FALSE(read_file(folder_ / "a", 4).ok());
+    EXPECT_FALSE(read_file(folder_ / "absent").ok());
+    EXPECT_FALSE(read_file(folder_).ok());
+    EXPECT_FALSE(read_file("/dev/zero").ok());
+    EXPECT_EQ(read_file(folder_ / "absent").error().file, (folder_ / "absent").string());
+}
+
+}  // namespace
+}  // namespace handhold

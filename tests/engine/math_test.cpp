@@ -1,0 +1,407 @@
+#include "engine/math/math.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "engine/core/hash.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+constexpr double k_above_pi = k_pi * (1.0 + 1e-15);  // pi and what a length's last bits may add
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_tiny = std::numeric_limits<double>::denorm_min();
+constexpr double k_huge = std::numeric_limits<double>::max();
+
+// Both signs of: every size of number, all of [0, 1e3], and the neighbours of the multiples of
+// pi/2.
+std::vector<double> many_angles() {
+    std::vector<double> angles = {0.0, k_tiny, 1e3};
+    for (double angle = 1e-320; angle < 1e3; angle *= 1.7) {
+        angles.push_back(angle);
+    }
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> any(0.0, 1e3);
+    for (int i = 0; i < 100000; ++i) {
+        angles.push_back(any(random));
+    }
+    for (int quarter = 0; quarter <= 636; ++quarter) {
+        const double centre = quarter * (0.5 * k_pi);
+        for (const double offset : {0.0, 1e-16, 1e-13, 1e-9, 1e-4, 0.25 * k_pi}) {
+            angles.push_back(centre + offset);
+            angles.push_back(centre - offset);
+        }
+        angles.push_back(std::nextafter(centre, 0.0));
+        angles.push_back(std::nextafter(centre, k_huge));
+    }
+    const std::size_t count = angles.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        angles.push_back(-angles[i]);
+    }
+    return angles;
+}
+
+// The oracle is the C library in 64-bit mantissas.
+double sin_cos_error(double angle_rad) {
+    double sine = 0.0;
+    double cosine = 0.0;
+    sin_cos(angle_rad, sine, cosine);
+    const auto wide = static_cast<long double>(angle_rad);
+    const long double error = std::max(std::abs(static_cast<long double>(sine) - std::sin(wide)),
+                                       std::abs(static_cast<long double>(cosine) - std::cos(wide)));
+    return static_cast<double>(error);
+}
+
+double arc_tangent_error(double y, double x) {
+    const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    return static_cast<double>(std::abs(static_cast<long double>(arc_tangent2(y, x)) - exact));
+}
+
+TEST(SinCos, AgreesWithLongDoubleWithin1e15UpTo1e3) {
+    double worst = 0.0;
+    for (const double angle : many_angles()) {
+        worst = std::max(worst, sin_cos_error(angle));
+    }
+    RecordProperty("worst_error", std::to_string(worst * 1e16) + "e-16");
+    EXPECT_LT(worst, 1e-15);
+}
+
+TEST(SinCos, AgreesWithLongDoubleWithin1e14UpTo1e6) {
+    std::mt19937_64 random(12);
+    std::uniform_real_distribution<double> any(-1e6, 1e6);
+    double worst = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        worst = std::max(worst, sin_cos_error(any(random)));
+    }
+    EXPECT_LT(worst, 1e-14);
+}
+
+TEST(SinCos, TinyAnglesAreTheirOwnSine) {
+    for (const double angle : {k_tiny, 1e-310, 1e-200, 1e-20, 1e-9}) {
+        double sine = 0.0;
+        double cosine = 0.0;
+        sin_cos(-angle, sine, cosine);
+        EXPECT_EQ(sine, -angle);  // sin x = x - x^3/6
+        EXPECT_EQ(cosine, 1.0);
+    }
+    double sine = 1.0;
+    double cosine = 0.0;
+    sin_cos(-0.0, sine, cosine);
+    EXPECT_FALSE(std::signbit(sine)) << "-0.0 is 0.0: one state, one hash";
+}
+
+TEST(SinCos, WhatIsNoAngleGivesTheDirectionOfZero) {
+    for (const double angle : {k_nan, k_infinity, -k_infinity, k_huge, -1e6}) {
+        double sine = 7.0;
+        double cosine = 7.0;
+        sin_cos(angle, sine, cosine);
+        EXPECT_EQ(sine, 0.0);
+        EXPECT_EQ(cosine, 1.0);
+    }
+}
+
+TEST(ArcTangent2, AgreesWithLongDoubleWithin1e15InAllDirections) {
+    double worst = 0.0;
+    std::mt19937_64 random(13);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    std::uniform_real_distribution<double> exponent(-300.0, 300.0);
+    for (int i = 0; i < 200000; ++i) {
+        const double y = any(random);
+        const double x = any(random);
+        const double scale = std::pow(10.0, exponent(random));
+        worst = std::max(worst, arc_tangent_error(y, x));
+        worst = std::max(worst, arc_tangent_error(y * scale, x));
+    }
+    RecordProperty("worst_error", std::to_string(worst * 1e16) + "e-16");
+    EXPECT_LT(worst, 1e-15);
+}
+
+TEST(ArcTangent2, AgreesWithLongDoubleOnAxesAndDiagonalsAndAtExtremes) {
+    const std::vector<double> numbers = {0.0, k_tiny, 1e-300, 1e-8,      1.0,
+                                         3.0, 1e300,  k_huge, k_infinity};
+    for (const double ay : numbers) {
+        for (const double ax : numbers) {
+            for (const double y : {ay, -ay}) {
+                for (const double x : {ax, -ax}) {
+                    if (y == 0.0 && x == 0.0) {
+                        continue;
+                    }
+                    // + 0.0 turns -0.0, which libm gives a sign, into 0.0.
+                    EXPECT_LT(arc_tangent_error(y + 0.0, x + 0.0), 1e-15) << y << ' ' << x;
+                    EXPECT_EQ(arc_tangent2(y, x), arc_tangent2(y + 0.0, x + 0.0)) << y << ' ' << x;
+                }
+            }
+        }
+    }
+}
+
+TEST(ArcTangent2, ZeroVectorAndNotANumberGiveZero) {
+    for (const double zero : {0.0, -0.0}) {
+        EXPECT_EQ(arc_tangent2(zero, 0.0), 0.0);
+        EXPECT_EQ(arc_tangent2(zero, -0.0), 0.0);
+    }
+    EXPECT_EQ(arc_tangent2(k_nan, 1.0), 0.0);
+    EXPECT_EQ(arc_tangent2(1.0, k_nan), 0.0);
+    EXPECT_EQ(arc_tangent2(k_nan, k_infinity), 0.0);
+}
+
+TEST(ArcTangent2, InvertsSinCos) {
+    for (double angle = -3.14; angle < 3.14; angle += 0.01) {
+        double sine = 0.0;
+        double cosine = 0.0;
+        sin_cos(angle, sine, cosine);
+        EXPECT_NEAR(arc_tangent2(sine, cosine), angle, 2e-15);
+    }
+}
+
+rc::Gen<double> number_between(double low, double high) {
+    return rc::gen::map(rc::gen::inRange<std::int64_t>(0, 1'000'000'001), [=](std::int64_t i) {
+        return low + (high - low) * (static_cast<double>(i) * 1e-9);
+    });
+}
+
+Vec3 any_vector(double size) {
+    const double x = *number_between(-size, size);
+    const double y = *number_between(-size, size);
+    const double z = *number_between(-size, size);
+    return {x, y, z};
+}
+
+Vec3 any_direction() {
+    const Vec3 v = any_vector(1.0);
+    RC_PRE(v.norm() > 1e-3);
+    return v.normalized();
+}
+
+Quat any_rotation() { return rotation_about(any_direction(), *number_between(-k_pi, k_pi)); }
+
+Pose any_pose() {
+    const Vec3 position = any_vector(10.0);
+    return {position, any_rotation()};
+}
+
+// The angle between two rotations.
+double angle_between(const Quat& a, const Quat& b) {
+    return rotation_to_vector(a.conjugate() * b).norm();
+}
+
+RC_GTEST_PROP(Rotation, VectorRoundTripsBelowHalfATurn, ()) {
+    const Vec3 vector = any_direction() * *number_between(0.0, k_pi - 1e-6);
+    const Vec3 back = rotation_to_vector(rotation_from_vector(vector));
+    RC_ASSERT((back - vector).norm() < 1e-9);
+    RC_ASSERT(back.norm() <= k_above_pi);
+}
+
+RC_GTEST_PROP(Rotation, SmallVectorsRoundTripToTheirOwnPrecision, ()) {
+    const double size = std::pow(10.0, *number_between(-150.0, -3.0));
+    const Vec3 vector = any_direction() * size;
+    const Vec3 back = rotation_to_vector(rotation_from_vector(vector));
+    RC_ASSERT((back - vector).norm() < 4e-15 * size);
+}
+
+RC_GTEST_PROP(Rotation, VectorNearHalfATurnComesBackOrItsEqualOnTheOtherSide, ()) {
+    const Vec3 axis = any_direction();
+    const double over = std::pow(10.0, *number_between(-17.0, -1.0));
+    for (const double angle : {k_pi - over, k_pi + over}) {
+        const Quat rotation = rotation_from_vector(axis * angle);
+        const Vec3 back = rotation_to_vector(rotation);
+        RC_ASSERT(back.norm() <= k_above_pi);
+        const double off =
+            std::min((back - axis * angle).norm(), (back - axis * (angle - 2.0 * k_pi)).norm());
+        RC_ASSERT(off < 1e-14);
+    }
+}
+
+RC_GTEST_PROP(Rotation, QuaternionRoundTripsUpToItsSign, ()) {
+    const Quat rotation = any_rotation();
+    const Quat back = rotation_from_vector(rotation_to_vector(rotation));
+    const double off = std::min((back.coeffs() - rotation.coeffs()).norm(),
+                                (back.coeffs() + rotation.coeffs()).norm());
+    RC_ASSERT(off < 2e-15);
+}
+
+TEST(Rotation, ZeroVectorIsIdentity) {
+    EXPECT_EQ(rotation_from_vector(Vec3::Zero()).coeffs(), Quat::Identity().coeffs());
+    EXPECT_EQ(rotation_to_vector(Quat::Identity()), Vec3::Zero());
+    EXPECT_EQ(rotation_to_vector(Quat(-1.0, 0.0, 0.0, 0.0)), Vec3::Zero());
+}
+
+TEST(Rotation, QuarterTurnAboutYCarriesForwardToLeft) {
+    const Vec3 turned = rotation_about(Vec3::UnitY(), 0.5 * k_pi) * -Vec3::UnitZ();
+    EXPECT_LT((turned + Vec3::UnitX()).norm(), 1e-15);
+}
+
+// Rodrigues' formula.
+RC_GTEST_PROP(Rotation, AboutAnAxisAgreesWithRodrigues, ()) {
+    const Vec3 axis = any_direction();
+    const Vec3 v = any_vector(1.0);
+    const double angle = *number_between(-10.0, 10.0);
+    const Vec3 expected = v * std::cos(angle) + axis.cross(v) * std::sin(angle) +
+                          axis * (axis.dot(v) * (1.0 - std::cos(angle)));
+    RC_ASSERT((rotation_about(axis, angle) * v - expected).norm() < 5e-15);
+}
+
+RC_GTEST_PROP(RotationBetween, CarriesFromOntoToByTheAngleBetweenThem, ()) {
+    const Vec3 from = any_direction();
+    const Vec3 to = any_direction();
+    const Quat rotation = rotation_between(from, to);
+    RC_ASSERT((rotation * from - to).norm() < 4e-15);
+    RC_ASSERT(std::abs(rotation.norm() - 1.0) < 4e-16);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    RC_ASSERT(std::abs(rotation_to_vector(rotation).norm() - angle) < 4e-15);
+}
+
+RC_GTEST_PROP(RotationBetween, IsExactForNearlyOppositeDirections, ()) {
+    const Vec3 from = any_direction();
+    const double off = std::pow(10.0, *number_between(-20.0, -1.0));
+    const Vec3 to = (any_direction() * off - from).normalized();
+    RC_ASSERT((rotation_between(from, to) * from - to).norm() < 2e-14);
+}
+
+TEST(RotationBetween, OppositeDirectionsAreHalfATurnApart) {
+    const std::vector<Vec3> directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
+                                          Vec3(1, 1, 1).normalized(), Vec3(-3, 0, 4).normalized()};
+    for (const Vec3& from : directions) {
+        const Quat rotation = rotation_between(from, -from);
+        EXPECT_LT((rotation * from + from).norm(), 1e-15);
+        EXPECT_NEAR(rotation_to_vector(rotation).norm(), k_pi, 1e-15);
+    }
+}
+
+TEST(RotationBetween, EqualDirectionsNeedNone) {
+    const Vec3 direction = Vec3(1.0, -2.0, 0.5).normalized();
+    EXPECT_LT(rotation_to_vector(rotation_between(direction, direction)).norm(), 1e-15);
+}
+
+RC_GTEST_PROP(PoseAlgebra, ProductAppliesTheRightFactorFirst, ()) {
+    const Pose a = any_pose();
+    const Pose b = any_pose();
+    const Vec3 point = any_vector(10.0);
+    RC_ASSERT(
+        (transform_point(a * b, point) - transform_point(a, transform_point(b, point))).norm() <
+        1e-13);
+}
+
+RC_GTEST_PROP(PoseAlgebra, InverseUndoes, ()) {
+    const Pose a = any_pose();
+    const Vec3 point = any_vector(10.0);
+    RC_ASSERT((inverse_transform_point(a, transform_point(a, point)) - point).norm() < 1e-13);
+    RC_ASSERT((transform_point(inverse(a), transform_point(a, point)) - point).norm() < 1e-13);
+    const Pose identity = a * inverse(a);
+    RC_ASSERT(identity.position.norm() < 1e-13);
+    RC_ASSERT(rotation_to_vector(identity.rotation).norm() < 1e-14);
+}
+
+RC_GTEST_PROP(PoseAlgebra, CrossMatrixIsTheCrossProduct, ()) {
+    const Vec3 v = any_vector(5.0);
+    const Vec3 u = any_vector(5.0);
+    RC_ASSERT((cross_matrix(v) * u - v.cross(u)).norm() < 1e-14);
+}
+
+TEST(PoseAlgebra, ValidPosesAreFiniteAndOfUnitRotation) {
+    EXPECT_TRUE(is_valid(Pose{}));
+    EXPECT_TRUE(is_valid({Vec3::Zero(), Quat(1.0005, 0.0, 0.0, 0.0)}));
+    EXPECT_FALSE(is_valid({Vec3::Zero(), Quat(1.002, 0.0, 0.0, 0.0)}));
+    EXPECT_FALSE(is_valid({Vec3::Zero(), Quat(0.0, 0.0, 0.0, 0.0)}));
+    EXPECT_FALSE(is_valid({Vec3::Zero(), Quat(k_nan, 0.0, 0.0, 0.0)}));
+    EXPECT_FALSE(is_valid({Vec3(0.0, k_infinity, 0.0), Quat::Identity()}));
+    EXPECT_FALSE(is_valid({Vec3(k_nan, 0.0, 0.0), Quat::Identity()}));
+    EXPECT_TRUE(is_finite(Vec3::Zero()));
+    EXPECT_FALSE(is_finite(Vec3(0.0, 0.0, k_nan)));
+}
+
+RC_GTEST_PROP(Interpolate, EndsAreThePoses, ()) {
+    const Pose a = any_pose();
+    const Pose b = any_pose();
+    const Pose first = interpolate(a, b, 0.0);
+    const Pose last = interpolate(a, b, 1.0);
+    RC_ASSERT(first.position == a.position);
+    RC_ASSERT((last.position - b.position).norm() < 1e-14);
+    RC_ASSERT(angle_between(first.rotation, a.rotation) < 2e-15);
+    RC_ASSERT(angle_between(last.rotation, b.rotation) < 4e-15);
+}
+
+RC_GTEST_PROP(Interpolate, TurnsAtConstantSpeedAlongTheShorterArc, ()) {
+    const Pose a = any_pose();
+    const Pose b = any_pose();
+    const double t = *number_between(0.0, 1.0);
+    const double whole = angle_between(a.rotation, b.rotation);
+    const Pose between = interpolate(a, b, t);
+    RC_ASSERT(whole <= k_above_pi);
+    RC_ASSERT(std::abs(angle_between(a.rotation, between.rotation) - t * whole) < 1e-14);
+    RC_ASSERT(std::abs(angle_between(between.rotation, b.rotation) - (1.0 - t) * whole) < 1e-14);
+    RC_ASSERT((between.position - ((1.0 - t) * a.position + t * b.position)).norm() < 1e-14);
+}
+
+TEST(Interpolate, NegatedQuaternionIsTheSamePose) {
+    const Pose a;
+    const Quat turn = rotation_about(Vec3::UnitY(), 0.4);
+    const Pose b = {Vec3(2.0, 0.0, 0.0), Quat(-turn.w(), -turn.x(), -turn.y(), -turn.z())};
+    const Pose half = interpolate(a, b, 0.5);
+    EXPECT_EQ(half.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_LT(angle_between(half.rotation, rotation_about(Vec3::UnitY(), 0.2)), 1e-15);
+}
+
+TEST(SmoothStep, RisesFromZeroToOneWithFlatEnds) {
+    EXPECT_EQ(smooth_step(1.0, 2.0, 4.0), 0.0);
+    EXPECT_EQ(smooth_step(2.0, 2.0, 4.0), 0.0);
+    EXPECT_EQ(smooth_step(2.5, 2.0, 4.0), 0.15625);  // 3/16 - 2/64
+    EXPECT_EQ(smooth_step(3.0, 2.0, 4.0), 0.5);
+    EXPECT_EQ(smooth_step(4.0, 2.0, 4.0), 1.0);
+    EXPECT_EQ(smooth_step(k_infinity, 2.0, 4.0), 1.0);
+    EXPECT_NEAR(smooth_step(2.0 + 1e-6, 2.0, 4.0), 0.75e-12, 1e-17);  // 3 t^2
+}
+
+void add_to_hash(HashStream& hash, const Quat& rotation) {
+    for (const double value : {rotation.w(), rotation.x(), rotation.y(), rotation.z()}) {
+        hash.add(value);
+    }
+}
+
+void add_to_hash(HashStream& hash, const Vec3& vector) {
+    for (const double value : {vector.x(), vector.y(), vector.z()}) {
+        hash.add(value);
+    }
+}
+
+// Golden: guards only that every compiler and optimisation gives the same bits. It says nothing
+// about their being right; a change of the formulas changes it, and every state hash with it.
+TEST(MathGolden, BitsAreEqualOnAllCompilers) {
+    constexpr std::uint64_t k_golden = 0x308e9594fc2d72bcULL;
+    HashStream hash;
+    for (int i = -4000; i <= 4000; ++i) {
+        const double x = 0.0625 * i + 1e-3 * (i % 7);
+        double sine = 0.0;
+        double cosine = 0.0;
+        sin_cos(x, sine, cosine);
+        hash.add(sine);
+        hash.add(cosine);
+        hash.add(arc_tangent2(sine - 0.3, 0.01 * x));
+        const Vec3 vector(sine, 0.03 * x, cosine * sine);
+        const Vec3 axis = vector.normalized();
+        const Quat rotation = rotation_from_vector(vector);
+        add_to_hash(hash, rotation);
+        add_to_hash(hash, rotation_to_vector(rotation));
+        add_to_hash(hash, rotation_about(axis, x));
+        add_to_hash(hash, rotation_between(axis, rotation * axis));
+        add_to_hash(hash, rotation_between(axis, rotation * -Vec3::UnitX()));
+        const Pose a = {vector, rotation};
+        const Pose b = a * inverse({axis, rotation_about(axis, 0.1 * x)});
+        const Pose between = interpolate(a, b, 0.3);
+        add_to_hash(hash, between.position);
+        add_to_hash(hash, between.rotation);
+        hash.add(smooth_step(x, -1.0, 2.0));
+    }
+    EXPECT_EQ(hash.value(), k_golden) << std::hex << "0x" << hash.value();
+}
+
+}  // namespace
+}  // namespace handhold

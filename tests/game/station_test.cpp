@@ -1,0 +1,330 @@
+// The station as a level: sound meshes, room for a player, rails that a hand can close around.
+#include "game/station.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "game/render/figures.hpp"
+#include "game/render/primitives.hpp"
+
+namespace handhold {
+namespace {
+
+const Structure& station() {
+    static const Structure made = make_station();
+    return made;
+}
+const Structure& ship() {
+    static const Structure made = make_ship();
+    return made;
+}
+
+// Distance from a point to a triangle: within its prism the distance to the plane, else to the nearest edge.
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+    return (p - a - t * along).norm();
+}
+double distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+    bool is_inside = true;
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& a = t[i];
+        const Vec3& b = t[(i + 1) % 3];
+        is_inside = is_inside && (b - a).cross(p - a).dot(normal) >= 0.0;
+        nearest = std::min(nearest, distance_to_segment(p, a, b));
+    }
+    return is_inside ? std::abs((p - t[0]).dot(normal)) : nearest;
+}
+
+bool is_rail(const Mesh& mesh) { return mesh.name.ends_with("/rails"); }
+
+enum class Count { everything, all_but_rails };
+
+// Distance from a point to the nearest surface, cut off at `limit_m`.
+double clearance(const Structure& structure, const Vec3& p, double limit_m, Count count) {
+    double nearest = limit_m;
+    for (const Mesh& mesh : structure.parts) {
+        if (count == Count::all_but_rails && is_rail(mesh)) {
+            continue;
+        }
+        for (const auto& t : mesh.triangles) {
+            const std::array<Vec3, 3> corners = {mesh.positions[t[0]], mesh.positions[t[1]],
+                                                 mesh.positions[t[2]]};
+            const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+            const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+            if ((low - p).maxCoeff() < nearest && (p - high).maxCoeff() < nearest) {
+                nearest = std::min(nearest, distance_to_triangle(p, corners));
+            }
+        }
+    }
+    return nearest;
+}
+
+double area_m2(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    const Vec3& a = mesh.positions[t[0]];
+    return 0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm();
+}
+
+// How often each edge is walked one way minus the other; 0 everywhere for closed, consistently wound solids.
+bool is_closed(const Mesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> walks;
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i];
+            const std::uint32_t b = t[(i + 1) % 3];
+            walks[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    return std::all_of(walks.begin(), walks.end(), [](const auto& w) { return w.second == 0; });
+}
+
+double volume_m3(const Mesh& mesh) {
+    double six_volumes = 0.0;
+    for (const auto& t : mesh.triangles) {
+        six_volumes +=
+            mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]]));
+    }
+    return six_volumes / 6.0;
+}
+
+void expect_sound(const Mesh& mesh) {
+    SCOPED_TRACE(mesh.name);
+    ASSERT_FALSE(mesh.triangles.empty());
+    std::set<std::array<double, 3>> places;
+    for (const Vec3& p : mesh.positions) {
+        ASSERT_TRUE(is_finite(p));
+        ASSERT_TRUE(places.insert({p.x(), p.y(), p.z()}).second) << "not welded";
+    }
+    for (const auto& t : mesh.triangles) {
+        ASSERT_LT(std::max({t[0], t[1], t[2]}), mesh.positions.size());
+        ASSERT_GT(area_m2(mesh, t), 1e-9);
+    }
+    EXPECT_TRUE(is_closed(mesh));
+    EXPECT_GT(volume_m3(mesh), 0.0) << "inside out";
+}
+
+TEST(Station, EveryPartIsWeldedClosedAndWithoutSlivers) {
+    for (const Mesh& part : station().parts) {
+        expect_sound(part);
+    }
+    EXPECT_EQ(station().parts.size(), station().looks.size());
+}
+
+TEST(Station, HasBetweenTwentyAndEightyThousandTriangles) {
+    std::size_t count = 0;
+    for (const Mesh& part : station().parts) {
+        count += part.triangles.size();
+    }
+    EXPECT_GE(count, 20000U);
+    EXPECT_LE(count, 80000U);
+}
+
+TEST(Station, StaysWithinItsBounds) {
+    for (const Mesh& part : station().parts) {
+        for (const Vec3& p : part.positions) {
+            ASSERT_LT(std::abs(p.x()), 8.0) << part.name;
+            ASSERT_LT(std::abs(p.y()), 3.7) << part.name;
+            ASSERT_GT(p.z(), -2.3) << part.name;
+            ASSERT_LT(p.z(), 7.5) << part.name;
+        }
+    }
+}
+
+TEST(Station, PartNamesAreSectionAndMaterialAndOccurOnce) {
+    std::set<std::string> names;
+    for (const Mesh& part : station().parts) {
+        EXPECT_TRUE(names.insert(part.name).second) << part.name;
+        EXPECT_EQ(std::count(part.name.begin(), part.name.end(), '/'), 1) << part.name;
+    }
+    for (const char* section : {"hab", "lab", "airlock", "node"}) {
+        EXPECT_TRUE(names.contains(std::string(section) + "/panels"));
+    }
+}
+
+TEST(Station, IsTheSameEveryTime) {
+    const Structure again = make_station();
+    ASSERT_EQ(again.parts.size(), station().parts.size());
+    for (std::size_t i = 0; i < again.parts.size(); ++i) {
+        EXPECT_EQ(again.parts[i].triangles, station().parts[i].triangles);
+        EXPECT_EQ(again.parts[i].positions, station().parts[i].positions);
+    }
+}
+
+TEST(Station, SpawnsAreThirtyCentimetresClear) {
+    ASSERT_GE(station().spawns.size(), 4U);
+    for (const SpawnPoint& spawn : station().spawns) {
+        EXPECT_TRUE(is_valid(spawn.pose)) << spawn.name;
+        EXPECT_GE(clearance(station(), spawn.pose.position, 0.5, Count::everything), 0.3)
+            << spawn.name;
+    }
+}
+
+TEST(Station, WayFromModuleToModuleIsHalfAMetreClear) {
+    // Along both passages, through all three hatchways.
+    for (double along = -6.0; along <= 6.0; along += 0.1) {
+        if (along > -6.0 && along < 4.6) {
+            EXPECT_GE(clearance(station(), Vec3(along, 0.0, 0.0), 0.6, Count::everything), 0.5);
+        }
+        if (along >= 0.0) {
+            EXPECT_GE(clearance(station(), Vec3(0.0, 0.0, along), 0.6, Count::everything), 0.5);
+        }
+    }
+}
+
+TEST(Station, RailsAreThreeCentimetresClearOfEveryWall) {
+    ASSERT_GE(station().rails.size(), 20U);
+    for (const HandrailSpan& rail : station().rails) {
+        const int steps = static_cast<int>((rail.end - rail.start).norm() / 0.02) + 1;
+        for (int i = 0; i <= steps; ++i) {
+            const Vec3 p = rail.start + (rail.end - rail.start) * i / steps;
+            ASSERT_GE(clearance(station(), p, 0.1, Count::all_but_rails), rail.radius_m + 0.03)
+                << rail.name;
+        }
+    }
+}
+
+TEST(Station, RailSpansLieOnTheirBars) {
+    for (const HandrailSpan& rail : station().rails) {
+        const Vec3 middle = 0.37 * rail.start + 0.63 * rail.end;
+        // The bar is a prism of twelve sides: its surface lies between both radii off the axis, unless a post is near.
+        EXPECT_LE(clearance(station(), middle, 0.1, Count::everything), rail.radius_m + 1e-9)
+            << rail.name;
+    }
+}
+
+TEST(Station, EachModuleHasAStraightRailOfThreeMetresOrItsWholeLength) {
+    for (const char* module : {"hab/", "lab/"}) {
+        const bool has_long = std::any_of(
+            station().rails.begin(), station().rails.end(), [&](const HandrailSpan& rail) {
+                return rail.name.starts_with(module) && (rail.end - rail.start).norm() >= 3.0;
+            });
+        EXPECT_TRUE(has_long) << module;
+    }
+    EXPECT_EQ(station_rails().size(), station().rails.size());
+}
+
+TEST(Ship, IsSoundAndFillsItsBox) {
+    Vec3 low = Vec3::Constant(HUGE_VAL);
+    Vec3 high = -low;
+    for (const Mesh& part : ship().parts) {
+        expect_sound(part);
+        for (const Vec3& p : part.positions) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+    }
+    EXPECT_NEAR(high.x() - low.x(), 4.0, 0.2);
+    EXPECT_NEAR(high.y() - low.y(), 3.0, 0.2);
+    EXPECT_NEAR(high.z() - low.z(), 8.0, 0.2);
+    EXPECT_LT((0.5 * (low + high)).norm(), 0.2);
+}
+
+TEST(Ship, RailsAndSpawnsAreClear) {
+    for (const HandrailSpan& rail : ship().rails) {
+        const int steps = static_cast<int>((rail.end - rail.start).norm() / 0.02) + 1;
+        for (int i = 0; i <= steps; ++i) {
+            const Vec3 p = rail.start + (rail.end - rail.start) * i / steps;
+            ASSERT_GE(clearance(ship(), p, 0.1, Count::all_but_rails), rail.radius_m + 0.03)
+                << rail.name;
+        }
+    }
+    for (const SpawnPoint& spawn : ship().spawns) {
+        EXPECT_GE(clearance(ship(), spawn.pose.position, 0.5, Count::everything), 0.3);
+    }
+}
+
+TEST(Rock, IsAboutSixteenCentimetresAcross) {
+    const Mesh rock = make_held_rock();
+    expect_sound(rock);
+    Vec3 low = Vec3::Constant(HUGE_VAL);
+    Vec3 high = -low;
+    for (const Vec3& p : rock.positions) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    EXPECT_NEAR((high - low).maxCoeff(), 0.16, 0.03);
+    EXPECT_NEAR((high - low).minCoeff(), 0.16, 0.05);
+}
+
+// Closed forms: inscribed polygons and polyhedra of n segments lose a known share of the round volume.
+TEST(Primitives, AreClosedAndHaveTheVolumeOfTheirFormula) {
+    constexpr double k_pi = 3.14159265358979323846;
+    const auto polygon_share = [](int n) { return std::sin(2.0 * k_pi / n) * n / (2.0 * k_pi); };
+    const std::array<Vec3, 3> bent = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)};
+    const struct {
+        const char* name;
+        Mesh mesh;
+        double volume_m3;
+        double tolerance;
+    } cases[] = {
+        {"box", make_box(Vec3(0.5, 1.0, 1.5)), 6.0, 1e-12},
+        {"bevelled box", make_bevelled_box(Vec3(0.5, 0.5, 0.5), 0.1),
+         // a cube without twelve triangular bars of length 0.8 and eight corners of three tenths by half a tenth
+         1.0 - 12.0 * 0.8 * 0.005 - 8.0 * 0.1 * 0.1 * 0.1 * 5.0 / 6.0, 1e-9},
+        {"slab", make_bevelled_slab(Vec3(0.5, 0.5, 0.5), 0.1),
+         0.9 + 0.1 * (1.0 + 0.8 + 0.64) / 3.0, 1e-9},  // prism and frustum
+        {"cylinder", make_cylinder(Vec3(1, 2, 3), Vec3(1, 2, 5), 0.5, 24),
+         2.0 * 0.25 * k_pi * polygon_share(24), 1e-9},
+        {"sphere", make_sphere(1.0, 96), 4.0 / 3.0 * k_pi, 0.02},
+        {"icosphere", make_icosphere(1.0, 4), 4.0 / 3.0 * k_pi, 0.02},
+        {"capsule", make_capsule(Vec3(0, 0, 0), Vec3(0, 2, 0), 0.5, 96),
+         2.0 * 0.25 * k_pi + k_pi / 6.0, 0.02},
+        {"torus", make_torus(1.0, 0.2, 128, 64), 2.0 * k_pi * k_pi * 0.04, 0.005},
+        {"bent tube", make_tube(bent, 0.1, 24), 2.0 * 0.01 * k_pi * polygon_share(24), 1e-3},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.name);
+        EXPECT_TRUE(is_closed(c.mesh));
+        EXPECT_NEAR(volume_m3(c.mesh), c.volume_m3, c.tolerance);
+    }
+}
+
+TEST(Primitives, LookAlongTurnsMinusZForward) {
+    const Vec3 forward = Vec3(1.0, -0.5, 2.0).normalized();
+    const Pose pose = look_along(Vec3(1, 2, 3), forward, Vec3::UnitY());
+    EXPECT_LT((pose.rotation * Vec3(0, 0, -1) - forward).norm(), 1e-12);
+    EXPECT_NEAR((pose.rotation * Vec3::UnitX()).y(), 0.0, 1e-12);
+    EXPECT_GT((pose.rotation * Vec3::UnitY()).y(), 0.0);
+}
+
+TEST(Figures, LeftHandIsTheRightOneMirrored) {
+    const std::vector<Mesh> left = make_hand(FigureSide::left, HandShape::grip);
+    const std::vector<Mesh> right = make_hand(FigureSide::right, HandShape::grip);
+    ASSERT_EQ(left.size(), right.size());
+    for (std::size_t part = 0; part < left.size(); ++part) {
+        ASSERT_EQ(left[part].positions.size(), right[part].positions.size());
+        EXPECT_GT(volume_m3(left[part]), 0.0);
+        EXPECT_TRUE(is_closed(left[part]));
+    }
+}
+
+TEST(Figures, OpenHandIsEighteenCentimetresFromWristToFingertip) {
+    double reach = 0.0;
+    for (const Mesh& part : make_hand(FigureSide::right, HandShape::open)) {
+        for (const Vec3& p : part.positions) {
+            reach = std::max(reach, -p.z());
+        }
+    }
+    EXPECT_NEAR(reach, 0.18, 0.015);
+}
+
+TEST(Figures, GrippingFingersStayOutsideOfTheBar) {
+    for (const Mesh& part : make_hand(FigureSide::right, HandShape::grip)) {
+        for (const Vec3& p : part.positions) {
+            const double from_axis = std::hypot(p.y() + 0.031, p.z() + 0.086);
+            EXPECT_GT(from_axis, 0.0145) << part.name;  // pads may sink 3 mm into the bar of 17.5 mm
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold

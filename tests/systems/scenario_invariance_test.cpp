@@ -1,0 +1,165 @@
+// What must not matter: where the world is and how it is turned, how many threads solve it, whether caches survive, in which order bodies
+// were made.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/core/parallel.hpp"
+#include "tests/systems/scenario.hpp"
+
+namespace handhold {
+namespace {
+
+// Crawls along a wall, waves a rock, shoves it into the wall, lets go, drifts: everything the frame does.
+struct Play {
+    Scenario s;
+    Entity rock;
+
+    explicit Play(const Pose& frame_ws = {}, bool reversed = false, int extra_rocks = 0) {
+        s.frame_ws = frame_ws;
+        const auto add_walls = [&] {
+            s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
+            s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.5));
+        };
+        const auto add_rocks = [&] {
+            rock = s.add_rock("rock", 5.0, Vec3(-0.3, 1.3, 0.0));
+            for (int i = 0; i < extra_rocks; ++i) {
+                s.add_rock("extra" + std::to_string(i), 2.0, Vec3(-0.9 + 0.17 * i, 1.14, 0.9));
+            }
+        };
+        if (reversed) {
+            add_rocks();
+            add_walls();
+        } else {
+            add_walls();
+            add_rocks();
+        }
+        s.add_player_here();
+        for (int i = 0; i < extra_rocks; ++i) {  // rolling into one another: islands that change
+            const Entity body = find_by_id(s.world, persistent_id_from_name("extra" + std::to_string(i)));
+            s.world.body_velocity.at(body).linear_mps = s.frame_ws.rotation * Vec3(i % 2 == 0 ? 0.4 : -0.4, -0.2, 0.0);
+        }
+        const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
+        const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
+        s.script.grabs[0] = [](double t) { return t > 0.3; };
+        s.script.grabs[1] = [](double t) { return t > 0.05 && t < 1.507; };
+        s.script.hands[1] = [=](double t) {
+            return Pose{right + 0.1 * ease(t, 0.2, 0.8) * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
+                        rotation_about(Vec3::UnitY(), 0.2 * std::sin(t))};
+        };
+        s.script.hands[0] = [=](double t) {
+            return Pose{left + Vec3(0.1 * std::sin(3 * t) * ease(t, 0.4, 0.8), 0.0, -0.5 * ease(t, 1.0, 1.4)),
+                        rotation_about(Vec3::UnitX(), 0.2 * std::sin(2 * t) * ease(t, 0.4, 0.8))};
+        };
+        s.script.head = [](double t) {
+            return Pose{Vec3(0.05 * std::sin(2 * t), 1.6, 0.6), rotation_about(Vec3::UnitY(), 0.3 * std::sin(t))};
+        };
+    }
+};
+
+std::vector<Vec3> path_of(Play& play) {
+    std::vector<Vec3> path;
+    play.s.run(2.5, [&] {
+        path.push_back(play.s.origin());
+        path.push_back(play.s.body(play.rock).position);
+    });
+    return path;
+}
+
+class Placed : public testing::TestWithParam<int> {};
+
+TEST_P(Placed, WorldGivesTheSamePath) {
+    const Vec3 far(10000.0, -3000.0, 7000.0);
+    const Quat turned = rotation_from_vector(Vec3(0.7, -1.9, 0.4));
+    const Pose places[] = {{far, Quat::Identity()}, {Vec3::Zero(), turned}, {far, turned}};
+    Play here;
+    Play there(places[GetParam()]);
+    const std::vector<Vec3> expected = path_of(here);
+    const std::vector<Vec3> found = path_of(there);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_LE((expected[i] - found[i]).norm(), 1e-6) << "frame " << i / 2;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(TenKilometresAndTurned, Placed, testing::Range(0, 3));
+
+std::uint64_t hash_after(Play& play, double seconds, const std::function<void()>& after_frame = [] {}) {
+    play.s.run(seconds, after_frame);
+    return hash_state(play.s.world);
+}
+
+TEST(StateHash, IsEqualForTwoRuns) {
+    Play a;
+    Play b;
+    EXPECT_EQ(hash_after(a, 2.0), hash_after(b, 2.0));
+}
+
+TEST(StateHash, ChangesWithTheInput) {
+    Play a;
+    Play b;
+    b.s.script.head = [](double) { return Pose{Vec3(0.0, 1.6, 0.6000001), Quat::Identity()}; };
+    EXPECT_NE(hash_after(a, 0.2), hash_after(b, 0.2));
+}
+
+TEST(StateHash, DoesNotDependOnTheOrderOfCreation) {
+    Play a({}, false, 8);
+    Play b({}, true, 8);
+    EXPECT_EQ(hash_after(a, 2.0), hash_after(b, 2.0));
+}
+
+TEST(StateHash, SurvivesThrowingTheCachesAwayInEveryFrame) {
+    Play a({}, false, 8);
+    Play b({}, false, 8);
+    EXPECT_EQ(hash_after(a, 1.7), hash_after(b, 1.7, [&] { b.s.drop_caches(); }));
+}
+
+TEST(StateHash, SurvivesRollback) {
+    Play a({}, false, 4);
+    a.s.run(1.2);
+    const World saved = a.s.world;
+    Play b({}, false, 4);
+    b.s.run(1.2);
+    b.s.run(60.0 / 90.0);  // sixty frames that are taken back
+    const std::uint64_t later = hash_state(b.s.world);
+    a.s.world = saved;
+    a.s.run(60.0 / 90.0);
+    EXPECT_EQ(hash_state(a.s.world), later);
+}
+
+TEST(StateHashThreaded, IsEqualForOneTwoAndFourThreads) {
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 4}) {
+        set_thread_count(threads);
+        Play play({}, false, 12);
+        hashes.push_back(hash_after(play, 1.6));
+    }
+    set_thread_count(1);
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+// A single support without a contact: the path depends on the hands, not on how often they were looked at.
+class Rates : public testing::TestWithParam<double> {};
+
+TEST_P(Rates, SingleSupportPathAgrees) {
+    const auto crawl = [](double hz) {
+        Scenario s;
+        s.hz = hz;
+        s.sample_hz = 89.0;
+        s.tuning.locomotion.drift_drag_per_s = 0.0;
+        s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
+        s.add_player_here();
+        const Vec3 hand = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
+        s.script.grabs[1] = [](double t) { return t > 0.103 && t < 1.507; };
+        s.script.hands[1] = [=](double t) {
+            return Pose{hand - 0.25 * Vec3(std::sin(3 * t), 0.4 * t, std::sin(2 * t)), Quat::Identity()};
+        };
+        s.run(2.0);
+        return s.origin();
+    };
+    const Vec3 expected = crawl(360.0);
+    EXPECT_LE((crawl(GetParam()) - expected).norm(), 0.005 + 0.01 * 0.5);  // 5 mm and 1 % of half a metre drifted
+}
+INSTANTIATE_TEST_SUITE_P(Hz, Rates, testing::Values(60.0, 72.0, 90.0, 120.0, 144.0));
+
+}  // namespace
+}  // namespace handhold

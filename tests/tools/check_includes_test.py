@@ -1,0 +1,114 @@
+"""Plants one breach of each rule in a small tree and expects check_includes to name it, and nothing where all is well."""
+import importlib.util
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
+spec = importlib.util.spec_from_file_location("check_includes", SCRIPT)
+check_includes = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(check_includes)
+
+
+def breaches(files: dict[str, str]) -> list[str]:
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for name, text in files.items():
+            path = root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return [str(breach) for breach in check_includes.check_tree(root)]
+
+
+class CheckIncludes(unittest.TestCase):
+    def assert_breach(self, file: str, text: str, place_and_words: str):
+        found = breaches({file: text})
+        self.assertEqual(len(found), 1, found)
+        place, words = place_and_words.split(" | ")
+        self.assertTrue(found[0].startswith(f"{place}: "), found)
+        self.assertIn(words, found[0])
+
+    def assert_clean(self, file: str, text: str):
+        self.assertEqual(breaches({file: text}), [])
+
+    def test_downward_includes_are_allowed(self):
+        self.assert_clean("engine/a.cpp", '#include "engine/math/math.hpp"\n#include <vector>\n')
+        self.assert_clean("components/a.hpp", '#pragma once\n#include "components/b.hpp"\n#include "engine/c.hpp"\n')
+        self.assert_clean("systems/grip/search_grip.cpp",
+                          '#include "systems/grip/search_grip.hpp"\n#include "components/hand.hpp"\n')
+        self.assert_clean("game/main.cpp", '#include "systems/frame.hpp"\n#include "engine/core/hash.hpp"\n')
+
+    def test_upward_includes_are_named_with_their_line(self):
+        self.assert_breach("engine/a.cpp", '\n#include "components/b.hpp"\n',
+                           "engine/a.cpp:2 | engine does not include components")
+        self.assert_breach("components/a.cpp", '#include "systems/frame.hpp"\n',
+                           "components/a.cpp:1 | components does not include systems")
+        self.assert_breach("systems/frame.cpp", '#include "game/scene.hpp"\n',
+                           "systems/frame.cpp:1 | systems does not include game")
+        self.assert_breach("game/a.cpp", '#include "tests/a.hpp"\n', "game/a.cpp:1 | game does not include tests")
+
+    def test_system_may_not_include_another_system_but_frame_and_snapshot_may(self):
+        include = '#include "systems/grip/search_grip.hpp"\n'
+        self.assert_breach("systems/hand/constrain_palms.cpp", include,
+                           "systems/hand/constrain_palms.cpp:1 | a system includes no other system")
+        self.assert_breach("systems/grip/search_grip_helper.cpp", include,
+                           "systems/grip/search_grip_helper.cpp:1 | a system includes no other system")
+        self.assert_clean("systems/frame.cpp", include)
+        self.assert_clean("systems/snapshot.cpp", include)
+
+    def test_only_the_front_door_names_world(self):
+        self.assert_breach("systems/physics/a.cpp", "void f(const World& world);\n",
+                           "systems/physics/a.cpp:1 | World")
+        self.assert_breach("components/grab.hpp", "#pragma once\nstruct World;\n", "components/grab.hpp:2 | World")
+        for file in ("systems/frame.cpp", "systems/snapshot.cpp", "components/world.cpp", "game/a.cpp",
+                     "tests/systems/a.cpp", "tools/lab/a.cpp"):
+            self.assert_clean(file, "void f(const World& world);\n")
+
+    def test_world_in_comments_literals_and_longer_names_is_no_breach(self):
+        self.assert_clean("engine/a.cpp", '// World\n/* the\n World */\nconst char* a = "World"; CollisionWorld b;\n'
+                                          'const char* c = R"(\nWorld "quoted")";\n')
+
+    def test_lines_after_block_comments_keep_their_numbers(self):
+        self.assert_breach("engine/a.cpp", "/* one\n two\n*/\nWorld w;\n", "engine/a.cpp:4 | World")
+
+    def test_commented_include_is_no_breach(self):
+        self.assert_clean("engine/a.cpp", '// #include "game/a.hpp"\n/* #include "game/a.hpp" */\n')
+
+    def test_each_library_has_one_home(self):
+        homes = {
+            "bullet/btBulletCollisionCommon.h": "engine/collision/bullet_collision_world.cpp",
+            "btBulletDynamicsCommon.h": "engine/collision/bullet_collision_world.cpp",
+            "box2d/b2_distance.h": "engine/geometry/disc_contact_box2d.cpp",
+            "oneapi/tbb/parallel_for.h": "engine/core/parallel.cpp",
+            "tbb/parallel_for.h": "engine/core/parallel.cpp",
+            "tiny_gltf.h": "engine/io/gltf.cpp",
+            "Eigen/Core": "engine/math/math.hpp",
+            "openxr/openxr.h": "game/platform/xr.cpp",
+            "SDL2/SDL.h": "game/platform/window.cpp",
+            "epoxy/gl.h": "game/render/renderer.cpp",
+        }
+        for header, home in homes.items():
+            with self.subTest(header=header):
+                text = f"#pragma once\n#include <{header}>\n"
+                self.assert_clean(home, text)
+                self.assert_breach("systems/physics/a.cpp", text, "systems/physics/a.cpp:2 | only ")
+                self.assert_clean("tests/engine/a.cpp", text)
+
+    def test_library_types_are_named_at_home_only(self):
+        for code in ("class btDispatcher;", "b2Vec2 v;", "tbb::task_arena a;", "tinygltf::Model m;", "XrSession s;",
+                     "SDL_Init(0);"):
+            with self.subTest(code=code):
+                self.assert_breach("engine/ecs/a.cpp", code + "\n", "engine/ecs/a.cpp:1 | only")
+
+    def test_our_headers_are_quoted_from_the_root(self):
+        self.assert_breach("engine/a.cpp", '#include "b.hpp"\n', "engine/a.cpp:1 | start at the root")
+        self.assert_breach("engine/a.cpp", '#include "../components/b.hpp"\n', "engine/a.cpp:1 | start at the root")
+        self.assert_breach("engine/a.cpp", "#include <engine/b.hpp>\n", 'engine/a.cpp:1 | our own headers go in ""')
+        self.assert_clean("tests/engine/a_test.cpp", '#include "helper_beside_it.hpp"\n')
+
+    def test_header_without_pragma_once_is_named(self):
+        self.assert_breach("engine/a.hpp", "// #pragma once\nint a();\n", "engine/a.hpp:1 | no #pragma once")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Checks who may include whom (docs/conventions.md, "Folders"). Prints `file:line: rule` for each breach.
+
+usage: tools/check_includes.py [ROOT]      exit status 0: none, 1: some
+"""
+import re
+import sys
+from pathlib import Path
+from typing import Iterator, NamedTuple
+
+# Folder of a file -> folders whose headers it may include. systems has a rule of its own on top.
+ALLOWED_FOLDERS = {
+    "engine": {"engine"},
+    "components": {"components", "engine"},
+    "systems": {"systems", "components", "engine"},
+    "game": {"game", "systems", "components", "engine"},
+    "tests": {"tests", "tools", "game", "systems", "components", "engine"},
+    "tools": {"tools", "game", "systems", "components", "engine"},
+}
+# The product: where a library has one home and our headers are named from the root. Tests and tools may use any library as an oracle.
+PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
+# The order of the stages and the copies of all columns: these see every system and the whole World.
+FRONT_DOOR = re.compile(r"systems/(frame|snapshot)\w*\.[hc]pp")
+NAMES_WORLD = re.compile(r"(systems/(frame|snapshot)\w*\.[hc]pp|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
+
+
+class Library(NamedTuple):
+    name: str
+    header: re.Pattern  # of the included path
+    identifier: re.Pattern | None  # in code; None: naming its types is free
+    home: re.Pattern  # the files that may
+    home_text: str
+
+
+def library(name: str, header: str, identifier: str | None, home: str, home_text: str) -> Library:
+    return Library(name, re.compile(header), re.compile(identifier) if identifier else None, re.compile(home), home_text)
+
+
+LIBRARIES = [
+    library("Bullet", r"bullet/|bt[A-Z]\w*\.h|BulletCollision/|LinearMath/", r"\bbt[A-Z]\w+",
+            r"engine/collision/bullet_collision_world\.cpp", "engine/collision/bullet_collision_world.cpp"),
+    library("Box2D", r"box2d/", r"\bb2[A-Z]\w+",
+            r"engine/geometry/disc_contact_box2d\.cpp", "engine/geometry/disc_contact_box2d.cpp"),
+    library("TBB", r"tbb/|oneapi/", r"\btbb::", r"engine/core/parallel\.cpp", "engine/core/parallel.cpp"),
+    library("tinygltf", r"tiny_?gltf", r"\btinygltf::", r"engine/io/gltf\.cpp", "engine/io/gltf.cpp"),
+    library("Eigen", r"(unsupported/)?Eigen/", None, r"engine/math/math\.hpp", "engine/math/math.hpp"),
+    library("OpenXR", r"openxr/", r"\b[xX]r[A-Z]\w+", r"game/platform/xr\.cpp", "game/platform/xr.cpp"),
+    library("SDL", r"SDL", r"\bSDL_\w+", r"game/platform/window\.cpp", "game/platform/window.cpp"),
+    library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/render/.*", "game/render/"),
+]
+
+# Comments become blanks; literals keep their quotes only. Line breaks stay, so that lines keep their numbers.
+TOKEN = re.compile(
+    r'(?P<comment>//[^\n]*|/\*.*?\*/)'
+    r'|(?P<raw>R"(?P<mark>[^\s()\\]{0,16})\(.*?\)(?P=mark)")'
+    r'|(?P<literal>"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\')', re.DOTALL)
+INCLUDE = re.compile(r'\s*#\s*include\s*(?P<mark>[<"])(?P<path>[^>"]+)[>"]')
+
+
+class Breach(NamedTuple):
+    file: str
+    line: int
+    rule: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.rule}"
+
+
+def blank(text: str) -> str:
+    return re.sub(r"[^\n]", " ", text)
+
+
+def without_comments(text: str) -> str:
+    return TOKEN.sub(lambda m: blank(m[0]) if m["comment"] else m[0], text)
+
+
+def without_literals(text: str) -> str:
+    return TOKEN.sub(lambda m: blank(m[0]), text)
+
+
+def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
+    """The rules that one include of `path` in `file` breaks."""
+    folder = file.split("/")[0]
+    target = path.split("/")[0]
+    if target not in ALLOWED_FOLDERS:
+        if folder not in PRODUCT_FOLDERS:
+            return  # a library, or a helper beside a test
+        if mark == '"':
+            yield f'"{path}": paths of our headers start at the root; a library\'s header goes in <>'
+        for lib in LIBRARIES:
+            if lib.header.match(path) and not lib.home.fullmatch(file):
+                yield f"<{path}>: only {lib.home_text} includes {lib.name}"
+        return
+    if mark == "<":
+        yield f'<{path}>: our own headers go in ""'
+    if target not in ALLOWED_FOLDERS[folder]:
+        yield f'"{path}": {folder} does not include {target}'
+    is_own_header = path == str(Path(file).with_suffix(".hpp"))
+    if folder == target == "systems" and not is_own_header and not FRONT_DOOR.fullmatch(file):
+        yield f'"{path}": a system includes no other system; only systems/frame and systems/snapshot do'
+
+
+def code_rules(file: str, line: str) -> Iterator[str]:
+    """The rules that one line of code, without comments and literals, breaks."""
+    if re.search(r"\bWorld\b", line) and not NAMES_WORLD.fullmatch(file):
+        yield "World: only components/world, systems/frame, systems/snapshot, game, tools and tests name it"
+    if file.split("/")[0] not in PRODUCT_FOLDERS:
+        return
+    for lib in LIBRARIES:
+        found = lib.identifier.search(line) if lib.identifier else None
+        if found and not lib.home.fullmatch(file):
+            yield f"{found[0]}: only {lib.home_text} names {lib.name}"
+
+
+def breaches_of(file: str, text: str) -> Iterator[Breach]:
+    """`file` relative to the root, with forward slashes."""
+    code = without_comments(text)
+    if file.endswith(".hpp") and not re.search(r"^\s*#\s*pragma\s+once\b", code, re.MULTILINE):
+        yield Breach(file, 1, "no #pragma once")
+    bare = without_literals(text).split("\n")
+    for number, line in enumerate(code.split("\n"), start=1):
+        include = INCLUDE.match(line)
+        rules = include_rules(file, include["mark"], include["path"]) if include else code_rules(file, bare[number - 1])
+        for rule in rules:
+            yield Breach(file, number, rule)
+
+
+def check_tree(root: Path) -> list[Breach]:
+    breaches = []
+    for folder in ALLOWED_FOLDERS:
+        for path in sorted((root / folder).rglob("*.[hc]pp")):
+            file = path.relative_to(root).as_posix()
+            breaches.extend(breaches_of(file, path.read_text(encoding="utf-8")))
+    return breaches
+
+
+def main(arguments: list[str]) -> int:
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    if not (root / "engine").is_dir():
+        print(f"check_includes: {root}: no folder engine/ here", file=sys.stderr)
+        return 1
+    breaches = check_tree(root)
+    for breach in breaches:
+        print(breach)
+    return 1 if breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
