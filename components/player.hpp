@@ -37,11 +37,11 @@ struct ReferenceVelocity {
 };
 
 // Bodies that the head passes through: those in this player's hands, and those let go until they are apart from the head.
-// Added by update_grabs, dropped by find_contacts. When full, the oldest is overwritten.
+// Added by update_grabs, dropped by find_contacts. When full, places are overwritten in turn.
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
     std::array<Entity, k_capacity> bodies;  // null: unused
-    std::uint32_t next = 0;
+    std::uint32_t next = 0;  // to be overwritten when full
 };
 
 }  // namespace handhold

@@ -16,7 +16,7 @@ struct TrackingTuning {
 struct HandTuning {
     Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);   // wrist in the controller's frame, right hand
     double controller_pitch_rad = -0.35;
-    Vec3 palm_center_m = Vec3(0.0, -0.01, -0.07);      // in the hand's frame
+    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);      // in the hand's frame
     double ray_back_m = 0.03;
     double ray_length_m = 0.15;
     double reach_m = 0.10;

@@ -7,11 +7,15 @@
 namespace handhold {
 namespace {
 
-Entity add_named(World& world, std::string_view name) {
+void check_name_is_free(const World& world, std::string_view name) {
     const PersistentId id = persistent_id_from_name(name);
     HH_CHECK(is_null(find_by_id(world, id)), "the name is taken", id.value);
+}
+
+Entity add_named(World& world, std::string_view name) {
+    check_name_is_free(world, name);
     const Entity entity = world.entities.create();
-    world.persistent_id.add(entity, id);
+    world.persistent_id.add(entity, persistent_id_from_name(name));
     return entity;
 }
 
@@ -37,6 +41,11 @@ Entity add_body(World& world, const BodyDescription& description) {
 PlayerEntities add_player(World& world, const PlayerDescription& description) {
     HH_CHECK(is_valid(description.origin_ws), "the origin is not valid", description.origin_ws.rotation.norm());
     HH_CHECK(description.body.mass_kg > 0.0, "a player needs a mass", description.body.mass_kg);
+    const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
+                                                  std::string(description.name) + "/right_hand"};
+    for (const std::string& name : hand_names) {
+        check_name_is_free(world, name);
+    }
     PlayerEntities made;
     made.player = add_named(world, description.name);
     world.player.add(made.player, description.body);
@@ -51,9 +60,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.last_valid.add(made.player, {description.origin_ws, false});
     world.render_pose.add(made.player);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const std::string name =
-            std::string(description.name) + (side == HandSide::left ? "/left_hand" : "/right_hand");
-        const Entity hand = add_named(world, name);
+        const Entity hand = add_named(world, hand_names[index_of(side)]);
         made.hands[index_of(side)] = hand;
         world.hand_owner.add(hand, {made.player, side});
         world.hand_tracking.add(hand);

@@ -36,37 +36,39 @@ const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
 SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
-    script.duration_s = 17.0;
+    script.duration_s = 16.0;
     // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a catch at its far hatch.
     script.body = {{0.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
                    {2.0, Vec3(-0.52, 0.26, 5.35), 0.5 * ahead},
                    {7.0, Vec3(-0.52, 0.26, 2.85), 0.5 * ahead},
                    {9.2, Vec3(-0.05, 0.34, 2.05), Vec3(0.25, 0.0, -0.35)},
-                   {11.0, Vec3(0.02, 0.30, 1.25), 0.6 * ahead},
-                   {11.5, Vec3(0.02, 0.30, 0.92), 0.75 * ahead},
-                   {13.5, Vec3(0.02, 0.30, -0.58), 0.75 * ahead},
-                   {14.6, Vec3(0.02, 0.34, -0.86), Vec3::Zero()},
-                   {17.0, Vec3(0.02, 0.34, -0.86), Vec3::Zero()}};
+                   {11.0, Vec3(0.02, 0.30, 1.30), 0.7 * ahead},
+                   {11.4, Vec3(0.02, 0.30, 0.96), ahead},
+                   {11.5, Vec3(0.02, 0.30, 0.86), ahead},
+                   {12.9, Vec3(0.02, 0.30, -0.54), ahead},
+                   {13.9, Vec3(0.02, 0.34, -0.84), Vec3::Zero()},
+                   {16.0, Vec3(0.02, 0.34, -0.84), Vec3::Zero()}};
     ScriptedCrawl crawl;
     crawl.bar_start = k_hab_rail;
     crawl.along = ahead;
     crawl.away = Vec3::UnitX();
     crawl.fingers = Vec3::UnitY();
     crawl.from_s = 0.8;
-    crawl.until_s = 7.6;
+    crawl.until_s = 6.7;
     add_crawl(crawl, script);
+    script.holds.push_back({HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
     // Bars over the hatch: palms under them, fingers up.
     const Vec3 under = -Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
         script.holds.push_back({side, from_s, until_s, on_axis + 0.02 * under, under, ahead});
     };
-    hold(HandSide::right, 7.45, 10.1, Vec3(0.16, 0.885, 1.893));
-    hold(HandSide::left, 8.30, 9.9, Vec3(-0.18, 0.885, 1.893));
-    hold(HandSide::left, 10.0, 11.5, Vec3(-0.18, 0.885, 1.178));
-    hold(HandSide::right, 10.6, 11.5, Vec3(0.18, 0.885, 1.178));
-    hold(HandSide::right, 13.5, 17.0, Vec3(0.18, 0.885, -1.178));
-    hold(HandSide::left, 14.2, 17.0, Vec3(-0.18, 0.885, -1.178));
+    hold(HandSide::right, 7.6, 10.1, Vec3(0.16, 0.885, 1.893));
+    hold(HandSide::left, 8.7, 9.6, Vec3(-0.18, 0.885, 1.893));
+    hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.885, 1.178));
+    hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.885, 1.178));
+    hold(HandSide::right, 12.9, 16.0, Vec3(0.18, 0.885, -1.178));
+    hold(HandSide::left, 13.6, 16.0, Vec3(-0.18, 0.885, -1.178));
     return script;
 }
 

@@ -22,7 +22,7 @@ struct FilmSettings {
     int height_px = 540;
     int video_width_px = 640;
     int video_height_px = 360;
-    double video_fps = 30.0;
+    double video_fps = 24.0;
     double longest_video_s = 40.0;  // of the session
     int shots = 8;                  // at most, spread over the session, at moments of grabbing where there are any
     std::filesystem::path video;    // empty: no video

@@ -6,6 +6,7 @@
 #include "components/tuning_json.hpp"
 #include "engine/io/gltf.hpp"
 #include "game/built_in_scenes.hpp"
+#include "game/render/level_meshes.hpp"
 #include "game/render/primitives.hpp"
 
 namespace handhold {
@@ -16,6 +17,16 @@ std::shared_ptr<const Mesh> moved_mesh(Mesh mesh, const Pose& pose) {
         position = transform_point(pose, position);
     }
     return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+// A static body that is not drawn.
+Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws) {
+    BodyDescription description;
+    description.name = name;
+    description.pose_ws = pose_ws;
+    description.shape = scene.shapes->add_mesh(std::move(mesh));
+    scene.body_names.push_back(name);
+    return add_body(scene.world, description);
 }
 
 // Builds a scene file's bodies one by one; the first error is kept and ends it.
@@ -58,11 +69,17 @@ class SceneBuilder {
             return;
         }
         const std::string stem = level.file.stem().string();
+        std::vector<Entity> bodies;
         for (std::size_t i = 0; i < loaded->parts.size(); ++i) {
-            Mesh& mesh = loaded->parts[i].mesh;
+            const Mesh& mesh = loaded->parts[i].mesh;
             if (!mesh.triangles.empty()) {
                 const std::string name = stem + "/" + std::to_string(i) + "/" + mesh.name;
-                add_static_mesh(scene_, name, moved_mesh(std::move(mesh), level.pose), file_.world_transform);
+                bodies.push_back(add_static_body(scene_, name, moved_mesh(mesh, level.pose), file_.world_transform));
+            }
+        }
+        for (Mesh& mesh : make_level_meshes(*loaded)) {
+            if (!bodies.empty()) {  // level meshes stand still together: any of its bodies carries the picture
+                scene_.visuals.push_back({bodies.front(), moved_mesh(std::move(mesh), level.pose), std::nullopt, {}});
             }
         }
     }
@@ -149,12 +166,7 @@ SceneFile level_scene(const std::filesystem::path& path) {
 
 Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws,
                        const Look& look) {
-    BodyDescription description;
-    description.name = name;
-    description.pose_ws = pose_ws;
-    description.shape = scene.shapes->add_mesh(mesh);
-    const Entity entity = add_body(scene.world, description);
-    scene.body_names.push_back(name);
+    const Entity entity = add_static_body(scene, name, mesh, pose_ws);
     scene.visuals.push_back({entity, std::move(mesh), std::nullopt, look});
     return entity;
 }

@@ -119,13 +119,21 @@ HandNow hand_at(const SessionScript& script, HandSide side, const std::vector<Ha
     return now;
 }
 
-Pose head_pose(const SessionScript& script, double t_s) {
+// Eyes ahead, but drawn to what the hands do.
+Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hands) {
     Pose pose;
     pose.position = eyes_at(script.body, t_s);
-    const double yaw = 0.22 * sine(0.9 * t_s) + 0.1 * sine(2.1 * t_s);
-    const double pitch = -0.08 + 0.07 * sine(1.3 * t_s + 0.5);
-    pose.rotation = (script.play_space * rotation_about(Vec3::UnitY(), yaw) *
-                     rotation_about(Vec3::UnitX(), pitch)).normalized();
+    const Vec3 ahead = script.play_space * -Vec3::UnitZ();
+    const Vec3 up = script.play_space * Vec3::UnitY();
+    const Vec3 look = (0.8 * ahead + (between_hands - pose.position).normalized()).normalized();
+    const Vec3 right = look.cross(up).normalized();
+    Mat3 axes;
+    axes.col(0) = right;
+    axes.col(1) = right.cross(look);
+    axes.col(2) = -look;
+    const double yaw = 0.08 * sine(0.9 * t_s) + 0.04 * sine(2.1 * t_s);
+    const double pitch = 0.05 * sine(1.3 * t_s + 0.5);
+    pose.rotation = (Quat(axes) * rotation_about(Vec3::UnitY(), yaw) * rotation_about(Vec3::UnitX(), pitch)).normalized();
     return pose;
 }
 
@@ -174,20 +182,22 @@ Recording record_session(const SessionScript& script, const HandTuning& tuning) 
         RecordedSample sample;
         sample.t_s = i / k_sample_hz;
         // The person stands still in the room but for a sway: it is the hands that move the play space.
-        const Vec3 sway = Vec3(0.02 * sine(0.7 * sample.t_s), 0.01 * sine(1.1 * sample.t_s), 0.02 * sine(0.5 * sample.t_s));
+        const Vec3 sway = Vec3(0.02 * sine(0.4 * sample.t_s), 0.01 * sine(0.5 * sample.t_s), 0.02 * sine(0.3 * sample.t_s));
         const Vec3 carried = eyes_at(script.body, sample.t_s) - eyes_at(script.body, 0.0) - script.play_space * sway;
         const Pose origin{start.position + carried, start.rotation};
         const Pose to_play_space = inverse(origin);
-        sample.head = to_play_space * head_pose(script, sample.t_s);
+        Vec3 between_hands = Vec3::Zero();
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             const std::size_t s = index_of(side);
             HandNow now = hand_at(script, side, keys[s], sample.t_s, tuning);
+            between_hands += 0.5 * now.hand.position;
             const double phase = 7.3 * static_cast<double>(s) + k_two_pi * 9.0 * sample.t_s;
-            now.hand.position += 3e-4 * Vec3(sine(phase), sine(1.13 * phase), sine(0.91 * phase));
+            now.hand.position += 1e-4 * Vec3(sine(phase), sine(1.13 * phase), sine(0.91 * phase));
             sample.hands[s].controller = to_play_space * now.hand * hand_to_controller[s];
             sample.hands[s].buttons = now.holds ? k_button_grip : 0;
             sample.hands[s].trigger = now.holds ? 1.0 : 0.0;
         }
+        sample.head = to_play_space * head_pose(script, sample.t_s, between_hands);
         recording.samples.push_back(sample);
     }
     return recording;

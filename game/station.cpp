@@ -25,9 +25,8 @@ void add_node_walls(StationKit& kit) {
         kit.add(Material::liner, make_hatch_plate(k_node_outside_m, 0.04, k_node_plate_m),
                 node_side(side, k_node_half_m));
         // Inside, +Y of the dressing points to the middle.
-        const Pose inside =
-            node_side(side, k_node_half_m) *
-            Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
+        const Pose inside = node_side(side, k_node_half_m) *
+                            Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
         dress_hatch_plate(kit, inside, std::to_string(side), HatchRails::beside);
         // Corner post between this wall and the next, with a lamp.
         const Quat turn = rotation_about(Vec3::UnitY(), (side + 0.5) * k_half_pi);
@@ -53,7 +52,7 @@ void add_node_decks(StationKit& kit) {
                       Vec3(0.80, 0.02, 0.095));
         }
         kit.beam(Material::hull, frame, Vec3(0.0, -0.375, 0.0),
-                  Vec3(k_node_outside_m, 0.06, k_node_outside_m));
+                 Vec3(k_node_outside_m, 0.06, k_node_outside_m));
         kit.handrail(deck == 0 ? "floor" : "ceiling", frame, Vec3(k_track_m, 0.005, -0.7),
                      Vec3(k_track_m, 0.005, 0.7));
     }
@@ -103,8 +102,8 @@ void add_cupola(StationKit& kit) {
                                           Ring{a + out, next_a + out, next_b + out, b + out}};
         kit.add(Material::glass, make_loft(slab, LoftEnds::capped), pose);
     }
-    kit.spawn("cupola", node_side(2, 0.55) * Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(),
-                                                                             2.0 * k_half_pi)});
+    kit.spawn("cupola", node_side(2, 0.55) *
+                            Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), 2.0 * k_half_pi)});
 }
 
 void build_node(Structure& out) {
@@ -122,13 +121,15 @@ void build_wings(Structure& out) {
     const Pose world;
     kit.beam(Material::metal, world, Vec3(0.0, 2.35, 0.0), Vec3(0.12, 0.92, 0.12));
     kit.beam(Material::accent, world, Vec3(0.0, 1.62, 0.0), Vec3(0.42, 0.10, 0.42));
-    kit.add(Material::hull, make_capsule(Vec3(-0.5, 3.3, 0.0), Vec3(0.5, 3.3, 0.0), 0.20, 20), world);
+    kit.add(Material::hull, make_capsule(Vec3(-0.5, 3.3, 0.0), Vec3(0.5, 3.3, 0.0), 0.20, 20),
+            world);
     for (const double side : {-1.0, 1.0}) {
         kit.beam(Material::metal, world, Vec3(side * 3.9, 3.3, 0.0), Vec3(3.4, 0.035, 0.035));
         for (int cell = 0; cell < 5; ++cell) {
             const double x = side * (1.35 + 1.30 * cell);
             for (const double half : {-1.0, 1.0}) {
-                kit.beam(Material::cable, world, Vec3(x, 3.3, half * 0.72), Vec3(0.62, 0.012, 0.66));
+                kit.beam(Material::cable, world, Vec3(x, 3.3, half * 0.72),
+                         Vec3(0.62, 0.012, 0.66));
                 kit.block(Material::metal, world, Vec3(x, 3.314, half * 0.72),
                           Vec3(0.60, 0.003, 0.006));
                 for (const double line : {-0.30, 0.0, 0.30}) {

@@ -6,8 +6,9 @@
 #include "engine/geometry/mesh.hpp"
 #include "game/render/render_frame.hpp"
 
-// The game's own level, made in code: a T of three modules round a node, a cupola, and the platform that flies past.
-// Lengths in metres. The meshes are colliders too, so they are equal on every machine.
+// The game's own level, made in code: a T of three modules round a node, a cupola, and the platform
+// that flies past. Lengths in metres. The meshes are colliders too, so they are equal on every
+// machine.
 namespace handhold {
 
 // The straight part of a handrail, along its axis.
@@ -23,7 +24,8 @@ struct SpawnPoint {
     Pose pose;  // of the head: -Z looks ahead; at least 0.3 m clear of every surface
 };
 
-// A thing built of parts, all in one frame. Each part is welded and made of closed solids (one material each, named
+// A thing built of parts, all in one frame. Each part is welded and made of closed solids (one
+// material each, named
 // "<section>/<material>"); solids may touch or sink into each other.
 struct Structure {
     std::vector<Mesh> parts;
@@ -33,14 +35,14 @@ struct Structure {
     std::vector<Lamp> lamps;
 };
 
-// World frame; the node's centre is the origin, the habitat lies towards +Z, the laboratory -X, the airlock +X, the
-// cupola -Z. Static.
+// World frame; the node's centre is the origin, the habitat lies towards +Z, the laboratory -X, the
+// airlock +X, the cupola -Z. Static.
 Structure make_station();
 // The station's rails alone, for scripts that plan along them.
 std::vector<HandrailSpan> station_rails();
 
-// An open shuttle-like platform of about 8 m (along Z) x 3 m x 4 m: deck, wall, roof over its rear half, rails. In
-// its body's frame: the origin in the middle, -Z ahead.
+// An open shuttle-like platform of about 8 m (along Z) x 3 m x 4 m: deck, wall, roof over its rear
+// half, rails. In its body's frame: the origin in the middle, -Z ahead.
 Structure make_ship();
 
 // A rock of about 16 cm across, to be seen; its collider is the caller's choice.

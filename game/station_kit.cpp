@@ -80,16 +80,14 @@ void StationKit::rim(Material material, const Pose& frame, const RimShape& shape
         const double x = shape.half_x - inset;
         const double z = shape.half_z - inset;
         const Vec3 center(shape.x, y, shape.z);
-        return Ring{center + Vec3(-x, 0.0, -z), center + Vec3(-x, 0.0, z),
-                    center + Vec3(x, 0.0, z), center + Vec3(x, 0.0, -z)};
+        return Ring{center + Vec3(-x, 0.0, -z), center + Vec3(-x, 0.0, z), center + Vec3(x, 0.0, z),
+                    center + Vec3(x, 0.0, -z)};
     };
     const double bevel = 0.004;
-    const std::array<Ring, 6> rings = {ring(shape.width, shape.y0),
-                                       ring(0.0, shape.y0),
-                                       ring(0.0, shape.y1 - bevel),
-                                       ring(bevel, shape.y1),
-                                       ring(shape.width - bevel, shape.y1),
-                                       ring(shape.width, shape.y1 - bevel)};
+    const std::array<Ring, 6> rings = {
+        ring(shape.width, shape.y0),         ring(0.0, shape.y0),
+        ring(0.0, shape.y1 - bevel),         ring(bevel, shape.y1),
+        ring(shape.width - bevel, shape.y1), ring(shape.width, shape.y1 - bevel)};
     add(material, make_loft(rings, LoftEnds::looped), frame);
 }
 

@@ -55,16 +55,16 @@ void add_vestibule(StationKit& kit, const Pose& pose) {
                                       hatch_outline(0.80, 0.02), hatch_outline(0.70, 0.02)};
     kit.add(Material::liner, make_loft(skin, LoftEnds::looped), pose);
     for (const double z : {-0.22, -0.08}) {
-        const std::array<Ring, 4> hoop = {hatch_outline(0.675, z - 0.02),
-                                          hatch_outline(0.71, z - 0.025),
-                                          hatch_outline(0.71, z + 0.025),
-                                          hatch_outline(0.675, z + 0.02)};
+        const std::array<Ring, 4> hoop = {
+            hatch_outline(0.675, z - 0.02), hatch_outline(0.71, z - 0.025),
+            hatch_outline(0.71, z + 0.025), hatch_outline(0.675, z + 0.02)};
         kit.add(Material::accent, make_loft(hoop, LoftEnds::looped), pose);
     }
 }
 
 void add_door(StationKit& kit, const Pose& frame) {
-    // In the end's frame Y points into the module: the door is lofted along Z, which a quarter turn lays onto Y.
+    // In the end's frame Y points into the module: the door is lofted along Z, which a quarter turn
+    // lays onto Y.
     const Pose out = frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
     const std::array<Ring, 5> door = {hatch_outline(0.67, -0.09), hatch_outline(0.67, -0.03),
                                       hatch_outline(0.60, -0.005), hatch_outline(0.46, -0.005),
@@ -93,9 +93,9 @@ void add_window(StationKit& kit, const Pose& frame) {
     const auto circle = [&](double radius, double z) {
         return at_height(round_outline(edge, radius), z);
     };
-    const std::array<Ring, 6> frame_rings = {circle(0.50, -0.10), at_height(edge, -0.10),
+    const std::array<Ring, 6> frame_rings = {circle(0.50, -0.10),    at_height(edge, -0.10),
                                              at_height(edge, -0.03), circle(0.56, 0.0),
-                                             circle(0.52, 0.0), circle(0.50, -0.02)};
+                                             circle(0.52, 0.0),      circle(0.50, -0.02)};
     kit.add(Material::metal, make_loft(frame_rings, LoftEnds::looped), out);
     const std::array<Ring, 2> pane = {circle(0.51, -0.075), circle(0.51, -0.050)};
     kit.add(Material::glass, make_loft(pane, LoftEnds::capped), out);
@@ -182,12 +182,16 @@ void add_outside(StationKit& kit, const ModuleSpec& spec) {
             if (band == 3 || chance(spec.seed, step, static_cast<std::size_t>(band)) < 0.55) {
                 continue;
             }
-            const bool is_accent = chance(spec.seed + 9, step, static_cast<std::size_t>(band)) < 0.10;
+            const bool is_accent =
+                chance(spec.seed + 9, step, static_cast<std::size_t>(band)) < 0.10;
             kit.panel(is_accent ? Material::accent : Material::hull, frame, Vec3(0.0, -0.01, z),
                       Vec3(0.40, 0.045, 0.125 * length - 0.16));
         }
     }
-    const Pose top = spec.pose * Pose{Vec3(0.0, k_hull_radius_m + 0.03, 0.0), Quat::Identity()};
+    // The rail stands on a strip above the bands and the shields.
+    const Pose top = spec.pose * Pose{Vec3(0.0, k_hull_radius_m + 0.06, 0.0), Quat::Identity()};
+    kit.panel(Material::metal, top, Vec3(0.0, -0.04, 0.5 * length),
+              Vec3(0.045, 0.04, 0.5 * length - 0.3));
     kit.handrail("outside", top, Vec3(0.0, 0.0, 0.4), Vec3(0.0, 0.0, length - 0.4));
 }
 
@@ -236,7 +240,7 @@ Mesh make_hatch_plate(double half_m, double corner_m, double thickness_m) {
 }
 
 void dress_hatch_plate(StationKit& kit, const Pose& frame, const std::string& name,
-                      HatchRails rails) {
+                       HatchRails rails) {
     const Pose out = frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
     const std::array<Ring, 5> collar = {hatch_outline(0.648, -0.03), hatch_outline(0.735, -0.03),
                                         hatch_outline(0.735, 0.008), hatch_outline(0.715, 0.024),
@@ -268,8 +272,8 @@ void build_module(Structure& out, const ModuleSpec& spec) {
     add_vestibule(kit, spec.pose);
     add_end(kit, spec, EndKind::hatchway, false);
     add_end(kit, spec, spec.far_end, true);
-    constexpr std::array<WallKind, 4> k_walls = {WallKind::floor, WallKind::side,
-                                                 WallKind::ceiling, WallKind::side};
+    constexpr std::array<WallKind, 4> k_walls = {WallKind::floor, WallKind::side, WallKind::ceiling,
+                                                 WallKind::side};
     for (std::size_t wall = 0; wall < k_walls.size(); ++wall) {
         const Pose frame =
             spec.pose * wall_frame(static_cast<double>(wall) * k_half_pi, k_clear_half_m);

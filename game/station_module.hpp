@@ -9,7 +9,7 @@ namespace handhold {
 // What a solid wall across a section opens with, and what closes it.
 enum class EndKind { hatchway, door, window };
 
-inline constexpr double k_hatch_half_m = 0.64;       // half the clear width of every hatchway
+inline constexpr double k_hatch_half_m = 0.64;  // half the clear width of every hatchway
 inline constexpr double k_vestibule_length_m = 0.30;
 
 struct ModuleSpec {
@@ -22,13 +22,16 @@ struct ModuleSpec {
 };
 double module_length_m(const ModuleSpec& spec);
 
-// A cylinder with four walls of racks, stand-offs with lamps and cables between them, a vestibule at its near end.
+// A cylinder with four walls of racks, stand-offs with lamps and cables between them, a vestibule
+// at its near end.
 void build_module(Structure& out, const ModuleSpec& spec);
 
-// A frame on the wall at `distance_m` from the Z axis, turned by `angle_rad` about it from the floor.
+// A frame on the wall at `distance_m` from the Z axis, turned by `angle_rad` about it from the
+// floor.
 Pose wall_frame(double angle_rad, double distance_m);
 
-// A plate across Z with a hatchway, `half_m` wide, from z = 0 to thickness_m; `corner_m` rounds its outside.
+// A plate across Z with a hatchway, `half_m` wide, from z = 0 to thickness_m; `corner_m` rounds its
+// outside.
 Mesh make_hatch_plate(double half_m, double corner_m, double thickness_m);
 // What is seen of such a plate from inside a section: collar, panels, and handrails: around
 // it, or at its left and right only. The frame has +Y

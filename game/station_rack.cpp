@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_depth_m = 0.31;  // of a rack, behind its face
+constexpr double k_depth_m = 0.31;     // of a rack, behind its face
 constexpr double k_bay_half_m = 0.47;  // across: the middle of the front, between the tracks
 constexpr double k_gap_m = 0.006;      // between two fronts
 
@@ -32,11 +32,10 @@ void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_
     add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell, 0.0);
     // Sunk handle plate with a bar over it, latches in the corners, a label.
     kit.panel(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
-    const std::array<Vec3, 4> bar = {
-        on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
-        on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),
-        on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.056, 0.017, 0.0),
-        on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.062, -0.004, 0.0)};
+    const std::array<Vec3, 4> bar = {on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
+                                     on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),
+                                     on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.056, 0.017, 0.0),
+                                     on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.062, -0.004, 0.0)};
     kit.add(Material::metal, make_tube(bar, 0.0055, 6), frame);
     for (const double side : {-1.0, 1.0}) {
         kit.block(Material::metal, frame, on_face(cell, 0.86 * side, 0.0, 0.0),
@@ -49,23 +48,23 @@ void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_
 void add_vent(StationKit& kit, const Pose& frame, const Cell& cell) {
     add_front(kit, Material::dark, frame, cell, -0.045);
     const double rim = 0.040;
-    kit.rim(Material::panel, frame, {cell.x, cell.z, cell.half_x - k_gap_m, cell.half_z - k_gap_m,
-                                     rim, -0.055, 0.0});
+    kit.rim(Material::panel, frame,
+            {cell.x, cell.z, cell.half_x - k_gap_m, cell.half_z - k_gap_m, rim, -0.055, 0.0});
     const int slats = static_cast<int>(cell.half_x * 2.0 / 0.095);
     for (int i = 0; i < slats; ++i) {
         const double across = -1.0 + (2.0 * i + 1.0) / slats;
         const Vec3 place(cell.x + across * (cell.half_x - rim), -0.028, cell.z);
         const Pose tilted = frame * Pose{place, rotation_about(Vec3::UnitZ(), 0.6)};
-        kit.block(Material::metal, tilted, Vec3::Zero(),
-                  Vec3(0.0045, 0.019, cell.half_z - rim));
+        kit.block(Material::metal, tilted, Vec3::Zero(), Vec3(0.0045, 0.019, cell.half_z - rim));
     }
 }
 
 void add_screen(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     add_front(kit, Material::dark, frame, cell, -0.012);
     const double rim = 0.028;
-    kit.rim(Material::metal, frame, {cell.x, cell.z, cell.half_x - k_gap_m, cell.half_z - k_gap_m,
-                                     2.0 * rim, -0.03, 0.004});
+    kit.rim(
+        Material::metal, frame,
+        {cell.x, cell.z, cell.half_x - k_gap_m, cell.half_z - k_gap_m, 2.0 * rim, -0.03, 0.004});
     // What the screen shows: bars of different length.
     const int rows = static_cast<int>((2.0 * cell.half_z - 4.0 * rim) / 0.028);
     for (int row = 0; row < rows; ++row) {
@@ -105,8 +104,7 @@ void add_dials(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t
         const double across = -0.72 + 0.48 * i;
         const auto salt = static_cast<std::size_t>(i);
         const Vec3 foot = on_face(cell, across, -0.012, 0.30);
-        kit.add(Material::dark, make_cylinder(foot, foot + Vec3(0.0, 0.030, 0.0), 0.024, 8),
-                frame);
+        kit.add(Material::dark, make_cylinder(foot, foot + Vec3(0.0, 0.030, 0.0), 0.024, 8), frame);
         const bool is_lit = chance(seed, 5, salt) < 0.7;
         kit.panel(is_lit ? Material::screen : Material::accent, frame,
                   on_face(cell, across, -0.006, -0.45), Vec3(0.022, 0.006, 0.011));
@@ -147,8 +145,7 @@ void add_bones(StationKit& kit, const Pose& frame, double z0) {
                   Vec3(k_wall_half_m - 0.002, 0.5 * k_depth_m, 0.014));
     }
     for (const double side : {-1.0, 1.0}) {
-        kit.panel(Material::metal, frame,
-                  Vec3(side * k_track_m, -0.5 * k_depth_m, middle),
+        kit.panel(Material::metal, frame, Vec3(side * k_track_m, -0.5 * k_depth_m, middle),
                   Vec3(0.072, 0.5 * k_depth_m, half_z - 0.003));
         // The track's two lips.
         for (const double lip : {-0.020, 0.020}) {
@@ -162,7 +159,8 @@ void add_bones(StationKit& kit, const Pose& frame, double z0) {
 
 void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, std::size_t seed) {
     add_bones(kit, frame, z0);
-    // Outer strips between track and stand-off: three panels, now and then one in the section's colour.
+    // Outer strips between track and stand-off: three panels, now and then one in the section's
+    // colour.
     for (const double side : {-1.0, 1.0}) {
         for (int i = 0; i < 3; ++i) {
             const auto salt = static_cast<std::size_t>(2 * i + (side > 0.0 ? 1 : 0));

@@ -4,7 +4,8 @@
 
 namespace handhold {
 
-// Half the width of a wall between its two corner stand-offs, and half its clear height from the module's axis.
+// Half the width of a wall between its two corner stand-offs, and half its clear height from the
+// module's axis.
 inline constexpr double k_wall_half_m = 0.80;
 inline constexpr double k_clear_half_m = 1.10;
 inline constexpr double k_rack_pitch_m = 1.05;
@@ -13,8 +14,8 @@ inline constexpr double k_track_m = 0.56;
 
 enum class WallKind { floor, side, ceiling };
 
-// One rack's length of one wall, from z0 to z0 + k_rack_pitch_m in `frame` (y = 0 the wall's face, X across it):
-// frames, two seat tracks, and a front chosen by `seed`.
+// One rack's length of one wall, from z0 to z0 + k_rack_pitch_m in `frame` (y = 0 the wall's face,
+// X across it): frames, two seat tracks, and a front chosen by `seed`.
 void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, std::size_t seed);
 
 }  // namespace handhold

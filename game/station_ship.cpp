@@ -18,7 +18,7 @@ constexpr double k_half_width_m = 2.0;
 void add_deck(StationKit& kit) {
     const Pose frame{Vec3(0.0, k_deck_y_m, 0.0), Quat::Identity()};
     kit.beam(Material::hull, frame, Vec3(0.0, -0.13, 0.0),
-              Vec3(k_half_width_m, 0.09, k_half_length_m));
+             Vec3(k_half_width_m, 0.09, k_half_length_m));
     for (int row = 0; row < 8; ++row) {
         for (int column = 0; column < 3; ++column) {
             const auto place = static_cast<std::size_t>(3 * row + column);
@@ -34,7 +34,7 @@ void add_deck(StationKit& kit) {
     kit.panel(Material::accent, frame, Vec3(0.0, 0.04, -3.90), Vec3(1.80, 0.09, 0.09));
     kit.handrail("deck", frame, Vec3(0.2, 0.0, -3.0), Vec3(0.2, 0.0, 3.0));
     const Pose kerb = frame * Pose{Vec3(1.90, 0.13, 0.0), Quat::Identity()};
-    kit.handrail("kerb", kerb, Vec3(0.0, 0.0, -3.5), Vec3(0.0, 0.0, 0.6));
+    kit.handrail("kerb", kerb, Vec3(0.0, 0.0, -3.5), Vec3(0.0, 0.0, 0.0));
 }
 
 void add_wall(StationKit& kit) {
@@ -68,8 +68,8 @@ void add_roof(StationKit& kit) {
                   Vec3(0.28, 0.075, 0.485));
         kit.panel(Material::lamp, frame, Vec3(0.0, 0.000, 0.52 + 0.985 * row),
                   Vec3(0.11, 0.008, 0.38));
-        kit.lamp(transform_point(frame, Vec3(0.0, 0.45, 0.52 + 0.985 * row)),
-                 {0.50F, 0.47F, 0.42F}, 4.0);
+        kit.lamp(transform_point(frame, Vec3(0.0, 0.45, 0.52 + 0.985 * row)), {0.50F, 0.47F, 0.42F},
+                 4.0);
     }
     // The roof's own X points left: its rail on the open side is at negative X.
     kit.handrail("roof", frame, Vec3(-1.2, 0.0, 0.3), Vec3(-1.2, 0.0, 3.7));

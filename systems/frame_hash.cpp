@@ -36,7 +36,8 @@ class FieldHasher {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});
     }
-    void add(ShapeId shape) const { stream_.add(std::uint64_t{shape.index}); }
+    // A place in the library of assets, by order of loading. What a body's shape is never changes while frames run.
+    void add(ShapeId /*shape*/) const {}
     template <typename T, std::size_t N>
     void add(const std::array<T, N>& values) const {
         for (const T& value : values) {

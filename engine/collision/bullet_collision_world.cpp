@@ -102,18 +102,6 @@ Corners moved(const Corners& corners, const Vec3& by) {
     return {corners[0] + by, corners[1] + by, corners[2] + by};
 }
 
-// Towards the query point; on the surface itself that way is rounding, and the triangle's own
-// normal stands in.
-Vec3 normal_towards(const Vec3& point, const Vec3& surface, const Corners& corners) {
-    constexpr double k_on_surface_m = 1e-9;
-    const Vec3 way = point - surface;
-    const Vec3 area = area_vector(corners);
-    if (way.norm() > k_on_surface_m || area.isZero(0.0)) {
-        return way.isZero(0.0) ? Vec3(Vec3::UnitY()) : way.normalized();
-    }
-    return area.normalized();
-}
-
 // Nearest point of a mesh within max_distance_m. Boxes grow about the point until one holds a
 // triangle that is nearer than its side.
 std::optional<LocalSurfacePoint> closest_on_triangles(const TriangleTree& triangles,
@@ -130,12 +118,10 @@ std::optional<LocalSurfacePoint> closest_on_triangles(const TriangleTree& triang
                 nearest_m * nearest_m) {
                 return;
             }
-            const Vec3 surface = closest_on_triangle(point, corners);
-            const double distance = (point - surface).norm();
-            if (best ? distance < nearest_m : distance <= nearest_m) {
-                nearest_m = distance;
-                best =
-                    LocalSurfacePoint{surface, normal_towards(point, surface, corners), distance};
+            const LocalSurfacePoint near = closest_on_triangle_surface(corners, point);
+            if (best ? near.distance_m < nearest_m : near.distance_m <= nearest_m) {
+                nearest_m = near.distance_m;
+                best = near;
             }
         });
     } while (!best && reach_m < max_distance_m);

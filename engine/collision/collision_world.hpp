@@ -64,7 +64,8 @@ struct SurfacePoint {
     Vec3 point_ws = Vec3::Zero();
     Vec3 normal_ws = Vec3::UnitY();  // unit, from the surface point towards the query point
                                      // (outward where they meet)
-    double distance_m = 0.0;         // 0 inside of a box, sphere or capsule
+    double distance_m = 0.0;         // 0 inside of a box, sphere or capsule; point_ws is on the
+                                     // surface there too
 };
 
 // A cache over proxies, not state: a new one that is given the same proxies answers the same, bit
@@ -78,23 +79,33 @@ class CollisionWorld {
     CollisionWorld(const CollisionWorld&) = delete;
     CollisionWorld& operator=(const CollisionWorld&) = delete;
 
-    // Replaces all proxies: sorted by id, ids unique (PreconditionError otherwise). What did not
-    // change costs nothing but the comparison. No allocation once the largest number of proxies has
-    // been seen.
+    // Replaces all proxies: sorted by id, ids unique, meshes not free (PreconditionError
+    // otherwise). One whose poses are not valid (is_valid) takes no part until they are. What did
+    // not change costs nothing but the comparison. No allocation once the largest number of proxies
+    // has been seen.
     void set_proxies(std::span<const ColliderProxy> proxies);
     // Replaces the pairs that make no contacts; sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
     // Contacts between all pairs with at least one free collider, made afresh: nothing of an
-    // earlier call is used. Replaces `contacts`; sorted by (id_a, id_b, feature). A pair that moved
-    // less than limits.sweep_m against each other is met at to_ws. Else a's way, relative to b, is
-    // swept from from_ws to to_ws, and the contacts are those at the place of first touch. A normal
-    // of a mesh faces the side on which a's centre was at from_ws (relative to b): walls have no
-    // inside.
+    // earlier call is used. Replaces `contacts`; sorted by (id_a, id_b, feature).
+    //
+    // A pair that moved less than limits.sweep_m against each other is met at to_ws. Else a's way,
+    // relative to b, is swept from from_ws to to_ws, and the contacts are those at the place of
+    // first touch. A touch that leaves a no deeper at the end than a tenth of sweep_m, or of the
+    // thinner body's least half extent, is no stop: what slides along a floor still meets the wall.
+    //
+    // Walls have no inside: where a's centre went through a mesh between from_ws and to_ws
+    // (relative to b), the normals face the side it came from and depth is measured to that side.
+    // Elsewhere they face a's centre. Winding never matters.
+    //
+    // Separations are exact where the bodies are apart, and along the least way out where they
+    // overlap. Of many points with one normal only the corners of their outline, at most 8, and the
+    // deepest are given.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
-    // First surface on the way between two points of the world, at to_ws; colliders with ids in
-    // `skip` are passed through.
+    // First surface on the way between two points of the world, from outside or inside, colliders
+    // at to_ws; those with ids in `skip` are passed through.
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                    std::span<const std::uint64_t> skip = {}) const;
     // First touch of a sphere moved along a line; distance_m is that of its centre from the start,

@@ -1,6 +1,6 @@
-// Source: internal edges by the normal cone of the surface, after van den Bergen's and Catto's
-// talks (GDC 2013, 2020); here without adjacency: what touches the point decides, so that cracks
-// between parts, T-junctions and mixed winding need no preparation.
+// Internal edges are told by the normal cone of the surface: nothing can touch a point along a
+// normal above which the surface rises beside it. No adjacency is used: what lies at the point
+// decides, so that cracks between parts, T-junctions and mixed winding need no preparation.
 #include "engine/collision/mesh_contact.hpp"
 
 #include <algorithm>

@@ -168,4 +168,16 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
             std::max(0.0, distance - shape.radius_m)};
 }
 
+LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
+    constexpr double k_on_surface_m = 1e-9;  // nearer than this the way to the point is rounding
+    const Vec3 surface = closest_on_triangle(point, corners);
+    const Vec3 way = point - surface;
+    const double distance = way.norm();
+    if (distance > k_on_surface_m) {
+        return {surface, way / distance, distance};
+    }
+    const Vec3 area = area_vector(corners);
+    return {surface, area.isZero(0.0) ? Vec3(Vec3::UnitY()) : area.normalized(), distance};
+}
+
 }  // namespace handhold

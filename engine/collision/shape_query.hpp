@@ -28,5 +28,7 @@ struct LocalSurfacePoint {
 };
 // Not for meshes.
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point);
+// A triangle has no inside; for a point on it the normal is the triangle's own.
+LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point);
 
 }  // namespace handhold

@@ -33,10 +33,17 @@ void collect_rows(const IslandView& island, std::vector<Row>& rows) {
     }
 }
 
+// Hand rows come in threes along the world's axes: only the three together say the same however the world is turned.
 double worst_of(std::span<const Row> rows) {
     double worst = 0.0;
-    for (const Row& row : rows) {
-        worst = std::max(worst, row.unilateral ? -row.value_m : std::abs(row.value_m));
+    for (std::size_t i = 0; i < rows.size();) {
+        if (rows[i].hand) {
+            worst = std::max(worst, Vec3(rows[i].value_m, rows[i + 1].value_m, rows[i + 2].value_m).norm());
+            i += 3;
+        } else {
+            worst = std::max(worst, rows[i].unilateral ? -rows[i].value_m : std::abs(rows[i].value_m));
+            ++i;
+        }
     }
     return worst;
 }
@@ -104,10 +111,16 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
 void regularise(std::span<const Row> rows, double softness, double factor, DenseSystem& system) {
     double inverse_sum = 0.0;
     double count = 0.0;
-    for (std::size_t i = 0; i < system.size(); ++i) {
-        if (system.diagonal(i) > 0.0) {
-            inverse_sum += 1.0 / system.diagonal(i);
-            count += 1.0;
+    for (std::size_t i = 0; i < system.size();) {
+        const std::size_t width = rows[i].hand ? 3 : 1;
+        double sum = 0.0;
+        for (std::size_t end = i + width; i < end; ++i) {
+            sum += system.diagonal(i);
+        }
+        if (sum > 0.0) {
+            const double size = static_cast<double>(width);
+            inverse_sum += size * size / sum;
+            count += size;
         }
     }
     const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;

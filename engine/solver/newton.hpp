@@ -19,7 +19,7 @@ struct NewtonSettings {
 
 struct NewtonResult {
     int iterations = 0;
-    double residual_m = 0.0;          // worst row at the end
+    double residual_m = 0.0;          // worst point, angle (at its lever) or overlap at the end
     bool converged = false;           // residual below the tolerance
 };
 

@@ -1,5 +1,6 @@
 #include "game/render/figures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
@@ -52,7 +53,8 @@ Mesh loft_sections(std::span<const Section> sections) {
     return make_loft(rings, LoftEnds::capped);
 }
 
-// The hand is built with the fingers along +Z and the thumb at +X; half a turn about Y gives a right hand.
+// The hand is built with the fingers along +Z and the thumb at +X; half a turn about Y gives a
+// right hand.
 const Pose& to_hand() {
     static const Pose pose{Vec3::Zero(), Quat(0.0, 0.0, 1.0, 0.0)};
     return pose;
@@ -92,9 +94,8 @@ struct Finger {
     double radius_m;
     double spread_rad;  // about +Y, towards the thumb
 };
-constexpr int k_finger_count = 4;
-const std::array<Finger, k_finger_count>& fingers() {
-    static const std::array<Finger, k_finger_count> list = {
+const std::array<Finger, 4>& fingers() {
+    static const std::array<Finger, 4> list = {
         {{Vec3(0.0300, 0.000, 0.089), {0.038, 0.024, 0.019}, 0.0095, 0.07},
          {Vec3(0.0098, 0.002, 0.092), {0.042, 0.027, 0.020}, 0.0098, 0.01},
          {Vec3(-0.0104, 0.001, 0.089), {0.039, 0.025, 0.019}, 0.0094, -0.04},
@@ -102,30 +103,59 @@ const std::array<Finger, k_finger_count>& fingers() {
     return list;
 }
 
-void add_fingers(FigureParts& parts, HandShape shape) {
-    const bool is_open = shape == HandShape::open;
-    const std::array<double, 3> bends_rad = is_open ? std::array<double, 3>{0.22, 0.34, 0.20}
-                                                    : std::array<double, 3>{1.02, 1.30, 0.82};
-    for (int i = 0; i < k_finger_count; ++i) {
-        const Finger& finger = fingers()[static_cast<std::size_t>(i)];
-        // Fingers towards the little one curl a little more, in a relaxed hand as in a fist.
-        const double more = 1.0 + (is_open ? 0.16 : 0.03) * i;
-        Quat turn = rotation_about(Vec3::UnitY(), is_open ? finger.spread_rad : 0.0);
-        Vec3 joint = finger.base;
-        for (std::size_t link = 0; link < 3; ++link) {
-            turn = turn * rotation_about(Vec3::UnitX(), more * bends_rad[link]);
-            const Vec3 next = joint + turn * Vec3(0.0, 0.0, finger.links_m[link]);
-            const double radius = finger.radius_m * (1.0 - 0.08 * static_cast<double>(link));
-            add_link(parts, joint, next, radius);
-            joint = next;
+// The bar that HandShape::grip holds, in the plane that the fingers bend in.
+constexpr double k_bar_radius_m = 0.0175;
+const Vec3 k_bar_center(0.0, -0.034, 0.080);
+
+// How far a link can bend before it touches the bar. The link starts at `joint`, turned by
+// `turned_rad` already.
+double bend_onto_bar(const Vec3& joint, double turned_rad, double length_m, double radius_m) {
+    constexpr double k_step_rad = 0.01;
+    constexpr double k_most_rad = 1.75;
+    const Vec3 to_bar(0.0, k_bar_center.y() - joint.y(), k_bar_center.z() - joint.z());
+    double bend = 0.0;
+    while (bend < k_most_rad) {
+        const Vec3 along = rotation_about(Vec3::UnitX(), turned_rad + bend + k_step_rad) *
+                           Vec3(0.0, 0.0, length_m);
+        const double t = std::clamp(to_bar.dot(along) / (length_m * length_m), 0.0, 1.0);
+        if ((to_bar - t * along).norm() < k_bar_radius_m + 1.05 * radius_m) {
+            break;
         }
-        add_finger_tip(parts, joint, 0.8 * finger.radius_m);
+        bend += k_step_rad;
+    }
+    return bend;
+}
+
+void add_finger(FigureParts& parts, const Finger& finger, HandShape shape, double relaxed_more) {
+    constexpr std::array<double, 3> k_relaxed_rad = {0.22, 0.34, 0.20};
+    const bool is_open = shape == HandShape::open;
+    const Quat spread = rotation_about(Vec3::UnitY(), is_open ? finger.spread_rad : 0.0);
+    double turned = 0.0;
+    Vec3 joint = finger.base;
+    for (std::size_t link = 0; link < 3; ++link) {
+        const double length = finger.links_m[link];
+        const double radius = finger.radius_m * (1.0 - 0.08 * static_cast<double>(link));
+        turned += is_open ? relaxed_more * k_relaxed_rad[link]
+                          : bend_onto_bar(joint, turned, length, radius);
+        const Vec3 next =
+            joint + spread * (rotation_about(Vec3::UnitX(), turned) * Vec3(0.0, 0.0, length));
+        add_link(parts, joint, next, radius);
+        joint = next;
+    }
+    add_finger_tip(parts, joint, 0.8 * finger.radius_m);
+}
+
+void add_fingers(FigureParts& parts, HandShape shape) {
+    double more = 1.0;  // fingers towards the little one curl a little more in a relaxed hand
+    for (const Finger& finger : fingers()) {
+        add_finger(parts, finger, shape, more);
+        more += 0.16;
     }
     const std::array<Vec3, 4> open_thumb = {Vec3(0.030, -0.006, 0.028), Vec3(0.052, -0.018, 0.058),
                                             Vec3(0.062, -0.026, 0.087), Vec3(0.066, -0.031, 0.110)};
-    const std::array<Vec3, 4> grip_thumb = {Vec3(0.030, -0.008, 0.028), Vec3(0.047, -0.034, 0.050),
-                                            Vec3(0.038, -0.057, 0.068), Vec3(0.021, -0.066, 0.083)};
-    const std::array<Vec3, 4>& thumb = is_open ? open_thumb : grip_thumb;
+    const std::array<Vec3, 4> grip_thumb = {Vec3(0.030, -0.008, 0.028), Vec3(0.051, -0.036, 0.046),
+                                            Vec3(0.053, -0.063, 0.061), Vec3(0.051, -0.068, 0.083)};
+    const std::array<Vec3, 4>& thumb = shape == HandShape::open ? open_thumb : grip_thumb;
     for (std::size_t link = 0; link < 3; ++link) {
         add_link(parts, thumb[link], thumb[link + 1], 0.0118 - 0.0010 * static_cast<double>(link));
     }
@@ -144,8 +174,8 @@ FigureParts build_palm() {
     append(parts.shell, loft_sections(k_palm));
     for (const Finger& finger : fingers()) {
         const Vec3 half_axle(0.0085, 0.0, 0.0);
-        append(parts.joints, make_cylinder(finger.base - half_axle, finger.base + half_axle, 0.0088,
-                                           16));
+        append(parts.joints,
+               make_cylinder(finger.base - half_axle, finger.base + half_axle, 0.0088, 16));
     }
     // Plate on the back, pad in the palm, cuff at the wrist.
     constexpr std::array<Section, 4> k_plate = {{{0.022, 0.016, 0.0040, 0.0030, 0.0, 0.0150},
@@ -159,9 +189,12 @@ FigureParts build_palm() {
                                                {0.078, 0.026, 0.004, 0.0035, 0.0, -0.0090}}};
     append(parts.joints, loft_sections(k_pad));
     append(parts.joints, make_sphere(0.020, 18), {Vec3(0.0, 0.0, 0.002), Quat::Identity()});
-    const std::array<ProfilePoint, 6> cuff = {
-        {{0.026, -0.034}, {0.030, -0.031}, {0.031, -0.016}, {0.030, -0.008}, {0.027, -0.004},
-         {0.020, -0.004}}};
+    const std::array<ProfilePoint, 6> cuff = {{{0.026, -0.034},
+                                               {0.030, -0.031},
+                                               {0.031, -0.016},
+                                               {0.030, -0.008},
+                                               {0.027, -0.004},
+                                               {0.020, -0.004}}};
     append(parts.shell, make_revolved(cuff, 24));
     append(parts.accent, make_torus(0.0305, 0.0022, 32, 8),
            {Vec3(0.0, 0.0, -0.022), Quat::Identity()});
@@ -252,7 +285,8 @@ std::vector<Mesh> make_chest() {
     append(parts.shell, loft_sections(k_torso), upright);
     append(parts.joints, make_capsule(Vec3(0.0, -0.03, 0.0), Vec3(0.0, 0.05, 0.0), 0.050, 20));
     for (const double side : {-1.0, 1.0}) {
-        append(parts.joints, make_sphere(0.058, 20), {Vec3(side * 0.175, -0.062, 0.0), {1, 0, 0, 0}});
+        append(parts.joints, make_sphere(0.058, 20),
+               {Vec3(side * 0.175, -0.062, 0.0), {1, 0, 0, 0}});
         append(parts.accent, make_bevelled_box(Vec3(0.040, 0.012, 0.004), 0.0035),
                {Vec3(side * 0.060, -0.120, -0.124), Quat::Identity()});
     }
@@ -276,8 +310,8 @@ std::vector<Mesh> make_controller() {
            {Vec3(0.0, 0.004, -0.125), rotation_about(Vec3::UnitX(), 1.05)});
     const Vec3 pad(0.0, 0.0175, -0.058);
     append(parts.shell, make_cylinder(pad, pad + Vec3(0.0, 0.0042, -0.0005), 0.0175, 32));
-    append(parts.accent, make_cylinder(pad + Vec3(0.0, 0.004, 0.0), pad + Vec3(0.0, 0.0052, 0.0),
-                                       0.0050, 20));
+    append(parts.accent,
+           make_cylinder(pad + Vec3(0.0, 0.004, 0.0), pad + Vec3(0.0, 0.0052, 0.0), 0.0050, 20));
     append(parts.accent, make_bevelled_box(Vec3(0.007, 0.012, 0.006), 0.003),
            {Vec3(0.0, -0.016, -0.062), rotation_about(Vec3::UnitX(), 0.35)});
     return finish(std::move(parts), "controller");

@@ -4,15 +4,16 @@
 
 #include "engine/geometry/mesh.hpp"
 
-// The robot that the player is, and what it holds: pictures only, no colliders. A figure is a few meshes in one frame,
-// each with its own colour.
+// The robot that the player is, and what it holds: pictures only, no colliders. A figure is a few
+// meshes in one frame, each with its own colour.
 namespace handhold {
 
 enum class FigureSide { left, right };
 enum class HandShape { open, grip };  // relaxed; closed around a bar of 35 mm
 
-// About 18 cm long. Origin at the wrist, -Z to the fingers, +Y the back of the hand; the palm's centre lies 8 cm along
-// -Z, and the bar of HandShape::grip runs along X through (0, -0.031, -0.086).
+// About 18 cm long. Origin at the wrist, -Z to the fingers, +Y the back of the hand; the palm's
+// centre lies 8 cm along -Z, and the bar of HandShape::grip runs along X through (0, -0.034,
+// -0.080).
 std::vector<Mesh> make_hand(FigureSide side, HandShape shape);
 // The hand without its fingers, for hands whose fingers are posed link by link.
 std::vector<Mesh> make_palm(FigureSide side);

@@ -55,7 +55,8 @@ bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m) 
         return (std::abs(across) - h * ahead) / std::sqrt(1.0 + h * h);
     };
     return ahead > view.near_m - radius_m && ahead < k_far_m + radius_m &&
-           outside(c.x(), view.half_width) < radius_m && outside(c.y(), view.half_height) < radius_m;
+           outside(c.x(), view.half_width) < radius_m &&
+           outside(c.y(), view.half_height) < radius_m;
 }
 
 ShadowView make_shadow_view(const KeyLight& key, const FrameView& view, int size_px) {

@@ -5,8 +5,8 @@
 
 #include "game/render/render_frame.hpp"
 
-// The arithmetic of a picture, without a graphics card: what goes where on it. Suffix _cs: relative to the camera's
-// position, with the world's axes.
+// The arithmetic of a picture, without a graphics card: what goes where on it. Suffix _cs: relative
+// to the camera's position, with the world's axes.
 namespace handhold {
 
 using Matrix4 = std::array<float, 16>;  // column-major
@@ -23,7 +23,8 @@ struct FrameView {
 };
 FrameView make_frame_view(const Camera& camera, int width_px, int height_px);
 
-// Where a point lies on the picture, in clip space (x, y, z, w); w is the distance along the view direction.
+// Where a point lies on the picture, in clip space (x, y, z, w); w is the distance along the view
+// direction.
 std::array<double, 4> to_clip(const FrameView& view, const Vec3& point_cs);
 // False only where the sphere lies outside of the picture.
 bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m);
@@ -52,8 +53,8 @@ struct LineVertex {
     std::array<float, 4> position;  // clip space
     std::array<float, 3> color;
 };
-// Six vertices a line: a quad of the line's width, cut off at the near plane. Lines behind the camera and lines that
-// are not finite give none.
+// Six vertices a line: a quad of the line's width, cut off at the near plane. Lines behind the
+// camera and lines that are not finite give none.
 void build_line_vertices(const RenderFrame& frame, const FrameView& view,
                          std::array<int, 2> size_px, std::vector<LineVertex>& out);
 

@@ -1,9 +1,9 @@
 #include "game/render/gl_context.hpp"
 
+#include <array>
+
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
-
-#include <array>
 
 namespace handhold {
 namespace {

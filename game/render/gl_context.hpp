@@ -10,7 +10,8 @@ enum class GlApi { desktop_33, es_30 };
 // An OpenGL context without a window. The only place that names EGL.
 class GlContext {
   public:
-    // Nothing, and the reason, where there is no such thing on this machine. The new context is current.
+    // Nothing, and the reason, where there is no such thing on this machine. The new context is
+    // current.
     static std::unique_ptr<GlContext> create(std::string& why_not);
     ~GlContext();
     GlContext(const GlContext&) = delete;
@@ -24,7 +25,8 @@ class GlContext {
     GlContext() = default;
     bool try_api(GlApi api);
 
-    void* display_ = nullptr;  // shared by the whole process and never terminated: others may be using it
+    void* display_ =
+        nullptr;  // shared by the whole process and never terminated: others may be using it
     void* context_ = nullptr;
     GlApi api_ = GlApi::desktop_33;
 };

@@ -1,15 +1,16 @@
 #pragma once
 
-#include <epoxy/gl.h>
-
 #include <array>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include <epoxy/gl.h>
+
 #include "game/render/gl_context.hpp"
 
-// Owners of OpenGL names. Included by sources of game/render only: no other header shows an OpenGL type.
+// Owners of OpenGL names. Included by sources of game/render only: no other header shows an OpenGL
+// type.
 namespace handhold {
 
 // Owns one name and frees it with `Free`. The context that made it must be current when it goes.

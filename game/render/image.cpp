@@ -55,8 +55,7 @@ std::optional<Image> decode_png(std::span<const std::uint8_t> bytes) {
     if (pixels == nullptr) {
         return std::nullopt;
     }
-    const auto count =
-        static_cast<std::ptrdiff_t>(image.width_px) * image.height_px * k_channels;
+    const auto count = static_cast<std::ptrdiff_t>(image.width_px) * image.height_px * k_channels;
     image.rgba.assign(pixels, pixels + count);
     stbi_image_free(pixels);
     return image;

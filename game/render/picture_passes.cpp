@@ -82,9 +82,9 @@ void PicturePasses::shade_occlusion(const FrameView& view) {
     set_uniform(occlusion_program_, "half_extent",
                 std::array<float, 2>{static_cast<float>(view.half_width),
                                      static_cast<float>(view.half_height)});
-    set_uniform(occlusion_program_, "texel",
-                texel_of(size_.width_px * size_.samples_across,
-                         size_.height_px * size_.samples_across));
+    set_uniform(
+        occlusion_program_, "texel",
+        texel_of(size_.width_px * size_.samples_across, size_.height_px * size_.samples_across));
     set_uniform(occlusion_program_, "radius_m", k_occlusion_radius_m);
     fill(occlusion_target_, width, height);
     glUseProgram(smooth_program_);
@@ -144,8 +144,7 @@ void PicturePasses::finish(const FrameView& view, Image& out) {
         static_cast<std::size_t>(size_.width_px) * static_cast<std::size_t>(size_.height_px);
     out.rgba.resize(4 * pixels);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, size_.width_px, size_.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
-                 out.rgba.data());
+    glReadPixels(0, 0, size_.width_px, size_.height_px, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
     // Alpha carried brightness for the edge filter.
     for (std::size_t i = 0; i < pixels; ++i) {
         out.rgba[4 * i + 3] = 255;

@@ -16,10 +16,11 @@ struct PictureSize {
     int samples_across = 1;
 };
 
-// Everything that happens to a picture once its triangles are drawn: corners darken (ambient occlusion), lamps glow,
-// the samples of a pixel become one or, where there is one only, edges are smoothed, and the bytes come back.
-// Supersampling and not the card's multisampling: the software rasteriser shades hidden fragments too once a target is
-// multisampled, and 2 x 2 samples then cost half of what four multisamples do.
+// Everything that happens to a picture once its triangles are drawn: corners darken (ambient
+// occlusion), lamps glow, the samples of a pixel become one or, where there is one only, edges are
+// smoothed, and the bytes come back. Supersampling and not the card's multisampling: the software
+// rasteriser shades hidden fragments too once a target is multisampled, and 2 x 2 samples then cost
+// half of what four multisamples do.
 class PicturePasses {
   public:
     // False, and the reason, where the card refuses.
@@ -38,8 +39,8 @@ class PicturePasses {
     GlTexture color_, depth_, occlusion_, occlusion_smooth_, glow_, glow_spare_, composed_, final_;
     GlFramebuffer scene_target_, occlusion_target_, smooth_target_, glow_target_,
         glow_spare_target_, composed_target_, final_target_;
-    GlProgram occlusion_program_, smooth_program_, glow_program_, blur_program_,
-        composite_program_, edges_program_;
+    GlProgram occlusion_program_, smooth_program_, glow_program_, blur_program_, composite_program_,
+        edges_program_;
 };
 
 }  // namespace handhold

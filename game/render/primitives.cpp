@@ -24,32 +24,6 @@ void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std
     mesh.triangles.push_back({a, c, d});
 }
 
-// Skin between the rings that start at vertices `low` and `high`; either may be one point.
-void add_band(Mesh& mesh, std::pair<std::uint32_t, std::size_t> low,
-              std::pair<std::uint32_t, std::size_t> high) {
-    const std::size_t count = std::max(low.second, high.second);
-    for (std::size_t j = 0; j < count; ++j) {
-        const std::uint32_t here = index_of(j);
-        const std::uint32_t next = index_of((j + 1) % count);
-        if (low.second == 1) {
-            mesh.triangles.push_back({low.first, high.first + next, high.first + here});
-        } else if (high.second == 1) {
-            mesh.triangles.push_back({low.first + here, low.first + next, high.first});
-        } else {
-            add_quad(mesh, low.first + here, low.first + next, high.first + next,
-                     high.first + here);
-        }
-    }
-}
-
-Vec3 mean_of(const Ring& ring) {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& point : ring) {
-        sum += point;
-    }
-    return sum / static_cast<double>(ring.size());
-}
-
 // An axis-aligned box corner's sign triple, bit 0 for x.
 Vec3 corner_sign(unsigned corner) {
     return {(corner & 1U) != 0U ? 1.0 : -1.0, (corner & 2U) != 0U ? 1.0 : -1.0,
@@ -72,6 +46,28 @@ Pose along(const Vec3& a, const Vec3& b) {
     return {a, rotation_between(Vec3::UnitZ(), (b - a).normalized())};
 }
 
+// Cuts every triangle of a unit sphere into four; the new vertices lie on the sphere.
+void quarter_on_sphere(Mesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] =
+            middles.try_emplace(std::minmax(a, b), index_of(mesh.positions.size()));
+        if (is_new) {
+            const Vec3 point = (mesh.positions[a] + mesh.positions[b]).normalized();
+            mesh.positions.push_back(point);
+        }
+        return at->second;
+    };
+    std::vector<Triangle> finer;
+    for (const Triangle& t : mesh.triangles) {
+        const std::uint32_t ab = middle(t[0], t[1]);
+        const std::uint32_t bc = middle(t[1], t[2]);
+        const std::uint32_t ca = middle(t[2], t[0]);
+        finer.insert(finer.end(), {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(finer);
+}
+
 // Smooth noise in [-1, 1] over space, cells of 1 m: random values at lattice points, blended.
 double lattice_noise(const Vec3& point, unsigned seed) {
     const Vec3 cell(std::floor(point.x()), std::floor(point.y()), std::floor(point.z()));
@@ -82,7 +78,8 @@ double lattice_noise(const Vec3& point, unsigned seed) {
         std::uint64_t hash = seed;
         for (int axis = 0; axis < 3; ++axis) {
             weight *= smooth_step(1.0 - std::abs(point[axis] - at[axis]), 0.0, 1.0);
-            hash = mix64(hash + 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(at[axis] + 4096.0));
+            hash =
+                mix64(hash + 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(at[axis] + 4096.0));
         }
         sum += weight * (static_cast<double>(hash >> 11U) * 0x1p-52 - 1.0);
     }
@@ -90,97 +87,6 @@ double lattice_noise(const Vec3& point, unsigned seed) {
 }
 
 }  // namespace
-
-Mesh make_loft(std::span<const Ring> rings, LoftEnds ends) {
-    HH_CHECK(rings.size() >= 2, "a loft needs two rings", rings.size());
-    Mesh mesh;
-    std::vector<std::pair<std::uint32_t, std::size_t>> bands;
-    const auto add_ring = [&](const Ring& ring) {
-        bands.emplace_back(index_of(mesh.positions.size()), ring.size());
-        mesh.positions.insert(mesh.positions.end(), ring.begin(), ring.end());
-    };
-    const bool is_capped = ends == LoftEnds::capped;
-    if (is_capped && rings.front().size() > 1) {
-        add_ring({mean_of(rings.front())});
-    }
-    for (const Ring& ring : rings) {
-        add_ring(ring);
-    }
-    if (is_capped && rings.back().size() > 1) {
-        add_ring({mean_of(rings.back())});
-    }
-    for (std::size_t i = 0; i + 1 < bands.size(); ++i) {
-        add_band(mesh, bands[i], bands[i + 1]);
-    }
-    if (!is_capped) {
-        add_band(mesh, bands.back(), bands.front());
-    }
-    return mesh;
-}
-
-Ring make_outline(const RoundedRect& rect, double z_m) {
-    HH_CHECK(rect.corner_m < std::min(rect.half_x_m, rect.half_y_m), "corner too wide",
-             rect.corner_m);
-    const double inner_x = rect.half_x_m - rect.corner_m;
-    const double inner_y = rect.half_y_m - rect.corner_m;
-    constexpr std::array<std::array<double, 2>, 4> k_corners = {
-        {{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}}};
-    Ring corners;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        const Vec3 centre(k_corners[corner][0] * inner_x, k_corners[corner][1] * inner_y, z_m);
-        for (int step = 0; step <= rect.corner_steps; ++step) {
-            double sine = 0.0;
-            double cosine = 1.0;
-            sin_cos(0.25 * k_two_pi *
-                        (static_cast<double>(corner) + step / static_cast<double>(rect.corner_steps)),
-                    sine, cosine);
-            corners.emplace_back(centre + rect.corner_m * Vec3(cosine, sine, 0.0));
-        }
-    }
-    Ring outline;
-    const auto arc = static_cast<std::size_t>(rect.corner_steps) + 1;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec3& here = corners[i];
-        const Vec3& next = corners[(i + 1) % corners.size()];
-        const int steps = i % arc == arc - 1 ? rect.side_steps : 1;
-        for (int step = 0; step < steps; ++step) {
-            outline.emplace_back(here + (next - here) * (step / static_cast<double>(steps)));
-        }
-    }
-    return outline;
-}
-
-Ring round_outline(const Ring& outline, double radius_m) {
-    Ring circle = outline;
-    for (Vec3& point : circle) {
-        const double scale = radius_m / std::sqrt(point.x() * point.x() + point.y() * point.y());
-        point = Vec3(scale * point.x(), scale * point.y(), point.z());
-    }
-    return circle;
-}
-
-Ring at_height(Ring ring, double z_m) {
-    for (Vec3& point : ring) {
-        point.z() = z_m;
-    }
-    return ring;
-}
-
-Mesh make_revolved(std::span<const ProfilePoint> profile, int segments) {
-    std::vector<Ring> rings;
-    for (const ProfilePoint& point : profile) {
-        Ring ring;
-        const int count = point.radius_m > 0.0 ? segments : 1;
-        for (int j = 0; j < count; ++j) {
-            double sine = 0.0;
-            double cosine = 1.0;
-            sin_cos(k_two_pi * j / segments, sine, cosine);
-            ring.emplace_back(point.radius_m * cosine, point.radius_m * sine, point.z_m);
-        }
-        rings.push_back(std::move(ring));
-    }
-    return make_loft(rings, LoftEnds::capped);
-}
 
 Mesh make_box(const Vec3& half_m) {
     Mesh mesh;
@@ -199,7 +105,8 @@ Mesh make_box(const Vec3& half_m) {
 Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
     HH_CHECK(bevel_m > 0.0 && bevel_m < half_m.minCoeff(), "bevel out of range", bevel_m);
     Mesh mesh;
-    // Vertex 3 * corner + axis: the corner drawn in along both other axes, so it lies on the face across `axis`.
+    // Vertex 3 * corner + axis: the corner drawn in along both other axes, so it lies on the face
+    // across `axis`.
     for (unsigned corner = 0; corner < 8; ++corner) {
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 extent = half_m - Vec3::Constant(bevel_m);
@@ -367,25 +274,7 @@ Mesh make_icosphere(double radius_m, int levels) {
     }
     face_outward(mesh);
     for (int level = 0; level < levels; ++level) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, is_new] =
-                middles.try_emplace(std::minmax(a, b), index_of(mesh.positions.size()));
-            if (is_new) {
-                const Vec3 point = (mesh.positions[a] + mesh.positions[b]).normalized();
-                mesh.positions.push_back(point);
-            }
-            return at->second;
-        };
-        std::vector<Triangle> finer;
-        for (const Triangle& t : mesh.triangles) {
-            const std::uint32_t ab = middle(t[0], t[1]);
-            const std::uint32_t bc = middle(t[1], t[2]);
-            const std::uint32_t ca = middle(t[2], t[0]);
-            finer.insert(finer.end(),
-                         {{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {ab, bc, ca}});
-        }
-        mesh.triangles = std::move(finer);
+        quarter_on_sphere(mesh);
     }
     stretch(mesh, Vec3::Constant(radius_m));
     return mesh;
@@ -400,48 +289,6 @@ Mesh make_rock(double radius_m, unsigned seed) {
         point *= radius_m * (0.96 + swell);
     }
     return mesh;
-}
-
-void append(Mesh& into, const Mesh& part, const Pose& at) {
-    const std::uint32_t first = index_of(into.positions.size());
-    for (const Vec3& point : part.positions) {
-        into.positions.push_back(transform_point(at, point));
-    }
-    for (const Triangle& t : part.triangles) {
-        into.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    }
-}
-
-void mirror_x(Mesh& mesh) {
-    for (Vec3& point : mesh.positions) {
-        point.x() = -point.x();
-    }
-    for (Triangle& t : mesh.triangles) {
-        std::swap(t[1], t[2]);
-    }
-}
-
-void stretch(Mesh& mesh, const Vec3& factors) {
-    for (Vec3& point : mesh.positions) {
-        point = point.cwiseProduct(factors);
-    }
-}
-
-void weld(Mesh& mesh) {
-    std::map<std::array<double, 3>, std::uint32_t> places;
-    std::vector<Vec3> kept;
-    for (Triangle& t : mesh.triangles) {
-        for (std::uint32_t& corner : t) {
-            const Vec3& p = mesh.positions[corner];
-            const auto [at, is_new] =
-                places.try_emplace({p.x(), p.y(), p.z()}, index_of(kept.size()));
-            if (is_new) {
-                kept.push_back(p);
-            }
-            corner = at->second;
-        }
-    }
-    mesh.positions = std::move(kept);
 }
 
 Pose look_along(const Vec3& position, const Vec3& forward, const Vec3& up) {

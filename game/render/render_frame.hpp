@@ -7,8 +7,9 @@
 
 #include "engine/math/math.hpp"
 
-// What one picture shows, as plain data: the renderer's only input besides its meshes. World space is double; the
-// renderer subtracts the camera first, so a scene 10 km from the origin looks like one at it.
+// What one picture shows, as plain data: the renderer's only input besides its meshes. World space
+// is double; the renderer subtracts the camera first, so a scene 10 km from the origin looks like
+// one at it.
 namespace handhold {
 
 using Color = std::array<float, 3>;  // linear RGB
@@ -18,7 +19,8 @@ enum class MeshId : std::uint32_t {};
 
 // How a surface takes light.
 struct Look {
-    float emissive = 0.0F;  // times the colour, added; 1 is the brightness of a lit white wall, lamps are at 2 to 4
+    float emissive = 0.0F;  // times the colour, added; 1 is the brightness of a lit white wall,
+                            // lamps are at 2 to 4
     float opacity = 1.0F;   // below 1: blended, drawn after all else, casts no shadow
     float gloss = 0.25F;    // 0 chalk .. 1 polished
 };
@@ -30,7 +32,8 @@ struct Instance {
     Look look;
 };
 
-// A straight mark of constant width on the picture (palm rays, constraints): faint where something hides it.
+// A straight mark of constant width on the picture (palm rays, constraints): faint where something
+// hides it.
 struct Line {
     Vec3 a_ws = Vec3::Zero();
     Vec3 b_ws = Vec3::Zero();
@@ -38,15 +41,17 @@ struct Line {
     double width_px = 2.5;
 };
 
-// A small lamp without shadow. Its light fades to nothing at reach_m, so that it hardly leaks through walls.
+// A small lamp without shadow. Its light fades to nothing at reach_m, so that it hardly leaks
+// through walls.
 struct Lamp {
     Vec3 position_ws = Vec3::Zero();
     Color color = {1.0F, 1.0F, 1.0F};  // times intensity at 1 m
     double reach_m = 4.0;              // above 0
 };
 
-// The one light with shadows. In a room, caster_reach_m of about 1 m makes it a lamp in the ceiling (what is farther
-// towards the light casts nothing); outside, the reach of the scene makes it the sun.
+// The one light with shadows. In a room, caster_reach_m of about 1 m makes it a lamp in the ceiling
+// (what is farther towards the light casts nothing); outside, the reach of the scene makes it the
+// sun.
 struct KeyLight {
     Vec3 towards_ws = Vec3(0.35, 0.9, 0.25);  // not zero
     Color color = {0.50F, 0.47F, 0.43F};
@@ -77,7 +82,7 @@ struct RenderFrame {
     float haze_per_m = 0.010F;  // share of haze a metre of distance
     Color haze = {0.20F, 0.23F, 0.27F};
     Backdrop backdrop = Backdrop::plain;
-    Color background = {0.0F, 0.0F, 0.0F};      // of Backdrop::plain, shown as it is: no tone mapping
+    Color background = {0.0F, 0.0F, 0.0F};  // of Backdrop::plain, shown as it is: no tone mapping
     Vec3 planet_ws = Vec3(0.25, -0.85, -0.75);  // direction of the planet's centre
 };
 

@@ -84,10 +84,8 @@ struct Renderer::Impl {
 
 bool Renderer::Impl::create_programs(std::string& why_not) {
     const GlApi api = context->api();
-    mesh_program =
-        make_program(api, shaders::k_mesh_vertex, shaders::k_mesh_fragment, why_not);
-    depth_program =
-        make_program(api, shaders::k_depth_vertex, shaders::k_depth_fragment, why_not);
+    mesh_program = make_program(api, shaders::k_mesh_vertex, shaders::k_mesh_fragment, why_not);
+    depth_program = make_program(api, shaders::k_depth_vertex, shaders::k_depth_fragment, why_not);
     line_program = make_program(api, shaders::k_line_vertex, shaders::k_line_fragment, why_not);
     backdrop_program =
         make_program(api, shaders::k_screen_vertex, shaders::k_backdrop_fragment, why_not);
@@ -96,9 +94,9 @@ bool Renderer::Impl::create_programs(std::string& why_not) {
 }
 
 void Renderer::Impl::create_shadow_map() {
-    shadow_map = make_texture(k_shadow_size_px, k_shadow_size_px,
-                              {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
-                               GL_LINEAR});
+    shadow_map =
+        make_texture(k_shadow_size_px, k_shadow_size_px,
+                     {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR});
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     shadow_target = make_framebuffer(0, shadow_map);

@@ -12,9 +12,9 @@ namespace handhold {
 
 // What the last picture cost.
 struct RenderCounters {
-    int draw_calls = 0;       // of meshes, in all passes
-    int triangles = 0;        // sent, in all passes
-    int instances_seen = 0;   // inside the camera's frustum
+    int draw_calls = 0;      // of meshes, in all passes
+    int triangles = 0;       // sent, in all passes
+    int instances_seen = 0;  // inside the camera's frustum
     int instances_given = 0;
 };
 
@@ -22,9 +22,9 @@ struct RenderCounters {
 // fine: four samples a pixel, four times the work; for pictures that are looked at.
 enum class PictureQuality { quick, fine };
 
-// Draws frames into memory; needs no display and no window, only an EGL that knows surfaceless contexts (Mesa's does,
-// with or without a graphics card). OpenGL 3.3 core, or OpenGL ES 3.0 where that is all there is.
-// One thread at a time; several renderers may live side by side.
+// Draws frames into memory; needs no display and no window, only an EGL that knows surfaceless
+// contexts (Mesa's does, with or without a graphics card). OpenGL 3.3 core, or OpenGL ES 3.0 where
+// that is all there is. One thread at a time; several renderers may live side by side.
 class Renderer {
   public:
     // Nothing, and the reason, where the machine cannot. Precondition: both sizes in [16, 8192].
@@ -34,11 +34,12 @@ class Renderer {
     Renderer& operator=(Renderer&& other) noexcept;
     ~Renderer();
 
-    // Keeps a copy on the graphics side until the renderer ends. Edges below 35 degrees are shaded smooth, whatever
-    // the winding; both sides of a triangle are lit. An empty mesh is allowed and draws nothing.
+    // Keeps a copy on the graphics side until the renderer ends. Edges below 35 degrees are shaded
+    // smooth, whatever the winding; both sides of a triangle are lit. An empty mesh is allowed and
+    // draws nothing.
     MeshId add_mesh(const Mesh& mesh);
-    // The frame as a picture of the size given to create(). Instances and lines that are not finite are left out.
-    // Precondition: every instance's mesh came from this renderer.
+    // The frame as a picture of the size given to create(). Instances and lines that are not finite
+    // are left out. Precondition: every instance's mesh came from this renderer.
     void draw(const RenderFrame& frame, Image& out);
 
     const RenderCounters& counters() const;

@@ -1,10 +1,11 @@
 #pragma once
 
-// The programs of the renderer, in the common subset of GLSL 3.30 and GLSL ES 3.00 (the version line is added when
-// they are compiled). All positions are relative to the camera, with the world's axes (suffix _cs).
-// Sources: shadow maps after Williams 1978 with percentage closer filtering (Reeves et al. 1987); ambient occlusion
-// after McGuire et al. 2011 ("The Alchemy Screen-Space Ambient Obscurance Algorithm"), half resolution; interleaved
-// gradient noise after Jimenez 2014; the edge filter is of the kind of Lottes 2009 (FXAA).
+// The programs of the renderer, in the common subset of GLSL 3.30 and GLSL ES 3.00 (the version
+// line is added when they are compiled). All positions are relative to the camera, with the world's
+// axes (suffix _cs). Sources: shadow maps after Williams 1978 with percentage closer filtering
+// (Reeves et al. 1987); ambient occlusion after McGuire et al. 2011 ("The Alchemy Screen-Space
+// Ambient Obscurance Algorithm"), half resolution; interleaved gradient noise after Jimenez 2014;
+// the edge filter is of the kind of Lottes 2009 (FXAA).
 namespace handhold::shaders {
 
 inline constexpr const char* k_mesh_vertex = R"(
@@ -25,7 +26,8 @@ void main() {
 }
 )";
 
-// Alpha of the opaque pass is what of the pixel takes ambient occlusion: 1 for surfaces, 0 for what glows.
+// Alpha of the opaque pass is what of the pixel takes ambient occlusion: 1 for surfaces, 0 for what
+// glows.
 inline constexpr const char* k_mesh_fragment = R"(
 const int k_max_lamps = 12;
 in vec3 position_cs;
@@ -336,8 +338,8 @@ void main() {
 }
 )";
 
-// Puts the picture together, upside down: rows are read back from the top. Where the scene has four samples a pixel,
-// the linear filter reads their mean.
+// Puts the picture together, upside down: rows are read back from the top. Where the scene has four
+// samples a pixel, the linear filter reads their mean.
 inline constexpr const char* k_composite_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -356,8 +358,9 @@ void main() {
 }
 )";
 
-// Softens stairs: where brightness (in alpha) jumps, averages along the edge, up to four pixels each way. A long
-// average that leaves the range of the neighbourhood has crossed another edge; the short one stands in.
+// Softens stairs: where brightness (in alpha) jumps, averages along the edge, up to four pixels
+// each way. A long average that leaves the range of the neighbourhood has crossed another edge; the
+// short one stands in.
 inline constexpr const char* k_edges_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;

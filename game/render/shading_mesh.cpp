@@ -25,7 +25,8 @@ std::uint64_t place_key(const Vec3& p) {
     return hash.value();
 }
 
-// Sum of the normals around one place that are close enough to `own`, whichever way they were wound.
+// Sum of the normals around one place that are close enough to `own`, whichever way they were
+// wound.
 Vec3 smooth_normal(const std::vector<Corner>& around, const Vec3& own) {
     Vec3 sum = Vec3::Zero();
     for (const Corner& corner : around) {

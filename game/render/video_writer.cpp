@@ -1,17 +1,17 @@
 #include "game/render/video_writer.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 extern char** environ;
 
@@ -124,7 +124,8 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
     if (encoders.empty()) {
         return nullptr;
     }
-    // A socket instead of a pipe: a write to an encoder that died is then an error and not a signal.
+    // A socket instead of a pipe: a write to an encoder that died is then an error and not a
+    // signal.
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         why_not = std::string("no socket: ") + std::strerror(errno);

@@ -14,12 +14,12 @@ struct VideoSettings {
     std::string program = "ffmpeg";  // looked for on PATH
 };
 
-// An .mp4 by way of ffmpeg, which runs beside us and is fed raw pictures: H.264, or MPEG-4 part 2 where libx264 is
-// missing. A video is a nicety: every failure is a sentence, none stops a session.
+// An .mp4 by way of ffmpeg, which runs beside us and is fed raw pictures: H.264, or MPEG-4 part 2
+// where libx264 is missing. A video is a nicety: every failure is a sentence, none stops a session.
 class VideoWriter {
   public:
-    // Nothing, and the reason, where the program is missing or cannot be started. The program is started without a
-    // shell; `path` may hold any character.
+    // Nothing, and the reason, where the program is missing or cannot be started. The program is
+    // started without a shell; `path` may hold any character.
     static std::unique_ptr<VideoWriter> open(const std::string& path, const VideoSettings& settings,
                                              std::string& why_not);
     ~VideoWriter();
@@ -28,8 +28,8 @@ class VideoWriter {
 
     // False once the encoder has gone, or for a picture of another size; what follows is dropped.
     bool add(const Image& image);
-    // Waits for the encoder and gives the file its name. False, the reason, and no file where something failed.
-    // Without it, the destructor abandons the video.
+    // Waits for the encoder and gives the file its name. False, the reason, and no file where
+    // something failed. Without it, the destructor abandons the video.
     bool finish(std::string& why_not);
 
   private:

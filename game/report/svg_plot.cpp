@@ -290,9 +290,10 @@ std::vector<PlotPoint> decimate_columns(std::span<const PlotPoint> points) {
         }
         std::array<std::size_t, 4> wanted = {begin, lowest, highest, end - 1};
         std::sort(wanted.begin(), wanted.end());
-        const auto unique_end = std::unique(wanted.begin(), wanted.end());
-        for (auto index = wanted.begin(); index != unique_end; ++index) {
-            kept.push_back(points[*index]);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            if (i == 0 || wanted[i] != wanted[i - 1]) {
+                kept.push_back(points[wanted[i]]);
+            }
         }
         begin = end;
     }
@@ -345,14 +346,14 @@ std::string line_plot_css() {
         "--plot-title:#e6edf3;";
     std::string rules;
     for (std::size_t i = 0; i < k_on_light.size(); ++i) {
-        const std::string index = std::to_string(i);
-        light += "--plot-" + index + ":" + k_on_light[i] + ";";
-        dark += "--plot-" + index + ":" + k_on_dark[i] + ";";
-        rules += ".plot .s" + index + "{stroke:var(--plot-" + index + ");color:var(--plot-" +
-                 index + ")}\n";
+        const std::string variable = "--plot-" + std::to_string(i);
+        light += variable + ":" + k_on_light[i] + ";";
+        dark += variable + ":" + k_on_dark[i] + ";";
+        rules += ".plot .s" + std::to_string(i) + "{color:var(" + variable + ")}\n";
     }
     return light + "}\n" + dark + "}}\n" + rules +
-           ".plot .sw{stroke:var(--plot-whole)}\n"
+           ".plot .sw{color:var(--plot-whole)}\n"
+           ".plot .line,.plot .key,.plot .begin,.plot .end{stroke:currentColor}\n"
            ".plot{display:block;width:100%;height:auto}\n"
            ".plot text{font:12px system-ui,sans-serif;fill:var(--plot-text)}\n"
            ".plot .title{font-size:14px;font-weight:600;fill:var(--plot-title)}\n"

@@ -14,6 +14,9 @@ bool is_stale(double t_s, bool has_sample, double last_t_s) {
     return !std::isfinite(t_s) || (has_sample && t_s <= last_t_s);
 }
 
+// A sample of no time at all is not one after the frame.
+bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
+
 // The same for the head and for hands: state and the pose at the end of the frame.
 // `later` is the first pose after the frame's end, or null.
 template <typename Device>
@@ -24,8 +27,8 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
     }
     const bool first = device.state == TrackingState::never;
     if (!has_sample) {
-        device.sample_ps = *later;  // the session begins between two samples
-        device.sample_t_s = later_t_s;
+        device.sample_ps = *later;  // the session begins between two samples: the later one is yet to come
+        device.sample_t_s = end_s;
     }
     if (later == nullptr && end_s - device.sample_t_s > lost_after_s) {
         if (device.state != TrackingState::lost) {
@@ -123,7 +126,7 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
     for (const TrackingSample& sample : input.samples) {
         const ControllerSample& reading = sample.controllers[index_of(rows.side)];
         const Pose hand_ps = reading.controller_ps * rows.joint;
-        if (sample.t_s > io.frame_end_s) {
+        if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_valid(reading.controller_ps)) {
                 later = hand_ps;
                 later_or_null = &later;
@@ -160,12 +163,17 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
                const TrackingTuning& tuning, StageStats& stats) {
     bool has_sample = head.state != TrackingState::never;
     head.start_ps = head.pose_ps;
-    const Pose* later = nullptr;
+    Pose later;
+    const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
-        if (sample.t_s > io.frame_end_s) {
-            later = is_valid(sample.head_ps) ? &sample.head_ps : nullptr;
-            later_t_s = sample.t_s;
+        const Pose head_ps{sample.head_ps.position, sample.head_ps.rotation.normalized()};
+        if (is_later(sample.t_s, io.frame_end_s)) {
+            if (is_valid(sample.head_ps)) {
+                later = head_ps;
+                later_or_null = &later;
+                later_t_s = sample.t_s;
+            }
             break;
         }
         if (is_stale(sample.t_s, has_sample, head.sample_t_s)) {
@@ -173,12 +181,31 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
         } else if (!is_valid(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
-            head.sample_ps = {sample.head_ps.position, sample.head_ps.rotation.normalized()};
+            head.sample_ps = head_ps;
             head.sample_t_s = sample.t_s;
             has_sample = true;
         }
     }
-    finish_device(head, has_sample, later, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+    finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+}
+
+// Input of a player whom nothing is known of in this frame: no samples, no commands.
+const PlayerInput& input_of(const ReadTrackingIo& io, Entity player) {
+    static const PlayerInput k_silence{};
+    const auto found = std::find_if(io.inputs.begin(), io.inputs.end(),
+                                    [player](const PlayerInput& input) { return input.player == player; });
+    return found == io.inputs.end() ? k_silence : *found;
+}
+
+// Numbers that are not finite ask for nothing.
+PlayerCommands finite_commands(PlayerCommands commands) {
+    const auto finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
+    commands.smooth_turn = finite(commands.smooth_turn);
+    commands.brake = finite(commands.brake);
+    for (double& axis : commands.thrust_ps) {
+        axis = finite(axis);
+    }
+    return commands;
 }
 
 }  // namespace
@@ -197,25 +224,19 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
     HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length", io.frame_end_s - io.frame_start_s);
     const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
                                        default_controller_to_hand(HandSide::right, tuning.hand)};
-    for (const PlayerInput& input : io.inputs) {
-        if (HeadTracking* const head = io.head.find(input.player)) {
-            read_head(*head, input, io, tuning.tracking, stats);
-        }
-        if (PlayerCommands* const commands = io.commands.find(input.player)) {
-            *commands = input.commands;
-        }
+    for (std::size_t row = 0; row < io.head.size(); ++row) {
+        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row]), io, tuning.tracking, stats);
+    }
+    for (std::size_t row = 0; row < io.commands.size(); ++row) {
+        io.commands.rows()[row] = finite_commands(input_of(io, io.commands.owners()[row]).commands);
     }
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const Entity entity = io.owner.owners()[row];
         const HandOwner& owner = io.owner.rows()[row];
-        const auto input = std::find_if(io.inputs.begin(), io.inputs.end(), [&owner](const PlayerInput& candidate) {
-            return candidate.player == owner.player;
-        });
-        static const PlayerInput k_silence{};
         const ControllerToHand* const own = io.controller_to_hand.find(entity);
         const HandRows rows{io.hand.at(entity), io.history.at(entity),
                             own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)], owner.side};
-        read_hand(rows, input == io.inputs.end() ? k_silence : *input, io, tuning.tracking, stats);
+        read_hand(rows, input_of(io, owner.player), io, tuning.tracking, stats);
     }
 }
 

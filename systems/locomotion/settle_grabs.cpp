@@ -37,7 +37,9 @@ std::size_t other_hand(const SettleGrabsIo& io, std::size_t row) {
 // The player's origin at an instant: from a hand that already holds on to something fixed, exact; else on the predicted way.
 Pose origin_at(const Instant& now, Entity player, const Grab* holding, const HandTracking* holding_hand) {
     Pose origin_ws = now.origin_ws(player);
-    if (holding != nullptr && holding->kind == GripKind::surface && holding->phase == GrabPhase::holding) {
+    // A hand that was lost until now may have jumped: what it holds says nothing.
+    if (holding != nullptr && holding->kind == GripKind::surface && holding->phase == GrabPhase::holding &&
+        !holding_hand->resumed) {
         const Vec3 anchor_ws = transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
         origin_ws.position = anchor_ws - origin_ws.rotation * now.hand_ps(*holding_hand).position;
     }
@@ -88,36 +90,64 @@ void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTrackin
     leaving = {};
 }
 
+// A grip, its hand and the same player's other ones; the other grip is null where there is no other hand.
+struct HandPair {
+    Grab& grab;
+    const HandTracking& hand;
+    Grab* other = nullptr;
+    const HandTracking* other_hand = nullptr;
+    Entity player;
+};
+
+HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
+    const Entity entity = io.grab.owners()[row];
+    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr, io.owner.at(entity).player};
+    if (const std::size_t other = other_hand(io, row); other < io.grab.size()) {
+        pair.other = &io.grab.rows()[other];
+        pair.other_hand = &io.hand.at(io.grab.owners()[other]);
+    }
+    return pair;
+}
+
+void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
+    const Instant now{io, fraction_of(io, pair.hand.edge_t_s)};
+    take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.edge_ps, pair.grab);
+    pair.grab.phase = GrabPhase::holding;
+}
+
 }  // namespace
 
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
+    // New grips before anything leaves, the earlier edge first: which hand is listed first never shows.
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        Grab& grab = io.grab.rows()[row];
+        const HandPair pair = pair_of(io, row);
+        if (pair.grab.phase != GrabPhase::fresh) {
+            continue;
+        }
+        if (pair.other != nullptr && pair.other->phase == GrabPhase::fresh &&
+            pair.other_hand->edge_t_s < pair.hand.edge_t_s) {
+            settle_fresh(io, {*pair.other, *pair.other_hand, &pair.grab, &pair.hand, pair.player});
+        }
+        settle_fresh(io, pair);
+    }
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        Grab& grab = pair.grab;
         if (grab.kind == GripKind::none) {
             continue;
         }
-        const Entity entity = io.grab.owners()[row];
-        const HandTracking& hand = io.hand.at(entity);
-        const Entity player = io.owner.at(entity).player;
-        const std::size_t other_row = other_hand(io, row);
-        Grab* const other = other_row < io.grab.size() ? &io.grab.rows()[other_row] : nullptr;
-        const HandTracking* const other_tracking =
-            other != nullptr ? &io.hand.at(io.grab.owners()[other_row]) : nullptr;
-        if (grab.phase == GrabPhase::fresh) {
-            const Instant now{io, fraction_of(io, hand.edge_t_s)};
-            take_anchor(now, origin_at(now, player, other, other_tracking), hand.edge_ps, grab);
-            grab.phase = GrabPhase::holding;
-        } else if (grab.phase == GrabPhase::releasing && other != nullptr &&
-                   other->phase == GrabPhase::holding && share_hold(grab, *other)) {
-            leave_shared_hold(io, grab, hand, *other, *other_tracking, player);
+        if (grab.phase == GrabPhase::releasing && pair.other != nullptr &&
+            pair.other->phase == GrabPhase::holding && share_hold(grab, *pair.other)) {
+            leave_shared_hold(io, grab, pair.hand, *pair.other, *pair.other_hand, pair.player);
             stats.count(Fallback::hand_left_two_hand_grip);
             continue;
-        } else if (grab.phase == GrabPhase::holding && hand.resumed) {
+        }
+        if (grab.phase == GrabPhase::holding && pair.hand.resumed && pair.hand.edge != GrabEdge::onset) {
             const Instant now{io, 0.0};
-            take_anchor(now, origin_at(now, player, other, other_tracking), hand.pose_ps, grab);
+            take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.pose_ps, grab);
             stats.count(Fallback::grip_reanchored);
         }
-        aim(io, hand, grab);
+        aim(io, pair.hand, grab);
     }
 }
 

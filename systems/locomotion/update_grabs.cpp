@@ -1,7 +1,9 @@
 #include "systems/locomotion/update_grabs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <span>
 
 #include "components/play_space.hpp"
 
@@ -24,21 +26,36 @@ Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
     return k_no_entity;
 }
 
-// Heads are colliders too, but nothing to hold on to.
+// The first body that a query finds. Heads are colliders too, but nothing to hold on to: it is asked again without them.
+template <typename Query>
+std::optional<Surface> first_body(const UpdateGrabsIo& io, Query&& query) {
+    std::array<std::uint64_t, 8> heads{};
+    for (std::size_t count = 0;; ++count) {
+        const auto found = query(std::span<const std::uint64_t>(heads).first(count));
+        if (!found) {
+            return std::nullopt;
+        }
+        const Entity body = owner_of_id(io, found->id);
+        if (!is_null(body)) {
+            return Surface{body, found->point_ws, found->normal_ws};
+        }
+        if (count == heads.size()) {
+            return std::nullopt;
+        }
+        heads[count] = found->id;
+    }
+}
+
 std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray, const HandTuning& tuning) {
-    if (const auto hit = io.collision.cast_ray(ray.from_ws, ray.to_ws)) {
-        const Entity body = owner_of_id(io, hit->id);
-        if (!is_null(body)) {
-            return Surface{body, hit->point_ws, hit->normal_ws};
-        }
+    const auto hit = first_body(io, [&](std::span<const std::uint64_t> skip) {
+        return io.collision.cast_ray(ray.from_ws, ray.to_ws, skip);
+    });
+    if (hit) {
+        return hit;
     }
-    if (const auto nearest = io.collision.closest_point(ray.palm_ws, tuning.reach_m)) {
-        const Entity body = owner_of_id(io, nearest->id);
-        if (!is_null(body)) {
-            return Surface{body, nearest->point_ws, nearest->normal_ws};
-        }
-    }
-    return std::nullopt;
+    return first_body(io, [&](std::span<const std::uint64_t> skip) {
+        return io.collision.closest_point(ray.palm_ws, tuning.reach_m, skip);
+    });
 }
 
 GripKind grip_kind(const RigidBody& body, const PhaseTuning& tuning) {
@@ -49,12 +66,13 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     if (std::find(ignores.bodies.begin(), ignores.bodies.end(), body) != ignores.bodies.end()) {
         return;
     }
-    Entity& place = ignores.bodies[ignores.next];
-    if (!is_null(place)) {
+    auto* place = std::find(ignores.bodies.begin(), ignores.bodies.end(), k_no_entity);
+    if (place == ignores.bodies.end()) {
         stats.count(Fallback::head_ignores_full);
+        place = &ignores.bodies[ignores.next];
+        ignores.next = (ignores.next + 1) % HeadIgnores::k_capacity;
     }
-    place = body;
-    ignores.next = (ignores.next + 1) % HeadIgnores::k_capacity;
+    *place = body;
 }
 
 void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand, Grab& grab,

@@ -238,5 +238,14 @@ TEST(ClosestPointQuery, OnAMeshAgreesWithEveryTriangleInTurn) {
     }
 }
 
+TEST(ClosestPointQuery, OnTheSurfaceTheNormalIsTheTriangles) {
+    World w;
+    w.add(w.shapes.add_mesh(test::make_floor(4.0, 7)), at({0.0, 5.0, 0.0}));
+    const auto found = w.make().closest_point({0.3, 5.0, 0.2}, 1.0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->distance_m, 0.0);
+    EXPECT_NEAR(found->normal_ws.y(), 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace handhold

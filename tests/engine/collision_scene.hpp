@@ -29,7 +29,10 @@ class Random {
             }
         }
     }
-    Quat rotation() { return rotation_about(direction(), between(-3.0, 3.0)); }
+    Quat rotation() {
+        const Vec3 axis = direction();  // first: compilers order arguments as they like
+        return rotation_about(axis, between(-3.0, 3.0));
+    }
     std::mt19937_64& engine() { return engine_; }
 
   private:

@@ -1,11 +1,12 @@
-// Pictures and films as files. Oracles: the PNG specification's signature and header, RFC 4648's own examples, ffprobe.
-#include <gtest/gtest.h>
-
+// Pictures and films as files. Oracles: the PNG specification's signature and header, RFC 4648's
+// own examples, ffprobe.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include <gtest/gtest.h>
 
 #include "game/render/image.hpp"
 #include "game/render/video_writer.hpp"
@@ -43,7 +44,8 @@ struct Folder {
 TEST(Picture, PngHoldsEveryByte) {
     const Image image = make_gradient(37, 21);
     const std::vector<std::uint8_t> png = encode_png(image);
-    constexpr std::array<std::uint8_t, 8> k_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    constexpr std::array<std::uint8_t, 8> k_signature = {0x89, 'P',  'N',  'G',
+                                                         '\r', '\n', 0x1a, '\n'};
     ASSERT_GT(png.size(), 33U);
     EXPECT_TRUE(std::equal(k_signature.begin(), k_signature.end(), png.begin()));
     EXPECT_EQ(png[19], 37);  // last byte of the header's width
@@ -102,9 +104,10 @@ TEST(Film, HasTheFramesThatWereAdded) {
     ASSERT_TRUE(writer->finish(why_not)) << why_not;
     EXPECT_FALSE(std::filesystem::exists(path + ".part"));
     std::filesystem::rename(path, folder.file("film.mp4"));
-    const std::string probe = "ffprobe -v error -count_frames -show_entries "
-                              "stream=nb_read_frames,width,height,pix_fmt -of csv=p=0 " +
-                              folder.file("film.mp4") + " > " + folder.file("probe.txt");
+    const std::string probe =
+        "ffprobe -v error -count_frames -show_entries "
+        "stream=nb_read_frames,width,height,pix_fmt -of csv=p=0 " +
+        folder.file("film.mp4") + " > " + folder.file("probe.txt");
     if (std::system(probe.c_str()) != 0) {
         GTEST_SKIP() << "no ffprobe";
     }

@@ -1,11 +1,12 @@
 // Frames through the renderer, judged by where things must appear: a pinhole camera puts a point at
 // x = w/2 (1 + X / (-Z tan(fov/2) w/h)), y = h/2 (1 - Y / (-Z tan(fov/2))) in its own axes.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
 
 #include "engine/core/check.hpp"
 #include "game/render/primitives.hpp"
@@ -117,8 +118,8 @@ TEST_F(RenderPicture, NearerBoxHidesFartherOneInEitherOrder) {
     const Instance far = box(Vec3(0.0, 0.0, -2.0), Vec3(0.6, 0.6, 0.1), k_green);
     for (const bool near_first : {true, false}) {
         RenderFrame frame = black_frame();
-        frame.instances = near_first ? std::vector<Instance>{near, far}
-                                     : std::vector<Instance>{far, near};
+        frame.instances =
+            near_first ? std::vector<Instance>{near, far} : std::vector<Instance>{far, near};
         const Image image = draw(frame);
         EXPECT_EQ(seen_at(image, k_width_px / 2, k_height_px / 2), Seen::red);
         // 0.4 m off the middle of the far box's face, 1.9 m away: beside the near one.
@@ -134,7 +135,8 @@ TEST_F(RenderPicture, BothSidesOfATriangleAreLitAlike) {
     Mesh turned = sheet;
     turned.triangles = {{0, 2, 1}};
     RenderFrame frame = black_frame();
-    frame.instances = {{renderer_->add_mesh(sheet), {Vec3(0, 0, -1.5), Quat::Identity()}, k_red, {}}};
+    frame.instances = {
+        {renderer_->add_mesh(sheet), {Vec3(0, 0, -1.5), Quat::Identity()}, k_red, {}}};
     const Image front = draw(frame);
     frame.instances[0].mesh = renderer_->add_mesh(turned);
     EXPECT_LT(mean_difference(front, draw(frame)), 0.01);
@@ -144,8 +146,8 @@ TEST_F(RenderPicture, BothSidesOfATriangleAreLitAlike) {
 // A small scene that uses every kind of thing, moved as a whole.
 RenderFrame scene_at(Renderer& renderer, const Vec3& place) {
     RenderFrame frame;
-    frame.camera.pose_ws = look_along(place + Vec3(0.4, 0.5, 1.6), Vec3(-0.2, -0.3, -1.0),
-                                      Vec3::UnitY());
+    frame.camera.pose_ws =
+        look_along(place + Vec3(0.4, 0.5, 1.6), Vec3(-0.2, -0.3, -1.0), Vec3::UnitY());
     const auto put = [&](const Mesh& mesh, const Vec3& at, const Look& look) {
         frame.instances.push_back(
             {renderer.add_mesh(mesh), {place + at, Quat::Identity()}, std::nullopt, look});
@@ -216,9 +218,11 @@ TEST_F(RenderPicture, KeyLightThrowsAShadow) {
 
 TEST_F(RenderPicture, ThingsThatAreNotFiniteAreLeftOut) {
     RenderFrame frame = black_frame();
-    Instance broken = box(Vec3(NAN, 0.0, -1.0), Vec3(0.1, 0.1, 0.1), k_red);
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    const Instance broken = box(Vec3(k_nan, 0.0, -1.0), Vec3(0.1, 0.1, 0.1), k_red);
     frame.instances = {broken, box(Vec3(0.0, 0.0, -1.0), Vec3(0.1, 0.1, 0.1), k_green)};
-    frame.lines.push_back({Vec3(0.0, INFINITY, 0.0), Vec3(0.0, 0.0, -1.0)});
+    frame.lines.push_back(
+        {Vec3(0.0, std::numeric_limits<double>::infinity(), 0.0), Vec3(0.0, 0.0, -1.0)});
     const Image image = draw(frame);
     EXPECT_EQ(seen_at(image, k_width_px / 2, k_height_px / 2), Seen::green);
 }
@@ -239,8 +243,7 @@ TEST_F(RenderPicture, SecondRendererLeavesTheFirstAlone) {
     const Image before = draw(frame);
     {
         std::string why_not;
-        std::optional<Renderer> other =
-            Renderer::create(64, 64, why_not, PictureQuality::fine);
+        std::optional<Renderer> other = Renderer::create(64, 64, why_not, PictureQuality::fine);
         ASSERT_TRUE(other) << why_not;
         Image small;
         other->draw(black_frame(), small);

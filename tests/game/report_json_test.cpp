@@ -1,6 +1,6 @@
 #include "game/report/report_json.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>

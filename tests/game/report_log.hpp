@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "game/run_log.hpp"
 
 // A run made by hand: every figure of its report follows from the numbers here.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <regex>
 #include <string>
@@ -54,6 +55,7 @@ LinePlot make_plot(std::vector<PlotPoint> points, PlotScale scale = PlotScale::l
 RC_GTEST_PROP(DecimateColumns, KeepsEveryColumnsFirstLastLowestAndHighestInOrder, ()) {
     const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 5));
     std::vector<PlotPoint> points;
+    points.reserve(steps.size());
     double x = 0.0;
     for (const int step : steps) {
         x += 0.1 * step;
@@ -88,8 +90,10 @@ RC_GTEST_PROP(DecimateColumns, KeepsEveryColumnsFirstLastLowestAndHighestInOrder
 }
 
 TEST(DrawLinePlot, OneSlowFrameOfAHundredThousandIsSeenAndThePlotStaysSmall) {
+    constexpr int k_frames = 100'000;
     std::vector<PlotPoint> points;
-    for (int i = 0; i < 100'000; ++i) {
+    points.reserve(k_frames);
+    for (int i = 0; i < k_frames; ++i) {
         points.push_back({0.01 * i, i == 77'777 ? 100.0 : 1.0 + std::sin(0.9 * i)});
     }
     const std::string svg = draw_line_plot(make_plot(points));
@@ -162,6 +166,7 @@ RC_GTEST_PROP(DrawLinePlot, EveryPixelIsInside, ()) {
     const auto scale =
         *rc::gen::element(PlotScale::linear, PlotScale::logarithmic, PlotScale::equal);
     std::vector<PlotPoint> plotted;
+    plotted.reserve(points.size());
     for (const auto& [x, y] : points) {
         plotted.push_back({x, y * std::pow(10.0, exponent)});
     }

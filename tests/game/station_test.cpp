@@ -1,14 +1,14 @@
 // The station as a level: sound meshes, room for a player, rails that a hand can close around.
 #include "game/station.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
+
+#include <gtest/gtest.h>
 
 #include "game/render/figures.hpp"
 #include "game/render/primitives.hpp"
@@ -25,7 +25,8 @@ const Structure& ship() {
     return made;
 }
 
-// Distance from a point to a triangle: within its prism the distance to the plane, else to the nearest edge.
+// Distance from a point to a triangle: within its prism the distance to the plane, else to the
+// nearest edge.
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
     const double length2 = along.squaredNorm();
@@ -74,7 +75,8 @@ double area_m2(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return 0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm();
 }
 
-// How often each edge is walked one way minus the other; 0 everywhere for closed, consistently wound solids.
+// How often each edge is walked one way minus the other; 0 everywhere for closed, consistently
+// wound solids.
 bool is_closed(const Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> walks;
     for (const auto& t : mesh.triangles) {
@@ -90,8 +92,7 @@ bool is_closed(const Mesh& mesh) {
 double volume_m3(const Mesh& mesh) {
     double six_volumes = 0.0;
     for (const auto& t : mesh.triangles) {
-        six_volumes +=
-            mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]]));
+        six_volumes += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]]));
     }
     return six_volumes / 6.0;
 }
@@ -169,12 +170,13 @@ TEST(Station, SpawnsAreThirtyCentimetresClear) {
 }
 
 TEST(Station, WayFromModuleToModuleIsHalfAMetreClear) {
-    // Along both passages, through all three hatchways.
-    for (double along = -6.0; along <= 6.0; along += 0.1) {
-        if (along > -6.0 && along < 4.6) {
+    // Along both passages and through all three hatchways, to half a metre from the doors at their
+    // ends.
+    for (double along = -6.4; along <= 6.4; along += 0.1) {
+        if (along > -6.4 && along < 4.4) {
             EXPECT_GE(clearance(station(), Vec3(along, 0.0, 0.0), 0.6, Count::everything), 0.5);
         }
-        if (along >= 0.0) {
+        if (along >= 0.0 && along < 6.4) {
             EXPECT_GE(clearance(station(), Vec3(0.0, 0.0, along), 0.6, Count::everything), 0.5);
         }
     }
@@ -195,7 +197,8 @@ TEST(Station, RailsAreThreeCentimetresClearOfEveryWall) {
 TEST(Station, RailSpansLieOnTheirBars) {
     for (const HandrailSpan& rail : station().rails) {
         const Vec3 middle = 0.37 * rail.start + 0.63 * rail.end;
-        // The bar is a prism of twelve sides: its surface lies between both radii off the axis, unless a post is near.
+        // The bar is a prism of twelve sides: its surface lies between both radii off the axis,
+        // unless a post is near.
         EXPECT_LE(clearance(station(), middle, 0.1, Count::everything), rail.radius_m + 1e-9)
             << rail.name;
     }
@@ -255,7 +258,8 @@ TEST(Rock, IsAboutSixteenCentimetresAcross) {
     EXPECT_NEAR((high - low).minCoeff(), 0.16, 0.05);
 }
 
-// Closed forms: inscribed polygons and polyhedra of n segments lose a known share of the round volume.
+// Closed forms: inscribed polygons and polyhedra of n segments lose a known share of the round
+// volume.
 TEST(Primitives, AreClosedAndHaveTheVolumeOfTheirFormula) {
     constexpr double k_pi = 3.14159265358979323846;
     const auto polygon_share = [](int n) { return std::sin(2.0 * k_pi / n) * n / (2.0 * k_pi); };
@@ -268,10 +272,11 @@ TEST(Primitives, AreClosedAndHaveTheVolumeOfTheirFormula) {
     } cases[] = {
         {"box", make_box(Vec3(0.5, 1.0, 1.5)), 6.0, 1e-12},
         {"bevelled box", make_bevelled_box(Vec3(0.5, 0.5, 0.5), 0.1),
-         // a cube without twelve triangular bars of length 0.8 and eight corners of three tenths by half a tenth
+         // a cube without twelve triangular bars of length 0.8 and eight corners of three tenths by
+         // half a tenth
          1.0 - 12.0 * 0.8 * 0.005 - 8.0 * 0.1 * 0.1 * 0.1 * 5.0 / 6.0, 1e-9},
-        {"slab", make_bevelled_slab(Vec3(0.5, 0.5, 0.5), 0.1),
-         0.9 + 0.1 * (1.0 + 0.8 + 0.64) / 3.0, 1e-9},  // prism and frustum
+        {"slab", make_bevelled_slab(Vec3(0.5, 0.5, 0.5), 0.1), 0.9 + 0.1 * (1.0 + 0.8 + 0.64) / 3.0,
+         1e-9},  // prism and frustum
         {"cylinder", make_cylinder(Vec3(1, 2, 3), Vec3(1, 2, 5), 0.5, 24),
          2.0 * 0.25 * k_pi * polygon_share(24), 1e-9},
         {"sphere", make_sphere(1.0, 96), 4.0 / 3.0 * k_pi, 0.02},
@@ -320,8 +325,9 @@ TEST(Figures, OpenHandIsEighteenCentimetresFromWristToFingertip) {
 TEST(Figures, GrippingFingersStayOutsideOfTheBar) {
     for (const Mesh& part : make_hand(FigureSide::right, HandShape::grip)) {
         for (const Vec3& p : part.positions) {
-            const double from_axis = std::hypot(p.y() + 0.031, p.z() + 0.086);
-            EXPECT_GT(from_axis, 0.0145) << part.name;  // pads may sink 3 mm into the bar of 17.5 mm
+            const double from_axis = std::hypot(p.y() + 0.034, p.z() + 0.080);
+            ASSERT_GT(from_axis, 0.0165)
+                << part.name;  // soft parts may sink 1 mm into the bar of 17.5 mm
         }
     }
 }

@@ -79,6 +79,11 @@ class Scenario {
 
     // One frame; samples of the devices at their own rate, with one beyond the frame's end.
     void step() {
+        prepare_step();
+        take_step();
+    }
+    // The devices' part of it, and the runtime's.
+    void prepare_step() {
         const double end_s = world.clock.t_s + 1.0 / hz;
         samples_.clear();
         for (;;) {
@@ -90,6 +95,8 @@ class Scenario {
             ++next_sample_;
         }
         inputs_.assign(1, PlayerInput{player.player, samples_, commands});
+    }
+    void take_step() {
         step_frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats);
     }
     void run(double seconds, const std::function<void()>& after_frame = [] {}) {

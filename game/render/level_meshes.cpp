@@ -1,0 +1,55 @@
+#include "game/render/level_meshes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace handhold {
+namespace {
+
+// Copies a run of triangles; `places` maps the part's vertices to the mesh's.
+void copy_run(const Mesh& from, std::size_t first, std::size_t end, Mesh& to,
+              std::map<std::uint32_t, std::uint32_t>& places) {
+    for (std::size_t t = first; t < end; ++t) {
+        std::array<std::uint32_t, 3> triangle = from.triangles[t];
+        for (std::uint32_t& corner : triangle) {
+            const auto [at, is_new] =
+                places.try_emplace(corner, static_cast<std::uint32_t>(to.positions.size()));
+            if (is_new) {
+                to.positions.push_back(from.positions[corner]);
+            }
+            corner = at->second;
+        }
+        to.triangles.push_back(triangle);
+    }
+}
+
+}  // namespace
+
+std::vector<Mesh> make_level_meshes(const GltfLevel& level) {
+    std::vector<Mesh> meshes;
+    for (const LevelPart& part : level.parts) {
+        std::map<std::array<float, 3>, std::size_t> mesh_of_color;
+        std::vector<std::map<std::uint32_t, std::uint32_t>> places;
+        const std::size_t first_mesh = meshes.size();
+        for (std::size_t run = 0; run < part.color_runs.size(); ++run) {
+            const ColorRun& colors = part.color_runs[run];
+            const auto [at, is_new] =
+                mesh_of_color.try_emplace(colors.color, meshes.size() - first_mesh);
+            if (is_new) {
+                meshes.push_back({part.mesh.name, {}, {}, colors.color});
+                places.emplace_back();
+            }
+            const std::size_t end = run + 1 < part.color_runs.size()
+                                        ? part.color_runs[run + 1].first_triangle
+                                        : part.mesh.triangles.size();
+            copy_run(part.mesh, colors.first_triangle, end, meshes[first_mesh + at->second],
+                     places[at->second]);
+        }
+    }
+    return meshes;
+}
+
+}  // namespace handhold

@@ -1,0 +1,55 @@
+// Whole frames of a built-in session, and its stages: what the runtime costs a player.
+#include <benchmark/benchmark.h>
+
+#ifdef HANDHOLD_BENCH_GAME
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "game/built_in_scenes.hpp"
+#include "game/session_run.hpp"
+
+namespace handhold {
+namespace {
+
+// The scene's session over and over; time is that of step_frame alone.
+void run_frames(benchmark::State& state, const char* name) {
+    const auto players = static_cast<std::size_t>(state.range(0));
+    double frames = 0.0;
+    StageStats sum;
+    for (auto _ : state) {
+        Scene scene = *make_built_in_scene(name);
+        const Recording recording = *make_built_in_session(name);
+        FrameCaches caches(*scene.shapes);
+        std::vector<PlayerEntities> entities;
+        for (std::size_t i = 0; i < players; ++i) {
+            entities.push_back(add_scene_player(
+                scene, {"player" + std::to_string(i), scene.spawns[i % scene.spawns.size()].pose_ws, 80.0}));
+        }
+        const RunLog log = run_session(scene, caches, entities, &recording, {90.0, 0.0, 1});
+        for (const FrameLog& frame : log.frames) {
+            std::transform(frame.stats.stage_us.begin(), frame.stats.stage_us.end(), sum.stage_us.begin(),
+                           sum.stage_us.begin(), std::plus<>());
+        }
+        frames += static_cast<double>(log.frames.size());
+        state.SetIterationTime(log.wall_s);
+    }
+    state.counters["us_per_frame"] =
+        std::accumulate(sum.stage_us.begin(), sum.stage_us.end(), 0.0) / frames;
+    state.counters["players_per_frame"] = static_cast<double>(players);
+    for (std::size_t stage = 0; stage < sum.stage_us.size(); ++stage) {
+        state.counters[std::string("us_") + name_of(static_cast<Stage>(stage))] = sum.stage_us[stage] / frames;
+    }
+}
+
+void station_session(benchmark::State& state) { run_frames(state, "station"); }
+void ship_session(benchmark::State& state) { run_frames(state, "ship"); }
+
+BENCHMARK(station_session)->Name("frame/station_session")->Arg(1)->Arg(10)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(ship_session)->Name("frame/ship_session")->Arg(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace handhold
+
+#endif

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/io/text_file.hpp"
+#include "game/run_command.hpp"
+
+namespace handhold {
+namespace {
+
+class RunCommand : public testing::Test {
+  protected:
+    RunCommand() : folder_(std::filesystem::path(testing::TempDir()) / "handhold_run_command") {
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    ~RunCommand() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        const std::filesystem::path path = folder_ / name;
+        std::ofstream(path) << text;
+        return path.string();
+    }
+    // Exit status; what was printed is in out_ and err_.
+    int run(const RunOptions& options) {
+        testing::internal::CaptureStdout();
+        testing::internal::CaptureStderr();
+        const int status = run_command(options);
+        out_ = testing::internal::GetCapturedStdout();
+        err_ = testing::internal::GetCapturedStderr();
+        return status;
+    }
+    static std::size_t lines_of(const std::string& text) {
+        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    }
+
+    std::filesystem::path folder_;
+    std::string out_;
+    std::string err_;
+};
+
+TEST_F(RunCommand, LastLineIsTheStateHashAndFilesAreWritten) {
+    RunOptions options;
+    options.scene = "ship";
+    options.seconds = 1.0;
+    options.pictures = false;
+    options.out = (folder_ / "out").string();
+    options.trace = (folder_ / "trace.json").string();
+    ASSERT_EQ(run(options), 0) << err_;
+    const std::size_t last = out_.rfind("state_hash 0x");
+    ASSERT_NE(last, std::string::npos);
+    EXPECT_EQ(out_.size() - last, std::string("state_hash 0x0123456789abcdef\n").size());
+    for (const char* const name : {"frames.csv", "bodies.csv", "report.json", "report.html"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name)) << name;
+    }
+    const auto report = nlohmann::json::parse(read_file(folder_ / "out" / "report.json").value());
+    EXPECT_EQ(report["frames"], 90);
+    EXPECT_EQ("state_hash " + report["state_hash"].get<std::string>() + "\n", out_.substr(last));
+    const auto trace = nlohmann::json::parse(read_file(options.trace).value());
+    EXPECT_FALSE(trace["traceEvents"].empty());
+}
+
+TEST_F(RunCommand, SceneFileWithItsOwnPlayersRuns) {
+    RunOptions options;
+    options.scene = write("box.json", R"({"name": "box", "bodies": [{"name": "wall", "kind": "static",
+        "shape": {"type": "box", "half_m": [1, 1, 0.1]}, "position_m": [0, 1, -1]}],
+        "spawns": [{"name": "a", "position_m": [0, 0, 0]}, {"name": "b", "position_m": [3, 0, 0]}],
+        "players": [{"name": "one", "spawn": "a"}, {"name": "two", "spawn": "b", "mass_kg": 60}]})");
+    options.seconds = 0.5;
+    EXPECT_EQ(run(options), 0) << err_;
+}
+
+TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
+    std::vector<RunOptions> wrong(5);
+    wrong[0].scene = "no_such_scene";
+    wrong[1].scene = (folder_ / "absent.glb").string();
+    wrong[2].scene = write("broken.json", "{\"name\": ");
+    wrong[3].scene = "station";
+    wrong[3].input = write("broken.csv", "t,hx\n0,1\n");
+    wrong[4].scene = "station";
+    wrong[4].spawn = "nowhere";
+    for (RunOptions& options : wrong) {
+        options.out = (folder_ / "out").string();
+        EXPECT_EQ(run(options), 2) << options.scene;
+        EXPECT_EQ(lines_of(err_), 1U) << err_;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "report.json"));
+    }
+}
+
+TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
+    RunOptions options;
+    options.scene = write("tuned.json", R"({"name": "tuned", "tuning": {"hand": {"reach_m": -1}}})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
+}
+
+}  // namespace
+}  // namespace handhold

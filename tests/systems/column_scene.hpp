@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "components/stats.hpp"
+#include "engine/ecs/entity.hpp"
+#include "engine/math/math.hpp"
+
+// What the systems' own tests share: entities by number, random numbers that are the same everywhere, mirrors.
+namespace handhold::test {
+
+constexpr double k_pi = 3.14159265358979323846;
+
+constexpr Entity entity(std::uint32_t number) { return {number, 1}; }
+
+inline std::uint64_t count_of(const StageStats& stats, Fallback reason) {
+    return stats.fallbacks[static_cast<std::size_t>(reason)];
+}
+inline std::uint64_t count_of_all(const StageStats& stats) {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : stats.fallbacks) {
+        sum += count;
+    }
+    return sum;
+}
+
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : engine_(seed) {}
+    // Uniform; the standard distributions differ between libraries.
+    double between(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+    }
+    Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
+    Quat rotation() { return rotation_from_vector(vector(1.8)); }
+    Pose pose(double size_m = 2.0) { return {vector(size_m), rotation()}; }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+// In the plane x = 0.
+inline Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+inline Vec3 mirrored_spin(const Vec3& w) { return {w.x(), -w.y(), -w.z()}; }
+inline Pose mirrored(const Pose& pose) {
+    const Quat& q = pose.rotation;
+    return {mirrored(pose.position), Quat(q.w(), q.x(), -q.y(), -q.z())};
+}
+
+inline double angle_between(const Quat& a, const Quat& b) { return rotation_to_vector(a * b.conjugate()).norm(); }
+// Metres, and radians as metres.
+inline double distance(const Pose& a, const Pose& b) {
+    return (a.position - b.position).norm() + angle_between(a.rotation, b.rotation);
+}
+
+}  // namespace handhold::test

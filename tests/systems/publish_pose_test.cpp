@@ -1,0 +1,149 @@
+#include "systems/body/publish_pose.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "column_scene.hpp"
+
+namespace handhold {
+namespace {
+
+using test::distance;
+using test::entity;
+using test::Random;
+
+constexpr Entity k_player = entity(0);
+constexpr Entity k_left = entity(1);
+constexpr Entity k_right = entity(2);
+constexpr Entity k_rock = entity(3);
+
+struct Publishing {
+    FrameGraph frame;
+    Column<PersistentId> persistent_id;
+    Column<PlayerOrigin> origin;
+    Column<HeadTracking> head;
+    Column<HandOwner> owner;
+    Column<HandTracking> hand;
+    Column<Grab> grab;
+    Column<BodyPose> body_pose;
+    Column<RenderPose> render;
+    Tuning tuning;
+
+    explicit Publishing(std::uint64_t seed, std::initializer_list<Entity> hands = {k_left, k_right}) {
+        Random random(seed);
+        persistent_id.add(k_player, {7});
+        origin.add(k_player, {random.pose()});
+        head.add(k_player);
+        head.at(k_player).pose_ps = random.pose(1.0);
+        render.add(k_player);
+        body_pose.add(k_rock, {random.pose()});
+        for (const Entity entity : hands) {
+            owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
+            hand.add(entity);
+            grab.add(entity);
+        }
+        hand.at(k_left).pose_ps = random.pose(1.0);
+        hand.at(k_right).pose_ps = random.pose(1.0);
+    }
+    const RenderPose& run() {
+        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, body_pose, render}, tuning);
+        return render.at(k_player);
+    }
+    const Pose& origin_ws() const { return origin.at(k_player).pose_ws; }
+};
+
+RC_GTEST_PROP(PublishPose, HeadAndHandsAreTheirTrackedPosesInTheWorld, (std::uint64_t seed)) {
+    Publishing scene(seed);
+    const RenderPose& out = scene.run();
+    RC_ASSERT(distance(out.head_ws, scene.origin_ws() * scene.head.at(k_player).pose_ps) < 1e-7);
+    RC_ASSERT((out.head_center_ws - transform_point(out.head_ws, scene.tuning.head.center_m)).norm() < 1e-13);
+    for (const Entity hand : {k_left, k_right}) {
+        const RenderPose::Hand& shown = out.hands[hand == k_left ? 0 : 1];
+        RC_ASSERT(distance(shown.tracked_ws, scene.origin_ws() * scene.hand.at(hand).pose_ps) < 1e-7);
+        RC_ASSERT(distance(shown.shown_ws, shown.tracked_ws) == 0.0);
+        RC_ASSERT(shown.grip == GripKind::none);
+    }
+}
+
+RC_GTEST_PROP(PublishPose, GrippingHandIsShownOnItsAnchorWhateverTheTrackingSays, (std::uint64_t seed)) {
+    Publishing scene(seed);
+    Random random(seed + 1);
+    Grab& grab = scene.grab.at(k_right);
+    grab.kind = GripKind::held;
+    grab.body = k_rock;
+    grab.anchor_bs = random.pose();
+    const RenderPose& out = scene.run();
+    RC_ASSERT(distance(out.hands[1].shown_ws, scene.body_pose.at(k_rock).pose_ws * grab.anchor_bs) < 1e-7);
+    RC_ASSERT(distance(out.hands[1].tracked_ws, scene.origin_ws() * scene.hand.at(k_right).pose_ps) < 1e-7);
+    RC_ASSERT(out.hands[1].grip == GripKind::held);
+    RC_ASSERT(distance(out.hands[0].shown_ws, out.hands[0].tracked_ws) == 0.0);
+}
+
+TEST(PublishPose, HandWhoseBodyIsGoneIsShownWhereItIsTracked) {
+    Publishing scene(3);
+    scene.grab.at(k_right).kind = GripKind::held;
+    scene.grab.at(k_right).body = k_rock;
+    scene.body_pose.remove(k_rock);
+    const RenderPose& out = scene.run();
+    EXPECT_EQ(distance(out.hands[1].shown_ws, out.hands[1].tracked_ws), 0.0);
+}
+
+// Through the palm along its inward normal, -Y of the hand, from ray_back_m behind the skin.
+RC_GTEST_PROP(PublishPose, RayRunsThroughThePalmAlongItsInwardNormal, (std::uint64_t seed)) {
+    Publishing scene(seed);
+    scene.tuning.hand.palm_center_m = Vec3(0.02, -0.01, -0.07);
+    const RenderPose& out = scene.run();
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const RenderPose::Hand& hand = out.hands[index_of(side)];
+        const Vec3 from = inverse_transform_point(hand.tracked_ws, hand.ray_from_ws);
+        const Vec3 to = inverse_transform_point(hand.tracked_ws, hand.ray_to_ws);
+        const double outward = side == HandSide::right ? 0.02 : -0.02;
+        const Vec3 expected_from(outward, -0.01 + scene.tuning.hand.ray_back_m, -0.07);
+        RC_ASSERT((from - expected_from).norm() < 1e-13);
+        RC_ASSERT((to - (expected_from - Vec3(0.0, scene.tuning.hand.ray_length_m, 0.0))).norm() < 1e-13);
+    }
+}
+
+TEST(PublishPose, PushBackIsThePlayersOwnAndNothingWithoutAnEntry) {
+    Publishing scene(4);
+    EXPECT_EQ(scene.run().push_back_m, 0.0);
+    scene.frame.graph.bodies.resize(2);
+    scene.frame.graph.bodies[0].id = 3;
+    scene.frame.graph.bodies[1].id = 7;
+    scene.frame.phase.resize(2);
+    scene.frame.phase[0].push_back_m = 9.0;
+    scene.frame.phase[1].push_back_m = 0.25;
+    EXPECT_EQ(scene.run().push_back_m, 0.25);
+}
+
+RC_GTEST_PROP(PublishPose, MovedAndRotatedWorldMovesThePictureAlong, (std::uint64_t seed)) {
+    Publishing here(seed);
+    Publishing there(seed);
+    Random random(seed + 1);
+    const Pose moved = random.pose(1e3);
+    there.origin.at(k_player).pose_ws = moved * here.origin_ws();
+    there.body_pose.at(k_rock).pose_ws = moved * here.body_pose.at(k_rock).pose_ws;
+    for (Publishing* const scene : {&here, &there}) {
+        scene->grab.at(k_left).kind = GripKind::surface;
+        scene->grab.at(k_left).body = k_rock;
+    }
+    const RenderPose& a = here.run();
+    const RenderPose& b = there.run();
+    RC_ASSERT(distance(inverse(moved) * b.head_ws, a.head_ws) < 1e-6);
+    RC_ASSERT(distance(inverse(moved) * b.hands[0].shown_ws, a.hands[0].shown_ws) < 1e-6);
+    RC_ASSERT((inverse_transform_point(moved, b.hands[1].ray_to_ws) - a.hands[1].ray_to_ws).norm() < 1e-9);
+}
+
+TEST(PublishPose, OrderOfHandsDoesNotMatter) {
+    Publishing forth(5);
+    Publishing back(5, {k_right, k_left});
+    const RenderPose& a = forth.run();
+    const RenderPose& b = back.run();
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        EXPECT_EQ(a.hands[side].tracked_ws.position, b.hands[side].tracked_ws.position);
+        EXPECT_EQ(a.hands[side].ray_to_ws, b.hands[side].ray_to_ws);
+    }
+}
+
+}  // namespace
+}  // namespace handhold

@@ -1,0 +1,503 @@
+#include "systems/input/read_tracking.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "column_scene.hpp"
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+using test::count_of;
+using test::count_of_all;
+using test::distance;
+using test::entity;
+using test::Random;
+
+constexpr double k_frame_s = 0.01;
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+constexpr Entity k_player = entity(0);
+
+Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
+
+TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bool grab = false) {
+    TrackingSample sample;
+    sample.t_s = t_s;
+    sample.head_ps = pose_at(place);
+    sample.controllers = {ControllerSample{pose_at(place), grab}, ControllerSample{pose_at(place), grab}};
+    return sample;
+}
+
+// One player whose hands are where his controllers are.
+struct Devices {
+    Column<HandOwner> owner;
+    Column<ControllerToHand> joint;
+    Column<HeadTracking> head;
+    Column<HandTracking> hand;
+    Column<HandHistory> history;
+    Column<PlayerCommands> commands;
+    Tuning tuning;
+    StageStats stats;
+    double t_s = 0.0;
+
+    Devices() { add_player(k_player, {HandSide::left, HandSide::right}); }
+    void add_player(Entity player, std::initializer_list<HandSide> order) {
+        head.add(player);
+        commands.add(player);
+        for (const HandSide side : order) {
+            const Entity entity = hand_of(player, side);
+            owner.add(entity, {player, side});
+            joint.add(entity);
+            hand.add(entity);
+            history.add(entity);
+        }
+    }
+    static Entity hand_of(Entity player, HandSide side) {
+        return entity(player.slot + 1 + static_cast<std::uint32_t>(index_of(side)));
+    }
+    const HeadTracking& player_head() const { return head.at(k_player); }
+    const HandTracking& right() const { return hand.at(hand_of(k_player, HandSide::right)); }
+    const HandTracking& left() const { return hand.at(hand_of(k_player, HandSide::left)); }
+
+    void step_inputs(std::span<const PlayerInput> inputs, double dt_s = k_frame_s) {
+        stats = {};
+        read_tracking({inputs, t_s, t_s + dt_s, owner, joint, head, hand, history, commands}, tuning, stats);
+        t_s += dt_s;
+    }
+    void step(const std::vector<TrackingSample>& samples, double dt_s = k_frame_s) {
+        const PlayerInput input{k_player, samples, {}};
+        step_inputs(std::span(&input, 1), dt_s);
+    }
+};
+
+// --- Poses -------------------------------------------------------------------------------------------------------------------
+
+TEST(ReadTracking, PosesAreInterpolatedToTheFramesEnd) {
+    Devices devices;
+    // The end at 0.010 lies half way between the samples.
+    devices.step({sample_at(0.008, Vec3(0.0, 1.0, 0.0)), sample_at(0.012, Vec3(1.0, 1.0, 4.0))});
+    EXPECT_LT((devices.player_head().pose_ps.position - Vec3(0.5, 1.0, 2.0)).norm(), 1e-12);
+    EXPECT_LT((devices.right().pose_ps.position - Vec3(0.5, 1.0, 2.0)).norm(), 1e-12);
+    EXPECT_EQ(devices.right().sample_t_s, 0.008);
+}
+
+TEST(ReadTracking, PosesAreHeldWhereNoLaterSampleIsKnown) {
+    Devices devices;
+    devices.step({sample_at(0.002, Vec3(1.0, 0.0, 0.0)), sample_at(0.006, Vec3(2.0, 0.0, 0.0))});
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(2.0, 0.0, 0.0));
+    EXPECT_EQ(devices.left().pose_ps.position, Vec3(2.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, StartOfAFrameIsTheEndOfTheLast) {
+    Devices devices;
+    devices.step({sample_at(0.01, Vec3(1.0, 0.0, 0.0))});
+    devices.step({sample_at(0.02, Vec3(3.0, 0.0, 0.0))});
+    EXPECT_EQ(devices.player_head().start_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().start_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(3.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, FirstPoseIsAlsoTheStartOfItsFrame) {
+    Devices devices;
+    devices.step({sample_at(0.01, Vec3(1.0, 2.0, 3.0))});
+    EXPECT_EQ(devices.player_head().start_ps.position, Vec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(devices.right().start_ps.position, Vec3(1.0, 2.0, 3.0));
+}
+
+// The first sample lies after the frame: its pose is taken, and the sample itself counts in its own frame.
+TEST(ReadTracking, SessionThatBeginsBetweenTwoSamplesLosesNeither) {
+    Devices devices;
+    devices.step({sample_at(0.012, Vec3(1.0, 0.0, 0.0), true)});
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().state, TrackingState::tracked);
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+    devices.step({sample_at(0.012, Vec3(1.0, 0.0, 0.0), true)});
+    EXPECT_EQ(count_of_all(devices.stats), 0U);
+    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
+    EXPECT_EQ(devices.right().edge_t_s, 0.012);
+}
+
+TEST(ReadTracking, RotationsThatAreNearlyUnitAreMadeUnit) {
+    for (const double t_s : {0.005, 0.012}) {
+        Devices devices;
+        TrackingSample sample = sample_at(t_s);
+        sample.head_ps.rotation.coeffs() *= 1.0005;
+        sample.controllers[0].controller_ps.rotation.coeffs() *= 1.0005;
+        devices.step({sample});
+        EXPECT_NEAR(devices.player_head().pose_ps.rotation.norm(), 1.0, 1e-12);
+        EXPECT_NEAR(devices.left().pose_ps.rotation.norm(), 1.0, 1e-12);
+    }
+}
+
+TEST(ReadTracking, HandSitsInItsControllerAsItsJointSays) {
+    Devices devices;
+    const Pose joint{Vec3(0.01, 0.02, 0.09), rotation_about(Vec3::UnitX(), 0.4)};
+    devices.joint.at(Devices::hand_of(k_player, HandSide::left)).hand_in_controller = joint;
+    TrackingSample sample = sample_at(0.005);
+    sample.controllers[0].controller_ps = {Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitY(), 0.7)};
+    devices.step({sample});
+    EXPECT_LT(distance(devices.left().pose_ps, sample.controllers[0].controller_ps * joint), 1e-14);
+}
+
+RC_GTEST_PROP(ReadTracking, MirroredControllersGiveMirroredHands, (std::uint64_t seed)) {
+    Random random(seed);
+    Devices devices;
+    devices.joint.clear();  // both hands have Tuning's joint
+    devices.tuning.hand.controller_offset_m = random.vector(0.3);
+    devices.tuning.hand.controller_pitch_rad = random.between(-3.0, 3.0);
+    std::vector<TrackingSample> samples;
+    for (const double t_s : {0.004, 0.009, 0.013}) {
+        samples.push_back(sample_at(t_s));
+        const Pose controller = random.pose();
+        samples.back().controllers = {ControllerSample{test::mirrored(controller), t_s > 0.005},
+                                      ControllerSample{controller, t_s > 0.005}};
+    }
+    devices.step(samples);
+    RC_ASSERT(distance(devices.left().pose_ps, test::mirrored(devices.right().pose_ps)) < 1e-12);
+    RC_ASSERT(distance(devices.left().edge_ps, test::mirrored(devices.right().edge_ps)) < 1e-12);
+    RC_ASSERT(devices.left().edge == GrabEdge::onset);
+}
+
+// --- Buttons -----------------------------------------------------------------------------------------------------------------
+
+TEST(ReadTracking, EdgeHasTheTimeAndPoseOfItsOwnSample) {
+    Devices devices;
+    devices.step({sample_at(0.002, Vec3(1.0, 0.0, 0.0)), sample_at(0.004, Vec3(2.0, 0.0, 0.0), true),
+                  sample_at(0.008, Vec3(3.0, 0.0, 0.0), true)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
+    EXPECT_EQ(devices.right().edge_t_s, 0.004);
+    EXPECT_EQ(devices.right().edge_ps.position, Vec3(2.0, 0.0, 0.0));
+    EXPECT_TRUE(devices.right().pressed);
+    devices.step({sample_at(0.012, Vec3::Zero(), true)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+}
+
+TEST(ReadTracking, TapWithinOneFrameIsAnOnsetAndAReleaseInTheNext) {
+    Devices devices;
+    devices.step({sample_at(0.001), sample_at(0.003, Vec3::Zero(), true), sample_at(0.006)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
+    devices.step({sample_at(0.013), sample_at(0.018)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::release);
+    EXPECT_EQ(devices.right().edge_t_s, 0.01);  // the frame's start
+    devices.step({sample_at(0.023)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+}
+
+TEST(ReadTracking, BouncesThatEndAsTheyBeganAreOneEdge) {
+    Devices devices;
+    std::vector<TrackingSample> bouncing = {sample_at(0.001)};
+    for (int i = 0; i < 7; ++i) {
+        bouncing.push_back(sample_at(0.002 + 0.001 * i, Vec3::Zero(), i % 2 == 0));
+    }
+    devices.step(bouncing);
+    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
+    EXPECT_EQ(devices.right().edge_t_s, 0.002);
+    devices.step({sample_at(0.015, Vec3::Zero(), true)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+    EXPECT_TRUE(devices.right().pressed);
+}
+
+// Onsets and releases alternate for ever, at most one a frame, each within its frame; the hand ends as the button does.
+RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_t seed)) {
+    Random random(seed);
+    Devices devices;
+    bool was_pressed = false;
+    double sample_t_s = 0.0;
+    for (int frame = 0; frame < 50; ++frame) {
+        std::vector<TrackingSample> samples;
+        for (sample_t_s += random.between(1e-4, 0.004); sample_t_s < devices.t_s + k_frame_s;
+             sample_t_s += random.between(1e-4, 0.004)) {
+            samples.push_back(sample_at(sample_t_s, random.vector(1.0), random.between(0.0, 1.0) < 0.5));
+        }
+        const double start_s = devices.t_s;
+        devices.step(samples);
+        const HandTracking& hand = devices.right();
+        if (hand.edge != GrabEdge::none) {
+            RC_ASSERT((hand.edge == GrabEdge::onset) == !was_pressed);
+            RC_ASSERT(hand.edge_t_s >= start_s && hand.edge_t_s <= devices.t_s);
+        }
+        RC_ASSERT(hand.pressed == (hand.edge == GrabEdge::none ? was_pressed : !was_pressed));
+        was_pressed = hand.pressed;
+    }
+    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
+    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
+    RC_ASSERT(devices.right().pressed);
+}
+
+// --- Release velocities ------------------------------------------------------------------------------------------------------
+
+struct Motion {
+    Vec3 start = Vec3(0.1, 1.2, -0.3);
+    Vec3 velocity = Vec3(1.0, -0.5, 2.0);
+    Vec3 acceleration = Vec3::Zero();
+    Vec3 spin = Vec3::Zero();
+    Pose at(double t_s) const {
+        return {start + t_s * velocity + 0.5 * t_s * t_s * acceleration, rotation_from_vector(spin * t_s)};
+    }
+};
+
+// 100 ms with the hand closed, sampled at 500 Hz, then it opens at 0.1 s.
+void move_and_let_go(const Motion& motion, Devices& devices, double dt_s) {
+    const int frames = static_cast<int>(std::lround(0.12 / dt_s));
+    int next = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        std::vector<TrackingSample> samples;
+        for (; 0.002 * next <= devices.t_s + dt_s; ++next) {
+            samples.push_back(sample_at(0.002 * next, Vec3::Zero(), next < 50));
+            for (ControllerSample& controller : samples.back().controllers) {
+                controller.controller_ps = motion.at(0.002 * next);
+            }
+        }
+        devices.step(samples, dt_s);
+        if (devices.right().edge == GrabEdge::release) {
+            return;
+        }
+    }
+    FAIL() << "the hand never opened";
+}
+
+TEST(ReadTracking, ReleaseAfterSteadyMotionHasItsVelocityAndSpin) {
+    Devices devices;
+    Motion motion;
+    motion.spin = Vec3(2.0, -3.0, 1.0);
+    move_and_let_go(motion, devices, k_frame_s);
+    EXPECT_DOUBLE_EQ(devices.right().edge_t_s, 0.1);
+    EXPECT_LT((devices.right().release_velocity_ps_mps - motion.velocity).norm(), 1e-12);
+    EXPECT_LT((devices.right().release_spin_ps_radps - motion.spin).norm(), 1e-11);
+}
+
+// The least-squares line through a parabola sampled evenly has the parabola's slope at the samples' mean time: half the window back.
+TEST(ReadTracking, ReleaseOnAParabolaHasItsSlopeInTheMiddleOfTheWindow) {
+    Devices devices;
+    devices.tuning.tracking.release_window_s = 0.0401;  // 21 samples: those of the last 40 ms
+    Motion motion;
+    motion.acceleration = Vec3(20.0, 5.0, -30.0);
+    move_and_let_go(motion, devices, k_frame_s);
+    const Vec3 expected = motion.velocity + (0.1 - 0.02) * motion.acceleration;
+    EXPECT_LT((devices.right().release_velocity_ps_mps - expected).norm(), 1e-12);
+}
+
+TEST(ReadTracking, ReleaseVelocityIsTheSameBitForBitAtAnyFrameRate) {
+    Motion motion;
+    motion.acceleration = Vec3(20.0, 5.0, -30.0);
+    motion.spin = Vec3(2.0, -3.0, 1.0);
+    Devices reference;
+    move_and_let_go(motion, reference, k_frame_s);
+    for (const double hz : {60.0, 72.0, 90.0, 120.0, 144.0}) {
+        Devices devices;
+        move_and_let_go(motion, devices, 1.0 / hz);
+        EXPECT_EQ(devices.right().release_velocity_ps_mps, reference.right().release_velocity_ps_mps) << hz;
+        EXPECT_EQ(devices.right().release_spin_ps_radps, reference.right().release_spin_ps_radps) << hz;
+        EXPECT_EQ(devices.right().edge_t_s, reference.right().edge_t_s) << hz;
+    }
+}
+
+TEST(ReadTracking, ReleaseWithOneSampleInTheWindowIsStillAndWithTwoIsTheirDifference) {
+    Devices still;
+    still.tuning.tracking.release_window_s = 0.01;
+    still.step({sample_at(0.005, Vec3::Zero(), true)});
+    still.step({sample_at(0.0199, Vec3(1.0, 0.0, 0.0))});
+    ASSERT_EQ(still.right().edge, GrabEdge::release);
+    EXPECT_EQ(still.right().release_velocity_ps_mps, Vec3(Vec3::Zero()));
+
+    Devices moving;
+    moving.step({sample_at(0.005, Vec3::Zero(), true)});
+    moving.step({sample_at(0.015, Vec3(0.02, 0.0, -0.01))});
+    ASSERT_EQ(moving.right().edge, GrabEdge::release);
+    EXPECT_LT((moving.right().release_velocity_ps_mps - Vec3(2.0, 0.0, -1.0)).norm(), 1e-12);
+}
+
+// --- Bad samples -------------------------------------------------------------------------------------------------------------
+
+TEST(ReadTracking, SamplesOutOfOrderAreIgnoredAndCountedOnceAPlayer) {
+    Devices devices;
+    devices.step({sample_at(0.006, Vec3(1.0, 0.0, 0.0)), sample_at(0.004, Vec3(9.0, 0.0, 0.0), true),
+                  sample_at(0.006, Vec3(9.0, 0.0, 0.0), true)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::sample_out_of_order), 2U);
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+}
+
+TEST(ReadTracking, SamplesWithoutATimeAreIgnoredAndHideNoOthers) {
+    for (const double bad : {k_nan, k_infinity, -k_infinity}) {
+        Devices devices;
+        devices.step({sample_at(bad, Vec3(9.0, 0.0, 0.0), true), sample_at(0.005, Vec3(1.0, 0.0, 0.0)),
+                      sample_at(bad, Vec3(9.0, 0.0, 0.0), true)});
+        EXPECT_EQ(count_of(devices.stats, Fallback::sample_out_of_order), 2U);
+        EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+        EXPECT_EQ(devices.right().edge, GrabEdge::none);
+        devices.step({sample_at(0.015, Vec3(2.0, 0.0, 0.0))});
+        EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(2.0, 0.0, 0.0));
+    }
+}
+
+TEST(ReadTracking, PosesThatAreNotFiniteOrNotUnitAreIgnoredDeviceByDevice) {
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0))});
+    TrackingSample bad = sample_at(0.015, Vec3(2.0, 0.0, 0.0));
+    bad.head_ps.position.y() = k_nan;
+    bad.controllers[0].controller_ps.rotation.coeffs() *= 2.0;
+    devices.step({bad});
+    EXPECT_EQ(count_of(devices.stats, Fallback::sample_not_finite), 2U);
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(2.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, LaterSampleThatIsNotFiniteIsNotInterpolatedTo) {
+    Devices devices;
+    TrackingSample bad = sample_at(0.015, Vec3(2.0, 0.0, 0.0));
+    bad.head_ps.position.x() = k_infinity;
+    bad.controllers[1].controller_ps.position.x() = k_nan;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0)), bad});
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, DeviceThatWasNeverSeenIsNeitherTrackedNorLost) {
+    Devices devices;
+    TrackingSample bad = sample_at(0.005);
+    bad.controllers[1].controller_ps.position.x() = k_nan;
+    bad.controllers[1].grab = true;
+    for (int frame = 0; frame < 100; ++frame) {
+        bad.t_s += k_frame_s;
+        devices.step({bad});
+        EXPECT_EQ(count_of(devices.stats, Fallback::tracking_lost), 0U);
+    }
+    EXPECT_EQ(devices.right().state, TrackingState::never);
+    EXPECT_FALSE(devices.right().pressed);
+    EXPECT_EQ(devices.left().state, TrackingState::tracked);
+}
+
+// --- Lost and found ----------------------------------------------------------------------------------------------------------
+
+TEST(ReadTracking, SilentDevicesAreLostOnceEachAndFrozen) {
+    Devices devices;
+    devices.step({sample_at(0.01, Vec3(1.0, 0.0, 0.0))});
+    std::uint64_t lost = 0;
+    while (devices.t_s < 0.5) {
+        devices.step({});
+        lost += count_of(devices.stats, Fallback::tracking_lost);
+        const bool is_lost = devices.right().state == TrackingState::lost;
+        // The sample was at 0.01; lost_after_s is 0.25. Next to the limit either is right.
+        if (std::abs(devices.t_s - 0.26) > 1e-6) {
+            EXPECT_EQ(is_lost, devices.t_s > 0.26) << devices.t_s;
+        }
+    }
+    EXPECT_EQ(lost, 3U);
+    EXPECT_EQ(devices.player_head().state, TrackingState::lost);
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, PlayerWithoutInputIsSilentToo) {
+    Devices devices;
+    PlayerInput input{k_player, {}, {}};
+    const std::vector<TrackingSample> samples = {sample_at(0.004), sample_at(0.01, Vec3(1.0, 0.0, 0.0))};
+    input.samples = samples;
+    input.commands = {0.5, 1, 1.0, Vec3::UnitX()};
+    devices.step_inputs(std::span(&input, 1));
+    EXPECT_EQ(devices.commands.at(k_player).snap_turns, 1);
+    devices.step_inputs({});
+    EXPECT_EQ(devices.player_head().start_ps.position, Vec3(1.0, 0.0, 0.0));
+    const PlayerCommands& commands = devices.commands.at(k_player);
+    EXPECT_EQ(commands.snap_turns, 0);
+    EXPECT_EQ(commands.smooth_turn, 0.0);
+    EXPECT_EQ(commands.brake, 0.0);
+    EXPECT_EQ(commands.thrust_ps, Vec3(Vec3::Zero()));
+    devices.step_inputs({}, 1.0);
+    EXPECT_EQ(count_of(devices.stats, Fallback::tracking_lost), 3U);
+    EXPECT_EQ(devices.player_head().state, TrackingState::lost);
+}
+
+TEST(ReadTracking, DeviceThatComesBackSaysSoAndDoesNotSweepAcrossItsJump) {
+    Devices devices;
+    devices.step({sample_at(0.01)});
+    devices.step({}, 0.5);
+    devices.step({sample_at(0.515, Vec3(3.0, 0.0, 0.0))});
+    EXPECT_TRUE(devices.right().resumed);
+    EXPECT_EQ(devices.right().start_ps.position, Vec3(3.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().state, TrackingState::tracked);
+    devices.step({sample_at(0.525, Vec3(3.0, 0.0, 0.0))});
+    EXPECT_FALSE(devices.right().resumed);
+}
+
+TEST(ReadTracking, HandThatCannotBeSeenMayOpen) {
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0), true)});
+    TrackingSample unseen = sample_at(0.015);
+    unseen.controllers[1].controller_ps.position.x() = k_nan;
+    devices.step({unseen});
+    EXPECT_EQ(devices.right().edge, GrabEdge::release);
+    EXPECT_EQ(devices.right().edge_ps.position, Vec3(1.0, 0.0, 0.0));
+}
+
+TEST(ReadTracking, HandThatCannotBeSeenWaitsWithClosingUntilItIs) {
+    Devices devices;
+    devices.step({sample_at(0.005)});
+    TrackingSample unseen = sample_at(0.015, Vec3::Zero(), true);
+    unseen.controllers[1].controller_ps.position.x() = k_nan;
+    devices.step({unseen});
+    EXPECT_EQ(devices.right().edge, GrabEdge::none);
+    EXPECT_EQ(devices.left().edge, GrabEdge::onset);
+    devices.step({sample_at(0.025, Vec3(2.0, 0.0, 0.0), true)});
+    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
+}
+
+// --- Commands, players, preconditions ----------------------------------------------------------------------------------------
+
+TEST(ReadTracking, CommandsThatAreNotFiniteAskForNothing) {
+    Devices devices;
+    const PlayerInput input{k_player, {}, {k_nan, 2, k_infinity, Vec3(k_nan, 0.5, -k_infinity)}};
+    devices.step_inputs(std::span(&input, 1));
+    const PlayerCommands& commands = devices.commands.at(k_player);
+    EXPECT_EQ(commands.smooth_turn, 0.0);
+    EXPECT_EQ(commands.snap_turns, 2);
+    EXPECT_EQ(commands.brake, 0.0);
+    EXPECT_EQ(commands.thrust_ps, Vec3(0.0, 0.5, 0.0));
+}
+
+TEST(ReadTracking, OrderOfHandsAndInputsDoesNotMatter) {
+    constexpr Entity k_second = entity(10);
+    Devices forth;
+    forth.add_player(k_second, {HandSide::left, HandSide::right});
+    Devices back;
+    back.owner.clear();
+    back.joint.clear();
+    back.hand.clear();
+    back.history.clear();
+    back.head.clear();
+    back.commands.clear();
+    back.add_player(k_second, {HandSide::right, HandSide::left});
+    back.add_player(k_player, {HandSide::right, HandSide::left});
+    const std::vector<TrackingSample> first = {sample_at(0.004, Vec3(1.0, 0.0, 0.0)),
+                                               sample_at(0.012, Vec3(2.0, 0.0, 0.0), true)};
+    const std::vector<TrackingSample> second = {sample_at(0.003, Vec3(5.0, 0.0, 0.0), true)};
+    const std::vector<PlayerInput> inputs = {{k_player, first, {}}, {k_second, second, {}}};
+    const std::vector<PlayerInput> swapped = {inputs[1], inputs[0]};
+    forth.step_inputs(inputs);
+    back.step_inputs(swapped);
+    for (const Entity player : {k_player, k_second}) {
+        EXPECT_EQ(forth.head.at(player).pose_ps.position, back.head.at(player).pose_ps.position);
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            const HandTracking& a = forth.hand.at(Devices::hand_of(player, side));
+            const HandTracking& b = back.hand.at(Devices::hand_of(player, side));
+            EXPECT_EQ(a.pose_ps.position, b.pose_ps.position);
+            EXPECT_EQ(a.edge, b.edge);
+        }
+    }
+    EXPECT_EQ(forth.hand.at(Devices::hand_of(k_second, HandSide::left)).edge, GrabEdge::onset);
+}
+
+TEST(ReadTracking, FrameWithoutLengthIsRefused) {
+    Devices devices;
+    EXPECT_THROW(devices.step({}, 0.0), PreconditionError);
+}
+
+}  // namespace
+}  // namespace handhold

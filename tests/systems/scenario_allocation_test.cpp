@@ -1,0 +1,90 @@
+// A warm frame takes no memory: neither from malloc nor from Bullet's allocator.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "engine/collision/collision_world.hpp"
+#include "tests/systems/scenario.hpp"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HH_SANITIZED 1
+#endif
+#endif
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}
+
+#ifndef HH_SANITIZED
+// The linker finds these before the C library's: everything that allocates in this program comes through here.
+extern "C" {
+void* __libc_malloc(std::size_t);           // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t, std::size_t);   // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void*, std::size_t);   // NOLINT(bugprone-reserved-identifier)
+void* malloc(std::size_t size) {
+    allocations.fetch_add(1, std::memory_order_relaxed);
+    return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+    allocations.fetch_add(1, std::memory_order_relaxed);
+    return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+    allocations.fetch_add(1, std::memory_order_relaxed);
+    return __libc_realloc(old, size);
+}
+}
+#endif
+
+namespace handhold {
+namespace {
+
+TEST(WarmFrame, AllocatesNothing) {
+#ifdef HH_SANITIZED
+    GTEST_SKIP() << "the sanitizer has the allocator";
+#else
+    const std::uint64_t at_start = allocations.load();
+    const auto* const probe = new std::uint64_t(at_start);  // the hook sees what it should see
+    ASSERT_GT(allocations.load(), at_start);
+    delete probe;
+
+    Scenario s;
+    s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
+    s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.5));
+    s.add_rock("rock", 5.0, Vec3(-0.3, 1.3, 0.0));
+    for (int i = 0; i < 6; ++i) {
+        s.add_rock("loose" + std::to_string(i), 2.0, Vec3(-0.9 + 0.15 * i, 1.14, 0.5));
+    }
+    s.add_player_here();
+    const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
+    const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
+    // Both hands let go and grip again all the time; the left hand knocks its rock against the wall.
+    s.script.grabs[0] = [](double t) { return std::fmod(t, 1.5) > 0.1; };
+    s.script.grabs[1] = [](double t) { return std::fmod(t, 0.7) > 0.1; };
+    s.script.hands[1] = [=](double t) {
+        return Pose{right + 0.05 * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)), Quat::Identity()};
+    };
+    s.script.hands[0] = [=](double t) {
+        return Pose{left - Vec3(0.0, 0.0, 0.25 + 0.25 * std::sin(4.0 * t)), Quat::Identity()};
+    };
+    s.run(6.0);  // warm
+    const std::uint64_t collision_before = collision_allocation_count();
+    std::uint64_t in_frames = 0;
+    std::uint64_t contacts = 0;
+    for (int frame = 0; frame < 540; ++frame) {
+        s.prepare_step();
+        const std::uint64_t before = allocations.load();
+        s.take_step();
+        in_frames += allocations.load() - before;
+        contacts += s.stats.contacts;
+    }
+    EXPECT_EQ(in_frames, 0U);
+    EXPECT_EQ(collision_allocation_count(), collision_before);
+    EXPECT_GT(contacts, 100U);
+#endif
+}
+
+}  // namespace
+}  // namespace handhold

@@ -1,0 +1,351 @@
+#include "systems/locomotion/settle_grabs.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "column_scene.hpp"
+
+namespace handhold {
+namespace {
+
+using test::count_of;
+using test::count_of_all;
+using test::distance;
+using test::entity;
+using test::Random;
+
+constexpr Entity k_player = entity(0);
+constexpr Entity k_left = entity(1);
+constexpr Entity k_right = entity(2);
+constexpr Entity k_wall = entity(3);
+constexpr Entity k_ship = entity(4);
+constexpr double k_start_s = 2.0;
+constexpr double k_end_s = 2.01;
+constexpr double k_dt_s = k_end_s - k_start_s;
+
+constexpr Entity other_of(Entity hand) { return hand == k_left ? k_right : k_left; }
+
+// One player, a wall that rests and a ship that moves; hands move as they are told.
+struct Settling {
+    Column<HandOwner> owner;
+    Column<HandTracking> hand;
+    Column<PlayerStart> player_start;
+    Column<PlayerOrigin> origin;
+    Column<BodyStart> body_start;
+    Column<BodyPose> body_pose;
+    Column<Grab> grab;
+    StageStats stats;
+
+    explicit Settling(std::initializer_list<Entity> hands = {k_left, k_right}) {
+        player_start.add(k_player);
+        origin.add(k_player);
+        for (const Entity body : {k_wall, k_ship}) {
+            body_start.add(body);
+            body_pose.add(body);
+        }
+        for (const Entity entity : hands) {
+            owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
+            hand.add(entity);
+            grab.add(entity);
+        }
+    }
+    void move_player(const Pose& from, const Pose& to) {
+        player_start.at(k_player).pose_ws = from;
+        origin.at(k_player).pose_ws = to;
+    }
+    void move_body(Entity body, const Pose& from, const Pose& to) {
+        body_start.at(body).pose_ws = from;
+        body_pose.at(body).pose_ws = to;
+    }
+    void move_hand(Entity which, const Pose& from, const Pose& to) {
+        hand.at(which).start_ps = from;
+        hand.at(which).pose_ps = to;
+    }
+    // At a fraction of the frame; the hand is then on its straight way.
+    void set_edge(Entity which, GrabEdge edge, double fraction) {
+        HandTracking& tracking = hand.at(which);
+        tracking.edge = edge;
+        tracking.edge_t_s = k_start_s + fraction * k_dt_s;
+        tracking.edge_ps = interpolate(tracking.start_ps, tracking.pose_ps, fraction);
+    }
+    void set_grip(Entity which, GripKind kind, GrabPhase phase, Entity body, const Pose& anchor_bs = {}) {
+        Grab& grip = grab.at(which);
+        grip.kind = kind;
+        grip.phase = phase;
+        grip.body = body;
+        grip.anchor_bs = anchor_bs;
+    }
+    void run() {
+        stats = {};
+        settle_grabs({k_start_s, k_end_s, owner, hand, player_start, origin, body_start, body_pose, grab}, stats);
+    }
+};
+
+Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
+
+// Everything moves; the player drifts along a line.
+Settling random_settling(Random& random, std::initializer_list<Entity> hands = {k_left, k_right}) {
+    Settling scene(hands);
+    const Pose origin = random.pose();
+    scene.move_player(origin, {origin.position + random.vector(0.05), origin.rotation});
+    for (const Entity body : {k_wall, k_ship}) {
+        const Pose from = random.pose();
+        scene.move_body(body, from, {from.position + random.vector(0.1),
+                                     rotation_from_vector(random.vector(0.1)) * from.rotation});
+    }
+    for (const Entity hand : {k_left, k_right}) {
+        const Pose from = random.pose(0.5);
+        scene.move_hand(hand, from, {from.position + random.vector(0.05),
+                                     rotation_from_vector(random.vector(0.1)) * from.rotation});
+    }
+    return scene;
+}
+
+// --- Fresh grips -------------------------------------------------------------------------------------------------------------
+
+// Body, origin and hand half way through the frame: means of their ends.
+TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
+    Settling scene;
+    scene.move_player(pose_at(Vec3(1.0, 0.0, 0.0)), pose_at(Vec3(1.2, 0.0, 0.0)));
+    scene.move_body(k_ship, pose_at(Vec3(0.0, 5.0, 0.0)), pose_at(Vec3(0.0, 5.4, 0.0)));
+    scene.move_hand(k_right, pose_at(Vec3(0.0, 0.0, -1.0)), pose_at(Vec3(0.0, 0.0, -1.2)));
+    scene.set_edge(k_right, GrabEdge::onset, 0.5);
+    scene.set_grip(k_right, GripKind::held, GrabPhase::fresh, k_ship);
+    scene.run();
+    const Grab& grab = scene.grab.at(k_right);
+    EXPECT_EQ(grab.phase, GrabPhase::holding);
+    EXPECT_LT((grab.anchor_bs.position - Vec3(1.1, -5.2, -1.1)).norm(), 1e-12);
+    EXPECT_EQ(count_of_all(scene.stats), 0U);
+}
+
+RC_GTEST_PROP(SettleGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) {
+    Random random(seed);
+    Settling scene = random_settling(random);
+    const double t = random.between(0.0, 1.0);
+    scene.set_edge(k_left, GrabEdge::onset, t);
+    scene.set_grip(k_left, GripKind::held, GrabPhase::fresh, k_ship);
+    scene.run();
+    const Pose body = interpolate(scene.body_start.at(k_ship).pose_ws, scene.body_pose.at(k_ship).pose_ws, t);
+    const Pose origin = interpolate(scene.player_start.at(k_player).pose_ws, scene.origin.at(k_player).pose_ws, t);
+    RC_ASSERT(distance(body * scene.grab.at(k_left).anchor_bs, origin * scene.hand.at(k_left).edge_ps) < 1e-7);
+}
+
+// The right hand holds the wall, so the player is where that hand puts him, not where he was predicted.
+TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
+    Settling scene;
+    scene.move_player(pose_at(Vec3::Zero()), pose_at(Vec3(9.0, 9.0, 9.0)));
+    scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.2)));
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 0.0)));
+    scene.move_hand(k_left, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
+    scene.set_edge(k_left, GrabEdge::onset, 0.5);
+    scene.set_grip(k_left, GripKind::surface, GrabPhase::fresh, k_wall);
+    scene.run();
+    // The holding hand has moved 0.1 in z by then: the origin is at -0.1.
+    EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.3, 1.0, -0.1)).norm(), 1e-12);
+}
+
+TEST(SettleGrabs, GripsKeepTheirAnchorWhileNothingHappens) {
+    Settling scene;
+    const Pose anchor = pose_at(Vec3(0.1, 0.2, 0.3));
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, anchor);
+    scene.move_hand(k_right, pose_at(Vec3(1.0, 0.0, 0.0)), pose_at(Vec3(1.02, 0.0, 0.0)));
+    scene.run();
+    scene.run();  // idempotent
+    EXPECT_EQ(scene.grab.at(k_right).anchor_bs.position, anchor.position);
+    EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::holding);
+    EXPECT_EQ(count_of_all(scene.stats), 0U);
+}
+
+TEST(SettleGrabs, HandsThatHoldNothingAreLeftAlone) {
+    Settling scene;
+    scene.set_edge(k_right, GrabEdge::release, 0.5);
+    scene.run();
+    EXPECT_EQ(scene.grab.at(k_right).kind, GripKind::none);
+    EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::none);
+}
+
+// --- Targets -----------------------------------------------------------------------------------------------------------------
+
+TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
+    Settling scene;
+    const Pose from = pose_at(Vec3(1.0, 0.0, 0.0));
+    const Pose to{Vec3(1.02, 0.0, -0.01), rotation_about(Vec3::UnitY(), 0.03)};
+    scene.move_hand(k_right, from, to);
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall);
+    scene.run();
+    const Grab& grab = scene.grab.at(k_right);
+    EXPECT_EQ(distance(grab.target_ps, to), 0.0);
+    EXPECT_LT((grab.target_velocity_ps_mps - Vec3(2.0, 0.0, -1.0)).norm(), 1e-9);
+    EXPECT_LT((grab.target_spin_ps_radps - Vec3(0.0, 3.0, 0.0)).norm(), 1e-9);
+}
+
+// 0.4 of the frame is left: the hand goes on for it as it moved when it opened.
+TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
+    Settling scene;
+    HandTracking& hand = scene.hand.at(k_right);
+    hand.release_velocity_ps_mps = Vec3(1.0, 2.0, 3.0);
+    hand.release_spin_ps_radps = Vec3(0.0, 5.0, 0.0);
+    scene.move_hand(k_right, pose_at(Vec3(0.5, 0.0, 0.0)), pose_at(Vec3(0.5, 0.0, 0.0)));
+    scene.set_edge(k_right, GrabEdge::release, 0.6);
+    scene.set_grip(k_right, GripKind::held, GrabPhase::releasing, k_ship);
+    scene.run();
+    const Grab& grab = scene.grab.at(k_right);
+    EXPECT_EQ(grab.phase, GrabPhase::releasing);
+    EXPECT_EQ(grab.target_velocity_ps_mps, Vec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(grab.target_spin_ps_radps, Vec3(0.0, 5.0, 0.0));
+    const Pose expected{Vec3(0.504, 0.008, 0.012), rotation_about(Vec3::UnitY(), 0.02)};
+    EXPECT_LT(distance(grab.target_ps, expected), 1e-12);
+}
+
+// --- Two hands ---------------------------------------------------------------------------------------------------------------
+
+// The hands disagree by 2 cm along x about where the player is; the pair puts him in the middle.
+TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
+    for (const Entity leaving : {k_left, k_right}) {
+        Settling scene;
+        const Entity staying = other_of(leaving);
+        scene.move_hand(leaving, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.0)));
+        scene.move_hand(staying, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
+        scene.set_grip(leaving, GripKind::surface, GrabPhase::releasing, k_wall, pose_at(Vec3(0.32, 1.0, 0.0)));
+        scene.set_grip(staying, GripKind::surface, GrabPhase::holding, k_ship, pose_at(Vec3(-0.3, 1.0, 0.0)));
+        scene.set_edge(leaving, GrabEdge::release, 0.5);
+        scene.run();
+        EXPECT_EQ(scene.grab.at(leaving).kind, GripKind::none);
+        EXPECT_EQ(scene.grab.at(leaving).phase, GrabPhase::none);
+        EXPECT_EQ(count_of(scene.stats, Fallback::hand_left_two_hand_grip), 1U);
+        EXPECT_EQ(scene.grab.at(staying).phase, GrabPhase::holding);
+        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(-0.29, 1.0, 0.0)).norm(), 1e-12);
+    }
+}
+
+TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
+    Settling scene;
+    scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.0)));
+    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship, pose_at(Vec3(7.0, 7.0, 7.0)));
+    scene.set_grip(k_right, GripKind::held, GrabPhase::releasing, k_ship);
+    scene.set_edge(k_right, GrabEdge::release, 0.5);
+    scene.run();
+    EXPECT_EQ(scene.grab.at(k_right).kind, GripKind::none);
+    EXPECT_EQ(count_of(scene.stats, Fallback::hand_left_two_hand_grip), 1U);
+    EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.2, 1.0, 0.0)).norm(), 1e-12);
+}
+
+TEST(SettleGrabs, HandsOnDifferentFreeBodiesLeaveEachOtherAlone) {
+    Settling scene;
+    const Pose anchor = pose_at(Vec3(0.1, 0.0, 0.0));
+    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_wall, anchor);
+    scene.set_grip(k_right, GripKind::held, GrabPhase::releasing, k_ship);
+    scene.set_edge(k_right, GrabEdge::release, 0.5);
+    scene.run();
+    EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::releasing);
+    EXPECT_EQ(scene.grab.at(k_left).anchor_bs.position, anchor.position);
+    EXPECT_EQ(count_of_all(scene.stats), 0U);
+}
+
+TEST(SettleGrabs, HandsThatOpenInOneFrameBothThrow) {
+    Settling scene;
+    for (const Entity hand : {k_left, k_right}) {
+        scene.set_grip(hand, GripKind::surface, GrabPhase::releasing, k_wall);
+        scene.set_edge(hand, GrabEdge::release, 0.5);
+    }
+    scene.run();
+    EXPECT_EQ(scene.grab.at(k_left).phase, GrabPhase::releasing);
+    EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::releasing);
+    EXPECT_EQ(count_of_all(scene.stats), 0U);
+}
+
+// --- Tracking that comes back ------------------------------------------------------------------------------------------------
+
+TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
+    Settling scene;
+    scene.move_player(pose_at(Vec3(0.0, 0.0, 5.0)), pose_at(Vec3(0.0, 0.0, 5.0)));
+    scene.move_hand(k_right, pose_at(Vec3(0.7, 1.0, 0.0)), pose_at(Vec3(0.7, 1.0, 0.0)));
+    scene.hand.at(k_right).resumed = true;
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 5.0)));
+    scene.run();
+    EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - Vec3(0.7, 1.0, 5.0)).norm(), 1e-12);
+    EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 1U);
+}
+
+// Both controllers come back into view at once, each somewhere else: neither may pull the player along.
+TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
+    Settling scene;
+    const Vec3 found[2] = {Vec3(-0.9, 1.0, 0.0), Vec3(0.7, 1.4, 0.0)};
+    for (const Entity hand : {k_left, k_right}) {
+        const Pose pose = pose_at(found[hand == k_left ? 0 : 1]);
+        scene.move_hand(hand, pose, pose);
+        scene.hand.at(hand).resumed = true;
+        scene.set_grip(hand, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.0, 1.0, 0.0)));
+    }
+    scene.run();
+    EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - found[0]).norm(), 1e-12);
+    EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - found[1]).norm(), 1e-12);
+    EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 2U);
+}
+
+// --- Properties --------------------------------------------------------------------------------------------------------------
+
+struct HandState {
+    GripKind kind;
+    GrabPhase phase;
+    GrabEdge edge;
+};
+constexpr HandState k_hand_states[] = {{GripKind::none, GrabPhase::none, GrabEdge::none},
+                                       {GripKind::surface, GrabPhase::fresh, GrabEdge::onset},
+                                       {GripKind::surface, GrabPhase::holding, GrabEdge::none},
+                                       {GripKind::surface, GrabPhase::releasing, GrabEdge::release},
+                                       {GripKind::held, GrabPhase::fresh, GrabEdge::onset},
+                                       {GripKind::held, GrabPhase::holding, GrabEdge::none},
+                                       {GripKind::held, GrabPhase::releasing, GrabEdge::release}};
+
+void set_state(Settling& scene, Entity hand, const HandState& state, double edge_at) {
+    scene.set_grip(hand, state.kind, state.phase, state.kind == GripKind::held ? k_ship : k_wall,
+                   scene.grab.at(hand).anchor_bs);
+    scene.set_edge(hand, state.edge, edge_at);
+}
+
+// A hand-over within one frame must not depend on which hand the world lists first, so all pairs of states are tried.
+RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
+    for (const HandState& left : k_hand_states) {
+        for (const HandState& right : k_hand_states) {
+            Random random(seed);
+            Settling forth = random_settling(random);
+            const double left_at = random.between(0.0, 1.0);
+            const double right_at = random.between(0.0, 1.0);
+            Random again(seed);
+            Settling back = random_settling(again, {k_right, k_left});
+            for (Settling* const scene : {&forth, &back}) {
+                set_state(*scene, k_left, left, left_at);
+                set_state(*scene, k_right, right, right_at);
+                scene->run();
+            }
+            for (const Entity hand : {k_left, k_right}) {
+                RC_ASSERT(forth.grab.at(hand).kind == back.grab.at(hand).kind);
+                RC_ASSERT(forth.grab.at(hand).phase == back.grab.at(hand).phase);
+                RC_ASSERT(distance(forth.grab.at(hand).anchor_bs, back.grab.at(hand).anchor_bs) < 1e-12);
+                RC_ASSERT(distance(forth.grab.at(hand).target_ps, back.grab.at(hand).target_ps) < 1e-12);
+            }
+            RC_ASSERT(forth.stats.fallbacks == back.stats.fallbacks);
+        }
+    }
+}
+
+RC_GTEST_PROP(SettleGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64_t seed)) {
+    Random random(seed);
+    Settling here = random_settling(random);
+    set_state(here, k_left, k_hand_states[2], 0.0);
+    set_state(here, k_right, k_hand_states[1], random.between(0.0, 1.0));
+    Settling there = here;
+    const Pose moved = random.pose(1e3);
+    there.move_player(moved * here.player_start.at(k_player).pose_ws, moved * here.origin.at(k_player).pose_ws);
+    for (const Entity body : {k_wall, k_ship}) {
+        there.move_body(body, moved * here.body_start.at(body).pose_ws, moved * here.body_pose.at(body).pose_ws);
+    }
+    here.run();
+    there.run();
+    RC_ASSERT(distance(here.grab.at(k_right).anchor_bs, there.grab.at(k_right).anchor_bs) < 1e-7);
+    RC_ASSERT(distance(here.grab.at(k_right).target_ps, there.grab.at(k_right).target_ps) == 0.0);
+}
+
+}  // namespace
+}  // namespace handhold
