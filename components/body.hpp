@@ -6,7 +6,8 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// Everything that is not a player: walls, ships, rocks. A body's frame sits at its centre of mass, its axes are principal.
+// Everything that is not a player: walls, ships, rocks. A body's frame sits at its centre of mass,
+// its axes are principal.
 namespace handhold {
 
 enum class BodyKind : std::uint8_t {
@@ -18,9 +19,9 @@ enum class BodyKind : std::uint8_t {
 // Written by whoever makes the body.
 struct RigidBody {
     BodyKind kind = BodyKind::fixed;
-    double mass_kg = 0.0;                 // free: > 0; else unused
-    Vec3 inertia_kgm2 = Vec3::Zero();     // free: principal moments, > 0
-    double restitution = 0.0;             // [0, 1]; the larger of two bodies' counts
+    double mass_kg = 0.0;              // free: > 0; else unused
+    Vec3 inertia_kgm2 = Vec3::Zero();  // free: principal moments, > 0
+    double restitution = 0.0;          // [0, 1]; the larger of two bodies' counts
 };
 
 // Where a body is. Written by animate_movers and predict_bodies, then solve_phases.
@@ -31,7 +32,8 @@ struct BodyPose {
 struct BodyStart {
     Pose pose_ws;
 };
-// Of the centre of mass, in the world. Written by animate_movers (kinematic) and update_velocities (free).
+// Of the centre of mass, in the world. Written by animate_movers (kinematic) and update_velocities
+// (free).
 struct BodyVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Vec3 angular_radps = Vec3::Zero();
@@ -42,20 +44,21 @@ struct Collider {
     ShapeId shape;
 };
 
-// The pose from which the next frame is swept: the last one in which the collider did not overlap anything it should not. Players
-// have one too: their head's centre. Written by update_velocities.
+// The pose from which the next frame is swept: the last one in which the collider did not overlap
+// anything it should not. Players have one too: their head's centre. Written by update_velocities.
 struct LastValidPose {
     Pose pose_ws;
     bool known = true;  // false: not anywhere yet; a player whose head has not been tracked
 };
 
-// A kinematic body's constant twist from its pose at time 0: straight on, spinning, or, where the velocity turns with the
-// body, along a circle or a helix. In closed form of the time: nothing accumulates. Read by animate_movers.
+// A kinematic body's constant twist from its pose at time 0: straight on, spinning, or, where the
+// velocity turns with the body, along a circle or a helix. In closed form of the time: nothing
+// accumulates. Read by animate_movers.
 struct Mover {
     Pose start_ws;
-    Vec3 velocity_ws_mps = Vec3::Zero();          // at time 0
+    Vec3 velocity_ws_mps = Vec3::Zero();  // at time 0
     Vec3 angular_velocity_ws_radps = Vec3::Zero();
-    bool turns_with_body = false;                  // the velocity keeps its direction in the body's frame
+    bool turns_with_body = false;  // the velocity keeps its direction in the body's frame
 };
 
 }  // namespace handhold

@@ -2,9 +2,10 @@
 
 #include "components/world.hpp"
 
-// The fields of every component, by name: what hashes, snapshots and the inspector go through. Eigen's types have padding and
-// are not trivially copyable, so nothing ever copies or hashes a component as bytes. A test compares the number of
-// fields visited with the number that the struct has.
+// The fields of every component, by name: what hashes, snapshots and the inspector go through.
+// Eigen's types have padding and are not trivially copyable, so nothing ever copies or hashes a
+// component as bytes. A test compares the number of fields visited with the number that the struct
+// has.
 namespace handhold {
 
 template <typename V>

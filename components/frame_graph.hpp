@@ -10,32 +10,34 @@
 
 namespace handhold {
 
-// What the physics stages hand on to each other within one frame. Not state: filled anew in every frame, kept only so that warm frames
-// allocate nothing.
+// What the physics stages hand on to each other within one frame. Not state: filled anew in every
+// frame, kept only so that warm frames allocate nothing.
 struct FrameGraph {
-    // One entry a collider, sorted by persistent id: the same index in all of these and in graph.bodies.
+    // One entry a collider, sorted by persistent id: the same index in all of these and in
+    // graph.bodies.
     std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
     std::vector<Entity> entities;
     struct PhaseBody {
-        Pose reached_ws;                   // where the reach phase left it
-        double forward_share = 0.0;        // players: 1/kappa; how much of 1/mass the forward phase grants
-        bool held = false;                 // welded to a hand
-        bool grips_surface = false;        // players: a hand holds on to something fixed, driven or heavy
-        bool pushed = false;               // the backward or contradiction phase ran on its island
-        double push_back_m = 0.0;          // players: how far contacts moved the origin in this frame
+        Pose reached_ws;  // where the reach phase left it
+        double forward_share =
+            0.0;            // players: 1/kappa; how much of 1/mass the forward phase grants
+        bool held = false;  // welded to a hand
+        bool grips_surface = false;  // players: a hand holds on to something fixed, driven or heavy
+        bool pushed = false;         // the backward or contradiction phase ran on its island
+        double push_back_m = 0.0;    // players: how far contacts moved the origin in this frame
     };
     std::vector<PhaseBody> phase;
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
-    ConstraintGraph graph;               // written by build_constraints, solve_phases, update_velocities
+    ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
     std::vector<SolveScratch> island_scratch;
-    std::vector<double> overlap_m;             // by body
+    std::vector<double> overlap_m;  // by body
     std::vector<std::uint32_t> overlaps_with;
 };
 

@@ -14,8 +14,9 @@ struct HandOwner {
     HandSide side = HandSide::left;
 };
 
-// How controller and hand sit together: hand = controller * joint. Left unset it is Tuning's, mirrored for the left hand.
-// Written by whoever makes the hand (a controller profile); read by read_tracking.
+// How controller and hand sit together: hand = controller * joint. Left unset it is Tuning's,
+// mirrored for the left hand. Written by whoever makes the hand (a controller profile); read by
+// read_tracking.
 struct ControllerToHand {
     Pose hand_in_controller;
 };
@@ -29,23 +30,25 @@ enum class GripKind : std::uint8_t {
 
 enum class GrabPhase : std::uint8_t {
     none,
-    fresh,      // begun in this frame; settle_grabs has yet to take the anchor
+    fresh,  // begun in this frame; settle_grabs has yet to take the anchor
     holding,
-    releasing,  // let go in this frame: the constraint carries on with the release velocity to the frame's end
+    releasing,  // let go in this frame: the constraint carries on with the release velocity to the
+                // frame's end
 };
 
-// Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target), solve_phases (error).
+// Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target), solve_phases
+// (error).
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
     Entity body = k_no_entity;
-    Vec3 hit_bs = Vec3::Zero();            // where the palm's ray met the surface, in the body's frame
-    Vec3 hit_normal_bs = Vec3::UnitY();    // unit, out of the solid
-    Pose anchor_bs;                        // the tracked hand at the instant of the grab, in the body's frame: no jump
-    Pose target_ps;                        // where the constraint wants the hand at the end of the frame
+    Vec3 hit_bs = Vec3::Zero();  // where the palm's ray met the surface, in the body's frame
+    Vec3 hit_normal_bs = Vec3::UnitY();  // unit, out of the solid
+    Pose anchor_bs;  // the tracked hand at the instant of the grab, in the body's frame: no jump
+    Pose target_ps;  // where the constraint wants the hand at the end of the frame
     Vec3 target_velocity_ps_mps = Vec3::Zero();
     Vec3 target_spin_ps_radps = Vec3::Zero();
-    double error_m = 0.0;                  // of the hand against its anchor, at the end of the frame
+    double error_m = 0.0;  // of the hand against its anchor, at the end of the frame
 };
 
 }  // namespace handhold

@@ -7,7 +7,8 @@
 // Small geometry of head and hands that more than one stage needs.
 namespace handhold {
 
-// The palm's ray of a hand in the world: from behind the palm through it, along its inward normal (the hand's -Y).
+// The palm's ray of a hand in the world: from behind the palm through it, along its inward normal
+// (the hand's -Y).
 struct PalmRay {
     Vec3 from_ws;
     Vec3 to_ws;

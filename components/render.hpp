@@ -10,9 +10,9 @@ namespace handhold {
 
 struct RenderPose {
     struct Hand {
-        Pose tracked_ws;                   // where the controller says the hand is
-        Pose shown_ws;                     // where it is drawn: on its anchor while it grips
-        Vec3 ray_from_ws = Vec3::Zero();   // the palm's ray
+        Pose tracked_ws;                  // where the controller says the hand is
+        Pose shown_ws;                    // where it is drawn: on its anchor while it grips
+        Vec3 ray_from_ws = Vec3::Zero();  // the palm's ray
         Vec3 ray_to_ws = Vec3::Zero();
         GripKind grip = GripKind::none;
     };

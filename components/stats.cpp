@@ -4,39 +4,66 @@ namespace handhold {
 
 const char* name_of(Stage stage) {
     switch (stage) {
-        case Stage::read_tracking: return "read_tracking";
-        case Stage::update_grabs: return "update_grabs";
-        case Stage::locomote_players: return "locomote_players";
-        case Stage::animate_movers: return "animate_movers";
-        case Stage::predict_bodies: return "predict_bodies";
-        case Stage::settle_grabs: return "settle_grabs";
-        case Stage::find_contacts: return "find_contacts";
-        case Stage::build_constraints: return "build_constraints";
-        case Stage::solve_phases: return "solve_phases";
-        case Stage::update_velocities: return "update_velocities";
-        case Stage::publish_pose: return "publish_pose";
-        case Stage::count: break;
+        case Stage::read_tracking:
+            return "read_tracking";
+        case Stage::update_grabs:
+            return "update_grabs";
+        case Stage::locomote_players:
+            return "locomote_players";
+        case Stage::animate_movers:
+            return "animate_movers";
+        case Stage::predict_bodies:
+            return "predict_bodies";
+        case Stage::settle_grabs:
+            return "settle_grabs";
+        case Stage::find_contacts:
+            return "find_contacts";
+        case Stage::build_constraints:
+            return "build_constraints";
+        case Stage::solve_phases:
+            return "solve_phases";
+        case Stage::update_velocities:
+            return "update_velocities";
+        case Stage::publish_pose:
+            return "publish_pose";
+        case Stage::count:
+            break;
     }
     return "unknown";
 }
 
 const char* name_of(Fallback reason) {
     switch (reason) {
-        case Fallback::sample_out_of_order: return "sample_out_of_order";
-        case Fallback::sample_not_finite: return "sample_not_finite";
-        case Fallback::tracking_lost: return "tracking_lost";
-        case Fallback::grab_no_surface: return "grab_no_surface";
-        case Fallback::grip_stretched: return "grip_stretched";
-        case Fallback::grip_body_gone: return "grip_body_gone";
-        case Fallback::grip_reanchored: return "grip_reanchored";
-        case Fallback::hand_left_two_hand_grip: return "hand_left_two_hand_grip";
-        case Fallback::contact_rounds_exhausted: return "contact_rounds_exhausted";
-        case Fallback::contacts_contradict: return "contacts_contradict";
-        case Fallback::contacts_unresolved: return "contacts_unresolved";
-        case Fallback::solver_stalled: return "solver_stalled";
-        case Fallback::release_speed_clamped: return "release_speed_clamped";
-        case Fallback::head_ignores_full: return "head_ignores_full";
-        case Fallback::count: break;
+        case Fallback::sample_out_of_order:
+            return "sample_out_of_order";
+        case Fallback::sample_not_finite:
+            return "sample_not_finite";
+        case Fallback::tracking_lost:
+            return "tracking_lost";
+        case Fallback::grab_no_surface:
+            return "grab_no_surface";
+        case Fallback::grip_stretched:
+            return "grip_stretched";
+        case Fallback::grip_body_gone:
+            return "grip_body_gone";
+        case Fallback::grip_reanchored:
+            return "grip_reanchored";
+        case Fallback::hand_left_two_hand_grip:
+            return "hand_left_two_hand_grip";
+        case Fallback::contact_rounds_exhausted:
+            return "contact_rounds_exhausted";
+        case Fallback::contacts_contradict:
+            return "contacts_contradict";
+        case Fallback::contacts_unresolved:
+            return "contacts_unresolved";
+        case Fallback::solver_stalled:
+            return "solver_stalled";
+        case Fallback::release_speed_clamped:
+            return "release_speed_clamped";
+        case Fallback::head_ignores_full:
+            return "head_ignores_full";
+        case Fallback::count:
+            break;
     }
     return "unknown";
 }

@@ -27,29 +27,33 @@ enum class Stage : std::uint8_t {
 
 // Bad play and bad luck: what the runtime did instead of what was asked.
 enum class Fallback : std::uint8_t {
-    sample_out_of_order,      // a sample older than the one before: ignored
-    sample_not_finite,        // one device's pose in one sample: ignored
-    tracking_lost,            // a device became silent or invalid: its pose is frozen
-    grab_no_surface,          // a hand closed on nothing
-    grip_stretched,           // a hand farther from its anchor than GripTuning::max_stretch_m: let go
-    grip_body_gone,           // the gripped body was destroyed: let go
-    grip_reanchored,          // tracking came back, or the other hand left: anchor taken anew where the hand is
-    hand_left_two_hand_grip,  // one of two hands let go: no throw
-    contact_rounds_exhausted, // new contacts after every allowed round
-    contacts_contradict,      // hand rows set aside so that contacts could be met
-    contacts_unresolved,      // contacts still overlapping at the end of the frame
-    solver_stalled,           // the Newton iteration ended above its tolerance on a feasible phase
+    sample_out_of_order,  // a sample older than the one before: ignored
+    sample_not_finite,    // one device's pose in one sample: ignored
+    tracking_lost,        // a device became silent or invalid: its pose is frozen
+    grab_no_surface,      // a hand closed on nothing
+    grip_stretched,       // a hand farther from its anchor than GripTuning::max_stretch_m: let go
+    grip_body_gone,       // the gripped body was destroyed: let go
+    grip_reanchored,      // tracking came back, or the other hand left: anchor taken anew where the
+                          // hand is
+    hand_left_two_hand_grip,   // one of two hands let go: no throw
+    contact_rounds_exhausted,  // new contacts after every allowed round
+    contacts_contradict,       // hand rows set aside so that contacts could be met
+    contacts_unresolved,       // contacts still overlapping at the end of the frame
+    solver_stalled,            // the Newton iteration ended above its tolerance on a feasible phase
     release_speed_clamped,
     head_ignores_full,
     count
 };
 
-// Linear momentum given in one frame by all constraint impulses, by who received it, kg m/s, and angular about the world's
-// origin, kg m^2/s. The four sum to zero: what the virtual player takes is what the forward phase discards.
+// Linear momentum given in one frame by all constraint impulses, by who received it, kg m/s, and
+// angular about the world's origin, kg m^2/s. The four sum to zero: what the virtual player takes
+// is what the forward phase discards.
 struct MomentumLedger {
     enum Receiver : std::uint8_t { objects, players, virtual_player, statics, receiver_count };
-    std::array<Vec3, receiver_count> linear_kgmps{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    std::array<Vec3, receiver_count> angular_kgm2ps{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    std::array<Vec3, receiver_count> linear_kgmps{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                                                  Vec3::Zero()};
+    std::array<Vec3, receiver_count> angular_kgm2ps{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                                                    Vec3::Zero()};
 };
 
 struct StageStats {
@@ -59,7 +63,7 @@ struct StageStats {
     std::uint64_t grab_onsets = 0;
     std::uint64_t grabs_gripped = 0;
     std::uint64_t islands = 0;
-    std::uint64_t islands_pushed = 0;     // backward phases
+    std::uint64_t islands_pushed = 0;  // backward phases
     std::uint64_t contacts = 0;
     std::uint64_t contact_rounds = 0;     // narrowphase passes inside solve_phases
     std::uint64_t newton_iterations = 0;  // over all islands and phases

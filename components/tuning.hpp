@@ -4,8 +4,8 @@
 
 #include "engine/math/math.hpp"
 
-// Every number a designer may turn. Each is declared here with its default and described once, with unit and range, in
-// visit_tuning: files, the report and the inspector read that.
+// Every number a designer may turn. Each is declared here with its default and described once, with
+// unit and range, in visit_tuning: files, the report and the inspector read that.
 namespace handhold {
 
 struct TrackingTuning {
@@ -14,9 +14,9 @@ struct TrackingTuning {
 };
 
 struct HandTuning {
-    Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);   // wrist in the controller's frame, right hand
+    Vec3 controller_offset_m = Vec3(0.0, 0.0, 0.09);  // wrist in the controller's frame, right hand
     double controller_pitch_rad = -0.35;
-    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);      // in the hand's frame
+    Vec3 palm_center_m = Vec3(0.0, -0.014, -0.08);  // in the hand's frame
     double ray_back_m = 0.03;
     double ray_length_m = 0.15;
     double reach_m = 0.10;
@@ -45,7 +45,8 @@ struct LocomotionTuning {
 struct PhaseTuning {
     double kappa_light_kg = 100.0;   // below: holding it never moves the player
     double kappa_heavy_kg = 1000.0;  // from here on: momentum is exchanged exactly
-    double heavy_body_kg = 1000.0;   // from here on: gripped like a wall, unmoved by the forward phase
+    double heavy_body_kg =
+        1000.0;  // from here on: gripped like a wall, unmoved by the forward phase
 };
 
 struct ContactTuning {
@@ -80,11 +81,12 @@ struct TuningInfo {
     const char* what;
 };
 
-// Calls visit(info, field) for every number; fields are double, std::int32_t, Vec3 (each component in the range) or SupportFollow.
+// Calls visit(info, field) for every number; fields are double, std::int32_t, Vec3 (each component
+// in the range) or SupportFollow.
 template <typename TuningType, typename Visit>
 void visit_tuning(TuningType& t, Visit&& visit) {
-    const auto see = [&visit](const char* name, auto& field, const char* unit, double low, double high,
-                              const char* what) {
+    const auto see = [&visit](const char* name, auto& field, const char* unit, double low,
+                              double high, const char* what) {
         visit(TuningInfo{name, unit, low, high, what}, field);
     };
     see("tracking.lost_after_s", t.tracking.lost_after_s, "s", 0.02, 10.0,
@@ -97,7 +99,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "hand against controller about the controller's x, positive lifts the fingers");
     see("hand.palm_center_m", t.hand.palm_center_m, "m", -0.5, 0.5,
         "skin of the palm in the hand's frame");
-    see("hand.ray_back_m", t.hand.ray_back_m, "m", 0.0, 0.2, "the palm's ray starts this far behind the palm");
+    see("hand.ray_back_m", t.hand.ray_back_m, "m", 0.0, 0.2,
+        "the palm's ray starts this far behind the palm");
     see("hand.ray_length_m", t.hand.ray_length_m, "m", 0.01, 2.0, "length of the palm's ray");
     see("hand.reach_m", t.hand.reach_m, "m", 0.0, 1.0,
         "where the ray misses, the nearest surface up to this far from the palm is gripped");
@@ -106,9 +109,11 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
         "centre of the head's collider in the tracked head's frame");
-    see("head.restitution", t.head.restitution, "", 0.0, 1.0, "bounce of a drifting head off a wall");
+    see("head.restitution", t.head.restitution, "", 0.0, 1.0,
+        "bounce of a drifting head off a wall");
     see("locomotion.release_speed_max_mps", t.locomotion.release_speed_max_mps, "m/s", 0.0, 1e6,
-        "a player who lets go or is pushed leaves at most this fast, against the reference velocity");
+        "a player who lets go or is pushed leaves at most this fast, against the reference "
+        "velocity");
     see("locomotion.object_speed_max_mps", t.locomotion.object_speed_max_mps, "m/s", 0.0, 1e6,
         "a thrown object leaves at most this fast, against the reference velocity");
     see("locomotion.drift_drag_per_s", t.locomotion.drift_drag_per_s, "1/s", 0.0, 100.0,
@@ -117,7 +122,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "drag with the brake fully pressed");
     see("locomotion.smooth_turn_radps", t.locomotion.smooth_turn_radps, "rad/s", 0.0, 20.0,
         "turning speed with the stick fully pressed");
-    see("locomotion.snap_turn_rad", t.locomotion.snap_turn_rad, "rad", 0.0, 3.2, "angle of one snap turn");
+    see("locomotion.snap_turn_rad", t.locomotion.snap_turn_rad, "rad", 0.0, 3.2,
+        "angle of one snap turn");
     see("locomotion.thruster_mps2", t.locomotion.thruster_mps2, "m/s^2", 0.0, 100.0,
         "acceleration of the wrist thrusters; 0: none");
     see("locomotion.support_follow", t.locomotion.support_follow, "", 0.0, 2.0,
@@ -128,14 +134,16 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "from this mass on, momentum is exchanged exactly; above kappa_light_kg");
     see("phases.heavy_body_kg", t.phases.heavy_body_kg, "kg", 1e-6, 1e9,
         "from this mass on a free body is gripped like a wall");
-    see("contact.margin_m", t.contact.margin_m, "m", 1e-3, 0.2, "contacts are made up to this far ahead");
+    see("contact.margin_m", t.contact.margin_m, "m", 1e-3, 0.2,
+        "contacts are made up to this far ahead");
     see("contact.sweep_m", t.contact.sweep_m, "m", 1e-4, 0.1,
         "colliders that move farther in a frame are swept");
     see("contact.restitution_speed_mps", t.contact.restitution_speed_mps, "m/s", 0.0, 100.0,
         "slower impacts do not bounce");
     see("contact.max_rounds", t.contact.max_rounds, "", 1.0, 16.0,
         "times that a phase is solved again with contacts found on its result");
-    see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0, "Newton iterations a phase");
+    see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0,
+        "Newton iterations a phase");
     see("solver.tolerance_m", t.solver.tolerance_m, "m", 1e-12, 1e-3,
         "constraint error at which a phase is solved; angles count times 0.1 m");
     see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,

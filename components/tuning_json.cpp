@@ -17,8 +17,12 @@ std::pair<std::string_view, std::string_view> split_name(std::string_view name) 
     return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-void read_field(const JsonValue& value, const NumberRange& range, double& field) { field = value.number(range); }
-void read_field(const JsonValue& value, const NumberRange& range, Vec3& field) { field = value.vector(range); }
+void read_field(const JsonValue& value, const NumberRange& range, double& field) {
+    field = value.number(range);
+}
+void read_field(const JsonValue& value, const NumberRange& range, Vec3& field) {
+    field = value.vector(range);
+}
 void read_field(const JsonValue& value, const NumberRange& range, std::int32_t& field) {
     field = static_cast<std::int32_t>(
         value.integer(static_cast<std::int64_t>(range.low), static_cast<std::int64_t>(range.high)));

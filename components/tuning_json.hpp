@@ -8,8 +8,9 @@
 
 namespace handhold {
 
-// Reads {"hand": {"reach_m": 0.12}, ...} over the defaults: any subset of the numbers of visit_tuning. Refused, with JSON pointer: unknown
-// names, wrong types, values out of range, kappa_heavy_kg not above kappa_light_kg. `file` is for messages.
+// Reads {"hand": {"reach_m": 0.12}, ...} over the defaults: any subset of the numbers of
+// visit_tuning. Refused, with JSON pointer: unknown names, wrong types, values out of range,
+// kappa_heavy_kg not above kappa_light_kg. `file` is for messages.
 Result<Tuning> parse_tuning(std::string_view text, const std::string& file);
 
 // Every number, as parse_tuning reads it.

@@ -23,9 +23,11 @@ Entity add_named(World& world, std::string_view name) {
 
 Entity add_body(World& world, const BodyDescription& description) {
     const RigidBody& body = description.body;
-    HH_CHECK(is_valid(description.pose_ws), "the pose is not valid", description.pose_ws.rotation.norm());
-    HH_CHECK(body.kind != BodyKind::free || (body.mass_kg > 0.0 && body.inertia_kgm2.minCoeff() > 0.0),
-             "a free body needs a mass and moments of inertia", body.mass_kg);
+    HH_CHECK(is_valid(description.pose_ws), "the pose is not valid",
+             description.pose_ws.rotation.norm());
+    HH_CHECK(
+        body.kind != BodyKind::free || (body.mass_kg > 0.0 && body.inertia_kgm2.minCoeff() > 0.0),
+        "a free body needs a mass and moments of inertia", body.mass_kg);
     const Entity entity = add_named(world, description.name);
     world.body.add(entity, body);
     world.body_pose.add(entity, {description.pose_ws});
@@ -39,7 +41,8 @@ Entity add_body(World& world, const BodyDescription& description) {
 }
 
 PlayerEntities add_player(World& world, const PlayerDescription& description) {
-    HH_CHECK(is_valid(description.origin_ws), "the origin is not valid", description.origin_ws.rotation.norm());
+    HH_CHECK(is_valid(description.origin_ws), "the origin is not valid",
+             description.origin_ws.rotation.norm());
     HH_CHECK(description.body.mass_kg > 0.0, "a player needs a mass", description.body.mass_kg);
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};

@@ -18,7 +18,8 @@ struct FrameClock {
     double t_s = 0.0;         // end of the last frame
 };
 
-// The whole state, and its table of contents: one column a component. Nothing outside of it survives a frame.
+// The whole state, and its table of contents: one column a component. Nothing outside of it
+// survives a frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
@@ -50,7 +51,8 @@ struct World {
     Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
 };
 
-// Calls visit(name, column) for every column. The one list of them: hashing, destroying and snapshots follow it.
+// Calls visit(name, column) for every column. The one list of them: hashing, destroying and
+// snapshots follow it.
 template <typename WorldType, typename Visit>
 void visit_columns(WorldType& world, Visit&& visit) {
     visit("persistent_id", world.persistent_id);
@@ -84,8 +86,8 @@ struct BodyDescription {
     BodyVelocity velocity;
     ShapeId shape;
 };
-// A body with a collider. Throws PreconditionError for a name that is taken, a pose that is not valid, or a free body
-// without mass or inertia.
+// A body with a collider. Throws PreconditionError for a name that is taken, a pose that is not
+// valid, or a free body without mass or inertia.
 Entity add_body(World& world, const BodyDescription& description);
 
 struct PlayerDescription {

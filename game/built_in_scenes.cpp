@@ -29,7 +29,8 @@ void add_spawns(const Structure& structure, Scene& scene) {
     }
 }
 
-// --- station ---------------------------------------------------------------------------------------------------------
+// --- station
+// ---------------------------------------------------------------------------------------------------------
 
 const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
 
@@ -37,7 +38,8 @@ SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
     script.duration_s = 16.0;
-    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a catch at its far hatch.
+    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a
+    // catch at its far hatch.
     script.body = {{0.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
                    {2.0, Vec3(-0.52, 0.26, 5.35), 0.5 * ahead},
@@ -57,7 +59,8 @@ SessionScript station_script() {
     crawl.from_s = 0.8;
     crawl.until_s = 6.7;
     add_crawl(crawl, script);
-    script.holds.push_back({HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
+    script.holds.push_back(
+        {HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
     // Bars over the hatch: palms under them, fingers up.
     const Vec3 under = -Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
@@ -73,11 +76,13 @@ SessionScript station_script() {
 }
 
 Scene make_station_scene() {
-    Scene scene = empty_scene("station", "three modules round a node: rails, racks and hatches to crawl along");
+    Scene scene = empty_scene(
+        "station", "three modules round a node: rails, racks and hatches to crawl along");
     Structure station = make_station();
     for (std::size_t i = 0; i < station.parts.size(); ++i) {
         const std::string name = station.parts[i].name;
-        add_static_mesh(scene, name, std::make_shared<const Mesh>(std::move(station.parts[i])), {}, station.looks[i]);
+        add_static_mesh(scene, name, std::make_shared<const Mesh>(std::move(station.parts[i])), {},
+                        station.looks[i]);
     }
     scene.lamps = station.lamps;
     scene.spawns.push_back({"rail", session_origin(station_script())});
@@ -85,20 +90,22 @@ Scene make_station_scene() {
     return scene;
 }
 
-// --- ship ------------------------------------------------------------------------------------------------------------
+// --- ship
+// ------------------------------------------------------------------------------------------------------------
 
 constexpr double k_ship_speed_mps = 20.0;
 constexpr double k_ship_spin_radps = 0.06;
 constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
-constexpr double k_pick_s = 6.6;                    // when the session takes the rock
-const Vec3 k_rock_place(-1.10, 0.12, -0.95);        // then, in the ship's frame
-const Vec3 k_ship_rail(-1.593, 0.530, 0.0);         // ship/wall_upper, along z
-constexpr double k_ship_wall_x = -1.65;             // about: the session shoves well into it
+constexpr double k_pick_s = 6.6;              // when the session takes the rock
+const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // then, in the ship's frame
+const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper, along z
+constexpr double k_ship_wall_x = -1.65;       // about: the session shoves well into it
 
 SessionScript ship_script() {
     SessionScript script;
-    script.play_space = rotation_about(Vec3::UnitY(), k_half_pi);  // facing the wall, -x; the right hand is towards -z
+    script.play_space = rotation_about(
+        Vec3::UnitY(), k_half_pi);  // facing the wall, -x; the right hand is towards -z
     script.duration_s = 14.0;
     const Vec3 along = -Vec3::UnitZ();
     script.body = {{0.0, Vec3(-1.02, 0.72, 1.60), Vec3::Zero()},
@@ -116,7 +123,8 @@ SessionScript ship_script() {
     crawl.from_s = 0.35;
     crawl.until_s = 4.9;
     add_crawl(crawl, script);
-    script.holds.push_back({HandSide::left, 5.2, 10.2, k_ship_rail + Vec3(0.02, 0.0, -0.10), Vec3::UnitX(), Vec3::UnitY()});
+    script.holds.push_back({HandSide::left, 5.2, 10.2, k_ship_rail + Vec3(0.02, 0.0, -0.10),
+                            Vec3::UnitX(), Vec3::UnitY()});
     // The rock: taken from above, waved about, then shoved into the wall; the wall shoves back.
     const Vec3 up = Vec3::UnitY();
     const Vec3 fingers = -Vec3::UnitX();
@@ -137,7 +145,8 @@ SessionScript ship_script() {
 }
 
 Scene make_ship_scene() {
-    Scene scene = empty_scene("ship", "a shuttle's deck that flies past at 20 m/s and turns: walls, rails and a rock");
+    Scene scene = empty_scene(
+        "ship", "a shuttle's deck that flies past at 20 m/s and turns: walls, rails and a rock");
     scene.tuning.locomotion.support_follow = SupportFollow::full;
     const Vec3 velocity(0.0, 0.0, -k_ship_speed_mps);
     const Vec3 spin(0.0, k_ship_spin_radps, 0.0);
@@ -159,13 +168,16 @@ Scene make_ship_scene() {
     BodyDescription rock;
     rock.name = "rock";
     rock.shape = scene.shapes->add_sphere(k_rock_radius_m);
-    rock.body = {BodyKind::free, k_rock_mass_kg, solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
-    // It floats straight on while the ship turns: placed so that the turning brings it to the session's hand in time.
+    rock.body = {BodyKind::free, k_rock_mass_kg,
+                 solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
+    // It floats straight on while the ship turns: placed so that the turning brings it to the
+    // session's hand in time.
     rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
     rock.velocity = {velocity, Vec3::Zero()};
     const Entity entity = add_body(scene.world, rock);
     scene.body_names.emplace_back("rock");
-    scene.visuals.push_back({entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
+    scene.visuals.push_back(
+        {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
     scene.spawns.push_back({"rail", session_origin(ship_script())});
     add_spawns(ship, scene);

@@ -15,7 +15,8 @@ std::vector<std::string_view> built_in_scenes();
 // Nothing for an unknown name.
 std::optional<Scene> make_built_in_scene(std::string_view name);
 
-// The session that shows a built-in scene, as if a headset had recorded it: `scene.session->built_in` names it. Nothing for an unknown name.
+// The session that shows a built-in scene, as if a headset had recorded it:
+// `scene.session->built_in` names it. Nothing for an unknown name.
 std::optional<Recording> make_built_in_session(std::string_view name);
 
 }  // namespace handhold

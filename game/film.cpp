@@ -31,7 +31,8 @@ struct SessionFilm::Impl {
         Renderer renderer;
         std::vector<MeshId> visuals;  // by Scene::visuals
         std::vector<MeshId> head;
-        std::array<std::array<std::vector<MeshId>, 2>, k_hand_count> hands;  // by side, then open or grip
+        std::array<std::array<std::vector<MeshId>, 2>, k_hand_count>
+            hands;  // by side, then open or grip
     };
     std::optional<Stage> still;
     std::optional<Stage> moving;
@@ -44,7 +45,8 @@ struct SessionFilm::Impl {
     std::vector<FilmShot> shots;
     Image image;
 
-    Impl(const Scene& of_scene, const FilmSettings& with) : scene(of_scene), settings(with), session_s(0.0), walls(*of_scene.shapes) {}
+    Impl(const Scene& of_scene, const FilmSettings& with)
+        : scene(of_scene), settings(with), session_s(0.0), walls(*of_scene.shapes) {}
 
     static std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
         std::vector<MeshId> ids;
@@ -79,7 +81,8 @@ struct SessionFilm::Impl {
             const Entity body = world.body.owners()[row];
             if (world.body.rows()[row].kind != BodyKind::free) {
                 const Pose& pose = world.body_pose.at(body).pose_ws;
-                proxies.push_back({world.persistent_id.at(body).value, world.collider.at(body).shape, pose, pose, false});
+                proxies.push_back({world.persistent_id.at(body).value,
+                                   world.collider.at(body).shape, pose, pose, false});
             }
         }
         std::sort(proxies.begin(), proxies.end(),
@@ -94,8 +97,11 @@ struct SessionFilm::Impl {
         ahead = (ahead - up * up.dot(ahead)).normalized();
         const Vec3 target = render.head_ws.position - 0.25 * up + 0.25 * ahead;
         const Vec3 side = ahead.cross(up);
-        constexpr std::array<std::array<double, 3>, 5> k_tries = {
-            {{-1.3, 0.45, 0.75}, {-1.3, 0.45, -0.75}, {-1.4, 0.2, 0.0}, {0.9, 0.3, 0.9}, {0.9, 0.3, -0.9}}};
+        constexpr std::array<std::array<double, 3>, 5> k_tries = {{{-1.3, 0.45, 0.75},
+                                                                   {-1.3, 0.45, -0.75},
+                                                                   {-1.4, 0.2, 0.0},
+                                                                   {0.9, 0.3, 0.9},
+                                                                   {0.9, 0.3, -0.9}}};
         Vec3 best = target - 0.3 * ahead;
         place_walls();
         for (const auto& [forward, height, sideways] : k_tries) {
@@ -110,7 +116,8 @@ struct SessionFilm::Impl {
         return look_along(best, target - best, up);
     }
 
-    void add_figures(const Stage& stage, const RenderPose& render, View view, bool own, RenderFrame& frame) const {
+    void add_figures(const Stage& stage, const RenderPose& render, View view, bool own,
+                     RenderFrame& frame) const {
         if (!(own && view == View::first_person)) {
             for (const MeshId mesh : stage.head) {
                 frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
@@ -122,10 +129,13 @@ struct SessionFilm::Impl {
             for (const MeshId mesh : stage.hands[side][grips ? 1 : 0]) {
                 frame.instances.push_back({mesh, hand.shown_ws, std::nullopt, {}});
             }
-            frame.lines.push_back({hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
+            frame.lines.push_back(
+                {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
             if (grips) {
-                frame.lines.push_back({render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
-                frame.lines.push_back({hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
+                frame.lines.push_back(
+                    {render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
+                frame.lines.push_back(
+                    {hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
             }
         }
     }
@@ -141,15 +151,16 @@ struct SessionFilm::Impl {
         }
         for (std::size_t i = 0; i < scene.visuals.size(); ++i) {
             const SceneVisual& visual = scene.visuals[i];
-            frame.instances.push_back(
-                {stage.visuals[i], world.body_pose.at(visual.body).pose_ws, visual.color, visual.look});
+            frame.instances.push_back({stage.visuals[i], world.body_pose.at(visual.body).pose_ws,
+                                       visual.color, visual.look});
         }
         move_lamps(frame);
         const auto players = world.render_pose.rows();
         for (std::size_t i = 0; i < players.size(); ++i) {
             add_figures(stage, players[i], view, i == 0, frame);
         }
-        frame.camera.pose_ws = view == View::first_person ? players[0].head_ws : outside_camera(players[0]);
+        frame.camera.pose_ws =
+            view == View::first_person ? players[0].head_ws : outside_camera(players[0]);
         frame.camera.vertical_fov_rad = fov_rad;
         stage.renderer.draw(frame, image);
     }
@@ -187,13 +198,15 @@ struct SessionFilm::Impl {
             last_grip[side] = grip;
         }
         const double interval = session_s / std::max(1, settings.shots / 2);
-        const bool due = frame.t_s >= next_shot_s && (grabbed || frame.t_s >= next_shot_s + 0.6 * interval);
+        const bool due =
+            frame.t_s >= next_shot_s && (grabbed || frame.t_s >= next_shot_s + 0.6 * interval);
         if (due && static_cast<int>(shots.size()) + 1 < settings.shots + 1) {
             add_shot(View::first_person, frame);
             add_shot(View::outside, frame);
             next_shot_s = frame.t_s + interval;
         }
-        if (video != nullptr && frame.t_s >= next_video_s && frame.t_s <= settings.longest_video_s) {
+        if (video != nullptr && frame.t_s >= next_video_s &&
+            frame.t_s <= settings.longest_video_s) {
             next_video_s += 1.0 / settings.video_fps;
             // Four seconds with the player's eyes, four from outside.
             const View view = std::fmod(frame.t_s, 8.0) < 4.0 ? View::first_person : View::outside;
@@ -206,8 +219,8 @@ struct SessionFilm::Impl {
 SessionFilm::SessionFilm(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SessionFilm::~SessionFilm() = default;
 
-std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double session_s, const FilmSettings& settings,
-                                               std::string& why_not) {
+std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double session_s,
+                                               const FilmSettings& settings, std::string& why_not) {
     auto impl = std::make_unique<Impl>(scene, settings);
     impl->session_s = session_s;
     impl->next_shot_s = std::min(1.0, 0.1 * session_s);
@@ -222,7 +235,8 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
         video.frames_per_s = settings.video_fps;
         impl->video = VideoWriter::open(settings.video.string(), video, impl->video_failure);
         if (impl->video != nullptr) {
-            impl->moving = impl->make_stage(settings.video_width_px, settings.video_height_px, why_not);
+            impl->moving =
+                impl->make_stage(settings.video_width_px, settings.video_height_px, why_not);
             if (!impl->moving) {
                 return nullptr;
             }

@@ -13,19 +13,27 @@ namespace {
 constexpr int k_exit_usage = 1;
 
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
-    run.add_option("--scene", options.scene, "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
+    run.add_option("--scene", options.scene,
+                   "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
         ->required();
     run.add_option("--input", options.input, "A recorded session (.csv); default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(CLI::Range(10.0, 1000.0));
-    run.add_option("--players", options.players, "Players, all driven by the session")->check(CLI::Range(1, 1000));
-    run.add_option("--threads", options.threads, "Threads; the result does not depend on them")->check(CLI::Range(1, 256));
-    run.add_option("--seconds", options.seconds, "Stop after so many seconds; default: with the session")
+    run.add_option("--players", options.players, "Players, all driven by the session")
+        ->check(CLI::Range(1, 1000));
+    run.add_option("--threads", options.threads, "Threads; the result does not depend on them")
+        ->check(CLI::Range(1, 256));
+    run.add_option("--seconds", options.seconds,
+                   "Stop after so many seconds; default: with the session")
         ->check(CLI::Range(0.01, 1e6));
-    run.add_option("--spawn", options.spawn,
-                   "A spawn of the scene, or auto: where most of the session's grabs begin near a surface");
-    run.add_option("--trace", options.trace, "Write stage zones as a Chrome trace (Perfetto reads it)");
-    run.add_option("--out", options.out, "Write frames.csv, report.json, report.html, pictures and a video here");
-    run.add_flag("!--no-pictures", options.pictures, "With --out: files only, no pictures and no video");
+    run.add_option(
+        "--spawn", options.spawn,
+        "A spawn of the scene, or auto: where most of the session's grabs begin near a surface");
+    run.add_option("--trace", options.trace,
+                   "Write stage zones as a Chrome trace (Perfetto reads it)");
+    run.add_option("--out", options.out,
+                   "Write frames.csv, report.json, report.html, pictures and a video here");
+    run.add_flag("!--no-pictures", options.pictures,
+                 "With --out: files only, no pictures and no video");
 }
 
 int list_scenes() {
@@ -42,7 +50,8 @@ int main(int argc, char** argv) {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
     app.require_subcommand(1);
     handhold::RunOptions options;
-    CLI::App* const run = app.add_subcommand("run", "Play a session without a window, as fast as it can");
+    CLI::App* const run =
+        app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {

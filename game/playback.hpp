@@ -9,14 +9,15 @@
 
 namespace handhold {
 
-// A recording as the runtime wants it: samples on the frame clock from 0, handed out frame by frame.
+// A recording as the runtime wants it: samples on the frame clock from 0, handed out frame by
+// frame.
 class Playback {
   public:
     explicit Playback(const Recording& recording);
 
     double duration_s() const { return duration_s_; }
-    // The samples since the last call's end, up to frame_end_s, and the one after it where there is one. Each sample before the
-    // frame's end is handed out once; frame_end_s must not fall.
+    // The samples since the last call's end, up to frame_end_s, and the one after it where there is
+    // one. Each sample before the frame's end is handed out once; frame_end_s must not fall.
     std::span<const TrackingSample> window(double frame_end_s);
 
   private:

@@ -41,7 +41,8 @@ Result<Session> load_session(const RunOptions& options, const Scene& scene) {
             session.recording = make_built_in_session(scene.session->built_in);
             if (!session.recording) {
                 return FileError{options.scene, "/session",
-                                 "expected the name of a built-in session, found \"" + scene.session->built_in + "\""};
+                                 "expected the name of a built-in session, found \"" +
+                                     scene.session->built_in + "\""};
             }
             session.name = "built-in " + scene.session->built_in;
             return session;
@@ -65,15 +66,16 @@ struct Place {
     std::string name;
 };
 
-Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameCaches& caches, const Session& session) {
+Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameCaches& caches,
+                           const Session& session) {
     if (options.spawn == "auto") {
         if (!session.recording) {
             return FileError{options.scene, "", "expected a session for --spawn auto, found none"};
         }
         const FoundSpawn found = find_spawn(scene, caches, *session.recording, options.hz);
         const Vec3& at = found.origin_ws.position;
-        std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(), at.y(), at.z(),
-                    found.gripped, found.onsets);
+        std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(),
+                    at.y(), at.z(), found.gripped, found.onsets);
         return Place{found.origin_ws, "auto"};
     }
     for (const SceneSpawnPoint& spawn : scene.spawns) {
@@ -86,14 +88,16 @@ Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameC
         for (const SceneSpawnPoint& spawn : scene.spawns) {
             names += spawn.name + ", ";
         }
-        return FileError{options.scene, "/spawns", "expected " + names + "or auto, found \"" + options.spawn + "\""};
+        return FileError{options.scene, "/spawns",
+                         "expected " + names + "or auto, found \"" + options.spawn + "\""};
     }
     return Place{{}, "origin"};
 }
 
-// The scene's own players where it has some and no place was asked for; else `count` players: the first at the place, others at the
-// scene's further spawns, going round.
-std::vector<PlayerEntities> add_players(Scene& scene, const Place& place, const RunOptions& options) {
+// The scene's own players where it has some and no place was asked for; else `count` players: the
+// first at the place, others at the scene's further spawns, going round.
+std::vector<PlayerEntities> add_players(Scene& scene, const Place& place,
+                                        const RunOptions& options) {
     std::vector<PlayerEntities> players;
     if (!scene.players.empty() && options.spawn.empty() && options.players == 1) {
         for (const ScenePlayerStart& start : scene.players) {
@@ -103,15 +107,16 @@ std::vector<PlayerEntities> add_players(Scene& scene, const Place& place, const 
     }
     for (int i = 0; i < options.players; ++i) {
         const auto index = static_cast<std::size_t>(i);
-        const Pose& origin = i == 0 || scene.spawns.empty() ? place.origin_ws
-                                                            : scene.spawns[index % scene.spawns.size()].pose_ws;
+        const Pose& origin = i == 0 || scene.spawns.empty()
+                                 ? place.origin_ws
+                                 : scene.spawns[index % scene.spawns.size()].pose_ws;
         players.push_back(add_scene_player(scene, {"player" + std::to_string(i), origin, 80.0}));
     }
     return players;
 }
 
-std::optional<FileError> write_pictures(const std::filesystem::path& folder, std::vector<FilmShot> shots,
-                                        ReportMedia& media) {
+std::optional<FileError> write_pictures(const std::filesystem::path& folder,
+                                        std::vector<FilmShot> shots, ReportMedia& media) {
     std::error_code ignored;
     std::filesystem::create_directories(folder / "shots", ignored);
     for (FilmShot& shot : shots) {
@@ -124,8 +129,8 @@ std::optional<FileError> write_pictures(const std::filesystem::path& folder, std
     return std::nullopt;
 }
 
-std::optional<FileError> write_output(const std::filesystem::path& folder, const RunLog& log, ReportMedia media,
-                                      std::vector<FilmShot> shots) {
+std::optional<FileError> write_output(const std::filesystem::path& folder, const RunLog& log,
+                                      ReportMedia media, std::vector<FilmShot> shots) {
     if (auto error = write_pictures(folder, std::move(shots), media)) {
         return error;
     }
@@ -143,16 +148,20 @@ std::optional<FileError> write_output(const std::filesystem::path& folder, const
 
 void print_summary(const RunLog& log) {
     const RunSummary summary = summarize_run(log);
-    std::printf("%s: %zu frames at %g Hz, %.2f s simulated, %.0f frames a second\n", log.scene.c_str(),
-                log.frames.size(), log.hz, summary.duration_s, summary.frames_per_s);
+    std::printf("%s: %zu frames at %g Hz, %.2f s simulated, %.0f frames a second\n",
+                log.scene.c_str(), log.frames.size(), log.hz, summary.duration_s,
+                summary.frames_per_s);
     std::printf("grabs: %llu onsets, %llu gripped; path of the origin %.2f m\n",
                 static_cast<unsigned long long>(summary.totals.grab_onsets),
                 static_cast<unsigned long long>(summary.totals.grabs_gripped),
                 summary.players.empty() ? 0.0 : summary.players[0].path_m);
-    std::printf("hand error, one hand free of contact: %.6f mm; two hands: %.3f mm; worst overlap: %.6f mm\n",
-                summary.hand_error.one_hand_free_m * 1e3, summary.hand_error.two_hands_m * 1e3,
-                summary.residual_m * 1e3);
-    std::printf("frame: median %.1f us, p99 %.1f us\n", summary.frame.median_us, summary.frame.p99_us);
+    std::printf(
+        "hand error, one hand free of contact: %.6f mm; two hands: %.3f mm; worst overlap: %.6f "
+        "mm\n",
+        summary.hand_error.one_hand_free_m * 1e3, summary.hand_error.two_hands_m * 1e3,
+        summary.residual_m * 1e3);
+    std::printf("frame: median %.1f us, p99 %.1f us\n", summary.frame.median_us,
+                summary.frame.p99_us);
 }
 
 struct Film {
@@ -191,7 +200,8 @@ int run_command(const RunOptions& options) {
         std::error_code failure;
         std::filesystem::create_directories(options.out, failure);
         if (failure) {
-            return refuse({options.out, "", "expected a folder that can be made: " + failure.message()});
+            return refuse(
+                {options.out, "", "expected a folder that can be made: " + failure.message()});
         }
     }
     FrameCaches caches(*scene.shapes);
@@ -201,17 +211,19 @@ int run_command(const RunOptions& options) {
     }
     const std::vector<PlayerEntities> players = add_players(scene, place.value(), options);
 
-    const Recording* const recording = session.value().recording ? &*session.value().recording : nullptr;
+    const Recording* const recording =
+        session.value().recording ? &*session.value().recording : nullptr;
     const RunSettings settings{options.hz, options.seconds, options.threads};
     Film film = open_film(options, scene, session_length_s(recording, settings));
     if (!options.trace.empty()) {
         start_trace();
     }
-    RunLog log = run_session(scene, caches, players, recording, settings, [&film](const Scene&, const FrameLog& frame) {
-        if (film.camera != nullptr) {
-            film.camera->watch(frame);
-        }
-    });
+    RunLog log = run_session(scene, caches, players, recording, settings,
+                             [&film](const Scene&, const FrameLog& frame) {
+                                 if (film.camera != nullptr) {
+                                     film.camera->watch(frame);
+                                 }
+                             });
     log.input = session.value().name;
     log.spawn = place.value().name;
     if (!options.trace.empty()) {

@@ -7,10 +7,10 @@ namespace handhold {
 // `handhold run`, as given on the command line.
 struct RunOptions {
     std::string scene;
-    std::string input;    // empty: the scene's own session, if it has one
-    std::string spawn;    // empty: the scene's first; "auto"
-    std::string trace;    // empty: none
-    std::string out;      // empty: no files
+    std::string input;  // empty: the scene's own session, if it has one
+    std::string spawn;  // empty: the scene's first; "auto"
+    std::string trace;  // empty: none
+    std::string out;    // empty: no files
     double hz = 90.0;
     double seconds = 0.0;  // 0: as long as the session
     int players = 1;
@@ -18,8 +18,9 @@ struct RunOptions {
     bool pictures = true;
 };
 
-// Plays, writes what was asked for, and prints the summary; the last line is "state_hash 0x<16 hex digits>". Returns the exit
-// status: 0, or 2 after one line on standard error where a file is refused or cannot be written.
+// Plays, writes what was asked for, and prints the summary; the last line is "state_hash 0x<16 hex
+// digits>". Returns the exit status: 0, or 2 after one line on standard error where a file is
+// refused or cannot be written.
 int run_command(const RunOptions& options);
 
 }  // namespace handhold

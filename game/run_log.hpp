@@ -9,7 +9,8 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// What a run leaves to be reported: frames.csv, bodies.csv, report.json and report.html are written from this.
+// What a run leaves to be reported: frames.csv, bodies.csv, report.json and report.html are written
+// from this.
 namespace handhold {
 
 struct HandLog {

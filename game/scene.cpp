@@ -20,7 +20,8 @@ std::shared_ptr<const Mesh> moved_mesh(Mesh mesh, const Pose& pose) {
 }
 
 // A static body that is not drawn.
-Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws) {
+Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
+                       const Pose& pose_ws) {
     BodyDescription description;
     description.name = name;
     description.pose_ws = pose_ws;
@@ -74,12 +75,15 @@ class SceneBuilder {
             const Mesh& mesh = loaded->parts[i].mesh;
             if (!mesh.triangles.empty()) {
                 const std::string name = stem + "/" + std::to_string(i) + "/" + mesh.name;
-                bodies.push_back(add_static_body(scene_, name, moved_mesh(mesh, level.pose), file_.world_transform));
+                bodies.push_back(add_static_body(scene_, name, moved_mesh(mesh, level.pose),
+                                                 file_.world_transform));
             }
         }
         for (Mesh& mesh : make_level_meshes(*loaded)) {
-            if (!bodies.empty()) {  // level meshes stand still together: any of its bodies carries the picture
-                scene_.visuals.push_back({bodies.front(), moved_mesh(std::move(mesh), level.pose), std::nullopt, {}});
+            if (!bodies.empty()) {  // level meshes stand still together: any of its bodies carries
+                                    // the picture
+                scene_.visuals.push_back(
+                    {bodies.front(), moved_mesh(std::move(mesh), level.pose), std::nullopt, {}});
             }
         }
     }
@@ -93,10 +97,12 @@ class SceneBuilder {
                 visual = std::make_shared<const Mesh>(make_sphere(shape.radius_m));
                 return scene_.shapes->add_sphere(shape.radius_m);
             case SceneShapeType::capsule:
-                visual = std::make_shared<const Mesh>(make_capsule(
-                    -shape.half_height_m * Vec3::UnitY(), shape.half_height_m * Vec3::UnitY(), shape.radius_m));
+                visual = std::make_shared<const Mesh>(
+                    make_capsule(-shape.half_height_m * Vec3::UnitY(),
+                                 shape.half_height_m * Vec3::UnitY(), shape.radius_m));
                 return scene_.shapes->add_capsule(shape.radius_m, shape.half_height_m);
-            case SceneShapeType::mesh: break;
+            case SceneShapeType::mesh:
+                break;
         }
         std::optional<GltfLevel> loaded = load(shape.file);
         if (!loaded) {
@@ -108,7 +114,8 @@ class SceneBuilder {
             whole.color = part.mesh.color;
         }
         if (whole.triangles.empty()) {
-            error_ = FileError{shape.file.string(), "", "expected at least one triangle, found none"};
+            error_ =
+                FileError{shape.file.string(), "", "expected at least one triangle, found none"};
             return {};
         }
         visual = std::make_shared<const Mesh>(std::move(whole));
@@ -130,16 +137,19 @@ class SceneBuilder {
         if (body.kind == BodyKind::free) {
             description.body.mass_kg = body.mass_kg;
             description.body.inertia_kgm2 =
-                body.inertia_kgm2 ? *body.inertia_kgm2 : solid_inertia(scene_.shapes->at(shape), body.mass_kg);
+                body.inertia_kgm2 ? *body.inertia_kgm2
+                                  : solid_inertia(scene_.shapes->at(shape), body.mass_kg);
             description.velocity = {turned(body.velocity_mps), turned(body.angular_velocity_radps)};
         }
         const Entity entity = add_body(scene_.world, description);
         scene_.body_names.push_back(body.name);
         if (body.kind == BodyKind::kinematic) {
             const Mover mover{description.pose_ws, turned(body.motion.velocity_mps),
-                              turned(body.motion.angular_velocity_radps), body.motion.turns_with_body};
+                              turned(body.motion.angular_velocity_radps),
+                              body.motion.turns_with_body};
             scene_.world.mover.add(entity, mover);
-            scene_.world.body_velocity.at(entity) = {mover.velocity_ws_mps, mover.angular_velocity_ws_radps};
+            scene_.world.body_velocity.at(entity) = {mover.velocity_ws_mps,
+                                                     mover.angular_velocity_ws_radps};
         }
         std::optional<Color> color;
         if (body.color) {
@@ -164,8 +174,8 @@ SceneFile level_scene(const std::filesystem::path& path) {
 
 }  // namespace
 
-Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws,
-                       const Look& look) {
+Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
+                       const Pose& pose_ws, const Look& look) {
     const Entity entity = add_static_body(scene, name, mesh, pose_ws);
     scene.visuals.push_back({entity, std::move(mesh), std::nullopt, look});
     return entity;
@@ -182,14 +192,16 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     scene.tuning = tuning.value();
     scene.session = file.session;
     scene.up_ws = file.world_transform.rotation * Vec3::UnitY();
-    scene.world.reference_velocity_mps = file.world_transform.rotation * file.reference_velocity_mps;
+    scene.world.reference_velocity_mps =
+        file.world_transform.rotation * file.reference_velocity_mps;
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
     if (std::optional<FileError> error = SceneBuilder(file, scene).build()) {
         return *error;
     }
     for (const ScenePlayer& player : file.players) {
-        const auto spawn = std::find_if(scene.spawns.begin(), scene.spawns.end(),
-                                        [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
+        const auto spawn = std::find_if(
+            scene.spawns.begin(), scene.spawns.end(),
+            [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
         scene.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
     }
     return scene;
@@ -208,7 +220,8 @@ Result<Scene> load_scene(const std::string& name_or_file) {
         for (const std::string_view name : built_in_scenes()) {
             names += std::string(name) + ", ";
         }
-        return FileError{name_or_file, "", "expected " + names + "a .json scene or a .glb or .gltf level"};
+        return FileError{name_or_file, "",
+                         "expected " + names + "a .json scene or a .glb or .gltf level"};
     }
     Result<SceneFile> file = load_scene_file(path);
     if (!file) {

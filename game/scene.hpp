@@ -15,7 +15,8 @@
 #include "game/render/render_frame.hpp"
 #include "game/scene_file.hpp"
 
-// A scene ready to be played: the world without its players, the shapes and tuning it runs with, and what to draw.
+// A scene ready to be played: the world without its players, the shapes and tuning it runs with,
+// and what to draw.
 namespace handhold {
 
 // A mesh that is drawn at a body's pose. The body's collider may be something simpler.
@@ -42,19 +43,21 @@ struct Scene {
     std::string name;
     std::string description;
     World world;
-    std::unique_ptr<ShapeLibrary> shapes = std::make_unique<ShapeLibrary>();  // its address stays: caches refer to it
+    std::unique_ptr<ShapeLibrary> shapes =
+        std::make_unique<ShapeLibrary>();  // its address stays: caches refer to it
     Tuning tuning;
     ShapeId head_shape;  // a sphere of the tuning's head radius
     std::vector<SceneVisual> visuals;
     std::vector<Lamp> lamps;
     Vec3 up_ws = Vec3::UnitY();
-    std::vector<SceneSpawnPoint> spawns;  // the first is the default; may be empty
+    std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // that the scene asks for; may be empty
-    std::vector<std::string> body_names;  // by world.body's rows at load
-    std::optional<SceneSession> session;  // what shows it
+    std::vector<std::string> body_names;    // by world.body's rows at load
+    std::optional<SceneSession> session;    // what shows it
 };
 
-// A built-in scene's name, a scene file (.json), or any level (.glb, .gltf: every mesh node a static body). Nothing half loaded.
+// A built-in scene's name, a scene file (.json), or any level (.glb, .gltf: every mesh node a
+// static body). Nothing half loaded.
 Result<Scene> load_scene(const std::string& name_or_file);
 // From a checked scene file; loads the levels and meshes that it names.
 Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path);
@@ -63,7 +66,7 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
 
 // A static body that is drawn as it collides.
-Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh, const Pose& pose_ws = {},
-                       const Look& look = {});
+Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
+                       const Pose& pose_ws = {}, const Look& look = {});
 
 }  // namespace handhold

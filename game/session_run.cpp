@@ -28,7 +28,8 @@ class BodyIndex {
     Column<std::int32_t> index_;
 };
 
-PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntities& player, const BodyIndex& bodies) {
+PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntities& player,
+                     const BodyIndex& bodies) {
     const RenderPose& render = world.render_pose.at(player.player);
     PlayerLog log;
     log.player = index;
@@ -48,8 +49,8 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
     return log;
 }
 
-FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& players, const BodyIndex& bodies,
-                   const StageStats& stats) {
+FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
+                   const BodyIndex& bodies, const StageStats& stats) {
     const World& world = scene.world;
     FrameLog log;
     log.frame = world.clock.frame;
@@ -64,13 +65,14 @@ FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& player
         }
         const Entity body = world.body.owners()[row];
         const BodyVelocity& velocity = world.body_velocity.at(body);
-        log.bodies.push_back({static_cast<std::uint32_t>(row), world.body_pose.at(body).pose_ws, velocity.linear_mps,
-                              velocity.angular_radps});
+        log.bodies.push_back({static_cast<std::uint32_t>(row), world.body_pose.at(body).pose_ws,
+                              velocity.linear_mps, velocity.angular_radps});
     }
     return log;
 }
 
-RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players, const RunSettings& settings) {
+RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players,
+                 const RunSettings& settings) {
     RunLog log;
     log.scene = scene.name;
     log.hz = settings.hz;
@@ -97,7 +99,8 @@ double session_length_s(const Recording* recording, const RunSettings& settings)
 }
 
 RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-                   const Recording* recording, const RunSettings& settings, const FrameObserver& observe) {
+                   const Recording* recording, const RunSettings& settings,
+                   const FrameObserver& observe) {
     set_thread_count(settings.threads);
     const double dt_s = 1.0 / settings.hz;
     std::optional<Playback> playback;
@@ -105,7 +108,8 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         playback.emplace(*recording);
     }
     const double seconds = session_length_s(recording, settings);
-    const auto frames = static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + 1e-9)));
+    const auto frames =
+        static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + 1e-9)));
 
     RunLog log = begin_log(scene, players, settings);
     log.frames.reserve(frames);

@@ -13,8 +13,8 @@
 namespace handhold {
 
 struct RunSettings {
-    double hz = 90.0;       // (0, 1000]
-    double seconds = 0.0;   // 0: as long as the recording; 10 without one
+    double hz = 90.0;      // (0, 1000]
+    double seconds = 0.0;  // 0: as long as the recording; 10 without one
     int threads = 1;
 };
 
@@ -24,9 +24,10 @@ double session_length_s(const Recording* recording, const RunSettings& settings)
 // Called after each frame: for pictures.
 using FrameObserver = std::function<void(const Scene&, const FrameLog&)>;
 
-// Plays a recording in a scene without a window, as fast as it can: every player is driven by the same recording. Players must be in the
-// world already. Leaves the world at the last frame.
+// Plays a recording in a scene without a window, as fast as it can: every player is driven by the
+// same recording. Players must be in the world already. Leaves the world at the last frame.
 RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
-                   const Recording* recording, const RunSettings& settings, const FrameObserver& observe = {});
+                   const Recording* recording, const RunSettings& settings,
+                   const FrameObserver& observe = {});
 
 }  // namespace handhold

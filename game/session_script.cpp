@@ -10,8 +10,8 @@ namespace {
 
 constexpr double k_sample_hz = 90.0;
 constexpr double k_two_pi = 6.283185307179586;
-constexpr double k_lift_m = 0.07;          // how far a hand rises off the surface on its way
-constexpr double k_rest_after_s = 0.7;     // to lower a hand that has nothing to do
+constexpr double k_lift_m = 0.07;       // how far a hand rises off the surface on its way
+constexpr double k_rest_after_s = 0.7;  // to lower a hand that has nothing to do
 
 // Sessions are input, not state, but they ship: our own sine gives every machine the same one.
 double sine(double angle_rad) {
@@ -22,7 +22,8 @@ double sine(double angle_rad) {
 }
 
 Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
-    const auto next = std::find_if(body.begin(), body.end(), [t_s](const ScriptedBody& key) { return key.t_s > t_s; });
+    const auto next = std::find_if(body.begin(), body.end(),
+                                   [t_s](const ScriptedBody& key) { return key.t_s > t_s; });
     if (next == body.begin()) {
         return body.front().eyes;
     }
@@ -41,12 +42,13 @@ Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
 // A hand at one time of the plan.
 struct HandKey {
     double t_s = 0.0;
-    Pose hand;       // the wrist
+    Pose hand;  // the wrist
     Vec3 away = Vec3::UnitY();
     bool holds = false;  // until the next key
 };
 
-Pose hand_pose(HandSide side, const Vec3& palm, const Vec3& away, const Vec3& fingers, const HandTuning& tuning) {
+Pose hand_pose(HandSide side, const Vec3& palm, const Vec3& away, const Vec3& fingers,
+               const HandTuning& tuning) {
     Mat3 axes;
     const Vec3 across = (fingers - away * away.dot(fingers)).normalized();
     axes.col(1) = away;
@@ -63,7 +65,8 @@ Pose hand_pose(HandSide side, const Vec3& palm, const Vec3& away, const Vec3& fi
 // Beside and before the chest, palm down, relative to where the eyes are then.
 HandKey rest_key(const SessionScript& script, HandSide side, double t_s, const HandTuning& tuning) {
     const double outward = side == HandSide::right ? 1.0 : -1.0;
-    const Vec3 palm = eyes_at(script.body, t_s) + script.play_space * Vec3(0.22 * outward, -0.42, -0.30);
+    const Vec3 palm =
+        eyes_at(script.body, t_s) + script.play_space * Vec3(0.22 * outward, -0.42, -0.30);
     const Vec3 up = script.play_space * Vec3::UnitY();
     return {t_s, hand_pose(side, palm, up, script.play_space * -Vec3::UnitZ(), tuning), up, false};
 }
@@ -79,16 +82,20 @@ std::vector<HandKey> keys_of(const SessionScript& script, HandSide side, const H
     }
     for (const ScriptedReach& reach : script.reaches) {
         if (reach.side == side) {
-            keys.push_back({reach.t_s, hand_pose(side, reach.palm, reach.away, reach.fingers, tuning), reach.away, false});
+            keys.push_back({reach.t_s,
+                            hand_pose(side, reach.palm, reach.away, reach.fingers, tuning),
+                            reach.away, false});
         }
     }
-    std::stable_sort(keys.begin(), keys.end(), [](const HandKey& a, const HandKey& b) { return a.t_s < b.t_s; });
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const HandKey& a, const HandKey& b) { return a.t_s < b.t_s; });
     // A reach inside of a hold moves what is held: the hold goes on until its own end.
     bool holds = false;
     for (HandKey& key : keys) {
-        const bool inside = std::any_of(script.holds.begin(), script.holds.end(), [&](const ScriptedHold& hold) {
-            return hold.side == side && hold.from_s <= key.t_s && key.t_s < hold.until_s;
-        });
+        const bool inside =
+            std::any_of(script.holds.begin(), script.holds.end(), [&](const ScriptedHold& hold) {
+                return hold.side == side && hold.from_s <= key.t_s && key.t_s < hold.until_s;
+            });
         holds = inside;
         key.holds = holds;
     }
@@ -103,9 +110,10 @@ struct HandNow {
     bool holds = false;
 };
 
-HandNow hand_at(const SessionScript& script, HandSide side, const std::vector<HandKey>& keys, double t_s,
-                const HandTuning& tuning) {
-    const auto next = std::find_if(keys.begin(), keys.end(), [t_s](const HandKey& key) { return key.t_s > t_s; });
+HandNow hand_at(const SessionScript& script, HandSide side, const std::vector<HandKey>& keys,
+                double t_s, const HandTuning& tuning) {
+    const auto next =
+        std::find_if(keys.begin(), keys.end(), [t_s](const HandKey& key) { return key.t_s > t_s; });
     const HandKey& a = *(next - 1);
     HandKey b = next != keys.end() ? *next : rest_key(script, side, t_s, tuning);
     const double end_s = next != keys.end() ? b.t_s : a.t_s + k_rest_after_s;
@@ -125,7 +133,7 @@ Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hand
     pose.position = eyes_at(script.body, t_s);
     const Vec3 ahead = script.play_space * -Vec3::UnitZ();
     const Vec3 up = script.play_space * Vec3::UnitY();
-    const Vec3 look = (0.8 * ahead + (between_hands - pose.position).normalized()).normalized();
+    const Vec3 look = (1.3 * ahead + (between_hands - pose.position).normalized()).normalized();
     const Vec3 right = look.cross(up).normalized();
     Mat3 axes;
     axes.col(0) = right;
@@ -133,7 +141,9 @@ Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hand
     axes.col(2) = -look;
     const double yaw = 0.08 * sine(0.9 * t_s) + 0.04 * sine(2.1 * t_s);
     const double pitch = 0.05 * sine(1.3 * t_s + 0.5);
-    pose.rotation = (Quat(axes) * rotation_about(Vec3::UnitY(), yaw) * rotation_about(Vec3::UnitX(), pitch)).normalized();
+    pose.rotation =
+        (Quat(axes) * rotation_about(Vec3::UnitY(), yaw) * rotation_about(Vec3::UnitX(), pitch))
+            .normalized();
     return pose;
 }
 
@@ -164,7 +174,8 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
 Pose session_origin(const SessionScript& script) {
     Pose origin;
     origin.rotation = script.play_space;
-    origin.position = eyes_at(script.body, 0.0) - script.play_space * Vec3(0.0, script.eye_height_m, 0.0);
+    origin.position =
+        eyes_at(script.body, 0.0) - script.play_space * Vec3(0.0, script.eye_height_m, 0.0);
     return origin;
 }
 
@@ -181,9 +192,12 @@ Recording record_session(const SessionScript& script, const HandTuning& tuning) 
     for (int i = 0; i < count; ++i) {
         RecordedSample sample;
         sample.t_s = i / k_sample_hz;
-        // The person stands still in the room but for a sway: it is the hands that move the play space.
-        const Vec3 sway = Vec3(0.02 * sine(0.4 * sample.t_s), 0.01 * sine(0.5 * sample.t_s), 0.02 * sine(0.3 * sample.t_s));
-        const Vec3 carried = eyes_at(script.body, sample.t_s) - eyes_at(script.body, 0.0) - script.play_space * sway;
+        // The person stands still in the room but for a sway: it is the hands that move the play
+        // space.
+        const Vec3 sway = Vec3(0.02 * sine(0.4 * sample.t_s), 0.01 * sine(0.5 * sample.t_s),
+                               0.02 * sine(0.3 * sample.t_s));
+        const Vec3 carried =
+            eyes_at(script.body, sample.t_s) - eyes_at(script.body, 0.0) - script.play_space * sway;
         const Pose origin{start.position + carried, start.rotation};
         const Pose to_play_space = inverse(origin);
         Vec3 between_hands = Vec3::Zero();

@@ -15,11 +15,11 @@ namespace handhold {
 namespace {
 
 constexpr int k_yaws = 12;
-constexpr std::size_t k_surface_points = 600;   // for each yaw
-constexpr std::size_t k_played = 16;            // best candidates that are played
-constexpr std::size_t k_head_checks = 12;       // along the session
-constexpr double k_head_clearance_m = 0.06;     // beyond the head's own radius
-constexpr double k_palm_gap_m = 0.02;           // of the first grab's palm off the surface it is laid onto
+constexpr std::size_t k_surface_points = 600;  // for each yaw
+constexpr std::size_t k_played = 16;           // best candidates that are played
+constexpr std::size_t k_head_checks = 12;      // along the session
+constexpr double k_head_clearance_m = 0.06;    // beyond the head's own radius
+constexpr double k_palm_gap_m = 0.02;  // of the first grab's palm off the surface it is laid onto
 
 // Reproducible numbers: a counter through a mixer.
 class Random {
@@ -33,7 +33,8 @@ class Random {
     std::uint64_t state_ = 20;
 };
 
-// The session as it would go if every grab gripped something fixed: in play space, relative to where the origin begins.
+// The session as it would go if every grab gripped something fixed: in play space, relative to
+// where the origin begins.
 struct Rehearsal {
     std::vector<PalmRay> grabs;  // rays at the onsets
     std::vector<Vec3> heads;     // centres of the head's collider along the way
@@ -42,14 +43,16 @@ struct Rehearsal {
 
 Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
     Rehearsal out;
-    const std::array<Pose, k_hand_count> joints = {default_controller_to_hand(HandSide::left, tuning.hand),
-                                                   default_controller_to_hand(HandSide::right, tuning.hand)};
+    const std::array<Pose, k_hand_count> joints = {
+        default_controller_to_hand(HandSide::left, tuning.hand),
+        default_controller_to_hand(HandSide::right, tuning.hand)};
     Vec3 origin = Vec3::Zero();
     Vec3 drift_mps = Vec3::Zero();
     std::array<bool, k_hand_count> holds{};
     std::array<Vec3, k_hand_count> last{Vec3::Zero(), Vec3::Zero()};
     double last_t_s = recording.samples.front().t_s;
-    const std::size_t head_stride = std::max<std::size_t>(1, recording.samples.size() / k_head_checks);
+    const std::size_t head_stride =
+        std::max<std::size_t>(1, recording.samples.size() / k_head_checks);
     for (std::size_t i = 0; i < recording.samples.size(); ++i) {
         const RecordedSample& sample = recording.samples[i];
         const double dt_s = sample.t_s - last_t_s;
@@ -76,7 +79,8 @@ Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
             if (grab && !holds[side]) {
                 Pose hand = sample.hands[side].controller * joints[side];
                 hand.position += origin;
-                out.grabs.push_back(palm_ray(hand, side == 0 ? HandSide::left : HandSide::right, tuning.hand));
+                out.grabs.push_back(
+                    palm_ray(hand, side == 0 ? HandSide::left : HandSide::right, tuning.hand));
                 ++out.onsets;
             }
             holds[side] = grab;
@@ -99,7 +103,8 @@ struct Judge {
     const HeadTuning& head;
     const HandTuning& hand;
 
-    // Grabs that would find a surface; below zero where the head starts inside of something. A head that is in the way later costs a little.
+    // Grabs that would find a surface; below zero where the head starts inside of something. A head
+    // that is in the way later costs a little.
     double score(const Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -115,7 +120,8 @@ struct Judge {
             const Vec3 palm_ws = transform_point(origin_ws, ray.palm_ws);
             const Vec3 from_ws = transform_point(origin_ws, ray.from_ws);
             const Vec3 to_ws = transform_point(origin_ws, ray.to_ws);
-            if (collision.cast_ray(from_ws, to_ws) || collision.closest_point(palm_ws, hand.reach_m)) {
+            if (collision.cast_ray(from_ws, to_ws) ||
+                collision.closest_point(palm_ws, hand.reach_m)) {
                 score += 1.0;
             }
         }
@@ -154,8 +160,9 @@ struct SurfaceSampler {
     };
     Sample draw(Random& random) const {
         const double wanted = random.unit() * pieces.back().area_until_m2;
-        const auto piece = std::lower_bound(pieces.begin(), pieces.end() - 1, wanted,
-                                            [](const Piece& p, double area) { return p.area_until_m2 < area; });
+        const auto piece =
+            std::lower_bound(pieces.begin(), pieces.end() - 1, wanted,
+                             [](const Piece& p, double area) { return p.area_until_m2 < area; });
         const auto& [ia, ib, ic] = piece->mesh->triangles[piece->triangle];
         const Vec3 a = transform_point(piece->pose_ws, piece->mesh->positions[ia]);
         const Vec3 b = transform_point(piece->pose_ws, piece->mesh->positions[ib]);
@@ -167,7 +174,8 @@ struct SurfaceSampler {
             v = 1.0 - v;
         }
         const Vec3 normal = (b - a).cross(c - a);
-        return {a + u * (b - a) + v * (c - a), normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3::UnitY()};
+        return {a + u * (b - a) + v * (c - a),
+                normal.norm() > 0.0 ? Vec3(normal.normalized()) : Vec3::UnitY()};
     }
 };
 
@@ -189,9 +197,11 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
             const std::size_t grabs = std::min<std::size_t>(judge.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
             const bool lay_head = grabs == 0;
-            const Vec3 laid = lay_head ? judge.rehearsal.heads.front() : judge.rehearsal.grabs[pick].palm_ws;
+            const Vec3 laid =
+                lay_head ? judge.rehearsal.heads.front() : judge.rehearsal.grabs[pick].palm_ws;
             const double gap = lay_head ? 0.5 : k_palm_gap_m;
-            const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid, rotation};
+            const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid,
+                                 rotation};
             const double score = judge.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
@@ -206,9 +216,10 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
 
 void place_scene(Scene& scene, FrameCaches& caches) {
     const World& w = scene.world;
-    place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin, w.head_tracking,
-                     w.last_valid, caches.collision, caches.graph},
-                    scene.tuning.head);
+    place_colliders(
+        {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
+         w.head_tracking, w.last_valid, caches.collision, caches.graph},
+        scene.tuning.head);
 }
 
 struct Played {
@@ -217,8 +228,8 @@ struct Played {
 };
 
 // From a copy of the world: playing leaves no trace.
-Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording, const Pose& origin_ws,
-                 double hz) {
+Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording,
+                 const Pose& origin_ws, double hz) {
     trial.world = world;
     const PlayerEntities player = add_scene_player(trial, {"player0", origin_ws});
     const RunLog log = run_session(trial, caches, {player}, &recording, {hz, 0.0, 1});
@@ -234,7 +245,8 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 }  // namespace
 
-FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording, double hz) {
+FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
+                      double hz) {
     Scene trial;  // shares nothing but shapes by address: the caches refer to those of `scene`
     trial.name = scene.name;
     trial.world = scene.world;
@@ -253,7 +265,8 @@ FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& 
     const Judge judge{caches.collision, rehearsal, scene.tuning.head, scene.tuning.hand};
     double best_path_m = -1.0;
     for (const Candidate& candidate : propose(scene, judge)) {
-        const Played played = play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
+        const Played played =
+            play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
         if (best_path_m < 0.0 || played.gripped > found.gripped ||
             (played.gripped == found.gripped && played.path_m > best_path_m)) {
             found.origin_ws = candidate.origin_ws;

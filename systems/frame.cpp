@@ -22,7 +22,9 @@ namespace {
 class StageTimer {
   public:
     StageTimer(Stage stage, StageStats& stats)
-        : zone_(name_of(stage)), stage_us_(stats.stage_us[static_cast<std::size_t>(stage)]), begin_ns_(now_ns()) {}
+        : zone_(name_of(stage)),
+          stage_us_(stats.stage_us[static_cast<std::size_t>(stage)]),
+          begin_ns_(now_ns()) {}
     ~StageTimer() { stage_us_ += 1e-3 * static_cast<double>(now_ns() - begin_ns_); }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
@@ -34,14 +36,16 @@ class StageTimer {
 };
 
 void place(World& w, FrameCaches& caches, const Tuning& tuning) {
-    place_colliders({w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin, w.head_tracking,
-                     w.last_valid, caches.collision, caches.graph},
-                    tuning.head);
+    place_colliders(
+        {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
+         w.head_tracking, w.last_valid, caches.collision, caches.graph},
+        tuning.head);
 }
 
 }  // namespace
 
-void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input, StageStats& stats) {
+void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+                StageStats& stats) {
     HH_CHECK(input.dt_s > 0.0, "dt_s must be above 0", input.dt_s);
     const double start_s = w.clock.t_s;
     const double end_s = start_s + input.dt_s;
@@ -49,22 +53,22 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     stats = {};
     {
         const StageTimer timer(Stage::read_tracking, stats);
-        read_tracking({input.players, start_s, end_s, w.hand_owner, w.controller_to_hand, w.head_tracking,
-                       w.hand_tracking, w.hand_history, w.player_commands},
+        read_tracking({input.players, start_s, end_s, w.hand_owner, w.controller_to_hand,
+                       w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
                       tuning, stats);
     }
     {
         const StageTimer timer(Stage::update_grabs, stats);
         place(w, caches, tuning);
-        update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin, w.body,
-                      w.body_pose, w.grab, w.head_ignores},
+        update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
+                      w.player_origin, w.body, w.body_pose, w.grab, w.head_ignores},
                      tuning, stats);
     }
     {
         const StageTimer timer(Stage::locomote_players, stats);
-        locomote_players({input.dt_s, w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
-                          w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
-                          w.reference_velocity},
+        locomote_players({input.dt_s, w.reference_velocity_mps, w.player_commands, w.head_tracking,
+                          w.hand_owner, w.hand_tracking, w.grab, w.body_pose, w.body_velocity,
+                          w.player_origin, w.player_velocity, w.reference_velocity},
                          tuning.locomotion);
     }
     {
@@ -73,42 +77,45 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::predict_bodies, stats);
-        predict_bodies({input.dt_s, w.body, w.player_velocity, w.body_pose, w.body_start, w.body_velocity,
-                        w.player_origin, w.player_start});
+        predict_bodies({input.dt_s, w.body, w.player_velocity, w.body_pose, w.body_start,
+                        w.body_velocity, w.player_origin, w.player_start});
     }
     {
         const StageTimer timer(Stage::settle_grabs, stats);
-        settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start, w.player_origin, w.body_start,
-                      w.body_pose, w.grab},
+        settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start,
+                      w.player_origin, w.body_start, w.body_pose, w.grab},
                      stats);
     }
     {
         const StageTimer timer(Stage::find_contacts, stats);
         place(w, caches, tuning);
-        find_contacts({w.persistent_id, w.head_tracking, w.hand_owner, w.grab, caches.collision, w.head_ignores, graph},
+        find_contacts({w.persistent_id, w.head_tracking, w.hand_owner, w.grab, caches.collision,
+                       w.head_ignores, graph},
                       tuning.contact);
     }
     {
         const StageTimer timer(Stage::build_constraints, stats);
-        build_constraints({w.persistent_id, w.body, w.body_pose, w.body_velocity, w.player, w.player_origin,
-                           w.player_velocity, w.head_tracking, w.hand_owner, w.grab, graph},
-                          tuning);
+        build_constraints(
+            {w.persistent_id, w.body, w.body_pose, w.body_velocity, w.player, w.player_origin,
+             w.player_velocity, w.head_tracking, w.hand_owner, w.grab, graph},
+            tuning);
     }
     {
         const StageTimer timer(Stage::solve_phases, stats);
-        solve_phases({w.persistent_id, caches.collision, graph, w.body_pose, w.player_origin, w.grab}, tuning,
-                     stats);
+        solve_phases(
+            {w.persistent_id, caches.collision, graph, w.body_pose, w.player_origin, w.grab},
+            tuning, stats);
     }
     {
         const StageTimer timer(Stage::update_velocities, stats);
-        update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, graph, w.body_velocity, w.player_velocity, w.grab,
-                           w.last_valid},
+        update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, graph,
+                           w.body_velocity, w.player_velocity, w.grab, w.last_valid},
                           tuning, stats);
     }
     {
         const StageTimer timer(Stage::publish_pose, stats);
-        publish_pose({graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner, w.hand_tracking, w.grab,
-                      w.body_pose, w.render_pose},
+        publish_pose({graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
+                      w.hand_tracking, w.grab, w.body_pose, w.render_pose},
                      tuning);
     }
     ++w.clock.frame;

@@ -14,11 +14,12 @@
 namespace handhold {
 
 struct FrameInput {
-    double dt_s = 1.0 / 90.0;                // > 0
-    std::span<const PlayerInput> players;    // any subset of the world's players
+    double dt_s = 1.0 / 90.0;              // > 0
+    std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
-// Everything that a frame keeps beside the world: caches, which may be thrown away before any frame without changing one bit of the next.
+// Everything that a frame keeps beside the world: caches, which may be thrown away before any frame
+// without changing one bit of the next.
 struct FrameCaches {
     // `shapes` must outlive the caches and hold every shape that the world's colliders name.
     explicit FrameCaches(const ShapeLibrary& shapes) : collision(shapes) {}
@@ -27,11 +28,14 @@ struct FrameCaches {
     FrameGraph graph;
 };
 
-// One frame: a straight line of stages, each a system over the columns it is given; nothing else decides the order.
-// `stats` is cleared first. Throws PreconditionError where dt_s is not above 0; no input of a player makes it fail.
-void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input, StageStats& stats);
+// One frame: a straight line of stages, each a system over the columns it is given; nothing else
+// decides the order. `stats` is cleared first. Throws PreconditionError where dt_s is not above 0;
+// no input of a player makes it fail.
+void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+                StageStats& stats);
 
-// A hash of all columns, by persistent id: independent of slots, order of creation, thread count, build and compiler.
+// A hash of all columns, by persistent id: independent of slots, order of creation, thread count,
+// build and compiler.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// The state hash: one hash a row, mixed from the component's name, the owner's persistent id and every field, and summed over
-// rows, so that the order of rows does not show.
+// The state hash: one hash a row, mixed from the component's name, the owner's persistent id and
+// every field, and summed over rows, so that the order of rows does not show.
 #include <array>
 #include <type_traits>
 
@@ -36,7 +36,8 @@ class FieldHasher {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});
     }
-    // A place in the library of assets, by order of loading. What a body's shape is never changes while frames run.
+    // A place in the library of assets, by order of loading. What a body's shape is never changes
+    // while frames run.
     void add(ShapeId /*shape*/) const {}
     template <typename T, std::size_t N>
     void add(const std::array<T, N>& values) const {

@@ -7,8 +7,8 @@
 
 namespace handhold {
 
-// Replaces the graph's contact rows by those of `contacts` and finds the islands again. Every id must be one of graph.bodies
-// (PreconditionError).
+// Replaces the graph's contact rows by those of `contacts` and finds the islands again. Every id
+// must be one of graph.bodies (PreconditionError).
 void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGraph& graph);
 
 }  // namespace handhold

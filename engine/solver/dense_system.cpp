@@ -1,5 +1,6 @@
-// Sources: LDL^T as in Golub and Van Loan, Matrix Computations, 4.1; active set: block principal pivoting of Judice and Pires
-// (1994), whose steps of one row, after Murty (1974), end it where changing all wrong rows at once goes round in a circle.
+// Sources: LDL^T as in Golub and Van Loan, Matrix Computations, 4.1; active set: block principal
+// pivoting of Judice and Pires (1994), whose steps of one row, after Murty (1974), end it where
+// changing all wrong rows at once goes round in a circle.
 #include "engine/solver/dense_system.hpp"
 
 #include <algorithm>
@@ -8,8 +9,9 @@ namespace handhold {
 namespace {
 
 constexpr int k_active_set_changes = 40;  // three or four do nearly always
-constexpr int k_block_changes = 3;        // of all wrong rows at once that may fail to make them fewer
-// Smaller pivots belong to rows that repeat others beyond what alpha tells apart: they get no share.
+constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
+// Smaller pivots belong to rows that repeat others beyond what alpha tells apart: they get no
+// share.
 constexpr double k_smallest_pivot = 1e-14;
 
 // W J^T of one row: how far each unit of lambda moves the two bodies.
@@ -21,7 +23,8 @@ Response response_of(const Row& row, std::span<const SolverBody> bodies,
                      std::span<const Mat3> inverse_inertia_ws) {
     const SolverBody& a = bodies[row.a];
     const SolverBody& b = bodies[row.b];
-    Response out{a.inverse_mass * row.linear_a, Vec3::Zero(), -b.inverse_mass * row.linear_a, Vec3::Zero()};
+    Response out{a.inverse_mass * row.linear_a, Vec3::Zero(), -b.inverse_mass * row.linear_a,
+                 Vec3::Zero()};
     if (a.inverse_mass > 0.0) {
         out.angular_a = inverse_inertia_ws[a.slot] * row.angular_a;
     }
@@ -119,7 +122,8 @@ void DenseSystem::substitute(std::span<const double> values) {
     }
 }
 
-// A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap it.
+// A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
+// it.
 bool DenseSystem::is_wrong(const Row& row, std::size_t index) const {
     constexpr double k_overlap = 1e-10;
     if (!row.unilateral) {

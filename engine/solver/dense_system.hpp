@@ -6,8 +6,9 @@
 
 #include "engine/solver/rows.hpp"
 
-// The normal equations of one island's rows, (J W J^T + diag(alpha)) lambda = -value, factorised densely, with unilateral rows by an
-// active set. Plain loops over doubles in a fixed order: equal bits on every compiler.
+// The normal equations of one island's rows, (J W J^T + diag(alpha)) lambda = -value, factorised
+// densely, with unilateral rows by an active set. Plain loops over doubles in a fixed order: equal
+// bits on every compiler.
 namespace handhold {
 
 class DenseSystem {
@@ -21,8 +22,9 @@ class DenseSystem {
     // Added to the diagonal from now on; one number a row, >= 0.
     std::span<double> alpha() { return alpha_; }
 
-    // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. At most 40 changes of the active set. The result is
-    // valid until the next assemble. Rows that nothing can move (zero diagonal) get lambda 0.
+    // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. At most 40 changes
+    // of the active set. The result is valid until the next assemble. Rows that nothing can move
+    // (zero diagonal) get lambda 0.
     std::span<const double> solve(std::span<const Row> rows);
     // The same factor and active set against other values: for refinement.
     std::span<const double> solve_again(std::span<const double> values);

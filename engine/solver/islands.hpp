@@ -25,10 +25,12 @@ struct ConstraintGraph {
     std::vector<std::uint32_t> island_blocks;  // ascending within an island
 
     std::span<const std::uint32_t> bodies_of(const Island& island) const {
-        return std::span(island_bodies).subspan(island.bodies_begin, island.bodies_end - island.bodies_begin);
+        return std::span(island_bodies)
+            .subspan(island.bodies_begin, island.bodies_end - island.bodies_begin);
     }
     std::span<const std::uint32_t> blocks_of(const Island& island) const {
-        return std::span(island_blocks).subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
+        return std::span(island_blocks)
+            .subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
     }
 
     // Scratch of build_islands.
@@ -42,7 +44,8 @@ std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id);
 // By the bodies' ids, then kind, then key: the order in which rows were found never shows.
 void sort_blocks(std::vector<RowBlock>& blocks);
 
-// Connected components over the bodies that any phase may move: everything but fixed ones. Bodies without a block have no island.
+// Connected components over the bodies that any phase may move: everything but fixed ones. Bodies
+// without a block have no island.
 void build_islands(ConstraintGraph& graph);
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness after Tournier, Nesme,
-// Gilles and Faure, Stable Constrained Dynamics (2015).
+// Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness
+// after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
 #include "engine/solver/newton.hpp"
 
 #include <algorithm>
@@ -11,14 +11,15 @@ namespace {
 
 constexpr double k_softness_cap = 1e-2;
 constexpr double k_softness_floor = 1e-9;
-constexpr double k_contact_alpha = 1e-7;      // of the row's diagonal
-constexpr double k_stiffness_from_m = 1e-4;   // residual above which geometric stiffness is added
-constexpr double k_largest_turn_rad = 1.0;    // of a step
-constexpr double k_smallest_scale = 0.3;      // below: regularise more instead of scaling further
+constexpr double k_contact_alpha = 1e-7;     // of the row's diagonal
+constexpr double k_stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
+constexpr double k_largest_turn_rad = 1.0;   // of a step
+constexpr double k_smallest_scale = 0.3;     // below: regularise more instead of scaling further
 constexpr int k_retries = 3;
 
 bool takes_part(const IslandView& island, const RowBlock& block) {
-    if (island.filter != BlockFilter::all && is_hand(block) != (island.filter == BlockFilter::hands)) {
+    if (island.filter != BlockFilter::all &&
+        is_hand(block) != (island.filter == BlockFilter::hands)) {
         return false;
     }
     return island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0;
@@ -33,23 +34,26 @@ void collect_rows(const IslandView& island, std::vector<Row>& rows) {
     }
 }
 
-// Hand rows come in threes along the world's axes: only the three together say the same however the world is turned.
+// Hand rows come in threes along the world's axes: only the three together say the same however the
+// world is turned.
 double worst_of(std::span<const Row> rows) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size();) {
         if (rows[i].hand) {
-            worst = std::max(worst, Vec3(rows[i].value_m, rows[i + 1].value_m, rows[i + 2].value_m).norm());
+            worst = std::max(
+                worst, Vec3(rows[i].value_m, rows[i + 1].value_m, rows[i + 2].value_m).norm());
             i += 3;
         } else {
-            worst = std::max(worst, rows[i].unilateral ? -rows[i].value_m : std::abs(rows[i].value_m));
+            worst =
+                std::max(worst, rows[i].unilateral ? -rows[i].value_m : std::abs(rows[i].value_m));
             ++i;
         }
     }
     return worst;
 }
 
-// The part of (l.r) I - sym(l r^T) (sign +1) or of its negative (-1) with eigenvalues above zero, in closed form: its
-// eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r.
+// The part of (l.r) I - sym(l r^T) (sign +1) or of its negative (-1) with eigenvalues above zero,
+// in closed form: its eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     const double product = force.norm() * arm.norm();
     if (product < 1e-12) {
@@ -73,7 +77,8 @@ void clear_stiffness(const IslandView& island, SolveScratch& scratch) {
 }
 
 // From the multipliers of the last step. The three rows of a point come one after the other.
-void gather_stiffness(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+void gather_stiffness(const IslandView& island, std::span<const double> lambda,
+                      SolveScratch& scratch) {
     clear_stiffness(island, scratch);
     for (std::size_t i = 0; i + 2 < scratch.rows.size(); ++i) {
         const Row& row = scratch.rows[i];
@@ -131,7 +136,8 @@ void regularise(std::span<const Row> rows, double softness, double factor, Dense
 }
 
 // W J^T lambda by slot; returns the largest turn in radians.
-double gather_moves(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+double gather_moves(const IslandView& island, std::span<const double> lambda,
+                    SolveScratch& scratch) {
     scratch.moves_m.assign(island.island_bodies.size(), Vec3::Zero());
     scratch.turns_rad.assign(island.island_bodies.size(), Vec3::Zero());
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
@@ -168,7 +174,8 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
         const Vec3 turn = scale * scratch.turns_rad[body.slot];
         body.pose_ws.position += move;
         if (turn.squaredNorm() > 0.0) {
-            body.pose_ws.rotation = (rotation_from_vector(turn) * body.pose_ws.rotation).normalized();
+            body.pose_ws.rotation =
+                (rotation_from_vector(turn) * body.pose_ws.rotation).normalized();
         }
         longest = std::max({longest, move.norm(), k_angle_m * turn.norm()});
     }
@@ -218,8 +225,9 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
             break;
         }
         if (result.iterations > 0) {
-            softness = result.residual_m < 0.5 * previous ? std::max(softness * 0.03, k_softness_floor)
-                                                          : std::min(softness * 10.0, k_softness_cap);
+            softness = result.residual_m < 0.5 * previous
+                           ? std::max(softness * 0.03, k_softness_floor)
+                           : std::min(softness * 10.0, k_softness_cap);
             if (result.residual_m > k_stiffness_from_m) {
                 gather_stiffness(island, scratch.lambda, scratch);
             } else {
@@ -256,7 +264,8 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         RowBlock& block = island.blocks[index];
         block.impulse_ws_ns.setZero();
         block.couple_ws_nms.setZero();
-        const bool counts = is_hand(block) || contact_separation_m(island.bodies, block) < settings.touch_m;
+        const bool counts =
+            is_hand(block) || contact_separation_m(island.bodies, block) < settings.touch_m;
         if (counts && takes_part(island, block)) {
             append_rows(island.bodies, block, index, scratch.rows);
         }
@@ -265,7 +274,8 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
     for (const Row& row : scratch.rows) {
         const double speed = normal_velocity(island, row);
         const bool bounces = row.unilateral && speed < -settings.restitution_speed_mps;
-        scratch.approach_mps.push_back(bounces ? island.blocks[row.block].restitution * speed : 0.0);
+        scratch.approach_mps.push_back(bounces ? island.blocks[row.block].restitution * speed
+                                               : 0.0);
     }
 }
 
@@ -285,7 +295,8 @@ void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
-void apply_impulses(const IslandView& island, std::span<const double> lambda, SolveScratch& scratch) {
+void apply_impulses(const IslandView& island, std::span<const double> lambda,
+                    SolveScratch& scratch) {
     gather_moves(island, lambda, scratch);
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
@@ -315,10 +326,12 @@ double worst_speed(std::span<const Row> rows, const DenseSystem& system) {
 
 }  // namespace
 
-void solve_velocities(const IslandView& island, const VelocitySettings& settings, SolveScratch& scratch) {
+void solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                      SolveScratch& scratch) {
     constexpr double k_velocity_softness = 1e-6;
     constexpr double k_speed_tolerance_mps = 1e-10;
-    constexpr int k_refinements = 8;  // each takes the error of regularisation down, by a factor that long levers make small
+    constexpr int k_refinements =
+        8;  // each takes the error of regularisation down, by a factor that long levers make small
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);
     clear_stiffness(island, scratch);
@@ -331,7 +344,8 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
         evaluate_velocity_rows(island, scratch);
         const double worst = worst_speed(scratch.rows, scratch.system);
         if (worst < k_speed_tolerance_mps || worst > 0.5 * previous) {
-            return;  // met, or not to be met: more would only press contradicting rows against each other
+            return;  // met, or not to be met: more would only press contradicting rows against each
+                     // other
         }
         previous = worst;
         scratch.values.clear();

@@ -64,8 +64,8 @@ void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
 double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block) {
     const Pose& a = bodies[block.a].pose_ws;
     const Pose& b = bodies[block.b].pose_ws;
-    const Vec3 apart = (a.position - b.position) +
-                       (a.rotation * block.point_a_bs - b.rotation * block.point_b_bs);
+    const Vec3 apart =
+        (a.position - b.position) + (a.rotation * block.point_a_bs - b.rotation * block.point_b_bs);
     return (b.rotation * block.normal_b_bs).dot(apart);
 }
 
@@ -75,8 +75,9 @@ double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block) 
     }
     const SolverBody& a = bodies[block.a];
     const SolverBody& b = bodies[block.b];
-    const Vec3 apart = (a.pose_ws.position - b.pose_ws.position) +
-                       (a.pose_ws.rotation * block.point_a_bs - b.pose_ws.rotation * block.point_b_bs);
+    const Vec3 apart =
+        (a.pose_ws.position - b.pose_ws.position) +
+        (a.pose_ws.rotation * block.point_a_bs - b.pose_ws.rotation * block.point_b_bs);
     if (block.kind == RowKind::hand_point) {
         return apart.norm();
     }

@@ -6,12 +6,13 @@
 
 #include "engine/math/math.hpp"
 
-// Bodies and constraints as the solver sees them: packed, without entities, in an order that depends on persistent ids only.
+// Bodies and constraints as the solver sees them: packed, without entities, in an order that
+// depends on persistent ids only.
 namespace handhold {
 
 enum class BodyRole : std::uint8_t {
-    fixed,   // static or kinematic: moved by nothing here
-    heavy,   // free, but unmoved by the forward phase
+    fixed,  // static or kinematic: moved by nothing here
+    heavy,  // free, but unmoved by the forward phase
     free,
     player,  // three degrees of freedom: never turns
 };
@@ -19,15 +20,16 @@ enum class BodyRole : std::uint8_t {
 struct SolverBody {
     std::uint64_t id = 0;  // persistent
     BodyRole role = BodyRole::fixed;
-    Pose pose_ws;                           // in/out of every solve
-    Vec3 velocity_mps = Vec3::Zero();       // in/out of solve_velocities
+    Pose pose_ws;                      // in/out of every solve
+    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_velocities
     Vec3 spin_radps = Vec3::Zero();
     double mass_kg = 0.0;
-    Vec3 inertia_kgm2 = Vec3::Zero();       // principal, body axes; zero for players and fixed bodies
-    double restitution = 0.0;               // [0, 1]; the larger of two bodies' counts
-    Vec3 collider_offset_bs = Vec3::Zero(); // its collider's centre: a player's is his head's
+    Vec3 inertia_kgm2 = Vec3::Zero();  // principal, body axes; zero for players and fixed bodies
+    double restitution = 0.0;          // [0, 1]; the larger of two bodies' counts
+    Vec3 collider_offset_bs = Vec3::Zero();  // its collider's centre: a player's is his head's
 
-    // The phase's share of motion: 1/mass, or 0 for what the phase holds still. Written by the phases.
+    // The phase's share of motion: 1/mass, or 0 for what the phase holds still. Written by the
+    // phases.
     double inverse_mass = 0.0;
     Vec3 inverse_inertia_bs = Vec3::Zero();
     std::uint32_t slot = 0;  // place in its island; written by build_islands
@@ -39,49 +41,53 @@ enum class RowKind : std::uint8_t {
     contact,     // 1 row, >= 0: separation along b's normal
 };
 
-// One constraint between two bodies. Hands: a is the player, b what is held. Contacts: a is the free collider, b holds the normal.
+// One constraint between two bodies. Hands: a is the player, b what is held. Contacts: a is the
+// free collider, b holds the normal.
 struct RowBlock {
     RowKind kind = RowKind::contact;
-    std::uint32_t a = 0;                 // into ConstraintGraph::bodies
+    std::uint32_t a = 0;  // into ConstraintGraph::bodies
     std::uint32_t b = 0;
-    std::uint64_t key = 0;               // orders the blocks of one kind between the same bodies: hand's id, contact's feature
+    std::uint64_t key =
+        0;  // orders the blocks of one kind between the same bodies: hand's id, contact's feature
     Vec3 point_a_bs = Vec3::Zero();
     Vec3 point_b_bs = Vec3::Zero();
     Quat rotation_a_bs = Quat::Identity();  // weld: the two that shall be equal in the world
     Quat rotation_b_bs = Quat::Identity();
-    Vec3 normal_b_bs = Vec3::UnitY();       // contact: from b towards a
+    Vec3 normal_b_bs = Vec3::UnitY();           // contact: from b towards a
     Vec3 drive_velocity_ws_mps = Vec3::Zero();  // hands: the tracked hand's own motion against a
     Vec3 drive_spin_ws_radps = Vec3::Zero();
-    double restitution = 0.0;               // contact
+    double restitution = 0.0;  // contact
 
-    double error_m = 0.0;                   // out of solve_positions: as block_error_m
-    Vec3 impulse_ws_ns = Vec3::Zero();      // out of solve_velocities: on a at its point; b gets the opposite
-    Vec3 couple_ws_nms = Vec3::Zero();      // out: on a; b gets the opposite
+    double error_m = 0.0;  // out of solve_positions: as block_error_m
+    Vec3 impulse_ws_ns =
+        Vec3::Zero();  // out of solve_velocities: on a at its point; b gets the opposite
+    Vec3 couple_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite
 };
 inline bool is_hand(const RowBlock& block) { return block.kind != RowKind::contact; }
 
 // Angular errors count as lengths at this lever, metres.
 inline constexpr double k_angle_m = 0.1;
 
-// One scalar equation: value + J dx = 0, or >= 0. J as the parts that belong to a's and b's translation and rotation.
+// One scalar equation: value + J dx = 0, or >= 0. J as the parts that belong to a's and b's
+// translation and rotation.
 struct Row {
     Vec3 linear_a = Vec3::Zero();  // b's linear part is its negative
     Vec3 angular_a = Vec3::Zero();
     Vec3 angular_b = Vec3::Zero();
     double value_m = 0.0;
-    std::uint32_t block = 0;       // into the graph's blocks
-    std::uint32_t a = 0;           // into the graph's bodies
+    std::uint32_t block = 0;  // into the graph's blocks
+    std::uint32_t a = 0;      // into the graph's bodies
     std::uint32_t b = 0;
-    bool unilateral = false;       // value >= 0 is fine
+    bool unilateral = false;  // value >= 0 is fine
     bool hand = false;
 };
 
 // Appends the block's rows at the bodies' present poses.
-void append_rows(std::span<const SolverBody> bodies, const RowBlock& block, std::uint32_t block_index,
-                 std::vector<Row>& rows);
+void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
+                 std::uint32_t block_index, std::vector<Row>& rows);
 
-// The block's error at the present poses, metres: length of the point error or of the angular one times k_angle_m, whichever is
-// larger; a contact's overlap, 0 where it is apart.
+// The block's error at the present poses, metres: length of the point error or of the angular one
+// times k_angle_m, whichever is larger; a contact's overlap, 0 where it is apart.
 double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block);
 // A contact's separation at the present poses; negative: overlap.
 double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block);

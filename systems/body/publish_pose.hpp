@@ -12,18 +12,19 @@
 namespace handhold {
 
 struct PublishPoseIo {
-    const FrameGraph& frame;               // in: push-back
+    const FrameGraph& frame;                    // in: push-back
     const Column<PersistentId>& persistent_id;  // in
-    const Column<PlayerOrigin>& origin;    // in
-    const Column<HeadTracking>& head;      // in
-    const Column<HandOwner>& owner;        // in
-    const Column<HandTracking>& hand;      // in
-    const Column<Grab>& grab;              // in
-    const Column<BodyPose>& body_pose;     // in
-    Column<RenderPose>& render;            // out
+    const Column<PlayerOrigin>& origin;         // in
+    const Column<HeadTracking>& head;           // in
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in
+    const Column<Grab>& grab;                   // in
+    const Column<BodyPose>& body_pose;          // in
+    Column<RenderPose>& render;                 // out
 };
 
-// Stage 16. What a host draws: head and hands in the world; a gripping hand on its anchor, whatever the tracking says.
+// Stage 16. What a host draws: head and hands in the world; a gripping hand on its anchor, whatever
+// the tracking says.
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning);
 
 }  // namespace handhold

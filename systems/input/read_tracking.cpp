@@ -20,14 +20,15 @@ bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end
 // The same for the head and for hands: state and the pose at the end of the frame.
 // `later` is the first pose after the frame's end, or null.
 template <typename Device>
-void finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s, double end_s,
-                   double lost_after_s, StageStats& stats) {
+void finish_device(Device& device, bool has_sample, const Pose* later, double later_t_s,
+                   double end_s, double lost_after_s, StageStats& stats) {
     if (!has_sample && later == nullptr) {
         return;  // never tracked
     }
     const bool first = device.state == TrackingState::never;
     if (!has_sample) {
-        device.sample_ps = *later;  // the session begins between two samples: the later one is yet to come
+        device.sample_ps =
+            *later;  // the session begins between two samples: the later one is yet to come
         device.sample_t_s = end_s;
     }
     if (later == nullptr && end_s - device.sample_t_s > lost_after_s) {
@@ -54,7 +55,8 @@ void remember(HandHistory& history, const HandTracking& hand) {
     history.count = std::min<std::uint32_t>(history.count + 1, HandHistory::k_capacity);
 }
 
-// Least-squares slope of position and rotation over the window before t_s. Two samples give their difference, one gives zero.
+// Least-squares slope of position and rotation over the window before t_s. Two samples give their
+// difference, one gives zero.
 void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand) {
     double weight = 0.0;
     double mean_t = 0.0;
@@ -83,7 +85,8 @@ void measure_release(const HandHistory& history, double t_s, double window_s, Ha
         const double dt = entry.t_s - t_s - mean_t;
         spread += dt * dt;
         linear += dt * (entry.hand_ps.position - hand.edge_ps.position);
-        angular += dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
+        angular +=
+            dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
     });
     if (spread > 1e-12) {
         hand.release_velocity_ps_mps = linear / spread;
@@ -116,7 +119,8 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
     bool has_sample = hand.state != TrackingState::never;
     hand.start_ps = hand.pose_ps;
     hand.edge = GrabEdge::none;
-    const bool may_begin_now = before == TrackingState::tracked || (before == TrackingState::lost && hand.pressed);
+    const bool may_begin_now =
+        before == TrackingState::tracked || (before == TrackingState::lost && hand.pressed);
     if (hand.raw_pressed != hand.pressed && may_begin_now) {
         begin_edge(hand, rows.history, io.frame_start_s, hand.start_ps, tuning);
     }
@@ -149,10 +153,12 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
         // A hand that cannot be seen may let go, but waits with closing until it is seen again.
         const bool may_begin = has_sample && (is_valid(reading.controller_ps) || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
-            begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps, tuning);
+            begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps,
+                       tuning);
         }
     }
-    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
+                  stats);
     hand.resumed = before == TrackingState::lost && hand.state == TrackingState::tracked;
     if (hand.resumed) {
         hand.start_ps = hand.pose_ps;
@@ -186,14 +192,16 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
             has_sample = true;
         }
     }
-    finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s, stats);
+    finish_device(head, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
+                  stats);
 }
 
 // Input of a player whom nothing is known of in this frame: no samples, no commands.
 const PlayerInput& input_of(const ReadTrackingIo& io, Entity player) {
     static const PlayerInput k_silence{};
-    const auto found = std::find_if(io.inputs.begin(), io.inputs.end(),
-                                    [player](const PlayerInput& input) { return input.player == player; });
+    const auto found =
+        std::find_if(io.inputs.begin(), io.inputs.end(),
+                     [player](const PlayerInput& input) { return input.player == player; });
     return found == io.inputs.end() ? k_silence : *found;
 }
 
@@ -214,18 +222,21 @@ Pose default_controller_to_hand(HandSide side, const HandTuning& tuning) {
     const double outward = side == HandSide::right ? 1.0 : -1.0;
     Vec3 offset = tuning.controller_offset_m;
     offset.x() *= outward;
-    // A fist around the handle: the back of the hand faces outward, the fingers' root points along the controller.
+    // A fist around the handle: the back of the hand faces outward, the fingers' root points along
+    // the controller.
     const Quat pitch = rotation_about(Vec3::UnitX(), tuning.controller_pitch_rad);
     const Quat roll = rotation_about(Vec3::UnitZ(), -0.5 * k_half_turn_rad * outward);
     return {offset, (pitch * roll).normalized()};
 }
 
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats) {
-    HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length", io.frame_end_s - io.frame_start_s);
+    HH_CHECK(io.frame_end_s > io.frame_start_s, "the frame has no length",
+             io.frame_end_s - io.frame_start_s);
     const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
                                        default_controller_to_hand(HandSide::right, tuning.hand)};
     for (std::size_t row = 0; row < io.head.size(); ++row) {
-        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row]), io, tuning.tracking, stats);
+        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row]), io, tuning.tracking,
+                  stats);
     }
     for (std::size_t row = 0; row < io.commands.size(); ++row) {
         io.commands.rows()[row] = finite_commands(input_of(io, io.commands.owners()[row]).commands);
@@ -235,7 +246,8 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
         const HandOwner& owner = io.owner.rows()[row];
         const ControllerToHand* const own = io.controller_to_hand.find(entity);
         const HandRows rows{io.hand.at(entity), io.history.at(entity),
-                            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)], owner.side};
+                            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)],
+                            owner.side};
         read_hand(rows, input_of(io, owner.player), io, tuning.tracking, stats);
     }
 }

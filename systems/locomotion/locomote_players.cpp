@@ -38,9 +38,10 @@ void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws)
     origin.pose_ws.position = pivot_ws - origin.pose_ws.rotation * pivot_ps;
 }
 
-Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands, const Quat& play_space,
-                    const LocomotionTuning& tuning) {
-    const double smooth = std::clamp(commands.smooth_turn, -1.0, 1.0) * tuning.smooth_turn_radps * io.dt_s;
+Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands,
+                    const Quat& play_space, const LocomotionTuning& tuning) {
+    const double smooth =
+        std::clamp(commands.smooth_turn, -1.0, 1.0) * tuning.smooth_turn_radps * io.dt_s;
     const double angle = smooth + commands.snap_turns * tuning.snap_turn_rad;
     return rotation_about(play_space * Vec3::UnitY(), angle);
 }
@@ -96,9 +97,11 @@ void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tunin
         const PlayerCommands& commands = io.commands.at(player);
         const HeadTracking& head = io.head.at(player);
         const Grips grips = grips_of(io, player);
-        update_reference(io, grips, transform_point(origin.pose_ws, head.start_ps.position), io.reference.at(player));
+        update_reference(io, grips, transform_point(origin.pose_ws, head.start_ps.position),
+                         io.reference.at(player));
 
-        const Vec3 pivot_ps = grips.count > 0 ? grips.grips[0].hand->start_ps.position : head.start_ps.position;
+        const Vec3 pivot_ps =
+            grips.count > 0 ? grips.grips[0].hand->start_ps.position : head.start_ps.position;
         const Quat play_space = origin.pose_ws.rotation;
         const Quat turn = support_turn(io, grips, play_space, tuning) *
                           commanded_turn(io, commands, play_space, tuning);

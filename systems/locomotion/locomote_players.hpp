@@ -11,23 +11,24 @@
 namespace handhold {
 
 struct LocomotePlayersIo {
-    double dt_s = 0.0;                              // in
-    Vec3 scene_velocity_mps = Vec3::Zero();         // in: reference where nothing was gripped yet
-    const Column<PlayerCommands>& commands;         // in
-    const Column<HeadTracking>& head;               // in
-    const Column<HandOwner>& owner;                 // in
-    const Column<HandTracking>& hand;               // in
-    const Column<Grab>& grab;                       // in
-    const Column<BodyPose>& body_pose;              // in: at the start of the frame
-    const Column<BodyVelocity>& body_velocity;      // in
-    Column<PlayerOrigin>& origin;                   // in/out: turned about the gripping hand, else the head
-    Column<PlayerVelocity>& velocity;               // in/out
-    Column<ReferenceVelocity>& reference;           // in/out
+    double dt_s = 0.0;                          // in
+    Vec3 scene_velocity_mps = Vec3::Zero();     // in: reference where nothing was gripped yet
+    const Column<PlayerCommands>& commands;     // in
+    const Column<HeadTracking>& head;           // in
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in
+    const Column<Grab>& grab;                   // in
+    const Column<BodyPose>& body_pose;          // in: at the start of the frame
+    const Column<BodyVelocity>& body_velocity;  // in
+    Column<PlayerOrigin>& origin;          // in/out: turned about the gripping hand, else the head
+    Column<PlayerVelocity>& velocity;      // in/out
+    Column<ReferenceVelocity>& reference;  // in/out
 };
 
-// Stage 2b. All that moves a player by his own intent: snap and smooth turns, brake, thrusters; and what moves his frame of
-// mind: the reference velocity, and, where asked for, the play space's turning with a support. Two hands on one turning body make
-// the play space follow it fully, whatever the setting: two fixed points allow no other motion.
+// Stage 2b. All that moves a player by his own intent: snap and smooth turns, brake, thrusters; and
+// what moves his frame of mind: the reference velocity, and, where asked for, the play space's
+// turning with a support. Two hands on one turning body make the play space follow it fully,
+// whatever the setting: two fixed points allow no other motion.
 void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tuning);
 
 }  // namespace handhold

@@ -16,7 +16,9 @@ struct Instant {
     Pose origin_ws(Entity player) const {
         return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);
     }
-    Pose hand_ps(const HandTracking& hand) const { return interpolate(hand.start_ps, hand.pose_ps, t); }
+    Pose hand_ps(const HandTracking& hand) const {
+        return interpolate(hand.start_ps, hand.pose_ps, t);
+    }
 };
 
 double fraction_of(const SettleGrabsIo& io, double t_s) {
@@ -34,13 +36,16 @@ std::size_t other_hand(const SettleGrabsIo& io, std::size_t row) {
     return io.grab.size();
 }
 
-// The player's origin at an instant: from a hand that already holds on to something fixed, exact; else on the predicted way.
-Pose origin_at(const Instant& now, Entity player, const Grab* holding, const HandTracking* holding_hand) {
+// The player's origin at an instant: from a hand that already holds on to something fixed, exact;
+// else on the predicted way.
+Pose origin_at(const Instant& now, Entity player, const Grab* holding,
+               const HandTracking* holding_hand) {
     Pose origin_ws = now.origin_ws(player);
     // A hand that was lost until now may have jumped: what it holds says nothing.
-    if (holding != nullptr && holding->kind == GripKind::surface && holding->phase == GrabPhase::holding &&
-        !holding_hand->resumed) {
-        const Vec3 anchor_ws = transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
+    if (holding != nullptr && holding->kind == GripKind::surface &&
+        holding->phase == GrabPhase::holding && !holding_hand->resumed) {
+        const Vec3 anchor_ws =
+            transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
         origin_ws.position = anchor_ws - origin_ws.rotation * now.hand_ps(*holding_hand).position;
     }
     return origin_ws;
@@ -58,7 +63,8 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
         grab.target_spin_ps_radps = hand.release_spin_ps_radps;
         grab.target_ps.position = hand.edge_ps.position + rest_s * hand.release_velocity_ps_mps;
         grab.target_ps.rotation =
-            (rotation_from_vector(rest_s * hand.release_spin_ps_radps) * hand.edge_ps.rotation).normalized();
+            (rotation_from_vector(rest_s * hand.release_spin_ps_radps) * hand.edge_ps.rotation)
+                .normalized();
         return;
     }
     grab.target_ps = hand.pose_ps;
@@ -73,14 +79,16 @@ bool share_hold(const Grab& a, const Grab& b) {
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
-// The leaving hand drops its row now; the staying one starts afresh from where the pair had put the player (or the body).
-void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTracking& leaving_hand, Grab& staying,
-                       const HandTracking& staying_hand, Entity player) {
+// The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
+// player (or the body).
+void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTracking& leaving_hand,
+                       Grab& staying, const HandTracking& staying_hand, Entity player) {
     const Instant now{io, fraction_of(io, leaving_hand.edge_t_s)};
     Pose origin_ws = now.origin_ws(player);
     if (staying.kind == GripKind::surface) {
         const auto held_origin = [&](const Grab& grab, const Vec3& hand_ps) -> Vec3 {
-            return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) - origin_ws.rotation * hand_ps;
+            return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) -
+                   origin_ws.rotation * hand_ps;
         };
         const Vec3 from_staying = held_origin(staying, now.hand_ps(staying_hand).position);
         const Vec3 from_leaving = held_origin(leaving, leaving_hand.edge_ps.position);
@@ -90,7 +98,8 @@ void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTrackin
     leaving = {};
 }
 
-// A grip, its hand and the same player's other ones; the other grip is null where there is no other hand.
+// A grip, its hand and the same player's other ones; the other grip is null where there is no other
+// hand.
 struct HandPair {
     Grab& grab;
     const HandTracking& hand;
@@ -101,7 +110,8 @@ struct HandPair {
 
 HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
     const Entity entity = io.grab.owners()[row];
-    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr, io.owner.at(entity).player};
+    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr,
+                  io.owner.at(entity).player};
     if (const std::size_t other = other_hand(io, row); other < io.grab.size()) {
         pair.other = &io.grab.rows()[other];
         pair.other_hand = &io.hand.at(io.grab.owners()[other]);
@@ -111,14 +121,16 @@ HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
 
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const Instant now{io, fraction_of(io, pair.hand.edge_t_s)};
-    take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.edge_ps, pair.grab);
+    take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.edge_ps,
+                pair.grab);
     pair.grab.phase = GrabPhase::holding;
 }
 
 }  // namespace
 
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
-    // New grips before anything leaves, the earlier edge first: which hand is listed first never shows.
+    // New grips before anything leaves, the earlier edge first: which hand is listed first never
+    // shows.
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.grab.phase != GrabPhase::fresh) {
@@ -142,9 +154,11 @@ void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
             stats.count(Fallback::hand_left_two_hand_grip);
             continue;
         }
-        if (grab.phase == GrabPhase::holding && pair.hand.resumed && pair.hand.edge != GrabEdge::onset) {
+        if (grab.phase == GrabPhase::holding && pair.hand.resumed &&
+            pair.hand.edge != GrabEdge::onset) {
             const Instant now{io, 0.0};
-            take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.pose_ps, grab);
+            take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand),
+                        pair.hand.pose_ps, grab);
             stats.count(Fallback::grip_reanchored);
         }
         aim(io, pair.hand, grab);

@@ -10,22 +10,24 @@
 namespace handhold {
 
 struct SettleGrabsIo {
-    double start_s = 0.0;                       // in: the frame
+    double start_s = 0.0;  // in: the frame
     double end_s = 0.0;
-    const Column<HandOwner>& owner;             // in
-    const Column<HandTracking>& hand;           // in
-    const Column<PlayerStart>& player_start;    // in
-    const Column<PlayerOrigin>& origin;         // in: predicted
-    const Column<BodyStart>& body_start;        // in
-    const Column<BodyPose>& body_pose;          // in: predicted
-    Column<Grab>& grab;                         // in/out: anchor, target, phase
+    const Column<HandOwner>& owner;           // in
+    const Column<HandTracking>& hand;         // in
+    const Column<PlayerStart>& player_start;  // in
+    const Column<PlayerOrigin>& origin;       // in: predicted
+    const Column<BodyStart>& body_start;      // in
+    const Column<BodyPose>& body_pose;        // in: predicted
+    Column<Grab>& grab;                       // in/out: anchor, target, phase
 };
 
-// Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are interpolated, so that a path does not
-// depend on the frame rate:
-//  - a new grab's anchor is the tracked hand, in the body's frame, at the instant of the edge: zero residual, no jump;
+// Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
+// interpolated, so that a path does not depend on the frame rate:
+//  - a new grab's anchor is the tracked hand, in the body's frame, at the instant of the edge: zero
+//  residual, no jump;
 //  - a hand that lets go carries on with its release velocity to the frame's end, and is free then;
-//  - where one of a player's two hands on fixed things, or on one body, lets go, it leaves at once and the other's anchor is taken anew
+//  - where one of a player's two hands on fixed things, or on one body, lets go, it leaves at once
+//  and the other's anchor is taken anew
 //    where that hand is: no throw, no jump. The same where a gripping hand's tracking comes back.
 // Also sets what the hand's constraint aims at in this frame.
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats);

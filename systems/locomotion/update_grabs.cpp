@@ -26,7 +26,8 @@ Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
     return k_no_entity;
 }
 
-// The first body that a query finds. Heads are colliders too, but nothing to hold on to: it is asked again without them.
+// The first body that a query finds. Heads are colliders too, but nothing to hold on to: it is
+// asked again without them.
 template <typename Query>
 std::optional<Surface> first_body(const UpdateGrabsIo& io, Query&& query) {
     std::array<std::uint64_t, 8> heads{};
@@ -46,7 +47,8 @@ std::optional<Surface> first_body(const UpdateGrabsIo& io, Query&& query) {
     }
 }
 
-std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray, const HandTuning& tuning) {
+std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray,
+                                    const HandTuning& tuning) {
     const auto hit = first_body(io, [&](std::span<const std::uint64_t> skip) {
         return io.collision.cast_ray(ray.from_ws, ray.to_ws, skip);
     });
@@ -59,7 +61,8 @@ std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray,
 }
 
 GripKind grip_kind(const RigidBody& body, const PhaseTuning& tuning) {
-    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg ? GripKind::held : GripKind::surface;
+    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg ? GripKind::held
+                                                                              : GripKind::surface;
 }
 
 void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
@@ -75,8 +78,8 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     *place = body;
 }
 
-void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand, Grab& grab,
-                const Tuning& tuning, StageStats& stats) {
+void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand,
+                Grab& grab, const Tuning& tuning, StageStats& stats) {
     ++stats.grab_onsets;
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
     const auto surface = find_surface(io, palm_ray(hand_ws, owner.side, tuning.hand), tuning.hand);

@@ -12,20 +12,21 @@
 namespace handhold {
 
 struct UpdateGrabsIo {
-    const CollisionWorld& collision;              // in: colliders at the start of the frame
-    const Column<PersistentId>& persistent_id;    // in
-    const Column<HandOwner>& owner;               // in
-    const Column<HandTracking>& hand;             // in: edges
-    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
-    const Column<RigidBody>& body;                // in
-    const Column<BodyPose>& body_pose;            // in: at the start of the frame
-    Column<Grab>& grab;                           // in/out
-    Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
+    const CollisionWorld& collision;            // in: colliders at the start of the frame
+    const Column<PersistentId>& persistent_id;  // in
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in: edges
+    const Column<PlayerOrigin>& origin;         // in: at the start of the frame
+    const Column<RigidBody>& body;              // in
+    const Column<BodyPose>& body_pose;          // in: at the start of the frame
+    Column<Grab>& grab;                         // in/out
+    Column<HeadIgnores>& head_ignores;          // in/out: held bodies are added
 };
 
-// Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through it; where that meets nothing,
-// for the nearest surface within reach of the palm: any surface, from any angle. Hands that open, that are stretched too far, or
-// whose body is gone let go. Talk rows 2, 3.
+// Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
+// it; where that meets nothing, for the nearest surface within reach of the palm: any surface, from
+// any angle. Hands that open, that are stretched too far, or whose body is gone let go. Talk rows
+// 2, 3.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -17,14 +17,16 @@ Pose mover_pose(const Mover& mover, double t_s) {
         pose.position += velocity * t_s;
         return pose;
     }
-    // The integral of the turning velocity: its part along the axis goes straight, the rest runs round a circle. From half the angle,
-    // since 1 - cosine loses its digits where the spin is slow.
+    // The integral of the turning velocity: its part along the axis goes straight, the rest runs
+    // round a circle. From half the angle, since 1 - cosine loses its digits where the spin is
+    // slow.
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(0.5 * rate * t_s, sine, cosine);
     const Vec3 along = axis * axis.dot(velocity);
     const Vec3 across = velocity - along;
-    pose.position += along * t_s + (2.0 * sine / rate) * (across * cosine + axis.cross(across) * sine);
+    pose.position +=
+        along * t_s + (2.0 * sine / rate) * (across * cosine + axis.cross(across) * sine);
     return pose;
 }
 

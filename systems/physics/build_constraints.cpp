@@ -74,13 +74,14 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         if (a == frame.graph.bodies.size() || b == frame.graph.bodies.size()) {
             continue;  // a body whose collider was taken away holds nothing
         }
-        RowBlock block =
-            hand_block(grab, frame.graph.bodies[a].pose_ws.rotation, io.persistent_id.at(hand).value);
+        RowBlock block = hand_block(grab, frame.graph.bodies[a].pose_ws.rotation,
+                                    io.persistent_id.at(hand).value);
         block.a = static_cast<std::uint32_t>(a);
         block.b = static_cast<std::uint32_t>(b);
         frame.graph.blocks.push_back(block);
         if (grab.kind == GripKind::held) {
-            // 1/kappa: 0 for what is light, 1 where momentum is exchanged exactly. The heaviest thing held counts.
+            // 1/kappa: 0 for what is light, 1 where momentum is exchanged exactly. The heaviest
+            // thing held counts.
             const double share =
                 smooth_step(frame.graph.bodies[b].mass_kg, tuning.kappa_light_kg,
                             std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));

@@ -11,20 +11,21 @@
 namespace handhold {
 
 struct BuildConstraintsIo {
-    const Column<PersistentId>& persistent_id;  // in
-    const Column<RigidBody>& body;              // in
-    const Column<BodyPose>& body_pose;          // in: predicted
-    const Column<BodyVelocity>& body_velocity;  // in
-    const Column<PlayerBody>& player;           // in
-    const Column<PlayerOrigin>& origin;         // in: predicted
+    const Column<PersistentId>& persistent_id;      // in
+    const Column<RigidBody>& body;                  // in
+    const Column<BodyPose>& body_pose;              // in: predicted
+    const Column<BodyVelocity>& body_velocity;      // in
+    const Column<PlayerBody>& player;               // in
+    const Column<PlayerOrigin>& origin;             // in: predicted
     const Column<PlayerVelocity>& player_velocity;  // in
-    const Column<HeadTracking>& head;           // in
-    const Column<HandOwner>& owner;             // in
-    const Column<Grab>& grab;                   // in: settled
-    FrameGraph& frame;                          // in: proxies, entities, contacts; out: graph, phase
+    const Column<HeadTracking>& head;               // in
+    const Column<HandOwner>& owner;                 // in
+    const Column<Grab>& grab;                       // in: settled
+    FrameGraph& frame;  // in: proxies, entities, contacts; out: graph, phase
 };
 
-// Stage 5. The frame as the solver sees it: one solver body a collider, hand rows for what is gripped, contact rows, islands.
+// Stage 5. The frame as the solver sees it: one solver body a collider, hand rows for what is
+// gripped, contact rows, islands.
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

@@ -16,13 +16,14 @@ struct FindContactsIo {
     const Column<HeadTracking>& head;           // in: a head that was never tracked touches nothing
     const Column<HandOwner>& owner;             // in
     const Column<Grab>& grab;                   // in
-    CollisionWorld& collision;                  // in/out: proxies at the predicted poses; gets the ignored pairs
-    Column<HeadIgnores>& head_ignores;          // in/out: bodies let go that are apart from the head are dropped
-    FrameGraph& frame;                          // out: contacts, ignored
+    CollisionWorld& collision;  // in/out: proxies at the predicted poses; gets the ignored pairs
+    Column<HeadIgnores>&
+        head_ignores;   // in/out: bodies let go that are apart from the head are dropped
+    FrameGraph& frame;  // out: contacts, ignored
 };
 
-// Stage 4. Contacts of all colliders at the predicted poses, made afresh; without those between a head and what its player's hands
-// hold, or have let go and are not yet clear of.
+// Stage 4. Contacts of all colliders at the predicted poses, made afresh; without those between a
+// head and what its player's hands hold, or have let go and are not yet clear of.
 void find_contacts(const FindContactsIo& io, const ContactTuning& tuning);
 
 }  // namespace handhold

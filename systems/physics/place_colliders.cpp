@@ -12,7 +12,8 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
     proxy.id = io.persistent_id.at(entity).value;
     proxy.shape = io.collider.at(entity).shape;
     if (const PlayerOrigin* const origin = io.origin.find(entity)) {
-        proxy.to_ws = origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
+        proxy.to_ws =
+            origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         const LastValidPose& valid = io.last_valid.at(entity);
         proxy.from_ws = valid.known ? valid.pose_ws : proxy.to_ws;
         proxy.free = true;
@@ -20,7 +21,8 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
     }
     proxy.to_ws = io.body_pose.at(entity).pose_ws;
     proxy.free = io.body.at(entity).kind == BodyKind::free;
-    proxy.from_ws = proxy.free ? io.last_valid.at(entity).pose_ws : io.body_start.at(entity).pose_ws;
+    proxy.from_ws =
+        proxy.free ? io.last_valid.at(entity).pose_ws : io.body_start.at(entity).pose_ws;
     return proxy;
 }
 

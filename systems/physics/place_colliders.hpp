@@ -23,8 +23,8 @@ struct PlaceCollidersIo {
     FrameGraph& frame;                          // out: proxies, entities
 };
 
-// Brings every collider to the collision world, sorted by persistent id: from its last valid pose to its present one. Players are
-// the spheres of their heads, at the end of the frame.
+// Brings every collider to the collision world, sorted by persistent id: from its last valid pose
+// to its present one. Players are the spheres of their heads, at the end of the frame.
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 
 }  // namespace handhold

@@ -9,10 +9,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_violated_m = 2e-7;      // twice the solver's tolerance: what a solved phase leaves is no violation
-constexpr double k_touching_m = 1e-5;       // contacts closer than this may be what holds something up
-constexpr double k_moved_m = 1e-5;         // colliders that moved less keep their contacts
-constexpr double k_new_overlap_m = 2e-5;   // a contact found on a phase's result counts from here: Bullet's own noise is below
+constexpr double k_violated_m =
+    2e-7;  // twice the solver's tolerance: what a solved phase leaves is no violation
+constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
+constexpr double k_moved_m = 1e-5;     // colliders that moved less keep their contacts
+constexpr double k_new_overlap_m =
+    2e-5;  // a contact found on a phase's result counts from here: Bullet's own noise is below
 constexpr double k_hand_softness = 1e-6;
 constexpr double k_forward_hand_softness = 1e-3;
 
@@ -27,7 +29,8 @@ struct Solve {
     FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
 };
 
-// --- What each island looks like -------------------------------------------------------------------------------------
+// --- What each island looks like
+// -------------------------------------------------------------------------------------
 
 bool has_role(const Solve& s, const Island& island, BodyRole role) {
     return std::ranges::any_of(s.graph().bodies_of(island),
@@ -45,7 +48,8 @@ double worst_error(const Solve& s, const Island& island, BlockFilter filter) {
     return worst;
 }
 
-// True where the island has two players, or holds on to or presses against something that the forward phase cannot move.
+// True where the island has two players, or holds on to or presses against something that the
+// forward phase cannot move.
 bool may_push(const Solve& s, const Island& island) {
     const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
         return s.graph().bodies[i].role == BodyRole::player;
@@ -54,7 +58,8 @@ bool may_push(const Solve& s, const Island& island) {
         return false;
     }
     const auto is_unmoved = [&](std::uint32_t i) {
-        return s.graph().bodies[i].role == BodyRole::fixed || s.graph().bodies[i].role == BodyRole::heavy;
+        return s.graph().bodies[i].role == BodyRole::fixed ||
+               s.graph().bodies[i].role == BodyRole::heavy;
     };
     return players > 1 || std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
                const RowBlock& block = s.graph().blocks[i];
@@ -64,23 +69,32 @@ bool may_push(const Solve& s, const Island& island) {
            });
 }
 
-// --- Masses of a phase -----------------------------------------------------------------------------------------------
+// --- Masses of a phase
+// -----------------------------------------------------------------------------------------------
 
 // How much of 1/mass a body has in a phase.
 double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase phase) {
     const SolverBody& body = s.graph().bodies[index];
     const FrameGraph::PhaseBody& info = s.phase_of(index);
     switch (body.role) {
-        case BodyRole::fixed: return 0.0;
-        case BodyRole::free: return 1.0;
-        case BodyRole::heavy: return phase == Phase::forward ? 0.0 : 1.0;
-        case BodyRole::player: break;
+        case BodyRole::fixed:
+            return 0.0;
+        case BodyRole::free:
+            return 1.0;
+        case BodyRole::heavy:
+            return phase == Phase::forward ? 0.0 : 1.0;
+        case BodyRole::player:
+            break;
     }
     switch (phase) {
-        case Phase::reach: return info.grips_surface ? 1.0 : info.forward_share;
-        case Phase::forward: return info.grips_surface ? 0.0 : info.forward_share;
-        case Phase::backward: return 1.0;
-        case Phase::contradiction: break;
+        case Phase::reach:
+            return info.grips_surface ? 1.0 : info.forward_share;
+        case Phase::forward:
+            return info.grips_surface ? 0.0 : info.forward_share;
+        case Phase::backward:
+            return 1.0;
+        case Phase::contradiction:
+            break;
     }
     // Without hands only his own collider moves him.
     const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
@@ -102,7 +116,8 @@ void set_masses(const Solve& s, const Island& island, Phase phase) {
     }
 }
 
-// --- Solving many islands --------------------------------------------------------------------------------------------
+// --- Solving many islands
+// --------------------------------------------------------------------------------------------
 
 NewtonSettings settings_of(const Solve& s, Phase phase) {
     const SolverTuning& tuning = s.tuning.solver;
@@ -112,13 +127,17 @@ NewtonSettings settings_of(const Solve& s, Phase phase) {
 
 BlockFilter filter_of(Phase phase) {
     switch (phase) {
-        case Phase::reach: return BlockFilter::hands;
-        case Phase::contradiction: return BlockFilter::contacts;
-        default: return BlockFilter::all;
+        case Phase::reach:
+            return BlockFilter::hands;
+        case Phase::contradiction:
+            return BlockFilter::contacts;
+        default:
+            return BlockFilter::all;
     }
 }
 
-// Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no body: who solves which never shows.
+// Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no
+// body: who solves which never shows.
 template <typename Wanted>
 std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     FrameGraph& frame = s.io.frame;
@@ -129,10 +148,13 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
             frame.island_order.push_back(i);
         }
     }
-    const auto size_of = [&graph](std::uint32_t i) { return graph.blocks_of(graph.islands[i]).size(); };
-    std::sort(frame.island_order.begin(), frame.island_order.end(), [&](std::uint32_t x, std::uint32_t y) {
-        return size_of(x) != size_of(y) ? size_of(x) > size_of(y) : x < y;
-    });
+    const auto size_of = [&graph](std::uint32_t i) {
+        return graph.blocks_of(graph.islands[i]).size();
+    };
+    std::sort(frame.island_order.begin(), frame.island_order.end(),
+              [&](std::uint32_t x, std::uint32_t y) {
+                  return size_of(x) != size_of(y) ? size_of(x) > size_of(y) : x < y;
+              });
     if (frame.island_scratch.size() < frame.island_order.size()) {
         frame.island_scratch.resize(frame.island_order.size());
     }
@@ -153,9 +175,11 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return frame.island_order.size();
 }
 
-// --- Contacts on a phase's result ------------------------------------------------------------------------------------
+// --- Contacts on a phase's result
+// ------------------------------------------------------------------------------------
 
-// Moves the proxies after the solver's bodies; true where any went farther than contacts stay good for.
+// Moves the proxies after the solver's bodies; true where any went farther than contacts stay good
+// for.
 bool move_proxies(const Solve& s) {
     bool moved = false;
     for (std::size_t i = 0; i < s.graph().bodies.size(); ++i) {
@@ -174,14 +198,18 @@ bool move_proxies(const Solve& s) {
     return moved;
 }
 
-bool is_same_pair(const ContactPoint& x, const ContactPoint& y) { return x.id_a == y.id_a && x.id_b == y.id_b; }
+bool is_same_pair(const ContactPoint& x, const ContactPoint& y) {
+    return x.id_a == y.id_a && x.id_b == y.id_b;
+}
 
-// New contacts replace the old ones of their pairs; old pairs that are no longer near stay, they hold back what they held back.
+// New contacts replace the old ones of their pairs; old pairs that are no longer near stay, they
+// hold back what they held back.
 void merge_contacts(FrameGraph& frame) {
     const auto first_fresh = static_cast<std::ptrdiff_t>(frame.fresh_contacts.size());
     for (const ContactPoint& old : frame.contacts) {
-        const bool replaced = std::any_of(frame.fresh_contacts.begin(), frame.fresh_contacts.begin() + first_fresh,
-                                          [&old](const ContactPoint& fresh) { return is_same_pair(old, fresh); });
+        const bool replaced =
+            std::any_of(frame.fresh_contacts.begin(), frame.fresh_contacts.begin() + first_fresh,
+                        [&old](const ContactPoint& fresh) { return is_same_pair(old, fresh); });
         if (!replaced) {
             frame.fresh_contacts.push_back(old);
         }
@@ -189,7 +217,8 @@ void merge_contacts(FrameGraph& frame) {
     std::swap(frame.contacts, frame.fresh_contacts);
 }
 
-// Finds contacts where the phase left everything. True where some overlap, so that the phase has to be solved again with them.
+// Finds contacts where the phase left everything. True where some overlap, so that the phase has to
+// be solved again with them.
 bool refresh_contacts(const Solve& s) {
     FrameGraph& frame = s.io.frame;
     if (!move_proxies(s)) {
@@ -197,10 +226,11 @@ bool refresh_contacts(const Solve& s) {
     }
     ++s.stats.contact_rounds;
     s.io.collision.set_proxies(frame.proxies);
-    s.io.collision.find_contacts({s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, frame.fresh_contacts);
-    const bool overlaps = std::ranges::any_of(frame.fresh_contacts, [](const ContactPoint& contact) {
-        return contact.separation_m < -k_new_overlap_m;
-    });
+    s.io.collision.find_contacts({s.tuning.contact.margin_m, s.tuning.contact.sweep_m},
+                                 frame.fresh_contacts);
+    const bool overlaps = std::ranges::any_of(
+        frame.fresh_contacts,
+        [](const ContactPoint& contact) { return contact.separation_m < -k_new_overlap_m; });
     merge_contacts(frame);
     replace_contact_rows(frame.contacts, s.graph());
     return overlaps;
@@ -217,7 +247,8 @@ void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     s.stats.count(Fallback::contact_rounds_exhausted);
 }
 
-// --- The phases ------------------------------------------------------------------------------------------------------
+// --- The phases
+// ------------------------------------------------------------------------------------------------------
 
 void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
@@ -260,7 +291,8 @@ void prepare_backward(const Solve& s) {
 }
 
 bool is_pushed(const Solve& s, const Island& island) {
-    return std::ranges::any_of(s.graph().bodies_of(island), [&](std::uint32_t i) { return s.phase_of(i).pushed; });
+    return std::ranges::any_of(s.graph().bodies_of(island),
+                               [&](std::uint32_t i) { return s.phase_of(i).pushed; });
 }
 
 void backward(const Solve& s) {
@@ -288,7 +320,8 @@ void contradiction(const Solve& s) {
     solve_rounds(s, Phase::contradiction, wanted);
 }
 
-// --- Results ---------------------------------------------------------------------------------------------------------
+// --- Results
+// ---------------------------------------------------------------------------------------------------------
 
 void write_poses(const Solve& s) {
     for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
@@ -296,7 +329,8 @@ void write_poses(const Solve& s) {
         const Entity entity = s.io.frame.entities[i];
         if (body.role == BodyRole::player) {
             s.io.origin.at(entity).pose_ws.position = body.pose_ws.position;
-            s.phase_of(i).push_back_m = (body.pose_ws.position - s.phase_of(i).reached_ws.position).norm();
+            s.phase_of(i).push_back_m =
+                (body.pose_ws.position - s.phase_of(i).reached_ws.position).norm();
         } else if (body.role != BodyRole::fixed) {
             s.io.body_pose.at(entity).pose_ws = body.pose_ws;
         }

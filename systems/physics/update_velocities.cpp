@@ -8,13 +8,16 @@
 namespace handhold {
 namespace {
 
-constexpr double k_valid_overlap_m = 1e-4;  // colliders deeper in something are not where the next sweep may begin
+constexpr double k_valid_overlap_m =
+    1e-4;  // colliders deeper in something are not where the next sweep may begin
 
 bool has_hand(const ConstraintGraph& graph, const Island& island) {
-    return std::ranges::any_of(graph.blocks_of(island), [&](std::uint32_t i) { return is_hand(graph.blocks[i]); });
+    return std::ranges::any_of(graph.blocks_of(island),
+                               [&](std::uint32_t i) { return is_hand(graph.blocks[i]); });
 }
 
-// Momentum is exchanged by the masses of the phase that moved the island: true ones where it was pushed or holds on to something fixed.
+// Momentum is exchanged by the masses of the phase that moved the island: true ones where it was
+// pushed or holds on to something fixed.
 void set_masses(FrameGraph& frame, const Island& island) {
     const bool reached = has_hand(frame.graph, island);
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
@@ -44,26 +47,29 @@ void solve_islands(FrameGraph& frame, const ContactTuning& tuning) {
         set_masses(frame, island);
         const IslandView view{BlockFilter::all, graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        solve_velocities(view, {k_valid_overlap_m, tuning.restitution_speed_mps}, frame.island_scratch[i]);
+        solve_velocities(view, {k_valid_overlap_m, tuning.restitution_speed_mps},
+                         frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);
 }
 
-void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec3& linear, const Vec3& angular) {
+void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec3& linear,
+            const Vec3& angular) {
     ledger.linear_kgmps[receiver] += linear;
     ledger.angular_kgm2ps[receiver] += angular;
 }
 
 // One side of a row's impulse, by who takes it.
-void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse, const Vec3& couple,
-                  MomentumLedger& ledger) {
+void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse,
+                  const Vec3& couple, MomentumLedger& ledger) {
     const Vec3 angular = point_ws.cross(impulse) + couple;
     if (body.role != BodyRole::player) {
         const bool moves = body.inverse_mass > 0.0;
         add_to(ledger, moves ? MomentumLedger::objects : MomentumLedger::statics, impulse, angular);
         return;
     }
-    // The play space cannot turn and may be heavier than its player: what does not become his own momentum is the virtual player's.
+    // The play space cannot turn and may be heavier than its player: what does not become his own
+    // momentum is the virtual player's.
     const Vec3 own = (body.inverse_mass * body.mass_kg) * impulse;
     const Vec3 own_angular = body.pose_ws.position.cross(own);
     add_to(ledger, MomentumLedger::players, own, own_angular);
@@ -119,7 +125,8 @@ void clamp_pushed(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning, 
     }
 }
 
-void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
+void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
+                     StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];
         if (grab.phase != GrabPhase::releasing) {
@@ -129,9 +136,11 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
         const Vec3& reference = io.reference.at(player).linear_mps;
         bool clamped = false;
         if (grab.kind == GripKind::held) {
-            clamped = clamp_speed(reference, tuning.object_speed_max_mps, io.body_velocity.at(grab.body).linear_mps);
+            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
+                                  io.body_velocity.at(grab.body).linear_mps);
         } else {
-            clamped = clamp_speed(reference, tuning.release_speed_max_mps, io.player_velocity.at(player).linear_mps);
+            clamped = clamp_speed(reference, tuning.release_speed_max_mps,
+                                  io.player_velocity.at(player).linear_mps);
         }
         if (clamped) {
             stats.count(Fallback::release_speed_clamped);

@@ -24,13 +24,14 @@ void run_frames(benchmark::State& state, const char* name) {
         FrameCaches caches(*scene.shapes);
         std::vector<PlayerEntities> entities;
         for (std::size_t i = 0; i < players; ++i) {
-            entities.push_back(add_scene_player(
-                scene, {"player" + std::to_string(i), scene.spawns[i % scene.spawns.size()].pose_ws, 80.0}));
+            entities.push_back(
+                add_scene_player(scene, {"player" + std::to_string(i),
+                                         scene.spawns[i % scene.spawns.size()].pose_ws, 80.0}));
         }
         const RunLog log = run_session(scene, caches, entities, &recording, {90.0, 0.0, 1});
         for (const FrameLog& frame : log.frames) {
-            std::transform(frame.stats.stage_us.begin(), frame.stats.stage_us.end(), sum.stage_us.begin(),
-                           sum.stage_us.begin(), std::plus<>());
+            std::transform(frame.stats.stage_us.begin(), frame.stats.stage_us.end(),
+                           sum.stage_us.begin(), sum.stage_us.begin(), std::plus<>());
         }
         frames += static_cast<double>(log.frames.size());
         state.SetIterationTime(log.wall_s);
@@ -39,15 +40,25 @@ void run_frames(benchmark::State& state, const char* name) {
         std::accumulate(sum.stage_us.begin(), sum.stage_us.end(), 0.0) / frames;
     state.counters["players_per_frame"] = static_cast<double>(players);
     for (std::size_t stage = 0; stage < sum.stage_us.size(); ++stage) {
-        state.counters[std::string("us_") + name_of(static_cast<Stage>(stage))] = sum.stage_us[stage] / frames;
+        state.counters[std::string("us_") + name_of(static_cast<Stage>(stage))] =
+            sum.stage_us[stage] / frames;
     }
 }
 
 void station_session(benchmark::State& state) { run_frames(state, "station"); }
 void ship_session(benchmark::State& state) { run_frames(state, "ship"); }
 
-BENCHMARK(station_session)->Name("frame/station_session")->Arg(1)->Arg(10)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(ship_session)->Name("frame/ship_session")->Arg(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(station_session)
+    ->Name("frame/station_session")
+    ->Arg(1)
+    ->Arg(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(ship_session)
+    ->Name("frame/ship_session")
+    ->Arg(1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace handhold

@@ -1,5 +1,3 @@
-#include "engine/solver/islands.hpp"
-
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -10,6 +8,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/solver/contact_rows.hpp"
+#include "engine/solver/islands.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold {
@@ -17,22 +16,28 @@ namespace {
 
 using test::Random;
 
-std::uint32_t below(std::size_t count, Random& random) { return static_cast<std::uint32_t>(random.engine()() % count); }
+std::uint32_t below(std::size_t count, Random& random) {
+    return static_cast<std::uint32_t>(random.engine()() % count);
+}
 
-// Bodies with ids that are sorted but not dense; about one in four is fixed. No block joins two fixed ones, as in a frame.
+// Bodies with ids that are sorted but not dense; about one in four is fixed. No block joins two
+// fixed ones, as in a frame.
 ConstraintGraph random_graph(Random& random) {
     ConstraintGraph graph;
     const std::uint32_t bodies = 2 + below(30, random);
     for (std::uint32_t i = 0; i < bodies; ++i) {
         const std::uint64_t id = 10 * (i + 1);
-        graph.bodies.push_back(below(4, random) == 0 ? test::fixed_body(id) : test::ball(id, 1.0, 0.1));
+        graph.bodies.push_back(below(4, random) == 0 ? test::fixed_body(id)
+                                                     : test::ball(id, 1.0, 0.1));
     }
     const std::uint32_t blocks = below(40, random);
     for (std::uint32_t i = 0; i < blocks; ++i) {
-        RowBlock block = test::row_block(below(2, random) == 0 ? RowKind::hand_point : RowKind::contact,
-                                         below(bodies, random), below(bodies, random));
+        RowBlock block =
+            test::row_block(below(2, random) == 0 ? RowKind::hand_point : RowKind::contact,
+                            below(bodies, random), below(bodies, random));
         block.key = i;
-        const bool moves = graph.bodies[block.a].role != BodyRole::fixed || graph.bodies[block.b].role != BodyRole::fixed;
+        const bool moves = graph.bodies[block.a].role != BodyRole::fixed ||
+                           graph.bodies[block.b].role != BodyRole::fixed;
         if (block.a != block.b && moves) {
             graph.blocks.push_back(block);
         }
@@ -52,9 +57,12 @@ std::set<Members> islands_of(const ConstraintGraph& graph) {
     return islands;
 }
 
-// The oracle: from each body not yet seen, over blocks between bodies that can move, until nothing new is found.
+// The oracle: from each body not yet seen, over blocks between bodies that can move, until nothing
+// new is found.
 std::set<Members> flood_filled(const ConstraintGraph& graph) {
-    const auto moves = [&graph](std::uint32_t i) { return graph.bodies[i].role != BodyRole::fixed; };
+    const auto moves = [&graph](std::uint32_t i) {
+        return graph.bodies[i].role != BodyRole::fixed;
+    };
     Members in_a_block;
     for (const RowBlock& block : graph.blocks) {
         in_a_block.insert({block.a, block.b});
@@ -69,7 +77,8 @@ std::set<Members> flood_filled(const ConstraintGraph& graph) {
         for (std::size_t before = 0; before != island.size();) {
             before = island.size();
             for (const RowBlock& block : graph.blocks) {
-                if (moves(block.a) && moves(block.b) && (island.contains(block.a) || island.contains(block.b))) {
+                if (moves(block.a) && moves(block.b) &&
+                    (island.contains(block.a) || island.contains(block.b))) {
                     island.insert({block.a, block.b});
                 }
             }
@@ -159,8 +168,10 @@ RC_GTEST_PROP(Islands, BuiltAgainAfterAnotherGraphShowNothingOfIt, (std::uint64_
 TEST(Islands, FixedBodiesCutThem) {
     // Ball, wall, ball; the second ball touches a third.
     ConstraintGraph graph;
-    graph.bodies = {test::ball(1, 1.0, 0.1), test::fixed_body(2), test::ball(3, 1.0, 0.1), test::ball(4, 1.0, 0.1)};
-    graph.blocks = {test::row_block(RowKind::contact, 0, 1), test::row_block(RowKind::contact, 2, 1),
+    graph.bodies = {test::ball(1, 1.0, 0.1), test::fixed_body(2), test::ball(3, 1.0, 0.1),
+                    test::ball(4, 1.0, 0.1)};
+    graph.blocks = {test::row_block(RowKind::contact, 0, 1),
+                    test::row_block(RowKind::contact, 2, 1),
                     test::row_block(RowKind::contact, 2, 3)};
     build_islands(graph);
     EXPECT_EQ(islands_of(graph), (std::set<Members>{{0}, {2, 3}}));
@@ -169,10 +180,12 @@ TEST(Islands, FixedBodiesCutThem) {
 TEST(Islands, PlayersAndHeavyBodiesJoinThem) {
     // Which phases move them changes within a frame; the islands do not.
     ConstraintGraph graph;
-    graph.bodies = {test::player_body(1, 80.0), test::ball(2, 5000.0, 0.5), test::ball(3, 1.0, 0.1)};
+    graph.bodies = {test::player_body(1, 80.0), test::ball(2, 5000.0, 0.5),
+                    test::ball(3, 1.0, 0.1)};
     graph.bodies[1].role = BodyRole::heavy;
     graph.bodies[1].inverse_mass = 0.0;
-    graph.blocks = {test::row_block(RowKind::hand_point, 0, 1), test::row_block(RowKind::contact, 2, 1)};
+    graph.blocks = {test::row_block(RowKind::hand_point, 0, 1),
+                    test::row_block(RowKind::contact, 2, 1)};
     build_islands(graph);
     EXPECT_EQ(islands_of(graph), (std::set<Members>{{0, 1, 2}}));
 }
@@ -197,7 +210,8 @@ TEST(FindBody, FindsEveryIdAndNoOther) {
     }
 }
 
-// --- Contact rows --------------------------------------------------------------------------------------------------------------
+// --- Contact rows
+// --------------------------------------------------------------------------------------------------------------
 
 ConstraintGraph player_before_a_wall() {
     ConstraintGraph graph;
@@ -205,7 +219,8 @@ ConstraintGraph player_before_a_wall() {
     graph.bodies[0].restitution = 0.6;
     graph.bodies[1].restitution = 0.2;
     graph.bodies[1].collider_offset_bs = Vec3(0.1, 1.6, 0.0);
-    graph.blocks = {test::row_block(RowKind::hand_point, 1, 0), test::row_block(RowKind::contact, 1, 0)};
+    graph.blocks = {test::row_block(RowKind::hand_point, 1, 0),
+                    test::row_block(RowKind::contact, 1, 0)};
     return graph;
 }
 

@@ -1,5 +1,3 @@
-#include "engine/solver/newton.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "engine/solver/newton.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold {
@@ -17,7 +16,9 @@ using test::SolverScene;
 
 constexpr double k_tolerance_m = NewtonSettings{}.tolerance_m;
 
-double angle_between(const Quat& a, const Quat& b) { return rotation_to_vector(a * b.conjugate()).norm(); }
+double angle_between(const Quat& a, const Quat& b) {
+    return rotation_to_vector(a * b.conjugate()).norm();
+}
 
 // A player's hand at `hand_ps` on a body's centre.
 SolverScene hand_on_ball(double player_kg, double ball_kg, const Vec3& hand_ps) {
@@ -27,7 +28,8 @@ SolverScene hand_on_ball(double player_kg, double ball_kg, const Vec3& hand_ps) 
     return scene;
 }
 
-// --- Positions: closed forms -------------------------------------------------------------------------------------------------
+// --- Positions: closed forms
+// -------------------------------------------------------------------------------------------------
 
 RC_GTEST_PROP(SolvePositions, PointMovesBothBodiesByTheirMassRatio, (std::uint64_t seed)) {
     Random random(seed);
@@ -38,7 +40,8 @@ RC_GTEST_PROP(SolvePositions, PointMovesBothBodiesByTheirMassRatio, (std::uint64
     RC_ASSERT(scene.solve_positions().converged);
     const double player_share = ball_kg / (player_kg + ball_kg);
     RC_ASSERT((scene.body(0).pose_ws.position + player_share * hand).norm() < 2.0 * k_tolerance_m);
-    RC_ASSERT((scene.body(1).pose_ws.position - (1.0 - player_share) * hand).norm() < 2.0 * k_tolerance_m);
+    RC_ASSERT((scene.body(1).pose_ws.position - (1.0 - player_share) * hand).norm() <
+              2.0 * k_tolerance_m);
 }
 
 TEST(SolvePositions, BodyWithoutInverseMassStaysBitForBit) {
@@ -60,7 +63,8 @@ TEST(SolvePositions, BlockThatNothingCanMoveIsPassedOverAndItsErrorReported) {
     EXPECT_DOUBLE_EQ(scene.block(0).error_m, 0.5);
 }
 
-// Even where hand and body begin a metre and half a turn apart: the welded frame is where the hand is.
+// Even where hand and body begin a metre and half a turn apart: the welded frame is where the hand
+// is.
 RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
@@ -75,7 +79,8 @@ RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::
     const Pose hand_ws = scene.body(0).pose_ws * Pose{weld.point_a_bs, weld.rotation_a_bs};
     const Pose anchor_ws = scene.body(1).pose_ws * Pose{weld.point_b_bs, weld.rotation_b_bs};
     RC_ASSERT((hand_ws.position - anchor_ws.position).norm() < 2.0 * k_tolerance_m);
-    RC_ASSERT(angle_between(hand_ws.rotation, anchor_ws.rotation) < 2.0 * k_tolerance_m / k_angle_m);
+    RC_ASSERT(angle_between(hand_ws.rotation, anchor_ws.rotation) <
+              2.0 * k_tolerance_m / k_angle_m);
     RC_ASSERT(weld.error_m < 2.0 * k_tolerance_m);
 }
 
@@ -96,7 +101,8 @@ TEST(SolvePositions, BallInReachGoesToTheHandWithoutTouchingThePlane) {
     EXPECT_NEAR(scene.body(2).pose_ws.position.y(), 0.13, k_tolerance_m);
 }
 
-// Balance of two springs: overlap / contact softness = hand error / hand softness; 1e-7 against its cap of 1e-2.
+// Balance of two springs: overlap / contact softness = hand error / hand softness; 1e-7 against its
+// cap of 1e-2.
 TEST(SolvePositions, ContactOutweighsAHandByAHundredThousand) {
     for (const double first_softness : {1e-6, 1e-3}) {
         SolverScene scene = ball_between_hand_and_plane(0.0);
@@ -123,7 +129,8 @@ TEST(SolvePositions, FiltersSolveOnlyTheirOwnBlocksButReportEveryError) {
     EXPECT_NEAR(contacts.block(0).error_m, 0.1, k_tolerance_m);
 }
 
-// Two hands 0.5 m apart on two fixed points 0.9 m apart: the player hangs in the middle, both hands 0.2 m off.
+// Two hands 0.5 m apart on two fixed points 0.9 m apart: the player hangs in the middle, both hands
+// 0.2 m off.
 RC_GTEST_PROP(SolvePositions, TwoHandsThatCannotBothBeMetEndAtTheMean, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
@@ -140,9 +147,11 @@ RC_GTEST_PROP(SolvePositions, TwoHandsThatCannotBothBeMetEndAtTheMean, (std::uin
 }
 
 TEST(SolvePositions, HubOfHandsSharesBetweenPlayersByMass) {
-    // Two players pull one ball to different points: forces balance, so the ball and both players keep their common centre of mass.
+    // Two players pull one ball to different points: forces balance, so the ball and both players
+    // keep their common centre of mass.
     SolverScene scene;
-    scene.graph.bodies = {test::ball(1, 4.0, 0.1), test::player_body(2, 60.0), test::player_body(3, 90.0)};
+    scene.graph.bodies = {test::ball(1, 4.0, 0.1), test::player_body(2, 60.0),
+                          test::player_body(3, 90.0)};
     scene.graph.blocks = {test::row_block(RowKind::hand_point, 1, 0, Vec3(0.4, 0.0, 0.0)),
                           test::row_block(RowKind::hand_point, 2, 0, Vec3(-0.1, 0.3, 0.0))};
     EXPECT_TRUE(scene.solve_positions().converged);
@@ -153,15 +162,18 @@ TEST(SolvePositions, HubOfHandsSharesBetweenPlayersByMass) {
     EXPECT_LT(moment.norm(), 1e-9);
 }
 
-// --- Positions: convergence --------------------------------------------------------------------------------------------------
+// --- Positions: convergence
+// --------------------------------------------------------------------------------------------------
 
-// A rod of 1 m between two points that it reaches exactly, turned away by any angle short of half a turn.
+// A rod of 1 m between two points that it reaches exactly, turned away by any angle short of half a
+// turn.
 TEST(SolvePositions, RodBetweenTwoHandsIsFoundFromAnyTurn) {
     for (double angle = -3.0; angle <= 3.0; angle += 0.25) {
         SolverScene scene;
         const Quat turned = rotation_about(Vec3(0.6, 0.0, 0.8), angle);
-        scene.graph.bodies = {test::player_body(1, 80.0),
-                              test::free_body(2, 1.0, Vec3(1e-4, 1.0 / 12.0, 1.0 / 12.0), {Vec3::Zero(), turned})};
+        scene.graph.bodies = {
+            test::player_body(1, 80.0),
+            test::free_body(2, 1.0, Vec3(1e-4, 1.0 / 12.0, 1.0 / 12.0), {Vec3::Zero(), turned})};
         scene.body(0).inverse_mass = 0.0;
         const Vec3 end(0.5, 0.0, 0.0);
         scene.graph.blocks = {test::row_block(RowKind::hand_point, 0, 1, end, end),
@@ -171,8 +183,8 @@ TEST(SolvePositions, RodBetweenTwoHandsIsFoundFromAnyTurn) {
     }
 }
 
-// Rods joined end to end as by hands, alternately of 1 and 1000 kg, whose free end jumps 1 m sideways: without geometric stiffness
-// mass ratios of 1000 zigzag for all 30 iterations.
+// Rods joined end to end as by hands, alternately of 1 and 1000 kg, whose free end jumps 1 m
+// sideways: without geometric stiffness mass ratios of 1000 zigzag for all 30 iterations.
 TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
     constexpr std::uint32_t k_links = 8;
     constexpr double k_half_m = 0.25;
@@ -190,8 +202,8 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
     }
     scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
     scene.body(k_links + 1).inverse_mass = 0.0;
-    scene.graph.blocks.push_back(test::row_block(RowKind::hand_point, k_links + 1, k_links, Vec3(3.2, 1.0, 0.0),
-                                                 Vec3(k_half_m, 0.0, 0.0)));
+    scene.graph.blocks.push_back(test::row_block(RowKind::hand_point, k_links + 1, k_links,
+                                                 Vec3(3.2, 1.0, 0.0), Vec3(k_half_m, 0.0, 0.0)));
     const NewtonResult result = scene.solve_positions();
     EXPECT_TRUE(result.converged) << "left " << result.residual_m;
     EXPECT_LE(result.iterations, 20);
@@ -200,7 +212,8 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
 RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyByMoreThanARadian, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1, test::random_pose(random)), test::random_free_body(2, random)};
+    scene.graph.bodies = {test::fixed_body(1, test::random_pose(random)),
+                          test::random_free_body(2, random)};
     const RowKind kind = random.between(0.0, 1.0) < 0.5 ? RowKind::hand_point : RowKind::hand_weld;
     scene.graph.blocks = {test::random_block(kind, 0, 1, random)};
     NewtonSettings settings;
@@ -226,7 +239,8 @@ TEST(SolvePositions, SolvedIslandIsNotMovedByOneBit) {
 RC_GTEST_PROP(SolvePositions, MovedAndRotatedIslandIsSolvedAlike, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene here;
-    here.graph.bodies = {test::random_free_body(1, random), test::random_free_body(2, random), test::fixed_body(3)};
+    here.graph.bodies = {test::random_free_body(1, random), test::random_free_body(2, random),
+                         test::fixed_body(3)};
     here.graph.blocks = {test::random_block(RowKind::hand_point, 0, 1, random),
                          test::random_block(RowKind::hand_point, 1, 2, random)};
     for (RowBlock& block : here.graph.blocks) {
@@ -243,219 +257,6 @@ RC_GTEST_PROP(SolvePositions, MovedAndRotatedIslandIsSolvedAlike, (std::uint64_t
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 seen = inverse_transform_point(moved, there.body(i).pose_ws.position);
         RC_ASSERT((seen - here.body(i).pose_ws.position).norm() < 1e-6);
-    }
-}
-
-// --- Velocities --------------------------------------------------------------------------------------------------------------
-
-struct Momentum {
-    Vec3 linear = Vec3::Zero();
-    Vec3 angular = Vec3::Zero();  // about the world's origin
-    double scale = 0.0;           // sum of sizes: what differences are relative to
-};
-
-Momentum momentum_of(const SolverScene& scene) {
-    Momentum sum;
-    for (const SolverBody& body : scene.graph.bodies) {
-        const Vec3 linear = body.mass_kg * body.velocity_mps;
-        const Quat& rotation = body.pose_ws.rotation;
-        const Vec3 spin_bs = rotation.conjugate() * body.spin_radps;
-        sum.linear += linear;
-        sum.angular += body.pose_ws.position.cross(linear) + rotation * Vec3(body.inertia_kgm2.cwiseProduct(spin_bs));
-        sum.scale += linear.norm() * (1.0 + body.pose_ws.position.norm());
-    }
-    return sum;
-}
-
-void set_random_motion(SolverScene& scene, Random& random) {
-    for (SolverBody& body : scene.graph.bodies) {
-        if (body.role != BodyRole::fixed) {
-            body.velocity_mps = random.vector(5.0);
-        }
-        if (body.role == BodyRole::free) {
-            body.spin_radps = random.vector(5.0);
-        }
-    }
-}
-
-// A tree of points and welds that are met, with random motion: any velocities of the rows can be had together.
-SolverScene random_tree(std::uint32_t count, Random& random) {
-    SolverScene scene;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        scene.graph.bodies.push_back(test::random_free_body(i + 1, random));
-    }
-    for (std::uint32_t i = 1; i < count; ++i) {
-        const auto other = static_cast<std::uint32_t>(random.engine()() % i);
-        const RowKind kind = random.between(0.0, 1.0) < 0.5 ? RowKind::hand_point : RowKind::hand_weld;
-        RowBlock block = test::random_block(kind, i, other, random);
-        test::meet(scene.graph.bodies, block);
-        scene.graph.blocks.push_back(block);
-    }
-    sort_blocks(scene.graph.blocks);
-    set_random_motion(scene, random);
-    return scene;
-}
-
-double velocity_of_row(const SolverScene& scene, const Row& row) {
-    const SolverBody& a = scene.graph.bodies[row.a];
-    const SolverBody& b = scene.graph.bodies[row.b];
-    return row.linear_a.dot(a.velocity_mps - b.velocity_mps) + row.angular_a.dot(a.spin_radps) +
-           row.angular_b.dot(b.spin_radps);
-}
-
-RC_GTEST_PROP(SolveVelocities, JointsOfAnyTreeMoveAsOneTo1e9, (std::uint64_t seed)) {
-    Random random(seed);
-    SolverScene scene = random_tree(2 + static_cast<std::uint32_t>(random.engine()() % 6), random);
-    scene.solve_velocities();
-    for (const Row& row : scene.rows()) {
-        RC_ASSERT(std::abs(velocity_of_row(scene, row)) < 1e-9);
-    }
-}
-
-RC_GTEST_PROP(SolveVelocities, FreeIslandsKeepLinearAndAngularMomentum, (std::uint64_t seed)) {
-    Random random(seed);
-    SolverScene scene = random_tree(2 + static_cast<std::uint32_t>(random.engine()() % 6), random);
-    const Momentum before = momentum_of(scene);
-    scene.solve_velocities();
-    const Momentum after = momentum_of(scene);
-    RC_ASSERT((after.linear - before.linear).norm() < 1e-12 * before.scale);
-    RC_ASSERT((after.angular - before.angular).norm() < 1e-12 * before.scale);
-}
-
-RC_GTEST_PROP(SolveVelocities, ImpulsesOutAreWhatTheBodiesReceived, (std::uint64_t seed)) {
-    Random random(seed);
-    SolverScene scene = random_tree(4, random);
-    std::vector<Vec3> gained;
-    for (const SolverBody& body : scene.graph.bodies) {
-        gained.push_back(-body.mass_kg * body.velocity_mps);
-    }
-    scene.solve_velocities();
-    std::vector<Vec3> given(scene.graph.bodies.size(), Vec3::Zero());
-    for (const RowBlock& block : scene.graph.blocks) {
-        given[block.a] += block.impulse_ws_ns;
-        given[block.b] -= block.impulse_ws_ns;
-    }
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        gained[i] += scene.body(i).mass_kg * scene.body(i).velocity_mps;
-        RC_ASSERT((gained[i] - given[i]).norm() < 1e-10);
-    }
-}
-
-TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
-    SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0)};
-    scene.graph.blocks = {test::row_block(RowKind::hand_point, 1, 0)};
-    scene.block(0).drive_velocity_ws_mps = Vec3(0.5, -1.0, 0.25);
-    scene.solve_velocities();
-    EXPECT_LT((scene.body(1).velocity_mps + Vec3(0.5, -1.0, 0.25)).norm(), 1e-9);
-    EXPECT_LT((scene.block(0).impulse_ws_ns + 80.0 * Vec3(0.5, -1.0, 0.25)).norm(), 1e-7);
-}
-
-// v_com = v_hand + w x (com - hand), the closed form of a throw.
-RC_GTEST_PROP(SolveVelocities, WeldedBodyMovesAndTurnsWithTheHand, (std::uint64_t seed)) {
-    Random random(seed);
-    SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)), test::random_free_body(2, random)};
-    scene.body(0).inverse_mass = 0.0;
-    scene.body(0).velocity_mps = random.vector(2.0);
-    RowBlock block = test::random_block(RowKind::hand_weld, 0, 1, random);
-    test::meet(scene.graph.bodies, block);
-    block.drive_velocity_ws_mps = random.vector(3.0);
-    block.drive_spin_ws_radps = random.vector(8.0);
-    scene.graph.blocks = {block};
-    scene.solve_velocities();
-    const Vec3 hand_mps = scene.body(0).velocity_mps + block.drive_velocity_ws_mps;
-    const Vec3 com_from_hand = -(scene.body(1).pose_ws.rotation * block.point_b_bs);
-    const Vec3 expected = hand_mps + block.drive_spin_ws_radps.cross(com_from_hand);
-    RC_ASSERT((scene.body(1).spin_radps - block.drive_spin_ws_radps).norm() < 1e-8);
-    RC_ASSERT((scene.body(1).velocity_mps - expected).norm() < 1e-8);
-}
-
-// Two balls that touch, one at x < 0, the other at x > 0.
-SolverScene touching_balls(double left_kg, double right_kg, double restitution) {
-    SolverScene scene;
-    scene.graph.bodies = {test::ball(1, left_kg, 0.1, {Vec3(-0.1, 0.0, 0.0), Quat::Identity()}),
-                          test::ball(2, right_kg, 0.1, {Vec3(0.1, 0.0, 0.0), Quat::Identity()})};
-    RowBlock block = test::row_block(RowKind::contact, 0, 1, Vec3(0.1, 0.0, 0.0), Vec3(-0.1, 0.0, 0.0));
-    block.normal_b_bs = -Vec3::UnitX();
-    block.restitution = restitution;
-    scene.graph.blocks = {block};
-    return scene;
-}
-
-// Newton's law of impact: v' = (m1 v1 + m2 v2 -+ e m (v1 - v2)) / (m1 + m2).
-RC_GTEST_PROP(SolveVelocities, HeadOnImpactFollowsNewtonsLaw, (std::uint64_t seed)) {
-    Random random(seed);
-    const double left_kg = random.between(0.1, 50.0);
-    const double right_kg = random.between(0.1, 50.0);
-    const double e = random.between(0.0, 1.0);
-    SolverScene scene = touching_balls(left_kg, right_kg, e);
-    const double left = random.between(1.0, 5.0);
-    const double right = random.between(-5.0, 0.5);
-    scene.body(0).velocity_mps = Vec3(left, 0.7, 0.0);
-    scene.body(1).velocity_mps = Vec3(right, 0.0, -0.3);
-    scene.solve_velocities();
-    const double common = (left_kg * left + right_kg * right) / (left_kg + right_kg);
-    const double left_after = common - e * (left - right) * right_kg / (left_kg + right_kg);
-    const double right_after = common + e * (left - right) * left_kg / (left_kg + right_kg);
-    RC_ASSERT((scene.body(0).velocity_mps - Vec3(left_after, 0.7, 0.0)).norm() < 1e-9);
-    RC_ASSERT((scene.body(1).velocity_mps - Vec3(right_after, 0.0, -0.3)).norm() < 1e-9);
-}
-
-TEST(SolveVelocities, SlowImpactsDoNotBounce) {
-    const VelocitySettings settings;
-    SolverScene scene = touching_balls(1.0, 1.0, 1.0);
-    scene.body(0).velocity_mps.x() = 0.99 * settings.restitution_speed_mps;
-    scene.solve_velocities();
-    EXPECT_NEAR(scene.body(0).velocity_mps.x(), 0.495 * settings.restitution_speed_mps, 1e-9);
-    EXPECT_NEAR(scene.body(1).velocity_mps.x(), 0.495 * settings.restitution_speed_mps, 1e-9);
-}
-
-TEST(SolveVelocities, BodiesThatPartOrAreApartAreLeftAlone) {
-    SolverScene parting = touching_balls(1.0, 2.0, 0.5);
-    parting.body(0).velocity_mps.x() = -1.0;
-    parting.solve_velocities();
-    EXPECT_EQ(parting.body(0).velocity_mps.x(), -1.0);
-    EXPECT_EQ(parting.block(0).impulse_ws_ns, Vec3(Vec3::Zero()));
-
-    SolverScene apart = touching_balls(1.0, 2.0, 0.5);
-    apart.body(0).pose_ws.position.x() -= 2.0 * VelocitySettings{}.touch_m;
-    apart.body(0).velocity_mps.x() = 1.0;
-    apart.solve_velocities();
-    EXPECT_EQ(apart.body(0).velocity_mps.x(), 1.0);
-}
-
-TEST(SolveVelocities, DepthOfAnOverlapNeverBecomesSpeed) {
-    SolverScene scene = touching_balls(1.0, 2.0, 1.0);
-    scene.body(0).pose_ws.position.x() += 0.1;
-    scene.solve_velocities();
-    EXPECT_EQ(scene.body(0).velocity_mps.x(), 0.0);
-    EXPECT_EQ(scene.body(1).velocity_mps.x(), 0.0);
-}
-
-// Balls around one another and a floor, touching at random points: what comes out neither approaches nor is pulled.
-RC_GTEST_PROP(SolveVelocities, NoContactApproachesAndNonePulls, (std::uint64_t seed)) {
-    Random random(seed);
-    SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1)};
-    const auto count = 2 + static_cast<std::uint32_t>(random.engine()() % 4);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        scene.graph.bodies.push_back(test::random_free_body(i + 2, random));
-    }
-    for (std::uint32_t i = 1; i <= count; ++i) {
-        const auto other = static_cast<std::uint32_t>(random.engine()() % i);
-        RowBlock block = test::random_block(RowKind::contact, i, other, random);
-        test::meet(scene.graph.bodies, block);
-        block.restitution = random.between(0.0, 0.9);
-        scene.graph.blocks.push_back(block);
-    }
-    sort_blocks(scene.graph.blocks);
-    set_random_motion(scene, random);
-    scene.solve_velocities();
-    const std::vector<Row> rows = scene.rows();
-    for (const Row& row : rows) {
-        RC_ASSERT(velocity_of_row(scene, row) > -1e-8);
-        RC_ASSERT(row.linear_a.dot(scene.block(row.block).impulse_ws_ns) > -1e-9);
     }
 }
 

@@ -1,5 +1,3 @@
-#include "engine/solver/rows.hpp"
-
 #include <array>
 #include <cmath>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "engine/solver/rows.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold {
@@ -40,9 +39,10 @@ std::vector<SolverBody> nudged(std::vector<SolverBody> bodies, const Nudge& nudg
     return bodies;
 }
 
-// The oracle: change of each row's value for a unit of the nudge, by central differences. Error below 1e-9 for poses of a
-// few metres: (1e-5)^2 from the step, 1e-15 / 1e-5 from rounding.
-std::vector<double> measured_slopes(const std::vector<SolverBody>& bodies, const RowBlock& block, const Nudge& nudge) {
+// The oracle: change of each row's value for a unit of the nudge, by central differences. Error
+// below 1e-9 for poses of a few metres: (1e-5)^2 from the step, 1e-15 / 1e-5 from rounding.
+std::vector<double> measured_slopes(const std::vector<SolverBody>& bodies, const RowBlock& block,
+                                    const Nudge& nudge) {
     constexpr double k_step = 1e-5;
     const std::vector<Row> ahead = rows_of(nudged(bodies, nudge, k_step), block);
     const std::vector<Row> behind = rows_of(nudged(bodies, nudge, -k_step), block);
@@ -61,7 +61,8 @@ double claimed_slope(const Row& row, const Nudge& nudge) {
     return -row.linear_a.dot(nudge.move_m) + row.angular_b.dot(nudge.turn_rad);
 }
 
-double worst_slope_error(const std::vector<SolverBody>& bodies, const RowBlock& block, const Nudge& nudge) {
+double worst_slope_error(const std::vector<SolverBody>& bodies, const RowBlock& block,
+                         const Nudge& nudge) {
     const std::vector<Row> rows = rows_of(bodies, block);
     const std::vector<double> slopes = measured_slopes(bodies, block, nudge);
     double worst = 0.0;
@@ -97,7 +98,8 @@ RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed))
     RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
 }
 
-// Farther off the rotation vector's slope is 1 + O(angle); along the error itself it is exact at any angle.
+// Farther off the rotation vector's slope is 1 + O(angle); along the error itself it is exact at
+// any angle.
 RC_GTEST_PROP(Rows, JacobianOfAWeldIsExactAlongItsErrorAtAnyAngle, (std::uint64_t seed)) {
     Random random(seed);
     auto bodies = two_random_bodies(random);
@@ -125,27 +127,29 @@ RC_GTEST_PROP(Rows, MovingBothBodiesAsOneChangesNoSeparation, (std::uint64_t see
     const Row row = rows_of(bodies, block)[0];
     const Vec3 velocity_a = velocity + spin.cross(bodies[0].pose_ws.position);
     const Vec3 velocity_b = velocity + spin.cross(bodies[1].pose_ws.position);
-    const double change =
-        row.linear_a.dot(velocity_a - velocity_b) + row.angular_a.dot(spin) + row.angular_b.dot(spin);
+    const double change = row.linear_a.dot(velocity_a - velocity_b) + row.angular_a.dot(spin) +
+                          row.angular_b.dot(spin);
     RC_ASSERT(std::abs(change) < 1e-13);
 }
 
 TEST(Rows, ContactNormalTurnsWithB) {
-    std::vector<SolverBody> bodies = {test::ball(1, 1.0, 0.1, {Vec3(-0.3, 0.05, 0.0), Quat::Identity()}),
-                                      test::fixed_body(2)};
+    std::vector<SolverBody> bodies = {
+        test::ball(1, 1.0, 0.1, {Vec3(-0.3, 0.05, 0.0), Quat::Identity()}), test::fixed_body(2)};
     bodies[1].pose_ws.rotation = rotation_about(Vec3::UnitZ(), 0.5 * 3.14159265358979323846);
     RowBlock block = test::row_block(RowKind::contact, 0, 1);
     block.normal_b_bs = Vec3::UnitY();  // a quarter turn about z: -x in the world
     const Row row = rows_of(bodies, block)[0];
     EXPECT_LT((row.linear_a - -Vec3::UnitX()).norm(), 1e-15);
     EXPECT_NEAR(row.value_m, 0.3, 1e-15);
-    // Turning b on by an angle turns the normal away from a: cos(angle) 0.3 + sin(angle) * -0.05 to first order.
+    // Turning b on by an angle turns the normal away from a: cos(angle) 0.3 + sin(angle) * -0.05 to
+    // first order.
     EXPECT_NEAR(row.angular_b.z(), -0.05, 1e-15);
 }
 
 TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
-    const std::vector<SolverBody> bodies = {test::player_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
-                                            test::fixed_body(2, {Vec3(0.5, 0.0, 0.0), Quat::Identity()})};
+    const std::vector<SolverBody> bodies = {
+        test::player_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
+        test::fixed_body(2, {Vec3(0.5, 0.0, 0.0), Quat::Identity()})};
     const RowBlock block =
         test::row_block(RowKind::hand_point, 0, 1, Vec3(0.0, 0.25, 0.0), Vec3(0.25, 0.0, -1.0));
     const std::vector<Row> rows = rows_of(bodies, block);
@@ -203,7 +207,9 @@ TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
     for (const RowKind kind : k_all_kinds) {
         std::vector<Row> rows;
         append_rows(bodies, test::random_block(kind, 1, 0, random), 7, rows);
-        const std::size_t expected = kind == RowKind::contact ? 1 : kind == RowKind::hand_point ? 3 : 6;
+        const std::size_t expected = kind == RowKind::contact      ? 1
+                                     : kind == RowKind::hand_point ? 3
+                                                                   : 6;
         EXPECT_EQ(rows.size(), expected);
         for (const Row& row : rows) {
             EXPECT_EQ(row.unilateral, kind == RowKind::contact);

@@ -4,12 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "collision_scene.hpp"
 #include "engine/solver/islands.hpp"
 #include "engine/solver/newton.hpp"
 #include "engine/solver/rows.hpp"
-#include "collision_scene.hpp"
 
-// What the solver's tests share: bodies with the masses that they really have, rows, and a graph that is solved island by island.
+// What the solver's tests share: bodies with the masses that they really have, rows, and a graph
+// that is solved island by island.
 namespace handhold::test {
 
 inline SolverBody fixed_body(std::uint64_t id, const Pose& pose_ws = {}) {
@@ -19,7 +20,8 @@ inline SolverBody fixed_body(std::uint64_t id, const Pose& pose_ws = {}) {
     return body;
 }
 
-inline SolverBody free_body(std::uint64_t id, double mass_kg, const Vec3& inertia_kgm2, const Pose& pose_ws = {}) {
+inline SolverBody free_body(std::uint64_t id, double mass_kg, const Vec3& inertia_kgm2,
+                            const Pose& pose_ws = {}) {
     SolverBody body = fixed_body(id, pose_ws);
     body.role = BodyRole::free;
     body.mass_kg = mass_kg;
@@ -29,7 +31,8 @@ inline SolverBody free_body(std::uint64_t id, double mass_kg, const Vec3& inerti
     return body;
 }
 
-inline SolverBody ball(std::uint64_t id, double mass_kg, double radius_m, const Pose& pose_ws = {}) {
+inline SolverBody ball(std::uint64_t id, double mass_kg, double radius_m,
+                       const Pose& pose_ws = {}) {
     return free_body(id, mass_kg, Vec3::Constant(0.4 * mass_kg * radius_m * radius_m), pose_ws);
 }
 
@@ -41,18 +44,22 @@ inline SolverBody player_body(std::uint64_t id, double mass_kg, const Pose& pose
     return body;
 }
 
-inline Pose random_pose(Random& random, double size_m = 2.0) { return {random.vector(size_m), random.rotation()}; }
+inline Pose random_pose(Random& random, double size_m = 2.0) {
+    return {random.vector(size_m), random.rotation()};
+}
 
 // A body of 0.5 to 20 kg, a few decimetres large, whose moments of inertia a solid could have.
 inline SolverBody random_free_body(std::uint64_t id, Random& random) {
     const double mass_kg = random.between(0.5, 20.0);
-    const Vec3 half_m(random.between(0.05, 0.3), random.between(0.05, 0.3), random.between(0.05, 0.3));
+    const Vec3 half_m(random.between(0.05, 0.3), random.between(0.05, 0.3),
+                      random.between(0.05, 0.3));
     const Vec3 squares = half_m.cwiseProduct(half_m);
     const Vec3 inertia = (mass_kg / 3.0) * (Vec3::Constant(squares.sum()) - squares);
     return free_body(id, mass_kg, inertia, random_pose(random));
 }
 
-inline RowBlock row_block(RowKind kind, std::uint32_t a, std::uint32_t b, const Vec3& point_a_bs = Vec3::Zero(),
+inline RowBlock row_block(RowKind kind, std::uint32_t a, std::uint32_t b,
+                          const Vec3& point_a_bs = Vec3::Zero(),
                           const Vec3& point_b_bs = Vec3::Zero()) {
     RowBlock block;
     block.kind = kind;
@@ -87,10 +94,12 @@ struct SolverScene {
     RowBlock& block(std::size_t index) { return graph.blocks[index]; }
 
     IslandView view(const Island& island, BlockFilter filter = BlockFilter::all) {
-        return {filter, graph.bodies, graph.blocks, graph.bodies_of(island), graph.blocks_of(island)};
+        return {filter, graph.bodies, graph.blocks, graph.bodies_of(island),
+                graph.blocks_of(island)};
     }
     // Every island's; the result is that of the last, which in most tests is the only one.
-    NewtonResult solve_positions(const NewtonSettings& settings = {}, BlockFilter filter = BlockFilter::all) {
+    NewtonResult solve_positions(const NewtonSettings& settings = {},
+                                 BlockFilter filter = BlockFilter::all) {
         build_islands(graph);
         NewtonResult result;
         for (const Island& island : graph.islands) {

@@ -17,7 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::Random;
 
-// Bodies, their rows, and J W J^T built the long way: the full Jacobian times the block-diagonal inverse masses.
+// Bodies, their rows, and J W J^T built the long way: the full Jacobian times the block-diagonal
+// inverse masses.
 struct Problem {
     std::vector<SolverBody> bodies;
     std::vector<Mat3> inverse_inertias_ws;
@@ -100,7 +101,8 @@ Problem random_problem(std::size_t body_count, int hands, int contacts, Random& 
     problem.place_bodies(random_bodies(body_count, random));
     for (int i = 0; i < hands + contacts; ++i) {
         const std::uint32_t a = random_index(body_count, random);
-        const std::uint32_t b = (a + 1 + random_index(body_count - 1, random)) % static_cast<std::uint32_t>(body_count);
+        const std::uint32_t b =
+            (a + 1 + random_index(body_count - 1, random)) % static_cast<std::uint32_t>(body_count);
         const RowKind hand = i % 2 == 0 ? RowKind::hand_point : RowKind::hand_weld;
         problem.add_block(test::random_block(i < hands ? hand : RowKind::contact, a, b, random));
         if (i >= hands) {
@@ -110,8 +112,9 @@ Problem random_problem(std::size_t body_count, int hands, int contacts, Random& 
     return problem;
 }
 
-// The oracle: of all sets of pushing unilateral rows the one whose solution pushes with each of them and overlaps with none of
-// the others (the Karush-Kuhn-Tucker conditions). For a positive definite matrix there is exactly one, but for ties.
+// The oracle: of all sets of pushing unilateral rows the one whose solution pushes with each of
+// them and overlaps with none of the others (the Karush-Kuhn-Tucker conditions). For a positive
+// definite matrix there is exactly one, but for ties.
 struct Optimum {
     VectorXd lambda;
     double margin = 0.0;  // of the nearest condition: a tie where it is tiny
@@ -175,7 +178,8 @@ std::optional<double> active_set_error(std::uint64_t seed) {
     constexpr double k_alpha = 1e-3;
     Random random(seed);
     const int contacts = 1 + static_cast<int>(random_index(6, random));
-    const Problem problem = random_problem(4, static_cast<int>(random_index(3, random)), contacts, random);
+    const Problem problem =
+        random_problem(4, static_cast<int>(random_index(3, random)), contacts, random);
     const MatrixXd matrix = regularised(problem, k_alpha);
     const auto optimum = brute_force(matrix, problem);
     if (!optimum || optimum->margin < 1e-9) {
@@ -186,7 +190,8 @@ std::optional<double> active_set_error(std::uint64_t seed) {
     return (lambda - optimum->lambda).norm() / (1.0 + optimum->lambda.norm());
 }
 
-RC_GTEST_PROP(DenseSystem, ActiveSetMeetsTheConditionsThatOnlyOneSubsetMeets, (std::uint64_t seed)) {
+RC_GTEST_PROP(DenseSystem, ActiveSetMeetsTheConditionsThatOnlyOneSubsetMeets,
+              (std::uint64_t seed)) {
     const auto error = active_set_error(seed);
     RC_PRE(error.has_value());
     RC_ASSERT(*error < 1e-8);
@@ -223,13 +228,15 @@ RC_GTEST_PROP(DenseSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint6
         }
     }
     const VectorXd expected = reduced.ldlt().solve(right);
-    RC_ASSERT((as_vector(system.solve_again(others)) - expected).norm() < 1e-9 * (1.0 + expected.norm()));
+    RC_ASSERT((as_vector(system.solve_again(others)) - expected).norm() <
+              1e-9 * (1.0 + expected.norm()));
 }
 
 // A ball of 2 kg, overlapping a plane by 1 cm, found as one contact and as three.
 Problem overlapping_ball(int copies) {
     Problem problem;
-    problem.place_bodies({test::ball(1, 2.0, 0.1, {Vec3(0.0, 0.09, 0.0), Quat::Identity()}), test::fixed_body(2)});
+    problem.place_bodies(
+        {test::ball(1, 2.0, 0.1, {Vec3(0.0, 0.09, 0.0), Quat::Identity()}), test::fixed_body(2)});
     for (int i = 0; i < copies; ++i) {
         problem.add_block(test::row_block(RowKind::contact, 0, 1, Vec3(0.0, -0.1, 0.0)));
     }
@@ -272,14 +279,17 @@ TEST(DenseSystem, RowsThatNothingCanMoveGetNothing) {
 
 TEST(DenseSystem, ContactThatIsApartStaysOutUntilAnotherRowPushesIntoIt) {
     Problem problem;
-    problem.place_bodies({test::ball(1, 2.0, 0.1, {Vec3(0.0, 0.11, 0.0), Quat::Identity()}), test::fixed_body(2)});
+    problem.place_bodies(
+        {test::ball(1, 2.0, 0.1, {Vec3(0.0, 0.11, 0.0), Quat::Identity()}), test::fixed_body(2)});
     problem.add_block(test::row_block(RowKind::contact, 0, 1, Vec3(0.0, -0.1, 0.0)));
     DenseSystem alone = assembled(problem, 1e-7);
     EXPECT_EQ(alone.solve(problem.rows)[0], 0.0);
     EXPECT_FALSE(alone.is_active(0));
 
-    // A ceiling that overlaps by 3 cm pushes the ball 3 cm down, through the floor 1 cm below it: both floors act.
-    RowBlock ceiling = test::row_block(RowKind::contact, 0, 1, Vec3(0.0, 0.1, 0.0), Vec3(0.0, 0.18, 0.0));
+    // A ceiling that overlaps by 3 cm pushes the ball 3 cm down, through the floor 1 cm below it:
+    // both floors act.
+    RowBlock ceiling =
+        test::row_block(RowKind::contact, 0, 1, Vec3(0.0, 0.1, 0.0), Vec3(0.0, 0.18, 0.0));
     ceiling.normal_b_bs = -Vec3::UnitY();
     problem.add_block(ceiling);
     DenseSystem between = assembled(problem, 1e-3);

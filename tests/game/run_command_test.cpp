@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include "game/run_command.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/text_file.hpp"
-#include "game/run_command.hpp"
 
 namespace handhold {
 namespace {
@@ -68,7 +68,8 @@ TEST_F(RunCommand, LastLineIsTheStateHashAndFilesAreWritten) {
 
 TEST_F(RunCommand, SceneFileWithItsOwnPlayersRuns) {
     RunOptions options;
-    options.scene = write("box.json", R"({"name": "box", "bodies": [{"name": "wall", "kind": "static",
+    options.scene =
+        write("box.json", R"({"name": "box", "bodies": [{"name": "wall", "kind": "static",
         "shape": {"type": "box", "half_m": [1, 1, 0.1]}, "position_m": [0, 1, -1]}],
         "spawns": [{"name": "a", "position_m": [0, 0, 0]}, {"name": "b", "position_m": [3, 0, 0]}],
         "players": [{"name": "one", "spawn": "a"}, {"name": "two", "spawn": "b", "mass_kg": 60}]})");
@@ -95,7 +96,8 @@ TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
 
 TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
     RunOptions options;
-    options.scene = write("tuned.json", R"({"name": "tuned", "tuning": {"hand": {"reach_m": -1}}})");
+    options.scene =
+        write("tuned.json", R"({"name": "tuned", "tuning": {"hand": {"reach_m": -1}}})");
     EXPECT_EQ(run(options), 2);
     EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
 }

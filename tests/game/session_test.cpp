@@ -1,9 +1,10 @@
-// Sessions played from beginning to end: the ones that ship, and real recordings in a real level where the data is there.
-#include <gtest/gtest.h>
-
+// Sessions played from beginning to end: the ones that ship, and real recordings in a real level
+// where the data is there.
 #include <algorithm>
 #include <filesystem>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "game/built_in_scenes.hpp"
 #include "game/report/run_summary.hpp"
@@ -15,7 +16,8 @@ namespace {
 
 const std::filesystem::path k_data = HANDHOLD_DATA_DIR;
 
-RunLog play(Scene& scene, const Recording& recording, const Pose& origin_ws, int threads, double hz = 90.0) {
+RunLog play(Scene& scene, const Recording& recording, const Pose& origin_ws, int threads,
+            double hz = 90.0) {
     FrameCaches caches(*scene.shapes);
     const PlayerEntities player = add_scene_player(scene, {"player0", origin_ws, 80.0});
     return run_session(scene, caches, {player}, &recording, {hz, 0.0, threads});
@@ -30,8 +32,9 @@ RunLog play_built_in(std::string_view name, int threads, double hz = 90.0) {
 bool is_finite_run(const RunLog& log) {
     return std::all_of(log.frames.begin(), log.frames.end(), [](const FrameLog& frame) {
         return std::all_of(frame.players.begin(), frame.players.end(), [](const PlayerLog& player) {
-            return player.origin_ws.allFinite() && player.head_ws.allFinite() && player.velocity_mps.allFinite() &&
-                   player.hands[0].shown_ws.allFinite() && player.hands[1].shown_ws.allFinite();
+            return player.origin_ws.allFinite() && player.head_ws.allFinite() &&
+                   player.velocity_mps.allFinite() && player.hands[0].shown_ws.allFinite() &&
+                   player.hands[1].shown_ws.allFinite();
         });
     });
 }
@@ -130,7 +133,9 @@ TEST(RealRecordings, CrawlThroughARealLevel) {
         gripped += summary.totals.grabs_gripped;
         paths_m.push_back(summary.players[0].path_m);
     }
-    std::nth_element(paths_m.begin(), paths_m.begin() + static_cast<std::ptrdiff_t>(paths_m.size() / 2), paths_m.end());
+    std::nth_element(paths_m.begin(),
+                     paths_m.begin() + static_cast<std::ptrdiff_t>(paths_m.size() / 2),
+                     paths_m.end());
     EXPECT_GE(static_cast<double>(gripped), 0.7 * static_cast<double>(onsets));
     EXPECT_GE(paths_m[paths_m.size() / 2], 1.0);
 }

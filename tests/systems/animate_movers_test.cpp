@@ -19,7 +19,10 @@ Mover random_mover(Random& random) {
 }
 
 TEST(MoverPose, StraightOnIsVelocityTimesTime) {
-    const Mover mover{{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)}, Vec3(0.5, 0.0, -1.0), Vec3::Zero(), true};
+    const Mover mover{{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)},
+                      Vec3(0.5, 0.0, -1.0),
+                      Vec3::Zero(),
+                      true};
     const Pose pose = mover_pose(mover, 4.0);
     EXPECT_LT((pose.position - Vec3(3.0, 2.0, -1.0)).norm(), 1e-14);
     EXPECT_EQ(pose.rotation.coeffs(), mover.start_ws.rotation.coeffs());
@@ -33,7 +36,8 @@ TEST(MoverPose, SpinWithoutTurningVelocityKeepsTheStraightLine) {
     EXPECT_EQ(mover_velocity(mover, 2.0).linear_mps, Vec3(1.0, 0.0, 0.0));
 }
 
-// Forward (-z) at v while turning left (about +y) at w: a circle of radius v / w whose centre lies to the left (-x).
+// Forward (-z) at v while turning left (about +y) at w: a circle of radius v / w whose centre lies
+// to the left (-x).
 TEST(MoverPose, TurningVelocityRunsRoundACircleOfRadiusSpeedOverSpin) {
     constexpr double k_speed = 3.0;
     constexpr double k_spin = 0.75;
@@ -69,13 +73,15 @@ RC_GTEST_PROP(MoverPose, TurnsAtItsAngularVelocity, (std::uint64_t seed)) {
     const Mover mover = random_mover(random);
     const double t_s = random.between(0.0, 100.0);
     constexpr double k_step_s = 1e-3;
-    const Quat turn = mover_pose(mover, t_s + k_step_s).rotation * mover_pose(mover, t_s).rotation.conjugate();
+    const Quat turn =
+        mover_pose(mover, t_s + k_step_s).rotation * mover_pose(mover, t_s).rotation.conjugate();
     const Vec3 spin = rotation_to_vector(turn) / k_step_s;
     RC_ASSERT((spin - mover.angular_velocity_ws_radps).norm() < 1e-10);
     RC_ASSERT(mover_velocity(mover, t_s).angular_radps == mover.angular_velocity_ws_radps);
 }
 
-// Nothing accumulates: going on from where the mover is after a while gives the same as one long way.
+// Nothing accumulates: going on from where the mover is after a while gives the same as one long
+// way.
 RC_GTEST_PROP(MoverPose, GoingOnFromAnyTimeIsTheSameWay, (std::uint64_t seed)) {
     Random random(seed);
     const Mover mover = random_mover(random);

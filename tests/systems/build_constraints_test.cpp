@@ -54,36 +54,52 @@ struct Building {
     // As place_colliders lists them.
     void add_collider(Entity entity) {
         frame.entities.push_back(entity);
-        std::sort(frame.entities.begin(), frame.entities.end(), [](Entity x, Entity y) { return id_of(x) < id_of(y); });
+        std::sort(frame.entities.begin(), frame.entities.end(),
+                  [](Entity x, Entity y) { return id_of(x) < id_of(y); });
         frame.proxies.clear();
         for (const Entity listed : frame.entities) {
             frame.proxies.emplace_back().id = id_of(listed);
         }
     }
-    void add_body(Entity entity, const RigidBody& rigid, const Pose& pose = {}, const BodyVelocity& velocity = {}) {
+    void add_body(Entity entity, const RigidBody& rigid, const Pose& pose = {},
+                  const BodyVelocity& velocity = {}) {
         persistent_id.add(entity, {id_of(entity)});
         body.add(entity, rigid);
         body_pose.add(entity, {pose});
         body_velocity.add(entity, velocity);
         add_collider(entity);
     }
-    void add_rock(double mass_kg) { add_body(k_rock, {BodyKind::free, mass_kg, Vec3(0.1, 0.2, 0.3), 0.5}); }
+    void add_rock(double mass_kg) {
+        add_body(k_rock, {BodyKind::free, mass_kg, Vec3(0.1, 0.2, 0.3), 0.5});
+    }
     Grab& grip(Entity hand, GripKind kind, Entity gripped, Random& random) {
         Grab& grip = grab.at(hand);
-        grip = {kind, GrabPhase::holding, gripped, Vec3::Zero(), Vec3::UnitY(), random.pose(), random.pose(),
-                random.vector(2.0), random.vector(2.0), 0.0};
+        grip = {kind,
+                GrabPhase::holding,
+                gripped,
+                Vec3::Zero(),
+                Vec3::UnitY(),
+                random.pose(),
+                random.pose(),
+                random.vector(2.0),
+                random.vector(2.0),
+                0.0};
         return grip;
     }
     void run() {
-        build_constraints({persistent_id, body, body_pose, body_velocity, player, origin, player_velocity, head, owner,
-                           grab, frame},
+        build_constraints({persistent_id, body, body_pose, body_velocity, player, origin,
+                           player_velocity, head, owner, grab, frame},
                           tuning);
     }
     std::uint32_t index_of_body(Entity entity) const {
         return static_cast<std::uint32_t>(find_body(frame.graph, id_of(entity)));
     }
-    const SolverBody& solver_body(Entity entity) const { return frame.graph.bodies[index_of_body(entity)]; }
-    const FrameGraph::PhaseBody& phase(Entity entity) const { return frame.phase[index_of_body(entity)]; }
+    const SolverBody& solver_body(Entity entity) const {
+        return frame.graph.bodies[index_of_body(entity)];
+    }
+    const FrameGraph::PhaseBody& phase(Entity entity) const {
+        return frame.phase[index_of_body(entity)];
+    }
 };
 
 TEST(BuildConstraints, PlayerIsAMassThatNeverTurnsWithHisHeadAsCollider) {
@@ -113,7 +129,8 @@ TEST(BuildConstraints, RoleOfABodyFollowsFromItsKindAndMass) {
         {{BodyKind::free, heavy_kg, Vec3(1.0, 2.0, 3.0), 0.3}, BodyRole::heavy}};
     for (const auto& [rigid, role] : cases) {
         Building scene;
-        scene.add_body(k_rock, rigid, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}, {Vec3(4.0, 5.0, 6.0), Vec3(7.0, 8.0, 9.0)});
+        scene.add_body(k_rock, rigid, {Vec3(1.0, 2.0, 3.0), Quat::Identity()},
+                       {Vec3(4.0, 5.0, 6.0), Vec3(7.0, 8.0, 9.0)});
         scene.run();
         const SolverBody& body = scene.solver_body(k_rock);
         EXPECT_EQ(body.role, role);
@@ -156,8 +173,10 @@ TEST(BuildConstraints, HandsBecomeRowsFromTargetToAnchorDrivenInTheWorld) {
         EXPECT_EQ(block.rotation_a_bs.coeffs(), grab.target_ps.rotation.coeffs());
         EXPECT_EQ(block.rotation_b_bs.coeffs(), grab.anchor_bs.rotation.coeffs());
         const Quat& play_space = scene.origin.at(k_player).pose_ws.rotation;
-        EXPECT_LT((block.drive_velocity_ws_mps - play_space * grab.target_velocity_ps_mps).norm(), 1e-15);
-        EXPECT_LT((block.drive_spin_ws_radps - play_space * grab.target_spin_ps_radps).norm(), 1e-15);
+        EXPECT_LT((block.drive_velocity_ws_mps - play_space * grab.target_velocity_ps_mps).norm(),
+                  1e-15);
+        EXPECT_LT((block.drive_spin_ws_radps - play_space * grab.target_spin_ps_radps).norm(),
+                  1e-15);
         EXPECT_EQ(scene.phase(k_player).grips_surface, kind == GripKind::surface);
         EXPECT_EQ(scene.phase(k_rock).held, kind == GripKind::held);
     }
@@ -166,9 +185,12 @@ TEST(BuildConstraints, HandsBecomeRowsFromTargetToAnchorDrivenInTheWorld) {
 // 1/kappa is 3t^2 - 2t^3 between light and heavy: 0, 0.15625, 0.5, 1 at t = 0, 1/4, 1/2, 1.
 TEST(BuildConstraints, ShareOfThePlayerFollowsTheDesignersCurve) {
     const PhaseTuning phases;
-    const auto mass_at = [&](double t) { return phases.kappa_light_kg + t * (phases.kappa_heavy_kg - phases.kappa_light_kg); };
+    const auto mass_at = [&](double t) {
+        return phases.kappa_light_kg + t * (phases.kappa_heavy_kg - phases.kappa_light_kg);
+    };
     const std::vector<std::pair<double, double>> cases = {
-        {1.0, 0.0}, {mass_at(0.0), 0.0}, {mass_at(0.25), 0.15625}, {mass_at(0.5), 0.5}, {mass_at(1.0), 1.0}, {1e6, 1.0}};
+        {1.0, 0.0},          {mass_at(0.0), 0.0}, {mass_at(0.25), 0.15625},
+        {mass_at(0.5), 0.5}, {mass_at(1.0), 1.0}, {1e6, 1.0}};
     for (const auto& [mass_kg, share] : cases) {
         Random random(3);
         Building scene;

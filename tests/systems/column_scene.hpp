@@ -7,7 +7,8 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// What the systems' own tests share: entities by number, random numbers that are the same everywhere, mirrors.
+// What the systems' own tests share: entities by number, random numbers that are the same
+// everywhere, mirrors.
 namespace handhold::test {
 
 constexpr double k_pi = 3.14159265358979323846;
@@ -32,7 +33,9 @@ class Random {
     double between(double low, double high) {
         return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
     }
-    Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
+    Vec3 vector(double size) {
+        return {between(-size, size), between(-size, size), between(-size, size)};
+    }
     Quat rotation() { return rotation_from_vector(vector(1.8)); }
     Pose pose(double size_m = 2.0) { return {vector(size_m), rotation()}; }
 
@@ -48,7 +51,9 @@ inline Pose mirrored(const Pose& pose) {
     return {mirrored(pose.position), Quat(q.w(), q.x(), -q.y(), -q.z())};
 }
 
-inline double angle_between(const Quat& a, const Quat& b) { return rotation_to_vector(a * b.conjugate()).norm(); }
+inline double angle_between(const Quat& a, const Quat& b) {
+    return rotation_to_vector(a * b.conjugate()).norm();
+}
 // Metres, and radians as metres.
 inline double distance(const Pose& a, const Pose& b) {
     return (a.position - b.position).norm() + angle_between(a.rotation, b.rotation);

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include "column_scene.hpp"
 
@@ -12,7 +11,6 @@ namespace handhold {
 namespace {
 
 using test::entity;
-using test::Random;
 
 constexpr Entity k_player = entity(0);
 constexpr Entity k_left = entity(1);
@@ -39,7 +37,8 @@ struct Contacts {
     FrameGraph frame;
     std::vector<ColliderProxy> proxies;
 
-    explicit Contacts(std::initializer_list<Entity> order = {k_player, k_left, k_right, k_rock, k_wall}) {
+    explicit Contacts(std::initializer_list<Entity> order = {k_player, k_left, k_right, k_rock,
+                                                             k_wall}) {
         for (const Entity entity : order) {
             persistent_id.add(entity, {id_of(entity)});
             if (entity == k_left || entity == k_right) {
@@ -53,17 +52,21 @@ struct Contacts {
         place(k_player, head_shape, Vec3::Zero(), true);
     }
     void place(Entity entity, ShapeId shape, const Vec3& center, bool free) {
-        std::erase_if(proxies, [entity](const ColliderProxy& proxy) { return proxy.id == id_of(entity); });
+        std::erase_if(proxies,
+                      [entity](const ColliderProxy& proxy) { return proxy.id == id_of(entity); });
         const Pose pose{center, Quat::Identity()};
         proxies.push_back({id_of(entity), shape, pose, pose, free});
-        std::sort(proxies.begin(), proxies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+        std::sort(proxies.begin(), proxies.end(),
+                  [](const auto& a, const auto& b) { return a.id < b.id; });
     }
     // With this much between head and rock; negative: overlap.
     void place_rock(double gap_m) {
         place(k_rock, rock_shape, Vec3(k_head_radius_m + k_rock_radius_m + gap_m, 0.0, 0.0), true);
     }
-    // Behind the head, so far that its front touches what is `gap_m` away from the head.
-    void place_wall(double gap_m) { place(k_wall, wall_shape, Vec3(0.0, 0.0, -(k_head_radius_m + 0.1 + gap_m)), false); }
+    // In front of the head (-z), with this much between them.
+    void place_wall(double gap_m) {
+        place(k_wall, wall_shape, Vec3(0.0, 0.0, -(k_head_radius_m + 0.1 + gap_m)), false);
+    }
     void hold(Entity hand, Entity body) {
         grab.at(hand).kind = GripKind::held;
         grab.at(hand).body = body;
@@ -71,12 +74,14 @@ struct Contacts {
     }
     void run() {
         collision.set_proxies(proxies);
-        find_contacts({persistent_id, head, owner, grab, collision, head_ignores, frame}, ContactTuning{});
+        find_contacts({persistent_id, head, owner, grab, collision, head_ignores, frame},
+                      ContactTuning{});
     }
     std::size_t count_between(Entity x, Entity y) const {
-        return static_cast<std::size_t>(std::ranges::count_if(frame.contacts, [=](const ContactPoint& contact) {
-            return std::minmax(contact.id_a, contact.id_b) == std::minmax(id_of(x), id_of(y));
-        }));
+        return static_cast<std::size_t>(
+            std::ranges::count_if(frame.contacts, [=](const ContactPoint& contact) {
+                return std::minmax(contact.id_a, contact.id_b) == std::minmax(id_of(x), id_of(y));
+            }));
     }
     bool ignores(Entity body) const {
         return std::ranges::count(head_ignores.at(k_player).bodies, body) > 0;
@@ -172,7 +177,8 @@ TEST(FindContacts, AnotherPlayersHeadMeetsTheHeldRock) {
     scene.head.at(k_other).state = TrackingState::tracked;
     scene.head_ignores.add(k_other);
     scene.place_rock(-0.01);
-    scene.place(k_other, scene.head_shape, Vec3(2.0 * (k_head_radius_m + k_rock_radius_m) - 0.02, 0.0, 0.0), true);
+    scene.place(k_other, scene.head_shape,
+                Vec3(2.0 * (k_head_radius_m + k_rock_radius_m) - 0.02, 0.0, 0.0), true);
     scene.hold(k_right, k_rock);
     scene.run();
     EXPECT_EQ(scene.count_between(k_player, k_rock), 0U);

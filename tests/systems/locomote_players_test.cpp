@@ -58,22 +58,25 @@ struct Locomotion {
     Pose& play_space() { return origin.at(k_player).pose_ws; }
     Vec3& speed() { return velocity.at(k_player).linear_mps; }
     Vec3 head_ws() { return transform_point(play_space(), head.at(k_player).start_ps.position); }
-    Vec3 hand_ws(Entity which) { return transform_point(play_space(), hand.at(which).start_ps.position); }
+    Vec3 hand_ws(Entity which) {
+        return transform_point(play_space(), hand.at(which).start_ps.position);
+    }
     void grip(Entity which, GripKind kind, Entity body, GrabPhase phase = GrabPhase::holding) {
         grab.at(which).kind = kind;
         grab.at(which).phase = phase;
         grab.at(which).body = body;
     }
     void run() {
-        locomote_players({k_dt_s, scene_velocity, commands, head, owner, hand, grab, body_pose, body_velocity, origin,
-                          velocity, reference},
+        locomote_players({k_dt_s, scene_velocity, commands, head, owner, hand, grab, body_pose,
+                          body_velocity, origin, velocity, reference},
                          tuning);
     }
 };
 
 Vec3 up_of(const Pose& play_space) { return play_space.rotation * Vec3::UnitY(); }
 
-// --- Turning -----------------------------------------------------------------------------------------------------------------
+// --- Turning
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(LocomotePlayers, SnapTurnsByItsAngleToTheLeftAboutTheHead) {
     Locomotion player;
@@ -90,8 +93,10 @@ TEST(LocomotePlayers, SmoothTurnIsSpeedTimesTimeAndTheStickEndsAtOne) {
         Locomotion player;
         player.command().smooth_turn = stick;
         player.run();
-        const double angle = std::clamp(stick, -1.0, 1.0) * player.tuning.smooth_turn_radps * k_dt_s;
-        EXPECT_LT((rotation_to_vector(player.play_space().rotation) - angle * Vec3::UnitY()).norm(), 1e-14);
+        const double angle =
+            std::clamp(stick, -1.0, 1.0) * player.tuning.smooth_turn_radps * k_dt_s;
+        EXPECT_LT((rotation_to_vector(player.play_space().rotation) - angle * Vec3::UnitY()).norm(),
+                  1e-14);
     }
 }
 
@@ -133,11 +138,13 @@ TEST(LocomotePlayers, NothingAskedNothingTurnedBitForBit) {
     EXPECT_EQ(player.play_space().rotation.coeffs(), before.rotation.coeffs());
 }
 
-// --- Following a support -----------------------------------------------------------------------------------------------------
+// --- Following a support
+// -----------------------------------------------------------------------------------------------------
 
 TEST(LocomotePlayers, PlaySpaceFollowsItsSupportAsFarAsTheDesignerSays) {
     const Vec3 spin(0.5, -0.8, 0.3);
-    for (const SupportFollow follow : {SupportFollow::off, SupportFollow::yaw, SupportFollow::full}) {
+    for (const SupportFollow follow :
+         {SupportFollow::off, SupportFollow::yaw, SupportFollow::full}) {
         Locomotion player;
         player.tuning.support_follow = follow;
         player.body_velocity.at(k_ship).angular_radps = spin;
@@ -181,7 +188,8 @@ TEST(LocomotePlayers, HeldRockTurnsNobody) {
     EXPECT_EQ(rotation_to_vector(player.play_space().rotation), Vec3(Vec3::Zero()));
 }
 
-// --- Reference velocity ------------------------------------------------------------------------------------------------------
+// --- Reference velocity
+// ------------------------------------------------------------------------------------------------------
 
 // A turning body's velocity where the head is: v + w x r.
 TEST(LocomotePlayers, ReferenceIsTheGrippedBodysVelocityAtThePlayer) {
@@ -223,7 +231,8 @@ TEST(LocomotePlayers, HeldRockIsNoReference) {
     EXPECT_EQ(player.reference.at(k_player).linear_mps, Vec3(Vec3::Zero()));
 }
 
-// --- Brake, drag, thrusters --------------------------------------------------------------------------------------------------
+// --- Brake, drag, thrusters
+// --------------------------------------------------------------------------------------------------
 
 // What is fast against the reference loses 1/(1 + drag dt); what rests against it keeps its speed.
 TEST(LocomotePlayers, BrakeActsAgainstTheReference) {
@@ -279,7 +288,8 @@ TEST(LocomotePlayers, GrippingHandStandsAgainstBrakeAndThrusters) {
     }
 }
 
-// --- Properties --------------------------------------------------------------------------------------------------------------
+// --- Properties
+// --------------------------------------------------------------------------------------------------------------
 
 RC_GTEST_PROP(LocomotePlayers, MovedAndRotatedWorldIsTheSameToItsPlayer, (std::uint64_t seed)) {
     Random random(seed);

@@ -55,7 +55,8 @@ struct Placing {
         last_valid.add(k_player, {random.pose(10.0), true});
     }
     void run(const HeadTuning& tuning = {}) {
-        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, head, last_valid, collision, frame},
+        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, head,
+                         last_valid, collision, frame},
                         tuning);
     }
     const ColliderProxy& proxy(Entity entity) const {
@@ -90,12 +91,14 @@ TEST(PlaceColliders, FreeBodiesComeFromTheirLastValidPoseOthersFromTheFramesStar
         const bool free = entity == k_rock;
         EXPECT_EQ(scene.proxy(entity).free, free);
         EXPECT_EQ(distance(scene.proxy(entity).to_ws, scene.body_pose.at(entity).pose_ws), 0.0);
-        const Pose& from = free ? scene.last_valid.at(entity).pose_ws : scene.body_start.at(entity).pose_ws;
+        const Pose& from =
+            free ? scene.last_valid.at(entity).pose_ws : scene.body_start.at(entity).pose_ws;
         EXPECT_EQ(distance(scene.proxy(entity).from_ws, from), 0.0);
     }
 }
 
-RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook, (std::uint64_t seed)) {
+RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
+              (std::uint64_t seed)) {
     Random random(seed);
     Placing scene;
     scene.add_player(random);
@@ -105,7 +108,8 @@ RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook, (s
     const Vec3 center_ps = transform_point(scene.head.at(k_player).pose_ps, tuning.center_m);
     const Vec3 center_ws = transform_point(scene.origin.at(k_player).pose_ws, center_ps);
     RC_ASSERT((scene.proxy(k_player).to_ws.position - center_ws).norm() < 1e-13);
-    RC_ASSERT(distance(scene.proxy(k_player).from_ws, scene.last_valid.at(k_player).pose_ws) == 0.0);
+    RC_ASSERT(distance(scene.proxy(k_player).from_ws, scene.last_valid.at(k_player).pose_ws) ==
+              0.0);
     RC_ASSERT(scene.proxy(k_player).free);
 }
 

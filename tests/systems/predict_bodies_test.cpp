@@ -25,7 +25,8 @@ struct Prediction {
     Column<PlayerOrigin> origin;
     Column<PlayerStart> player_start;
 
-    void add_body(Entity entity, BodyKind kind, const Vec3& inertia_kgm2, const Pose& pose, const BodyVelocity& velocity) {
+    void add_body(Entity entity, BodyKind kind, const Vec3& inertia_kgm2, const Pose& pose,
+                  const BodyVelocity& velocity) {
         body.add(entity, {kind, 2.0, inertia_kgm2, 0.0});
         body_pose.add(entity, {pose});
         body_start.add(entity);
@@ -34,7 +35,8 @@ struct Prediction {
     Pose& pose() { return body_pose.at(k_body).pose_ws; }
     Vec3& spin() { return body_velocity.at(k_body).angular_radps; }
     void run(double dt_s) {
-        predict_bodies({dt_s, body, player_velocity, body_pose, body_start, body_velocity, origin, player_start});
+        predict_bodies({dt_s, body, player_velocity, body_pose, body_start, body_velocity, origin,
+                        player_start});
     }
 };
 
@@ -47,7 +49,8 @@ Vec3 angular_momentum(const Prediction& scene) {
 TEST(PredictBodies, FreeBodiesAndPlayersGoWhereTheirVelocityCarriesThem) {
     Prediction scene;
     const Pose start{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)};
-    scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), start, {Vec3(2.0, 0.0, -1.0), Vec3::Zero()});
+    scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), start,
+                   {Vec3(2.0, 0.0, -1.0), Vec3::Zero()});
     scene.origin.add(k_player, {start});
     scene.player_start.add(k_player);
     scene.player_velocity.add(k_player, {Vec3(0.0, 4.0, 0.0)});
@@ -64,19 +67,23 @@ TEST(PredictBodies, FixedAndKinematicBodiesStayBitForBit) {
     for (const BodyKind kind : {BodyKind::fixed, BodyKind::kinematic}) {
         Prediction scene;
         const Pose start{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)};
-        scene.add_body(k_body, kind, Vec3::Zero(), start, {Vec3(2.0, 0.0, -1.0), Vec3(1.0, 1.0, 1.0)});
+        scene.add_body(k_body, kind, Vec3::Zero(), start,
+                       {Vec3(2.0, 0.0, -1.0), Vec3(1.0, 1.0, 1.0)});
         scene.run(0.5);
         EXPECT_EQ(scene.pose().position, start.position);
         EXPECT_EQ(scene.pose().rotation.coeffs(), start.rotation.coeffs());
-        EXPECT_EQ(scene.body_start.at(k_body).pose_ws.position, Vec3(Vec3::Zero()));  // animate_movers' to write
+        EXPECT_EQ(scene.body_start.at(k_body).pose_ws.position,
+                  Vec3(Vec3::Zero()));  // animate_movers' to write
     }
 }
 
 RC_GTEST_PROP(PredictBodies, SpinKeepsTheAngularMomentumWhateverTheStep, (std::uint64_t seed)) {
     Random random(seed);
     Prediction scene;
-    const Vec3 inertia(random.between(0.05, 1.0), random.between(0.05, 1.0), random.between(0.05, 1.0));
-    scene.add_body(k_body, BodyKind::free, inertia, random.pose(), {random.vector(1.0), random.vector(10.0)});
+    const Vec3 inertia(random.between(0.05, 1.0), random.between(0.05, 1.0),
+                       random.between(0.05, 1.0));
+    scene.add_body(k_body, BodyKind::free, inertia, random.pose(),
+                   {random.vector(1.0), random.vector(10.0)});
     const Vec3 before = angular_momentum(scene);
     const double dt_s = random.between(0.001, 0.05);
     for (int frame = 0; frame < 100; ++frame) {
@@ -88,22 +95,26 @@ RC_GTEST_PROP(PredictBodies, SpinKeepsTheAngularMomentumWhateverTheStep, (std::u
 
 TEST(PredictBodies, SpinAboutAPrincipalAxisIsSteady) {
     Prediction scene;
-    scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), {}, {Vec3::Zero(), Vec3(0.0, 0.0, 4.0)});
+    scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), {},
+                   {Vec3::Zero(), Vec3(0.0, 0.0, 4.0)});
     for (int frame = 0; frame < 90; ++frame) {
         scene.run(1.0 / 90.0);
     }
     EXPECT_LT((scene.spin() - Vec3(0.0, 0.0, 4.0)).norm(), 1e-13);
-    EXPECT_LT(test::angle_between(scene.pose().rotation, rotation_about(Vec3::UnitZ(), 4.0)), 1e-12);
+    EXPECT_LT(test::angle_between(scene.pose().rotation, rotation_about(Vec3::UnitZ(), 4.0)),
+              1e-12);
 }
 
-// A symmetric top, I1 = I1 < I3, spinning obliquely: its axis goes round the angular momentum L at |L| / I1 (Landau and Lifshitz,
-// Mechanics, 33). Returns how far the axis is from there after one second.
+// A symmetric top, I1 = I1 < I3, spinning obliquely: its axis goes round the angular momentum L at
+// |L| / I1 (Landau and Lifshitz, Mechanics, 33). Returns how far the axis is from there after one
+// second.
 double precession_error(double hz) {
     constexpr double k_across = 0.2;
     constexpr double k_along = 0.35;
     Prediction scene;
     const Vec3 spin(3.0, 0.0, 5.0);
-    scene.add_body(k_body, BodyKind::free, Vec3(k_across, k_across, k_along), {}, {Vec3::Zero(), spin});
+    scene.add_body(k_body, BodyKind::free, Vec3(k_across, k_across, k_along), {},
+                   {Vec3::Zero(), spin});
     const Vec3 momentum = angular_momentum(scene);
     const auto frames = static_cast<int>(std::lround(hz));
     for (int frame = 0; frame < frames; ++frame) {
@@ -113,7 +124,9 @@ double precession_error(double hz) {
     return (scene.pose().rotation * Vec3::UnitZ() - precession * Vec3::UnitZ()).norm();
 }
 
-TEST(PredictBodies, SymmetricTopPrecessesAtTheAnalyticRate) { EXPECT_LT(precession_error(10000.0), 1e-5); }
+TEST(PredictBodies, SymmetricTopPrecessesAtTheAnalyticRate) {
+    EXPECT_LT(precession_error(10000.0), 1e-5);
+}
 
 TEST(PredictBodies, ErrorOfATumbleFallsWithTheSquareOfTheStep) {
     const double coarse = precession_error(90.0);
@@ -136,8 +149,10 @@ TEST(PredictBodies, OrderOfBodiesDoesNotMatter) {
     forth.run(0.01);
     back.run(0.01);
     for (const Entity body : {k_body, entity(5)}) {
-        EXPECT_EQ(forth.body_pose.at(body).pose_ws.position, back.body_pose.at(body).pose_ws.position);
-        EXPECT_EQ(forth.body_pose.at(body).pose_ws.rotation.coeffs(), back.body_pose.at(body).pose_ws.rotation.coeffs());
+        EXPECT_EQ(forth.body_pose.at(body).pose_ws.position,
+                  back.body_pose.at(body).pose_ws.position);
+        EXPECT_EQ(forth.body_pose.at(body).pose_ws.rotation.coeffs(),
+                  back.body_pose.at(body).pose_ws.rotation.coeffs());
     }
 }
 
@@ -155,7 +170,9 @@ RC_GTEST_PROP(PredictBodies, RotatedWorldTumblesAlike, (std::uint64_t seed)) {
         here.run(1.0 / 90.0);
         there.run(1.0 / 90.0);
     }
-    RC_ASSERT((inverse_transform_point(moved, there.pose().position) - here.pose().position).norm() < 1e-10);
+    RC_ASSERT(
+        (inverse_transform_point(moved, there.pose().position) - here.pose().position).norm() <
+        1e-10);
     RC_ASSERT((moved.rotation.conjugate() * there.spin() - here.spin()).norm() < 1e-11);
 }
 

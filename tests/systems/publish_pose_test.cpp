@@ -29,7 +29,8 @@ struct Publishing {
     Column<RenderPose> render;
     Tuning tuning;
 
-    explicit Publishing(std::uint64_t seed, std::initializer_list<Entity> hands = {k_left, k_right}) {
+    explicit Publishing(std::uint64_t seed,
+                        std::initializer_list<Entity> hands = {k_left, k_right}) {
         Random random(seed);
         persistent_id.add(k_player, {7});
         origin.add(k_player, {random.pose()});
@@ -46,7 +47,8 @@ struct Publishing {
         hand.at(k_right).pose_ps = random.pose(1.0);
     }
     const RenderPose& run() {
-        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, body_pose, render}, tuning);
+        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, body_pose, render},
+                     tuning);
         return render.at(k_player);
     }
     const Pose& origin_ws() const { return origin.at(k_player).pose_ws; }
@@ -56,16 +58,20 @@ RC_GTEST_PROP(PublishPose, HeadAndHandsAreTheirTrackedPosesInTheWorld, (std::uin
     Publishing scene(seed);
     const RenderPose& out = scene.run();
     RC_ASSERT(distance(out.head_ws, scene.origin_ws() * scene.head.at(k_player).pose_ps) < 1e-7);
-    RC_ASSERT((out.head_center_ws - transform_point(out.head_ws, scene.tuning.head.center_m)).norm() < 1e-13);
+    RC_ASSERT(
+        (out.head_center_ws - transform_point(out.head_ws, scene.tuning.head.center_m)).norm() <
+        1e-13);
     for (const Entity hand : {k_left, k_right}) {
         const RenderPose::Hand& shown = out.hands[hand == k_left ? 0 : 1];
-        RC_ASSERT(distance(shown.tracked_ws, scene.origin_ws() * scene.hand.at(hand).pose_ps) < 1e-7);
+        RC_ASSERT(distance(shown.tracked_ws, scene.origin_ws() * scene.hand.at(hand).pose_ps) <
+                  1e-7);
         RC_ASSERT(distance(shown.shown_ws, shown.tracked_ws) == 0.0);
         RC_ASSERT(shown.grip == GripKind::none);
     }
 }
 
-RC_GTEST_PROP(PublishPose, GrippingHandIsShownOnItsAnchorWhateverTheTrackingSays, (std::uint64_t seed)) {
+RC_GTEST_PROP(PublishPose, GrippingHandIsShownOnItsAnchorWhateverTheTrackingSays,
+              (std::uint64_t seed)) {
     Publishing scene(seed);
     Random random(seed + 1);
     Grab& grab = scene.grab.at(k_right);
@@ -73,8 +79,10 @@ RC_GTEST_PROP(PublishPose, GrippingHandIsShownOnItsAnchorWhateverTheTrackingSays
     grab.body = k_rock;
     grab.anchor_bs = random.pose();
     const RenderPose& out = scene.run();
-    RC_ASSERT(distance(out.hands[1].shown_ws, scene.body_pose.at(k_rock).pose_ws * grab.anchor_bs) < 1e-7);
-    RC_ASSERT(distance(out.hands[1].tracked_ws, scene.origin_ws() * scene.hand.at(k_right).pose_ps) < 1e-7);
+    RC_ASSERT(distance(out.hands[1].shown_ws, scene.body_pose.at(k_rock).pose_ws * grab.anchor_bs) <
+              1e-7);
+    RC_ASSERT(distance(out.hands[1].tracked_ws,
+                       scene.origin_ws() * scene.hand.at(k_right).pose_ps) < 1e-7);
     RC_ASSERT(out.hands[1].grip == GripKind::held);
     RC_ASSERT(distance(out.hands[0].shown_ws, out.hands[0].tracked_ws) == 0.0);
 }
@@ -100,7 +108,8 @@ RC_GTEST_PROP(PublishPose, RayRunsThroughThePalmAlongItsInwardNormal, (std::uint
         const double outward = side == HandSide::right ? 0.02 : -0.02;
         const Vec3 expected_from(outward, -0.01 + scene.tuning.hand.ray_back_m, -0.07);
         RC_ASSERT((from - expected_from).norm() < 1e-13);
-        RC_ASSERT((to - (expected_from - Vec3(0.0, scene.tuning.hand.ray_length_m, 0.0))).norm() < 1e-13);
+        RC_ASSERT((to - (expected_from - Vec3(0.0, scene.tuning.hand.ray_length_m, 0.0))).norm() <
+                  1e-13);
     }
 }
 
@@ -131,7 +140,8 @@ RC_GTEST_PROP(PublishPose, MovedAndRotatedWorldMovesThePictureAlong, (std::uint6
     const RenderPose& b = there.run();
     RC_ASSERT(distance(inverse(moved) * b.head_ws, a.head_ws) < 1e-6);
     RC_ASSERT(distance(inverse(moved) * b.hands[0].shown_ws, a.hands[0].shown_ws) < 1e-6);
-    RC_ASSERT((inverse_transform_point(moved, b.hands[1].ray_to_ws) - a.hands[1].ray_to_ws).norm() < 1e-9);
+    RC_ASSERT((inverse_transform_point(moved, b.hands[1].ray_to_ws) - a.hands[1].ray_to_ws).norm() <
+              1e-9);
 }
 
 TEST(PublishPose, OrderOfHandsDoesNotMatter) {

@@ -7,76 +7,27 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/core/check.hpp"
+#include "tracked_devices.hpp"
 
 namespace handhold {
 namespace {
 
 using test::count_of;
 using test::count_of_all;
+using test::Devices;
 using test::distance;
 using test::entity;
+using test::k_frame_s;
+using test::k_player;
 using test::Random;
+using test::sample_at;
 
-constexpr double k_frame_s = 0.01;
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr Entity k_player = entity(0);
 
-Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
-
-TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bool grab = false) {
-    TrackingSample sample;
-    sample.t_s = t_s;
-    sample.head_ps = pose_at(place);
-    sample.controllers = {ControllerSample{pose_at(place), grab}, ControllerSample{pose_at(place), grab}};
-    return sample;
-}
-
-// One player whose hands are where his controllers are.
-struct Devices {
-    Column<HandOwner> owner;
-    Column<ControllerToHand> joint;
-    Column<HeadTracking> head;
-    Column<HandTracking> hand;
-    Column<HandHistory> history;
-    Column<PlayerCommands> commands;
-    Tuning tuning;
-    StageStats stats;
-    double t_s = 0.0;
-
-    Devices() { add_player(k_player, {HandSide::left, HandSide::right}); }
-    void add_player(Entity player, std::initializer_list<HandSide> order) {
-        head.add(player);
-        commands.add(player);
-        for (const HandSide side : order) {
-            const Entity entity = hand_of(player, side);
-            owner.add(entity, {player, side});
-            joint.add(entity);
-            hand.add(entity);
-            history.add(entity);
-        }
-    }
-    static Entity hand_of(Entity player, HandSide side) {
-        return entity(player.slot + 1 + static_cast<std::uint32_t>(index_of(side)));
-    }
-    const HeadTracking& player_head() const { return head.at(k_player); }
-    const HandTracking& right() const { return hand.at(hand_of(k_player, HandSide::right)); }
-    const HandTracking& left() const { return hand.at(hand_of(k_player, HandSide::left)); }
-
-    void step_inputs(std::span<const PlayerInput> inputs, double dt_s = k_frame_s) {
-        stats = {};
-        read_tracking({inputs, t_s, t_s + dt_s, owner, joint, head, hand, history, commands}, tuning, stats);
-        t_s += dt_s;
-    }
-    void step(const std::vector<TrackingSample>& samples, double dt_s = k_frame_s) {
-        const PlayerInput input{k_player, samples, {}};
-        step_inputs(std::span(&input, 1), dt_s);
-    }
-};
-
-// --- Poses -------------------------------------------------------------------------------------------------------------------
+// --- Poses
+// -------------------------------------------------------------------------------------------------------------------
 
 TEST(ReadTracking, PosesAreInterpolatedToTheFramesEnd) {
     Devices devices;
@@ -110,7 +61,8 @@ TEST(ReadTracking, FirstPoseIsAlsoTheStartOfItsFrame) {
     EXPECT_EQ(devices.right().start_ps.position, Vec3(1.0, 2.0, 3.0));
 }
 
-// The first sample lies after the frame: its pose is taken, and the sample itself counts in its own frame.
+// The first sample lies after the frame: its pose is taken, and the sample itself counts in its own
+// frame.
 TEST(ReadTracking, SessionThatBeginsBetweenTwoSamplesLosesNeither) {
     Devices devices;
     devices.step({sample_at(0.012, Vec3(1.0, 0.0, 0.0), true)});
@@ -164,160 +116,13 @@ RC_GTEST_PROP(ReadTracking, MirroredControllersGiveMirroredHands, (std::uint64_t
     RC_ASSERT(devices.left().edge == GrabEdge::onset);
 }
 
-// --- Buttons -----------------------------------------------------------------------------------------------------------------
-
-TEST(ReadTracking, EdgeHasTheTimeAndPoseOfItsOwnSample) {
-    Devices devices;
-    devices.step({sample_at(0.002, Vec3(1.0, 0.0, 0.0)), sample_at(0.004, Vec3(2.0, 0.0, 0.0), true),
-                  sample_at(0.008, Vec3(3.0, 0.0, 0.0), true)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
-    EXPECT_EQ(devices.right().edge_t_s, 0.004);
-    EXPECT_EQ(devices.right().edge_ps.position, Vec3(2.0, 0.0, 0.0));
-    EXPECT_TRUE(devices.right().pressed);
-    devices.step({sample_at(0.012, Vec3::Zero(), true)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::none);
-}
-
-TEST(ReadTracking, TapWithinOneFrameIsAnOnsetAndAReleaseInTheNext) {
-    Devices devices;
-    devices.step({sample_at(0.001), sample_at(0.003, Vec3::Zero(), true), sample_at(0.006)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
-    devices.step({sample_at(0.013), sample_at(0.018)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::release);
-    EXPECT_EQ(devices.right().edge_t_s, 0.01);  // the frame's start
-    devices.step({sample_at(0.023)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::none);
-}
-
-TEST(ReadTracking, BouncesThatEndAsTheyBeganAreOneEdge) {
-    Devices devices;
-    std::vector<TrackingSample> bouncing = {sample_at(0.001)};
-    for (int i = 0; i < 7; ++i) {
-        bouncing.push_back(sample_at(0.002 + 0.001 * i, Vec3::Zero(), i % 2 == 0));
-    }
-    devices.step(bouncing);
-    EXPECT_EQ(devices.right().edge, GrabEdge::onset);
-    EXPECT_EQ(devices.right().edge_t_s, 0.002);
-    devices.step({sample_at(0.015, Vec3::Zero(), true)});
-    EXPECT_EQ(devices.right().edge, GrabEdge::none);
-    EXPECT_TRUE(devices.right().pressed);
-}
-
-// Onsets and releases alternate for ever, at most one a frame, each within its frame; the hand ends as the button does.
-RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_t seed)) {
-    Random random(seed);
-    Devices devices;
-    bool was_pressed = false;
-    double sample_t_s = 0.0;
-    for (int frame = 0; frame < 50; ++frame) {
-        std::vector<TrackingSample> samples;
-        for (sample_t_s += random.between(1e-4, 0.004); sample_t_s < devices.t_s + k_frame_s;
-             sample_t_s += random.between(1e-4, 0.004)) {
-            samples.push_back(sample_at(sample_t_s, random.vector(1.0), random.between(0.0, 1.0) < 0.5));
-        }
-        const double start_s = devices.t_s;
-        devices.step(samples);
-        const HandTracking& hand = devices.right();
-        if (hand.edge != GrabEdge::none) {
-            RC_ASSERT((hand.edge == GrabEdge::onset) == !was_pressed);
-            RC_ASSERT(hand.edge_t_s >= start_s && hand.edge_t_s <= devices.t_s);
-        }
-        RC_ASSERT(hand.pressed == (hand.edge == GrabEdge::none ? was_pressed : !was_pressed));
-        was_pressed = hand.pressed;
-    }
-    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
-    devices.step({sample_at(devices.t_s + 0.005, Vec3::Zero(), true)});
-    RC_ASSERT(devices.right().pressed);
-}
-
-// --- Release velocities ------------------------------------------------------------------------------------------------------
-
-struct Motion {
-    Vec3 start = Vec3(0.1, 1.2, -0.3);
-    Vec3 velocity = Vec3(1.0, -0.5, 2.0);
-    Vec3 acceleration = Vec3::Zero();
-    Vec3 spin = Vec3::Zero();
-    Pose at(double t_s) const {
-        return {start + t_s * velocity + 0.5 * t_s * t_s * acceleration, rotation_from_vector(spin * t_s)};
-    }
-};
-
-// 100 ms with the hand closed, sampled at 500 Hz, then it opens at 0.1 s.
-void move_and_let_go(const Motion& motion, Devices& devices, double dt_s) {
-    const int frames = static_cast<int>(std::lround(0.12 / dt_s));
-    int next = 0;
-    for (int frame = 0; frame < frames; ++frame) {
-        std::vector<TrackingSample> samples;
-        for (; 0.002 * next <= devices.t_s + dt_s; ++next) {
-            samples.push_back(sample_at(0.002 * next, Vec3::Zero(), next < 50));
-            for (ControllerSample& controller : samples.back().controllers) {
-                controller.controller_ps = motion.at(0.002 * next);
-            }
-        }
-        devices.step(samples, dt_s);
-        if (devices.right().edge == GrabEdge::release) {
-            return;
-        }
-    }
-    FAIL() << "the hand never opened";
-}
-
-TEST(ReadTracking, ReleaseAfterSteadyMotionHasItsVelocityAndSpin) {
-    Devices devices;
-    Motion motion;
-    motion.spin = Vec3(2.0, -3.0, 1.0);
-    move_and_let_go(motion, devices, k_frame_s);
-    EXPECT_DOUBLE_EQ(devices.right().edge_t_s, 0.1);
-    EXPECT_LT((devices.right().release_velocity_ps_mps - motion.velocity).norm(), 1e-12);
-    EXPECT_LT((devices.right().release_spin_ps_radps - motion.spin).norm(), 1e-11);
-}
-
-// The least-squares line through a parabola sampled evenly has the parabola's slope at the samples' mean time: half the window back.
-TEST(ReadTracking, ReleaseOnAParabolaHasItsSlopeInTheMiddleOfTheWindow) {
-    Devices devices;
-    devices.tuning.tracking.release_window_s = 0.0401;  // 21 samples: those of the last 40 ms
-    Motion motion;
-    motion.acceleration = Vec3(20.0, 5.0, -30.0);
-    move_and_let_go(motion, devices, k_frame_s);
-    const Vec3 expected = motion.velocity + (0.1 - 0.02) * motion.acceleration;
-    EXPECT_LT((devices.right().release_velocity_ps_mps - expected).norm(), 1e-12);
-}
-
-TEST(ReadTracking, ReleaseVelocityIsTheSameBitForBitAtAnyFrameRate) {
-    Motion motion;
-    motion.acceleration = Vec3(20.0, 5.0, -30.0);
-    motion.spin = Vec3(2.0, -3.0, 1.0);
-    Devices reference;
-    move_and_let_go(motion, reference, k_frame_s);
-    for (const double hz : {60.0, 72.0, 90.0, 120.0, 144.0}) {
-        Devices devices;
-        move_and_let_go(motion, devices, 1.0 / hz);
-        EXPECT_EQ(devices.right().release_velocity_ps_mps, reference.right().release_velocity_ps_mps) << hz;
-        EXPECT_EQ(devices.right().release_spin_ps_radps, reference.right().release_spin_ps_radps) << hz;
-        EXPECT_EQ(devices.right().edge_t_s, reference.right().edge_t_s) << hz;
-    }
-}
-
-TEST(ReadTracking, ReleaseWithOneSampleInTheWindowIsStillAndWithTwoIsTheirDifference) {
-    Devices still;
-    still.tuning.tracking.release_window_s = 0.01;
-    still.step({sample_at(0.005, Vec3::Zero(), true)});
-    still.step({sample_at(0.0199, Vec3(1.0, 0.0, 0.0))});
-    ASSERT_EQ(still.right().edge, GrabEdge::release);
-    EXPECT_EQ(still.right().release_velocity_ps_mps, Vec3(Vec3::Zero()));
-
-    Devices moving;
-    moving.step({sample_at(0.005, Vec3::Zero(), true)});
-    moving.step({sample_at(0.015, Vec3(0.02, 0.0, -0.01))});
-    ASSERT_EQ(moving.right().edge, GrabEdge::release);
-    EXPECT_LT((moving.right().release_velocity_ps_mps - Vec3(2.0, 0.0, -1.0)).norm(), 1e-12);
-}
-
-// --- Bad samples -------------------------------------------------------------------------------------------------------------
+// --- Bad samples
+// -------------------------------------------------------------------------------------------------------------
 
 TEST(ReadTracking, SamplesOutOfOrderAreIgnoredAndCountedOnceAPlayer) {
     Devices devices;
-    devices.step({sample_at(0.006, Vec3(1.0, 0.0, 0.0)), sample_at(0.004, Vec3(9.0, 0.0, 0.0), true),
+    devices.step({sample_at(0.006, Vec3(1.0, 0.0, 0.0)),
+                  sample_at(0.004, Vec3(9.0, 0.0, 0.0), true),
                   sample_at(0.006, Vec3(9.0, 0.0, 0.0), true)});
     EXPECT_EQ(count_of(devices.stats, Fallback::sample_out_of_order), 2U);
     EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
@@ -327,7 +132,8 @@ TEST(ReadTracking, SamplesOutOfOrderAreIgnoredAndCountedOnceAPlayer) {
 TEST(ReadTracking, SamplesWithoutATimeAreIgnoredAndHideNoOthers) {
     for (const double bad : {k_nan, k_infinity, -k_infinity}) {
         Devices devices;
-        devices.step({sample_at(bad, Vec3(9.0, 0.0, 0.0), true), sample_at(0.005, Vec3(1.0, 0.0, 0.0)),
+        devices.step({sample_at(bad, Vec3(9.0, 0.0, 0.0), true),
+                      sample_at(0.005, Vec3(1.0, 0.0, 0.0)),
                       sample_at(bad, Vec3(9.0, 0.0, 0.0), true)});
         EXPECT_EQ(count_of(devices.stats, Fallback::sample_out_of_order), 2U);
         EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
@@ -375,7 +181,8 @@ TEST(ReadTracking, DeviceThatWasNeverSeenIsNeitherTrackedNorLost) {
     EXPECT_EQ(devices.left().state, TrackingState::tracked);
 }
 
-// --- Lost and found ----------------------------------------------------------------------------------------------------------
+// --- Lost and found
+// ----------------------------------------------------------------------------------------------------------
 
 TEST(ReadTracking, SilentDevicesAreLostOnceEachAndFrozen) {
     Devices devices;
@@ -398,7 +205,8 @@ TEST(ReadTracking, SilentDevicesAreLostOnceEachAndFrozen) {
 TEST(ReadTracking, PlayerWithoutInputIsSilentToo) {
     Devices devices;
     PlayerInput input{k_player, {}, {}};
-    const std::vector<TrackingSample> samples = {sample_at(0.004), sample_at(0.01, Vec3(1.0, 0.0, 0.0))};
+    const std::vector<TrackingSample> samples = {sample_at(0.004),
+                                                 sample_at(0.01, Vec3(1.0, 0.0, 0.0))};
     input.samples = samples;
     input.commands = {0.5, 1, 1.0, Vec3::UnitX()};
     devices.step_inputs(std::span(&input, 1));
@@ -449,7 +257,8 @@ TEST(ReadTracking, HandThatCannotBeSeenWaitsWithClosingUntilItIs) {
     EXPECT_EQ(devices.right().edge, GrabEdge::onset);
 }
 
-// --- Commands, players, preconditions ----------------------------------------------------------------------------------------
+// --- Commands, players, preconditions
+// ----------------------------------------------------------------------------------------
 
 TEST(ReadTracking, CommandsThatAreNotFiniteAskForNothing) {
     Devices devices;

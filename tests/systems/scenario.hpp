@@ -10,20 +10,30 @@
 #include "engine/collision/shape_library.hpp"
 #include "systems/frame.hpp"
 
-// A small world for scenarios through the whole frame: bodies by name, one player whose devices follow functions of time.
+// A small world for scenarios through the whole frame: bodies by name, one player whose devices
+// follow functions of time.
 namespace handhold {
 
 // What the devices do, in play space; hands are given as hands, not as controllers.
 struct DeviceScript {
-    std::function<Pose(double t_s)> head = [](double) { return Pose{Vec3(0.0, 1.6, 0.6), Quat::Identity()}; };
+    std::function<Pose(double t_s)> head = [](double) {
+        return Pose{Vec3(0.0, 1.6, 0.6), Quat::Identity()};
+    };
     std::function<Pose(double t_s)> hands[k_hand_count] = {
-        [](double) { return Pose{Vec3(-0.3, 1.2, 0.3), Quat::Identity()}; },
-        [](double) { return Pose{Vec3(0.3, 1.2, 0.3), Quat::Identity()}; }};
-    std::function<bool(double t_s)> grabs[k_hand_count] = {[](double) { return false; }, [](double) { return false; }};
+        [](double) {
+            return Pose{Vec3(-0.3, 1.2, 0.3), Quat::Identity()};
+        },
+        [](double) {
+            return Pose{Vec3(0.3, 1.2, 0.3), Quat::Identity()};
+        }};
+    std::function<bool(double t_s)> grabs[k_hand_count] = {[](double) { return false; },
+                                                           [](double) { return false; }};
 };
 
 // A number that eases from 0 to 1 between two times: speed and acceleration are continuous.
-inline double ease(double t_s, double from_s, double to_s) { return smooth_step(t_s, from_s, to_s); }
+inline double ease(double t_s, double from_s, double to_s) {
+    return smooth_step(t_s, from_s, to_s);
+}
 
 class Scenario {
   public:
@@ -41,23 +51,30 @@ class Scenario {
 
     Entity add(const std::string& name, const RigidBody& body, ShapeId shape, const Pose& pose,
                const BodyVelocity& velocity = {}) {
-        return add_body(world, {name, body, frame_ws * pose,
-                                {frame_ws.rotation * velocity.linear_mps, frame_ws.rotation * velocity.angular_radps},
+        return add_body(world, {name,
+                                body,
+                                frame_ws * pose,
+                                {frame_ws.rotation * velocity.linear_mps,
+                                 frame_ws.rotation * velocity.angular_radps},
                                 shape});
     }
     Entity add_wall(const std::string& name, const Vec3& half_m, const Vec3& center) {
         return add(name, {}, shapes.add_box(half_m), {center, Quat::Identity()});
     }
-    Entity add_rock(const std::string& name, double mass_kg, const Vec3& center, double radius_m = 0.08) {
-        RigidBody body{BodyKind::free, mass_kg, Vec3::Constant(0.4 * mass_kg * radius_m * radius_m), 0.0};
+    Entity add_rock(const std::string& name, double mass_kg, const Vec3& center,
+                    double radius_m = 0.08) {
+        RigidBody body{BodyKind::free, mass_kg, Vec3::Constant(0.4 * mass_kg * radius_m * radius_m),
+                       0.0};
         return add(name, body, shapes.add_sphere(radius_m), {center, Quat::Identity()});
     }
-    Entity add_crate(const std::string& name, double mass_kg, const Vec3& center, const Vec3& half_m) {
+    Entity add_crate(const std::string& name, double mass_kg, const Vec3& center,
+                     const Vec3& half_m) {
         const ShapeId shape = shapes.add_box(half_m);
-        return add(name, {BodyKind::free, mass_kg, solid_inertia(shapes.at(shape), mass_kg), 0.0}, shape,
-                   {center, Quat::Identity()});
+        return add(name, {BodyKind::free, mass_kg, solid_inertia(shapes.at(shape), mass_kg), 0.0},
+                   shape, {center, Quat::Identity()});
     }
-    void set_motion(Entity body, const Vec3& velocity_mps, const Vec3& spin_radps, bool turns = false) {
+    void set_motion(Entity body, const Vec3& velocity_mps, const Vec3& spin_radps,
+                    bool turns = false) {
         world.body.at(body).kind = BodyKind::kinematic;
         const Mover mover{world.body_pose.at(body).pose_ws, frame_ws.rotation * velocity_mps,
                           frame_ws.rotation * spin_radps, turns};
@@ -66,9 +83,13 @@ class Scenario {
     }
 
     // Call once the bodies are there.
-    void add_player_here(const Vec3& origin = Vec3::Zero(), const Vec3& velocity_mps = Vec3::Zero()) {
-        PlayerDescription description{"player", {}, frame_ws * Pose{origin, Quat::Identity()},
-                                      frame_ws.rotation * velocity_mps, shapes.add_sphere(tuning.head.radius_m)};
+    void add_player_here(const Vec3& origin = Vec3::Zero(),
+                         const Vec3& velocity_mps = Vec3::Zero()) {
+        PlayerDescription description{"player",
+                                      {},
+                                      frame_ws * Pose{origin, Quat::Identity()},
+                                      frame_ws.rotation * velocity_mps,
+                                      shapes.add_sphere(tuning.head.radius_m)};
         player = add_player(world, description);
         for (const Entity hand : player.hands) {
             world.controller_to_hand.add(hand, {});  // hands are scripted as hands
@@ -96,10 +117,9 @@ class Scenario {
         }
         inputs_.assign(1, PlayerInput{player.player, samples_, commands});
     }
-    void take_step() {
-        step_frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats);
-    }
-    void run(double seconds, const std::function<void()>& after_frame = [] {}) {
+    void take_step() { step_frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats); }
+    void run(
+        double seconds, const std::function<void()>& after_frame = [] {}) {
         const auto frames = static_cast<int>(std::lround(seconds * hz));
         for (int i = 0; i < frames; ++i) {
             step();
@@ -113,8 +133,12 @@ class Scenario {
     // Seen from the scenario's frame: what a moved or rotated world must not change.
     Vec3 origin() const { return inverse_transform_point(frame_ws, origin_ws()); }
     Vec3 origin_ws() const { return world.player_origin.at(player.player).pose_ws.position; }
-    Vec3 velocity() const { return frame_ws.rotation.conjugate() * world.player_velocity.at(player.player).linear_mps; }
-    Pose body(Entity entity) const { return inverse(frame_ws) * world.body_pose.at(entity).pose_ws; }
+    Vec3 velocity() const {
+        return frame_ws.rotation.conjugate() * world.player_velocity.at(player.player).linear_mps;
+    }
+    Pose body(Entity entity) const {
+        return inverse(frame_ws) * world.body_pose.at(entity).pose_ws;
+    }
     Vec3 body_velocity(Entity entity) const {
         return frame_ws.rotation.conjugate() * world.body_velocity.at(entity).linear_mps;
     }
@@ -122,10 +146,13 @@ class Scenario {
         return frame_ws.rotation.conjugate() * world.body_velocity.at(entity).angular_radps;
     }
     Vec3 head_center() const {
-        return inverse_transform_point(frame_ws, world.render_pose.at(player.player).head_center_ws);
+        return inverse_transform_point(frame_ws,
+                                       world.render_pose.at(player.player).head_center_ws);
     }
     const Grab& grab(HandSide side) const { return world.grab.at(player.hands[index_of(side)]); }
-    std::uint64_t fallbacks(Fallback reason) const { return stats.fallbacks[static_cast<std::size_t>(reason)]; }
+    std::uint64_t fallbacks(Fallback reason) const {
+        return stats.fallbacks[static_cast<std::size_t>(reason)];
+    }
 
   private:
     TrackingSample sample_at(double t_s) const {
@@ -145,6 +172,8 @@ class Scenario {
 };
 
 // The hand's place whose palm is at `palm`, for an unrotated hand: the palm looks down (-Y).
-inline Vec3 hand_for_palm(const Scenario& scenario, const Vec3& palm) { return palm - scenario.tuning.hand.palm_center_m; }
+inline Vec3 hand_for_palm(const Scenario& scenario, const Vec3& palm) {
+    return palm - scenario.tuning.hand.palm_center_m;
+}
 
 }  // namespace handhold

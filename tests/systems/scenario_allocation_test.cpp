@@ -1,8 +1,8 @@
 // A warm frame takes no memory: neither from malloc nor from Bullet's allocator.
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <cstdlib>
+
+#include <gtest/gtest.h>
 
 #include "engine/collision/collision_world.hpp"
 #include "tests/systems/scenario.hpp"
@@ -18,11 +18,12 @@ std::atomic<std::uint64_t> allocations{0};
 }
 
 #ifndef HH_SANITIZED
-// The linker finds these before the C library's: everything that allocates in this program comes through here.
+// The linker finds these before the C library's: everything that allocates in this program comes
+// through here.
 extern "C" {
-void* __libc_malloc(std::size_t);           // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t, std::size_t);   // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void*, std::size_t);   // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t);               // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void*, std::size_t);       // NOLINT(bugprone-reserved-identifier)
 void* malloc(std::size_t size) {
     allocations.fetch_add(1, std::memory_order_relaxed);
     return __libc_malloc(size);
@@ -60,11 +61,13 @@ TEST(WarmFrame, AllocatesNothing) {
     s.add_player_here();
     const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
     const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
-    // Both hands let go and grip again all the time; the left hand knocks its rock against the wall.
+    // Both hands let go and grip again all the time; the left hand knocks its rock against the
+    // wall.
     s.script.grabs[0] = [](double t) { return std::fmod(t, 1.5) > 0.1; };
     s.script.grabs[1] = [](double t) { return std::fmod(t, 0.7) > 0.1; };
     s.script.hands[1] = [=](double t) {
-        return Pose{right + 0.05 * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)), Quat::Identity()};
+        return Pose{right + 0.05 * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
+                    Quat::Identity()};
     };
     s.script.hands[0] = [=](double t) {
         return Pose{left - Vec3(0.0, 0.0, 0.25 + 0.25 * std::sin(4.0 * t)), Quat::Identity()};

@@ -1,8 +1,8 @@
-// What must not matter: where the world is and how it is turned, how many threads solve it, whether caches survive, in which order bodies
-// were made.
-#include <gtest/gtest.h>
-
+// What must not matter: where the world is and how it is turned, how many threads solve it, whether
+// caches survive, in which order bodies were made.
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "engine/core/parallel.hpp"
 #include "tests/systems/scenario.hpp"
@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-// Crawls along a wall, waves a rock, shoves it into the wall, lets go, drifts: everything the frame does.
+// Crawls along a wall, waves a rock, shoves it into the wall, lets go, drifts: everything the frame
+// does.
 struct Play {
     Scenario s;
     Entity rock;
@@ -36,23 +37,28 @@ struct Play {
         }
         s.add_player_here();
         for (int i = 0; i < extra_rocks; ++i) {  // rolling into one another: islands that change
-            const Entity body = find_by_id(s.world, persistent_id_from_name("extra" + std::to_string(i)));
-            s.world.body_velocity.at(body).linear_mps = s.frame_ws.rotation * Vec3(i % 2 == 0 ? 0.4 : -0.4, -0.2, 0.0);
+            const Entity body =
+                find_by_id(s.world, persistent_id_from_name("extra" + std::to_string(i)));
+            s.world.body_velocity.at(body).linear_mps =
+                s.frame_ws.rotation * Vec3(i % 2 == 0 ? 0.4 : -0.4, -0.2, 0.0);
         }
         const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
         const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
         s.script.grabs[0] = [](double t) { return t > 0.3; };
         s.script.grabs[1] = [](double t) { return t > 0.05 && t < 1.507; };
         s.script.hands[1] = [=](double t) {
-            return Pose{right + 0.1 * ease(t, 0.2, 0.8) * Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
+            return Pose{right + 0.1 * ease(t, 0.2, 0.8) *
+                                    Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
                         rotation_about(Vec3::UnitY(), 0.2 * std::sin(t))};
         };
         s.script.hands[0] = [=](double t) {
-            return Pose{left + Vec3(0.1 * std::sin(3 * t) * ease(t, 0.4, 0.8), 0.0, -0.5 * ease(t, 1.0, 1.4)),
+            return Pose{left + Vec3(0.1 * std::sin(3 * t) * ease(t, 0.4, 0.8), 0.0,
+                                    -0.5 * ease(t, 1.0, 1.4)),
                         rotation_about(Vec3::UnitX(), 0.2 * std::sin(2 * t) * ease(t, 0.4, 0.8))};
         };
         s.script.head = [](double t) {
-            return Pose{Vec3(0.05 * std::sin(2 * t), 1.6, 0.6), rotation_about(Vec3::UnitY(), 0.3 * std::sin(t))};
+            return Pose{Vec3(0.05 * std::sin(2 * t), 1.6, 0.6),
+                        rotation_about(Vec3::UnitY(), 0.3 * std::sin(t))};
         };
     }
 };
@@ -82,7 +88,8 @@ TEST_P(Placed, WorldGivesTheSamePath) {
 }
 INSTANTIATE_TEST_SUITE_P(TenKilometresAndTurned, Placed, testing::Range(0, 3));
 
-std::uint64_t hash_after(Play& play, double seconds, const std::function<void()>& after_frame = [] {}) {
+std::uint64_t hash_after(
+    Play& play, double seconds, const std::function<void()>& after_frame = [] {}) {
     play.s.run(seconds, after_frame);
     return hash_state(play.s.world);
 }
@@ -137,7 +144,8 @@ TEST(StateHashThreaded, IsEqualForOneTwoAndFourThreads) {
     EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-// A single support without a contact: the path depends on the hands, not on how often they were looked at.
+// A single support without a contact: the path depends on the hands, not on how often they were
+// looked at.
 class Rates : public testing::TestWithParam<double> {};
 
 TEST_P(Rates, SingleSupportPathAgrees) {
@@ -151,13 +159,15 @@ TEST_P(Rates, SingleSupportPathAgrees) {
         const Vec3 hand = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
         s.script.grabs[1] = [](double t) { return t > 0.103 && t < 1.507; };
         s.script.hands[1] = [=](double t) {
-            return Pose{hand - 0.25 * Vec3(std::sin(3 * t), 0.4 * t, std::sin(2 * t)), Quat::Identity()};
+            return Pose{hand - 0.25 * Vec3(std::sin(3 * t), 0.4 * t, std::sin(2 * t)),
+                        Quat::Identity()};
         };
         s.run(2.0);
         return s.origin();
     };
     const Vec3 expected = crawl(360.0);
-    EXPECT_LE((crawl(GetParam()) - expected).norm(), 0.005 + 0.01 * 0.5);  // 5 mm and 1 % of half a metre drifted
+    EXPECT_LE((crawl(GetParam()) - expected).norm(),
+              0.005 + 0.01 * 0.5);  // 5 mm and 1 % of half a metre drifted
 }
 INSTANTIATE_TEST_SUITE_P(Hz, Rates, testing::Values(60.0, 72.0, 90.0, 120.0, 144.0));
 

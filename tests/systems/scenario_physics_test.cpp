@@ -1,8 +1,9 @@
-// Scenarios of the talk through the whole frame: rows 4 (inside the step), 6 (moving supports) and 7 (designer physics).
-// Expected values are closed forms of what the hands do; nothing is read back from the solver's own accounts.
-#include <gtest/gtest.h>
-
+// Scenarios of the talk through the whole frame: rows 4 (inside the step), 6 (moving supports) and
+// 7 (designer physics). Expected values are closed forms of what the hands do; nothing is read back
+// from the solver's own accounts.
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "tests/systems/scenario.hpp"
 
@@ -18,7 +19,8 @@ struct RockCase {
     bool crate;
 };
 std::string name_of_case(const testing::TestParamInfo<RockCase>& info) {
-    const std::string mass = info.param.mass_kg < 1.0 ? "half" : std::to_string(std::lround(info.param.mass_kg));
+    const std::string mass =
+        info.param.mass_kg < 1.0 ? "half" : std::to_string(std::lround(info.param.mass_kg));
     return mass + "_kg_" + (info.param.crate ? "box" : "sphere");
 }
 
@@ -27,8 +29,9 @@ class HeldRock : public testing::TestWithParam<RockCase> {
     static constexpr double k_radius_m = 0.08;
     Entity add_rock_under_palm(Scenario& s) const {
         const Vec3 center = palm_ - Vec3(0.0, k_radius_m + 0.005, 0.0);
-        return GetParam().crate ? s.add_crate("rock", GetParam().mass_kg, center, Vec3::Constant(k_radius_m))
-                                : s.add_rock("rock", GetParam().mass_kg, center, k_radius_m);
+        return GetParam().crate
+                   ? s.add_crate("rock", GetParam().mass_kg, center, Vec3::Constant(k_radius_m))
+                   : s.add_rock("rock", GetParam().mass_kg, center, k_radius_m);
     }
     const Vec3 palm_ = Vec3(0.3, 1.2, 0.0);
 };
@@ -41,8 +44,9 @@ TEST_P(HeldRock, WavedNeverMovesPlayerByABit) {
     s.script.grabs[1] = [](double t) { return t > 0.05; };
     s.script.hands[1] = [=](double t) {
         const double w = ease(t, 0.0, 0.5);
-        return Pose{hand + w * Vec3(0.3 * std::sin(6 * t), 0.2 * std::sin(4 * t), 0.1 * std::sin(9 * t)),
-                    rotation_about(Vec3::UnitX(), 0.8 * w * std::sin(5 * t))};
+        return Pose{
+            hand + w * Vec3(0.3 * std::sin(6 * t), 0.2 * std::sin(4 * t), 0.1 * std::sin(9 * t)),
+            rotation_about(Vec3::UnitX(), 0.8 * w * std::sin(5 * t))};
     };
     const Vec3 before = s.origin_ws();
     int held = 0;
@@ -54,10 +58,11 @@ TEST_P(HeldRock, WavedNeverMovesPlayerByABit) {
     EXPECT_GT(held, 400);
 }
 
-// A wall 10 cm before the rock; the hand goes 30 cm. What the wall does not let through comes back to the player, in the same frame.
+// A wall 10 cm before the rock; the hand goes 30 cm. What the wall does not let through comes back
+// to the player, in the same frame.
 struct ShoveResult {
     double penetration_m = 0.0;
-    double push_error_m = 0.0;   // push-back against the violation, along the wall's normal
+    double push_error_m = 0.0;  // push-back against the violation, along the wall's normal
     double sideways_m = 0.0;
     int pushes = 0;
 };
@@ -69,13 +74,15 @@ ShoveResult shove(Scenario& s, Entity rock, double radius_m, const Vec3& hand, d
     s.run(1.2, [&] {
         const Vec3 predicted = origin + velocity / s.hz;
         const Vec3 hand_ps = s.world.hand_tracking.at(s.player.hands[1]).pose_ps.position;
-        const double wanted_z = (predicted + hand_ps - hand).z() - radius_m;  // the rock began at z = 0 under the hand
+        const double wanted_z =
+            (predicted + hand_ps - hand).z() - radius_m;  // the rock began at z = 0 under the hand
         const double violation = std::max(0.0, wall_z - wanted_z);
         const Vec3 push = s.origin() - predicted;
         result.pushes += violation > 1e-3 ? 1 : 0;
         result.push_error_m = std::max(result.push_error_m, std::abs(push.z() - violation));
         result.sideways_m = std::max(result.sideways_m, push.head<2>().norm());
-        result.penetration_m = std::max(result.penetration_m, wall_z - (s.body(rock).position.z() - radius_m));
+        result.penetration_m =
+            std::max(result.penetration_m, wall_z - (s.body(rock).position.z() - radius_m));
         origin = s.origin();
         velocity = s.velocity();
     });
@@ -102,11 +109,14 @@ TEST_P(HeldRock, ShovedIntoWallPushesPlayerByTheViolationInTheSameFrame) {
 TEST_P(HeldRock, JumpingThirtyCentimetresInAFramePushesInsteadOfTunnelling) {
     Scenario s;
     const Entity rock = add_rock_under_palm(s);
-    s.add_wall("wall", Vec3(2.0, 2.0, 0.01), Vec3(0.0, 1.0, -k_radius_m - 0.10 - 0.01));  // 2 cm thin: passed in one frame
+    s.add_wall("wall", Vec3(2.0, 2.0, 0.01),
+               Vec3(0.0, 1.0, -k_radius_m - 0.10 - 0.01));  // 2 cm thin: passed in one frame
     s.add_player_here();
     const Vec3 hand = hand_for_palm(s, palm_);
     s.script.grabs[1] = [](double t) { return t > 0.05; };
-    s.script.hands[1] = [=](double t) { return Pose{hand - Vec3(0.0, 0.0, 0.3 * jump(t, 0.5)), Quat::Identity()}; };
+    s.script.hands[1] = [=](double t) {
+        return Pose{hand - Vec3(0.0, 0.0, 0.3 * jump(t, 0.5)), Quat::Identity()};
+    };
     const ShoveResult result = shove(s, rock, k_radius_m, hand, -k_radius_m - 0.10);
     EXPECT_GE(result.pushes, 1);
     EXPECT_LE(result.penetration_m, 1e-4);
@@ -115,8 +125,9 @@ TEST_P(HeldRock, JumpingThirtyCentimetresInAFramePushesInsteadOfTunnelling) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Masses, HeldRock,
-                         testing::Values(RockCase{0.5, false}, RockCase{5.0, false}, RockCase{50.0, false},
-                                         RockCase{0.5, true}, RockCase{5.0, true}, RockCase{50.0, true}),
+                         testing::Values(RockCase{0.5, false}, RockCase{5.0, false},
+                                         RockCase{50.0, false}, RockCase{0.5, true},
+                                         RockCase{5.0, true}, RockCase{50.0, true}),
                          name_of_case);
 
 TEST(HeadContact, LeaningIntoTheGrippedWallStaysOutside) {
@@ -128,13 +139,16 @@ TEST(HeadContact, LeaningIntoTheGrippedWallStaysOutside) {
     const Vec3 hand = Vec3(0.2, 1.4, wall_z + 0.01) - palm_forward * s.tuning.hand.palm_center_m;
     s.script.hands[1] = [=](double) { return Pose{hand, palm_forward}; };
     s.script.grabs[1] = [](double t) { return t > 0.05; };
-    s.script.head = [](double t) { return Pose{Vec3(0.0, 1.6, -0.2 - 0.5 * ease(t, 0.5, 1.0)), Quat::Identity()}; };
+    s.script.head = [](double t) {
+        return Pose{Vec3(0.0, 1.6, -0.2 - 0.5 * ease(t, 0.5, 1.0)), Quat::Identity()};
+    };
     s.run(1.5, [&] {
         const double gap = s.head_center().z() - s.tuning.head.radius_m - wall_z;
         ASSERT_GE(gap, -1e-4);
     });
     EXPECT_EQ(s.grab(HandSide::right).kind, GripKind::surface);
-    // The head wanted 16 cm into the wall: the hand gives way by as much, it is not let go and nothing is thrown.
+    // The head wanted 16 cm into the wall: the hand gives way by as much, it is not let go and
+    // nothing is thrown.
     EXPECT_NEAR(s.grab(HandSide::right).error_m, 0.16, 1e-3);
     EXPECT_LE(s.velocity().norm(), 1e-6);
 }
@@ -156,7 +170,8 @@ class OnShip : public testing::TestWithParam<Ship> {
         const Vec3 hand = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
         s.script.hands[1] = [=](double t) {
             const double w = 0.2 * ease(t, 0.3, 1.0);
-            return Pose{hand + w * Vec3(std::sin(3 * t), std::cos(2 * t), std::sin(2 * t)), Quat::Identity()};
+            return Pose{hand + w * Vec3(std::sin(3 * t), std::cos(2 * t), std::sin(2 * t)),
+                        Quat::Identity()};
         };
         s.script.grabs[1] = [](double t) { return t > 0.005; };
         std::vector<Vec3> path;
@@ -164,11 +179,14 @@ class OnShip : public testing::TestWithParam<Ship> {
             const Grab& grab = s.grab(HandSide::right);
             if (grab.kind == GripKind::surface) {
                 ++single_frames;
-                const Vec3 target = s.world.render_pose.at(s.player.player).hands[1].tracked_ws.position;
-                const Vec3 anchor = transform_point(s.world.body_pose.at(hull).pose_ws, grab.anchor_bs.position);
+                const Vec3 target =
+                    s.world.render_pose.at(s.player.player).hands[1].tracked_ws.position;
+                const Vec3 anchor =
+                    transform_point(s.world.body_pose.at(hull).pose_ws, grab.anchor_bs.position);
                 worst_error_m = std::max(worst_error_m, (target - anchor).norm());
             }
-            path.push_back(inverse_transform_point(s.world.body_pose.at(hull).pose_ws, s.origin_ws()));
+            path.push_back(
+                inverse_transform_point(s.world.body_pose.at(hull).pose_ws, s.origin_ws()));
         });
         return path;
     }
@@ -189,7 +207,8 @@ TEST_P(OnShip, PathSeenFromTheShipDoesNotDependOnItsSpeed) {
     const std::vector<Vec3> resting = crawl({0.0, GetParam().turns}, unused_m, frames);
     ASSERT_EQ(moving.size(), resting.size());
     if (GetParam().turns) {
-        return;  // a turning velocity bends the drift before the grip: only straight flight is the same seen from inside
+        return;  // a turning velocity bends the drift before the grip: only straight flight is the
+                 // same seen from inside
     }
     for (std::size_t i = 0; i < moving.size(); ++i) {
         ASSERT_LE((moving[i] - resting[i]).norm(), 1e-6) << "frame " << i;
@@ -197,8 +216,8 @@ TEST_P(OnShip, PathSeenFromTheShipDoesNotDependOnItsSpeed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, OnShip,
-                         testing::Values(Ship{0.0, false}, Ship{20.0, false}, Ship{1000.0, false}, Ship{0.0, true},
-                                         Ship{20.0, true}, Ship{1000.0, true}));
+                         testing::Values(Ship{0.0, false}, Ship{20.0, false}, Ship{1000.0, false},
+                                         Ship{0.0, true}, Ship{20.0, true}, Ship{1000.0, true}));
 
 TEST(LettingGo, ThrowsThePlayerAgainstTheHandsVelocity) {
     Scenario s;
@@ -209,11 +228,14 @@ TEST(LettingGo, ThrowsThePlayerAgainstTheHandsVelocity) {
     const Vec3 pull_mps(0.0, -1.2, 0.7);
     const double from_s = 0.3;
     const double until_s = 0.505;
-    s.script.hands[1] = [=](double t) { return Pose{hand + pull_mps * std::max(0.0, t - from_s), Quat::Identity()}; };
+    s.script.hands[1] = [=](double t) {
+        return Pose{hand + pull_mps * std::max(0.0, t - from_s), Quat::Identity()};
+    };
     s.script.grabs[1] = [=](double t) { return t > 0.05 && t < until_s; };
     s.run(1.0);
     EXPECT_LE((s.velocity() + pull_mps).norm(), 1e-6);  // v_origin = v_anchor - v_hand
-    // It moved with the hand while it held on and drifts since: one straight line, whatever frame the button fell into.
+    // It moved with the hand while it held on and drifts since: one straight line, whatever frame
+    // the button fell into.
     EXPECT_LE((s.origin() + pull_mps * (s.t_s() - from_s)).norm(), 1e-5);
 }
 
@@ -223,7 +245,9 @@ TEST(LettingGo, FastHandsAreClamped) {
     s.add_wall("wall", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
     s.add_player_here();
     const Vec3 hand = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
-    s.script.hands[1] = [=](double t) { return Pose{hand - Vec3(0.0, 9.0 * std::max(0.0, t - 0.3), 0.0), Quat::Identity()}; };
+    s.script.hands[1] = [=](double t) {
+        return Pose{hand - Vec3(0.0, 9.0 * std::max(0.0, t - 0.3), 0.0), Quat::Identity()};
+    };
     s.script.grabs[1] = [](double t) { return t > 0.05 && t < 0.405; };
     std::uint64_t clamped = 0;
     s.run(0.5, [&] { clamped += s.fallbacks(Fallback::release_speed_clamped); });
@@ -248,8 +272,8 @@ TEST(LettingGo, ThrownObjectLeavesWithTheHandsMotionAtItsCentre) {
     ASSERT_EQ(s.grab(HandSide::right).kind, GripKind::held);
     s.run(2.0 / 90.0);
     ASSERT_EQ(s.grab(HandSide::right).kind, GripKind::none);
-    // v_com = v_hand + w x (com - hand), with the arm as it was at the end of the frame of the release; the spin of a body in free
-    // flight about a principal axis stays.
+    // v_com = v_hand + w x (com - hand), with the arm as it was at the end of the frame of the
+    // release; the spin of a body in free flight about a principal axis stays.
     EXPECT_LE((s.body_spin(bar) - spin_radps).norm(), 1e-6);
     const double released_end_s = std::ceil(until_s * s.hz) / s.hz;
     const Quat turned = rotation_from_vector(spin_radps * (released_end_s - 0.3));

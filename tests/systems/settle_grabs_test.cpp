@@ -68,7 +68,8 @@ struct Settling {
         tracking.edge_t_s = k_start_s + fraction * k_dt_s;
         tracking.edge_ps = interpolate(tracking.start_ps, tracking.pose_ps, fraction);
     }
-    void set_grip(Entity which, GripKind kind, GrabPhase phase, Entity body, const Pose& anchor_bs = {}) {
+    void set_grip(Entity which, GripKind kind, GrabPhase phase, Entity body,
+                  const Pose& anchor_bs = {}) {
         Grab& grip = grab.at(which);
         grip.kind = kind;
         grip.phase = phase;
@@ -77,7 +78,9 @@ struct Settling {
     }
     void run() {
         stats = {};
-        settle_grabs({k_start_s, k_end_s, owner, hand, player_start, origin, body_start, body_pose, grab}, stats);
+        settle_grabs(
+            {k_start_s, k_end_s, owner, hand, player_start, origin, body_start, body_pose, grab},
+            stats);
     }
 };
 
@@ -90,18 +93,21 @@ Settling random_settling(Random& random, std::initializer_list<Entity> hands = {
     scene.move_player(origin, {origin.position + random.vector(0.05), origin.rotation});
     for (const Entity body : {k_wall, k_ship}) {
         const Pose from = random.pose();
-        scene.move_body(body, from, {from.position + random.vector(0.1),
-                                     rotation_from_vector(random.vector(0.1)) * from.rotation});
+        scene.move_body(body, from,
+                        {from.position + random.vector(0.1),
+                         rotation_from_vector(random.vector(0.1)) * from.rotation});
     }
     for (const Entity hand : {k_left, k_right}) {
         const Pose from = random.pose(0.5);
-        scene.move_hand(hand, from, {from.position + random.vector(0.05),
-                                     rotation_from_vector(random.vector(0.1)) * from.rotation});
+        scene.move_hand(hand, from,
+                        {from.position + random.vector(0.05),
+                         rotation_from_vector(random.vector(0.1)) * from.rotation});
     }
     return scene;
 }
 
-// --- Fresh grips -------------------------------------------------------------------------------------------------------------
+// --- Fresh grips
+// -------------------------------------------------------------------------------------------------------------
 
 // Body, origin and hand half way through the frame: means of their ends.
 TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
@@ -125,17 +131,22 @@ RC_GTEST_PROP(SettleGrabs, NewGripHasNoErrorAtItsInstant, (std::uint64_t seed)) 
     scene.set_edge(k_left, GrabEdge::onset, t);
     scene.set_grip(k_left, GripKind::held, GrabPhase::fresh, k_ship);
     scene.run();
-    const Pose body = interpolate(scene.body_start.at(k_ship).pose_ws, scene.body_pose.at(k_ship).pose_ws, t);
-    const Pose origin = interpolate(scene.player_start.at(k_player).pose_ws, scene.origin.at(k_player).pose_ws, t);
-    RC_ASSERT(distance(body * scene.grab.at(k_left).anchor_bs, origin * scene.hand.at(k_left).edge_ps) < 1e-7);
+    const Pose body =
+        interpolate(scene.body_start.at(k_ship).pose_ws, scene.body_pose.at(k_ship).pose_ws, t);
+    const Pose origin =
+        interpolate(scene.player_start.at(k_player).pose_ws, scene.origin.at(k_player).pose_ws, t);
+    RC_ASSERT(distance(body * scene.grab.at(k_left).anchor_bs,
+                       origin * scene.hand.at(k_left).edge_ps) < 1e-7);
 }
 
-// The right hand holds the wall, so the player is where that hand puts him, not where he was predicted.
+// The right hand holds the wall, so the player is where that hand puts him, not where he was
+// predicted.
 TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
     Settling scene;
     scene.move_player(pose_at(Vec3::Zero()), pose_at(Vec3(9.0, 9.0, 9.0)));
     scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.2)));
-    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 0.0)));
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall,
+                   pose_at(Vec3(0.3, 1.0, 0.0)));
     scene.move_hand(k_left, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
     scene.set_edge(k_left, GrabEdge::onset, 0.5);
     scene.set_grip(k_left, GripKind::surface, GrabPhase::fresh, k_wall);
@@ -164,7 +175,8 @@ TEST(SettleGrabs, HandsThatHoldNothingAreLeftAlone) {
     EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::none);
 }
 
-// --- Targets -----------------------------------------------------------------------------------------------------------------
+// --- Targets
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
     Settling scene;
@@ -197,7 +209,8 @@ TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
     EXPECT_LT(distance(grab.target_ps, expected), 1e-12);
 }
 
-// --- Two hands ---------------------------------------------------------------------------------------------------------------
+// --- Two hands
+// ---------------------------------------------------------------------------------------------------------------
 
 // The hands disagree by 2 cm along x about where the player is; the pair puts him in the middle.
 TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
@@ -206,22 +219,26 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
         const Entity staying = other_of(leaving);
         scene.move_hand(leaving, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.0)));
         scene.move_hand(staying, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
-        scene.set_grip(leaving, GripKind::surface, GrabPhase::releasing, k_wall, pose_at(Vec3(0.32, 1.0, 0.0)));
-        scene.set_grip(staying, GripKind::surface, GrabPhase::holding, k_ship, pose_at(Vec3(-0.3, 1.0, 0.0)));
+        scene.set_grip(leaving, GripKind::surface, GrabPhase::releasing, k_wall,
+                       pose_at(Vec3(0.32, 1.0, 0.0)));
+        scene.set_grip(staying, GripKind::surface, GrabPhase::holding, k_ship,
+                       pose_at(Vec3(-0.3, 1.0, 0.0)));
         scene.set_edge(leaving, GrabEdge::release, 0.5);
         scene.run();
         EXPECT_EQ(scene.grab.at(leaving).kind, GripKind::none);
         EXPECT_EQ(scene.grab.at(leaving).phase, GrabPhase::none);
         EXPECT_EQ(count_of(scene.stats, Fallback::hand_left_two_hand_grip), 1U);
         EXPECT_EQ(scene.grab.at(staying).phase, GrabPhase::holding);
-        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(-0.29, 1.0, 0.0)).norm(), 1e-12);
+        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(-0.29, 1.0, 0.0)).norm(),
+                  1e-12);
     }
 }
 
 TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     Settling scene;
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.0)));
-    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship, pose_at(Vec3(7.0, 7.0, 7.0)));
+    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship,
+                   pose_at(Vec3(7.0, 7.0, 7.0)));
     scene.set_grip(k_right, GripKind::held, GrabPhase::releasing, k_ship);
     scene.set_edge(k_right, GrabEdge::release, 0.5);
     scene.run();
@@ -254,20 +271,23 @@ TEST(SettleGrabs, HandsThatOpenInOneFrameBothThrow) {
     EXPECT_EQ(count_of_all(scene.stats), 0U);
 }
 
-// --- Tracking that comes back ------------------------------------------------------------------------------------------------
+// --- Tracking that comes back
+// ------------------------------------------------------------------------------------------------
 
 TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
     Settling scene;
     scene.move_player(pose_at(Vec3(0.0, 0.0, 5.0)), pose_at(Vec3(0.0, 0.0, 5.0)));
     scene.move_hand(k_right, pose_at(Vec3(0.7, 1.0, 0.0)), pose_at(Vec3(0.7, 1.0, 0.0)));
     scene.hand.at(k_right).resumed = true;
-    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 5.0)));
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall,
+                   pose_at(Vec3(0.3, 1.0, 5.0)));
     scene.run();
     EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - Vec3(0.7, 1.0, 5.0)).norm(), 1e-12);
     EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 1U);
 }
 
-// Both controllers come back into view at once, each somewhere else: neither may pull the player along.
+// Both controllers come back into view at once, each somewhere else: neither may pull the player
+// along.
 TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
     Settling scene;
     const Vec3 found[2] = {Vec3(-0.9, 1.0, 0.0), Vec3(0.7, 1.4, 0.0)};
@@ -275,7 +295,8 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
         const Pose pose = pose_at(found[hand == k_left ? 0 : 1]);
         scene.move_hand(hand, pose, pose);
         scene.hand.at(hand).resumed = true;
-        scene.set_grip(hand, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0.0, 1.0, 0.0)));
+        scene.set_grip(hand, GripKind::surface, GrabPhase::holding, k_wall,
+                       pose_at(Vec3(0.0, 1.0, 0.0)));
     }
     scene.run();
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - found[0]).norm(), 1e-12);
@@ -283,7 +304,8 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
     EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 2U);
 }
 
-// --- Properties --------------------------------------------------------------------------------------------------------------
+// --- Properties
+// --------------------------------------------------------------------------------------------------------------
 
 struct HandState {
     GripKind kind;
@@ -304,7 +326,8 @@ void set_state(Settling& scene, Entity hand, const HandState& state, double edge
     scene.set_edge(hand, state.edge, edge_at);
 }
 
-// A hand-over within one frame must not depend on which hand the world lists first, so all pairs of states are tried.
+// A hand-over within one frame must not depend on which hand the world lists first, so all pairs of
+// states are tried.
 RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
     for (const HandState& left : k_hand_states) {
         for (const HandState& right : k_hand_states) {
@@ -322,8 +345,10 @@ RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uin
             for (const Entity hand : {k_left, k_right}) {
                 RC_ASSERT(forth.grab.at(hand).kind == back.grab.at(hand).kind);
                 RC_ASSERT(forth.grab.at(hand).phase == back.grab.at(hand).phase);
-                RC_ASSERT(distance(forth.grab.at(hand).anchor_bs, back.grab.at(hand).anchor_bs) < 1e-12);
-                RC_ASSERT(distance(forth.grab.at(hand).target_ps, back.grab.at(hand).target_ps) < 1e-12);
+                RC_ASSERT(distance(forth.grab.at(hand).anchor_bs, back.grab.at(hand).anchor_bs) <
+                          1e-12);
+                RC_ASSERT(distance(forth.grab.at(hand).target_ps, back.grab.at(hand).target_ps) <
+                          1e-12);
             }
             RC_ASSERT(forth.stats.fallbacks == back.stats.fallbacks);
         }
@@ -337,9 +362,11 @@ RC_GTEST_PROP(SettleGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64
     set_state(here, k_right, k_hand_states[1], random.between(0.0, 1.0));
     Settling there = here;
     const Pose moved = random.pose(1e3);
-    there.move_player(moved * here.player_start.at(k_player).pose_ws, moved * here.origin.at(k_player).pose_ws);
+    there.move_player(moved * here.player_start.at(k_player).pose_ws,
+                      moved * here.origin.at(k_player).pose_ws);
     for (const Entity body : {k_wall, k_ship}) {
-        there.move_body(body, moved * here.body_start.at(body).pose_ws, moved * here.body_pose.at(body).pose_ws);
+        there.move_body(body, moved * here.body_start.at(body).pose_ws,
+                        moved * here.body_pose.at(body).pose_ws);
     }
     here.run();
     there.run();

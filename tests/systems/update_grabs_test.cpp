@@ -24,8 +24,8 @@ constexpr Entity k_right = entity(2);
 constexpr Entity k_wall = entity(3);
 constexpr Entity k_rock = entity(4);
 
-// A player at the origin whose hands' palms look down (-Y); colliders are added by hand. Everything is put into the world through
-// frame_ws.
+// A player at the origin whose hands' palms look down (-Y); colliders are added by hand. Everything
+// is put into the world through frame_ws.
 struct Grabs {
     Pose frame_ws;
     ShapeLibrary shapes;
@@ -41,7 +41,8 @@ struct Grabs {
     Tuning tuning;
     StageStats stats;
 
-    explicit Grabs(const Pose& frame = {}, std::initializer_list<Entity> hands = {k_left, k_right}) : frame_ws(frame) {
+    explicit Grabs(const Pose& frame = {}, std::initializer_list<Entity> hands = {k_left, k_right})
+        : frame_ws(frame) {
         persistent_id.add(k_player, {100});
         origin.add(k_player, {frame_ws});
         head_ignores.add(k_player);
@@ -62,11 +63,12 @@ struct Grabs {
     void add_floor(double top_y, BodyKind kind = BodyKind::fixed) {
         RigidBody rigid;
         rigid.kind = kind;
-        add_body(k_wall, rigid, shapes.add_box(Vec3(2.0, 0.5, 2.0)), {Vec3(0.0, top_y - 0.5, 0.0), Quat::Identity()});
+        add_body(k_wall, rigid, shapes.add_box(Vec3(2.0, 0.5, 2.0)),
+                 {Vec3(0.0, top_y - 0.5, 0.0), Quat::Identity()});
     }
     void add_rock(Entity entity, double mass_kg, const Vec3& center) {
-        add_body(entity, {BodyKind::free, mass_kg, Vec3::Constant(0.01), 0.0}, shapes.add_sphere(0.08),
-                 {center, Quat::Identity()});
+        add_body(entity, {BodyKind::free, mass_kg, Vec3::Constant(0.01), 0.0},
+                 shapes.add_sphere(0.08), {center, Quat::Identity()});
     }
     void add_head(const Vec3& center, double radius_m = 0.11) {
         const Pose pose = frame_ws * Pose{center, Quat::Identity()};
@@ -82,11 +84,13 @@ struct Grabs {
     }
     void run() {
         CollisionWorld collision(shapes);
-        std::sort(proxies.begin(), proxies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+        std::sort(proxies.begin(), proxies.end(),
+                  [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs({collision, persistent_id, owner, hand, origin, body, body_pose, grab, head_ignores}, tuning,
-                     stats);
+        update_grabs(
+            {collision, persistent_id, owner, hand, origin, body, body_pose, grab, head_ignores},
+            tuning, stats);
     }
 };
 
@@ -158,7 +162,8 @@ TEST(UpdateGrabs, KindOfGripFollowsFromTheBody) {
         {{BodyKind::free, heavy_kg, Vec3::Constant(1.0), 0.0}, GripKind::surface}};
     for (const auto& [rigid, kind] : cases) {
         Grabs grabs;
-        grabs.add_body(k_rock, rigid, grabs.shapes.add_sphere(0.08), {Vec3(0.0, 1.0, 0.0), Quat::Identity()});
+        grabs.add_body(k_rock, rigid, grabs.shapes.add_sphere(0.08),
+                       {Vec3(0.0, 1.0, 0.0), Quat::Identity()});
         grabs.close(k_right, Vec3(0.0, 1.1, 0.0));
         grabs.run();
         EXPECT_EQ(grabs.grab.at(k_right).kind, kind) << rigid.mass_kg;
@@ -299,7 +304,8 @@ TEST(UpdateGrabs, BodyTakenByBothHandsIsIgnoredOnce) {
     EXPECT_EQ(std::ranges::count(grabs.head_ignores.at(k_player).bodies, k_rock), 1);
 }
 
-// --- Properties --------------------------------------------------------------------------------------------------------------
+// --- Properties
+// --------------------------------------------------------------------------------------------------------------
 
 struct Reach {
     Vec3 palm;
@@ -320,7 +326,9 @@ RC_GTEST_PROP(UpdateGrabs, MirroredHandGripsTheMirroredPoint, (std::uint64_t see
     grabs.close(k_right, reach.palm, reach.rotation);
     grabs.close(k_left, mirror.position, mirror.rotation);
     grabs.run();
-    RC_ASSERT((grabs.grab.at(k_left).hit_bs - test::mirrored(grabs.grab.at(k_right).hit_bs)).norm() < 1e-9);
+    RC_ASSERT(
+        (grabs.grab.at(k_left).hit_bs - test::mirrored(grabs.grab.at(k_right).hit_bs)).norm() <
+        1e-9);
     RC_ASSERT(grabs.grab.at(k_left).kind == GripKind::surface);
 }
 
@@ -336,7 +344,8 @@ RC_GTEST_PROP(UpdateGrabs, MovedAndRotatedWorldIsGrippedAtTheSamePoint, (std::ui
     }
     RC_ASSERT(there.grab.at(k_right).kind == GripKind::surface);
     RC_ASSERT((there.grab.at(k_right).hit_bs - here.grab.at(k_right).hit_bs).norm() < 1e-6);
-    RC_ASSERT((there.grab.at(k_right).hit_normal_bs - here.grab.at(k_right).hit_normal_bs).norm() < 1e-9);
+    RC_ASSERT((there.grab.at(k_right).hit_normal_bs - here.grab.at(k_right).hit_normal_bs).norm() <
+              1e-9);
 }
 
 TEST(UpdateGrabs, OrderOfHandsAndBodiesDoesNotMatter) {

@@ -1,0 +1,255 @@
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "column_scene.hpp"
+#include "components/fields.hpp"
+#include "engine/core/check.hpp"
+#include "systems/frame.hpp"
+
+namespace handhold {
+namespace {
+
+using test::Random;
+
+BodyDescription rock(std::string_view name, std::uint64_t seed) {
+    Random random(seed);
+    BodyDescription description;
+    description.name = name;
+    description.body = {BodyKind::free, random.between(1.0, 5.0), Vec3(0.1, 0.2, 0.3), 0.4};
+    description.pose_ws = random.pose();
+    description.velocity = {random.vector(1.0), random.vector(1.0)};
+    return description;
+}
+
+PlayerDescription player() {
+    PlayerDescription description;
+    description.name = "player";
+    return description;
+}
+
+// With a row in every column.
+World full_world() {
+    World world;
+    const Entity ship = add_body(world, rock("ship", 1));
+    world.mover.add(ship, {Pose{}, Vec3::UnitX(), Vec3::UnitY(), true});
+    add_body(world, rock("rock", 2));
+    const PlayerEntities made = add_player(world, player());
+    world.controller_to_hand.add(made.hands[0]);
+    return world;
+}
+
+// --- Changing any field
+// ------------------------------------------------------------------------------------------------------
+
+// Changes one number somewhere in a field to another that is as valid. Fields are visited as const
+// of a world that is not.
+class FieldChanger {
+  public:
+    explicit FieldChanger(World& world) : world_(world) {}
+
+    template <typename T>
+    void change(const T& field) {
+        change_in_place(const_cast<T&>(field));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    }
+
+  private:
+    void change_in_place(double& value) { value += 1.0; }
+    void change_in_place(bool& value) { value = !value; }
+    void change_in_place(Vec3& v) { v.z() += 1.0; }
+    void change_in_place(Pose& pose) {
+        pose.rotation = pose.rotation * rotation_about(Vec3::UnitX(), 0.5);
+    }
+    void change_in_place(ShapeId& shape) { ++shape.index; }
+    void change_in_place(Entity& entity) {
+        const Entity rock = find_by_id(world_, persistent_id_from_name("rock"));
+        entity = entity == rock ? k_no_entity : rock;
+    }
+    template <typename T, std::size_t N>
+    void change_in_place(std::array<T, N>& values) {
+        change_in_place(values.back());
+    }
+    template <typename T>
+    void change_in_place(T& value) {
+        if constexpr (std::is_enum_v<T>) {
+            value = static_cast<T>(static_cast<int>(value) ^ 1);
+        } else if constexpr (std::is_integral_v<T>) {
+            ++value;
+        } else {
+            bool is_first = true;  // of a component within a component
+            visit_fields(value, [&](const char*, const auto& field) {
+                if (is_first) {
+                    change(field);
+                }
+                is_first = false;
+            });
+        }
+    }
+
+    World& world_;
+};
+
+// Calls change(world) for every field of every column on a fresh world: each visit changes exactly
+// one.
+template <typename Check>
+void for_every_field(Check&& check) {
+    for (int wanted = 0;; ++wanted) {
+        World world = full_world();
+        int index = 0;
+        std::string changed;
+        visit_columns(world, [&](const char* column_name, auto& column) {
+            ASSERT_FALSE(column.empty()) << column_name;
+            visit_fields(column.rows()[0], [&](const char* field_name, const auto& field) {
+                if (index++ == wanted) {
+                    changed = std::string(column_name) + "." + field_name;
+                    FieldChanger(world).change(field);
+                }
+            });
+        });
+        if (changed.empty()) {
+            return;
+        }
+        check(world, changed);
+    }
+}
+
+// But for a shape's place in the library: it follows the order of loading.
+TEST(HashState, EveryFieldOfEveryColumnCounts) {
+    const std::uint64_t before = hash_state(full_world());
+    std::set<std::uint64_t> seen = {before};
+    std::size_t fields = 0;
+    for_every_field([&](const World& world, const std::string& changed) {
+        ++fields;
+        if (changed == "collider.shape") {
+            EXPECT_EQ(hash_state(world), before);
+            return;
+        }
+        EXPECT_TRUE(seen.insert(hash_state(world)).second) << changed;
+    });
+    EXPECT_GE(fields, 60U);
+}
+
+TEST(HashState, ClockAndTheScenesReferenceVelocityCount) {
+    std::set<std::uint64_t> seen = {hash_state(full_world())};
+    World later = full_world();
+    later.clock.frame = 1;
+    EXPECT_TRUE(seen.insert(hash_state(later)).second);
+    World shifted = full_world();
+    shifted.clock.t_s = 0.01;
+    EXPECT_TRUE(seen.insert(hash_state(shifted)).second);
+    World drifting = full_world();
+    drifting.reference_velocity_mps.y() = 0.01;
+    EXPECT_TRUE(seen.insert(hash_state(drifting)).second);
+}
+
+// --- What must not count
+// -----------------------------------------------------------------------------------------------------
+
+TEST(HashState, OrderOfCreationDoesNotShow) {
+    World forth;
+    add_body(forth, rock("a", 1));
+    add_body(forth, rock("b", 2));
+    add_player(forth, player());
+    World back;
+    add_player(back, player());
+    add_body(back, rock("b", 2));
+    add_body(back, rock("a", 1));
+    EXPECT_EQ(hash_state(forth), hash_state(back));
+}
+
+TEST(HashState, SlotsAndGenerationsOfGrippedBodiesDoNotShow) {
+    const auto gripping_world = [](int destroyed_before) {
+        World world;
+        for (int i = 0; i < destroyed_before; ++i) {
+            const Entity first = add_body(world, rock("gone", 3));
+            const Entity second = add_body(world, rock("gone too", 4));
+            destroy(world, first);
+            destroy(world, second);
+        }
+        const PlayerEntities made = add_player(world, player());
+        const Entity body = add_body(world, rock("a", 1));
+        world.grab.at(made.hands[1]).kind = GripKind::held;
+        world.grab.at(made.hands[1]).body = body;
+        world.head_ignores.at(made.player).bodies[0] = body;
+        return world;
+    };
+    const std::uint64_t expected = hash_state(gripping_world(0));
+    EXPECT_EQ(hash_state(gripping_world(1)), expected);
+    EXPECT_EQ(hash_state(gripping_world(3)), expected);
+}
+
+TEST(HashState, CopiesAreEqual) {
+    const World world = full_world();
+    const World copy = world;
+    EXPECT_EQ(hash_state(copy), hash_state(world));
+}
+
+// --- Who has what
+// ------------------------------------------------------------------------------------------------------------
+
+// Rows are summed: it must still show which row belongs to whom.
+TEST(HashState, ExchangingTwoBodiesPosesShows) {
+    World world;
+    const Entity a = add_body(world, rock("a", 1));
+    const Entity b = add_body(world, rock("b", 2));
+    const std::uint64_t before = hash_state(world);
+    std::swap(world.body_pose.at(a), world.body_pose.at(b));
+    EXPECT_NE(hash_state(world), before);
+}
+
+// BodyPose and BodyStart have equal fields: a column's name counts too.
+TEST(HashState, ExchangingTwoColumnsOfOneBodyShows) {
+    World world;
+    const Entity a = add_body(world, rock("a", 1));
+    world.body_start.at(a).pose_ws.position.x() += 1.0;
+    const std::uint64_t before = hash_state(world);
+    std::swap(world.body_start.at(a).pose_ws, world.body_pose.at(a).pose_ws);
+    EXPECT_NE(hash_state(world), before);
+}
+
+TEST(HashState, AddingAndDestroyingABodyComesBack) {
+    World world = full_world();
+    const std::uint64_t before = hash_state(world);
+    const Entity extra = add_body(world, rock("extra", 9));
+    EXPECT_NE(hash_state(world), before);
+    destroy(world, extra);
+    EXPECT_EQ(hash_state(world), before);
+}
+
+// --- The frame's front door
+// --------------------------------------------------------------------------------------------------
+
+TEST(StepFrame, FrameWithoutLengthIsRefusedAndChangesNothing) {
+    for (const double dt_s : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN()}) {
+        const ShapeLibrary shapes;
+        FrameCaches caches(shapes);
+        World world;
+        StageStats stats;
+        const std::uint64_t before = hash_state(world);
+        EXPECT_THROW(step_frame(world, caches, {}, {dt_s, {}}, stats), PreconditionError);
+        EXPECT_EQ(hash_state(world), before);
+    }
+}
+
+TEST(StepFrame, EmptyWorldOnlyGrowsOlder) {
+    const ShapeLibrary shapes;
+    FrameCaches caches(shapes);
+    World world;
+    StageStats stats;
+    stats.grab_onsets = 7;  // cleared first
+    step_frame(world, caches, {}, {0.25, {}}, stats);
+    step_frame(world, caches, {}, {0.5, {}}, stats);
+    EXPECT_EQ(world.clock.frame, 2U);
+    EXPECT_EQ(world.clock.t_s, 0.75);
+    EXPECT_EQ(stats.grab_onsets, 0U);
+    EXPECT_EQ(test::count_of_all(stats), 0U);
+}
+
+}  // namespace
+}  // namespace handhold

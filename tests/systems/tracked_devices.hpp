@@ -1,0 +1,70 @@
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "column_scene.hpp"
+#include "systems/input/read_tracking.hpp"
+
+// What the tests of read_tracking share: players' devices as columns, and samples made on the spot.
+namespace handhold::test {
+
+inline constexpr double k_frame_s = 0.01;
+inline constexpr Entity k_player = entity(0);
+
+inline Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
+
+inline TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bool grab = false) {
+    TrackingSample sample;
+    sample.t_s = t_s;
+    sample.head_ps = pose_at(place);
+    sample.controllers = {ControllerSample{pose_at(place), grab},
+                          ControllerSample{pose_at(place), grab}};
+    return sample;
+}
+
+// One player whose hands are where his controllers are.
+struct Devices {
+    Column<HandOwner> owner;
+    Column<ControllerToHand> joint;
+    Column<HeadTracking> head;
+    Column<HandTracking> hand;
+    Column<HandHistory> history;
+    Column<PlayerCommands> commands;
+    Tuning tuning;
+    StageStats stats;
+    double t_s = 0.0;
+
+    Devices() { add_player(k_player, {HandSide::left, HandSide::right}); }
+    void add_player(Entity player, std::initializer_list<HandSide> order) {
+        head.add(player);
+        commands.add(player);
+        for (const HandSide side : order) {
+            const Entity entity = hand_of(player, side);
+            owner.add(entity, {player, side});
+            joint.add(entity);
+            hand.add(entity);
+            history.add(entity);
+        }
+    }
+    static Entity hand_of(Entity player, HandSide side) {
+        return entity(player.slot + 1 + static_cast<std::uint32_t>(index_of(side)));
+    }
+    const HeadTracking& player_head() const { return head.at(k_player); }
+    const HandTracking& right() const { return hand.at(hand_of(k_player, HandSide::right)); }
+    const HandTracking& left() const { return hand.at(hand_of(k_player, HandSide::left)); }
+
+    void step_inputs(std::span<const PlayerInput> inputs, double dt_s = k_frame_s) {
+        stats = {};
+        read_tracking({inputs, t_s, t_s + dt_s, owner, joint, head, hand, history, commands},
+                      tuning, stats);
+        t_s += dt_s;
+    }
+    void step(const std::vector<TrackingSample>& samples, double dt_s = k_frame_s) {
+        const PlayerInput input{k_player, samples, {}};
+        step_inputs(std::span(&input, 1), dt_s);
+    }
+};
+
+}  // namespace handhold::test
