@@ -40,10 +40,10 @@ SessionScript station_script() {
     script.duration_s = 16.0;
     // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a
     // catch at its far hatch.
-    script.body = {{0.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
-                   {1.0, Vec3(-0.52, 0.26, 5.60), Vec3::Zero()},
-                   {2.0, Vec3(-0.52, 0.26, 5.35), 0.5 * ahead},
-                   {7.0, Vec3(-0.52, 0.26, 2.85), 0.5 * ahead},
+    script.body = {{0.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
+                   {1.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
+                   {2.0, Vec3(-0.52, 0.50, 5.35), 0.5 * ahead},
+                   {7.0, Vec3(-0.52, 0.50, 2.85), 0.5 * ahead},
                    {9.2, Vec3(-0.05, 0.34, 2.05), Vec3(0.25, 0.0, -0.35)},
                    {11.0, Vec3(0.02, 0.30, 1.30), 0.7 * ahead},
                    {11.4, Vec3(0.02, 0.30, 0.96), ahead},

@@ -210,8 +210,7 @@ TEST(FindBody, FindsEveryIdAndNoOther) {
     }
 }
 
-// --- Contact rows
-// --------------------------------------------------------------------------------------------------------------
+// --- Contact rows --------------------------------------------------------------------------------
 
 ConstraintGraph player_before_a_wall() {
     ConstraintGraph graph;

@@ -28,8 +28,7 @@ SolverScene hand_on_ball(double player_kg, double ball_kg, const Vec3& hand_ps) 
     return scene;
 }
 
-// --- Positions: closed forms
-// -------------------------------------------------------------------------------------------------
+// --- Positions: closed forms ---------------------------------------------------------------------
 
 RC_GTEST_PROP(SolvePositions, PointMovesBothBodiesByTheirMassRatio, (std::uint64_t seed)) {
     Random random(seed);
@@ -162,8 +161,7 @@ TEST(SolvePositions, HubOfHandsSharesBetweenPlayersByMass) {
     EXPECT_LT(moment.norm(), 1e-9);
 }
 
-// --- Positions: convergence
-// --------------------------------------------------------------------------------------------------
+// --- Positions: convergence ----------------------------------------------------------------------
 
 // A rod of 1 m between two points that it reaches exactly, turned away by any angle short of half a
 // turn.

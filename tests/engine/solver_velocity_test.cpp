@@ -14,8 +14,6 @@ namespace {
 using test::Random;
 using test::SolverScene;
 
-// --------------------------------------------------------------------------------------------------------------
-
 struct Momentum {
     Vec3 linear = Vec3::Zero();
     Vec3 angular = Vec3::Zero();  // about the world's origin

@@ -23,8 +23,7 @@ namespace {
 
 using test::Random;
 
-// --- How many members an aggregate has
-// ---------------------------------------------------------------------------------------
+// --- How many members an aggregate has -----------------------------------------------------------
 
 // Becomes whatever a member is initialised with.
 struct Anything {
@@ -93,8 +92,7 @@ TEST(Columns, EveryColumnOfTheWorldIsVisitedOnce) {
     EXPECT_EQ(names.size(), columns.size());
 }
 
-// --- Making and destroying
-// ---------------------------------------------------------------------------------------------------
+// --- Making and destroying -----------------------------------------------------------------------
 
 BodyDescription rock(std::string_view name) {
     BodyDescription description;
@@ -209,8 +207,7 @@ TEST(World, OnlyFreeBodiesAndPlayersHaveALastValidPose) {
     EXPECT_FALSE(world.last_valid.at(made.player).known);  // his head was not tracked yet
 }
 
-// --- Names of counters
-// -------------------------------------------------------------------------------------------------------
+// --- Names of counters ---------------------------------------------------------------------------
 
 template <typename Enum>
 void expect_names_distinct() {
@@ -226,8 +223,7 @@ TEST(Stats, EveryStageAndFallbackHasANameOfItsOwn) {
     expect_names_distinct<Fallback>();
 }
 
-// --- Tuning
-// ------------------------------------------------------------------------------------------------------------------
+// --- Tuning --------------------------------------------------------------------------------------
 
 std::vector<double> numbers_of(double field) { return {field}; }
 std::vector<double> numbers_of(std::int32_t field) { return {static_cast<double>(field)}; }

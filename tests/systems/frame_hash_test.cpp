@@ -45,8 +45,7 @@ World full_world() {
     return world;
 }
 
-// --- Changing any field
-// ------------------------------------------------------------------------------------------------------
+// --- Changing any field --------------------------------------------------------------------------
 
 // Changes one number somewhere in a field to another that is as valid. Fields are visited as const
 // of a world that is not.
@@ -148,8 +147,7 @@ TEST(HashState, ClockAndTheScenesReferenceVelocityCount) {
     EXPECT_TRUE(seen.insert(hash_state(drifting)).second);
 }
 
-// --- What must not count
-// -----------------------------------------------------------------------------------------------------
+// --- What must not count -------------------------------------------------------------------------
 
 TEST(HashState, OrderOfCreationDoesNotShow) {
     World forth;
@@ -190,8 +188,7 @@ TEST(HashState, CopiesAreEqual) {
     EXPECT_EQ(hash_state(copy), hash_state(world));
 }
 
-// --- Who has what
-// ------------------------------------------------------------------------------------------------------------
+// --- Who has what --------------------------------------------------------------------------------
 
 // Rows are summed: it must still show which row belongs to whom.
 TEST(HashState, ExchangingTwoBodiesPosesShows) {
@@ -222,8 +219,7 @@ TEST(HashState, AddingAndDestroyingABodyComesBack) {
     EXPECT_EQ(hash_state(world), before);
 }
 
-// --- The frame's front door
-// --------------------------------------------------------------------------------------------------
+// --- The frame's front door ----------------------------------------------------------------------
 
 TEST(StepFrame, FrameWithoutLengthIsRefusedAndChangesNothing) {
     for (const double dt_s : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN()}) {

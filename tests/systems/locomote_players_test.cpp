@@ -75,8 +75,7 @@ struct Locomotion {
 
 Vec3 up_of(const Pose& play_space) { return play_space.rotation * Vec3::UnitY(); }
 
-// --- Turning
-// -----------------------------------------------------------------------------------------------------------------
+// --- Turning -------------------------------------------------------------------------------------
 
 TEST(LocomotePlayers, SnapTurnsByItsAngleToTheLeftAboutTheHead) {
     Locomotion player;
@@ -138,8 +137,7 @@ TEST(LocomotePlayers, NothingAskedNothingTurnedBitForBit) {
     EXPECT_EQ(player.play_space().rotation.coeffs(), before.rotation.coeffs());
 }
 
-// --- Following a support
-// -----------------------------------------------------------------------------------------------------
+// --- Following a support -------------------------------------------------------------------------
 
 TEST(LocomotePlayers, PlaySpaceFollowsItsSupportAsFarAsTheDesignerSays) {
     const Vec3 spin(0.5, -0.8, 0.3);
@@ -188,8 +186,7 @@ TEST(LocomotePlayers, HeldRockTurnsNobody) {
     EXPECT_EQ(rotation_to_vector(player.play_space().rotation), Vec3(Vec3::Zero()));
 }
 
-// --- Reference velocity
-// ------------------------------------------------------------------------------------------------------
+// --- Reference velocity --------------------------------------------------------------------------
 
 // A turning body's velocity where the head is: v + w x r.
 TEST(LocomotePlayers, ReferenceIsTheGrippedBodysVelocityAtThePlayer) {
@@ -231,8 +228,7 @@ TEST(LocomotePlayers, HeldRockIsNoReference) {
     EXPECT_EQ(player.reference.at(k_player).linear_mps, Vec3(Vec3::Zero()));
 }
 
-// --- Brake, drag, thrusters
-// --------------------------------------------------------------------------------------------------
+// --- Brake, drag, thrusters ----------------------------------------------------------------------
 
 // What is fast against the reference loses 1/(1 + drag dt); what rests against it keeps its speed.
 TEST(LocomotePlayers, BrakeActsAgainstTheReference) {
@@ -288,8 +284,7 @@ TEST(LocomotePlayers, GrippingHandStandsAgainstBrakeAndThrusters) {
     }
 }
 
-// --- Properties
-// --------------------------------------------------------------------------------------------------------------
+// --- Properties ----------------------------------------------------------------------------------
 
 RC_GTEST_PROP(LocomotePlayers, MovedAndRotatedWorldIsTheSameToItsPlayer, (std::uint64_t seed)) {
     Random random(seed);

@@ -15,8 +15,7 @@ using test::k_frame_s;
 using test::Random;
 using test::sample_at;
 
-// --- Buttons
-// -----------------------------------------------------------------------------------------------------------------
+// --- Buttons -------------------------------------------------------------------------------------
 
 TEST(ReadTracking, EdgeHasTheTimeAndPoseOfItsOwnSample) {
     Devices devices;
@@ -85,8 +84,7 @@ RC_GTEST_PROP(ReadTracking, EdgesAlternateHoweverTheButtonBounces, (std::uint64_
     RC_ASSERT(devices.right().pressed);
 }
 
-// --- Release velocities
-// ------------------------------------------------------------------------------------------------------
+// --- Release velocities --------------------------------------------------------------------------
 
 struct Motion {
     Vec3 start = Vec3(0.1, 1.2, -0.3);

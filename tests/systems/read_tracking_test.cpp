@@ -26,8 +26,7 @@ using test::sample_at;
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
-// --- Poses
-// -------------------------------------------------------------------------------------------------------------------
+// --- Poses ---------------------------------------------------------------------------------------
 
 TEST(ReadTracking, PosesAreInterpolatedToTheFramesEnd) {
     Devices devices;
@@ -116,8 +115,7 @@ RC_GTEST_PROP(ReadTracking, MirroredControllersGiveMirroredHands, (std::uint64_t
     RC_ASSERT(devices.left().edge == GrabEdge::onset);
 }
 
-// --- Bad samples
-// -------------------------------------------------------------------------------------------------------------
+// --- Bad samples ---------------------------------------------------------------------------------
 
 TEST(ReadTracking, SamplesOutOfOrderAreIgnoredAndCountedOnceAPlayer) {
     Devices devices;
@@ -181,8 +179,7 @@ TEST(ReadTracking, DeviceThatWasNeverSeenIsNeitherTrackedNorLost) {
     EXPECT_EQ(devices.left().state, TrackingState::tracked);
 }
 
-// --- Lost and found
-// ----------------------------------------------------------------------------------------------------------
+// --- Lost and found ------------------------------------------------------------------------------
 
 TEST(ReadTracking, SilentDevicesAreLostOnceEachAndFrozen) {
     Devices devices;
@@ -257,8 +254,7 @@ TEST(ReadTracking, HandThatCannotBeSeenWaitsWithClosingUntilItIs) {
     EXPECT_EQ(devices.right().edge, GrabEdge::onset);
 }
 
-// --- Commands, players, preconditions
-// ----------------------------------------------------------------------------------------
+// --- Commands, players, preconditions ------------------------------------------------------------
 
 TEST(ReadTracking, CommandsThatAreNotFiniteAskForNothing) {
     Devices devices;

@@ -106,8 +106,7 @@ Settling random_settling(Random& random, std::initializer_list<Entity> hands = {
     return scene;
 }
 
-// --- Fresh grips
-// -------------------------------------------------------------------------------------------------------------
+// --- Fresh grips ---------------------------------------------------------------------------------
 
 // Body, origin and hand half way through the frame: means of their ends.
 TEST(SettleGrabs, AnchorIsTheHandInTheBodyAtTheInstantOfTheEdge) {
@@ -175,8 +174,7 @@ TEST(SettleGrabs, HandsThatHoldNothingAreLeftAlone) {
     EXPECT_EQ(scene.grab.at(k_right).phase, GrabPhase::none);
 }
 
-// --- Targets
-// -----------------------------------------------------------------------------------------------------------------
+// --- Targets -------------------------------------------------------------------------------------
 
 TEST(SettleGrabs, HoldingHandAimsAtItsTrackedPoseWithItsMeanVelocity) {
     Settling scene;
@@ -209,8 +207,7 @@ TEST(SettleGrabs, OpeningHandCarriesOnWithItsReleaseVelocity) {
     EXPECT_LT(distance(grab.target_ps, expected), 1e-12);
 }
 
-// --- Two hands
-// ---------------------------------------------------------------------------------------------------------------
+// --- Two hands -----------------------------------------------------------------------------------
 
 // The hands disagree by 2 cm along x about where the player is; the pair puts him in the middle.
 TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs) {
@@ -271,8 +268,7 @@ TEST(SettleGrabs, HandsThatOpenInOneFrameBothThrow) {
     EXPECT_EQ(count_of_all(scene.stats), 0U);
 }
 
-// --- Tracking that comes back
-// ------------------------------------------------------------------------------------------------
+// --- Tracking that comes back --------------------------------------------------------------------
 
 TEST(SettleGrabs, HandFoundAgainTakesItsAnchorWhereItIs) {
     Settling scene;
@@ -304,8 +300,7 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
     EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 2U);
 }
 
-// --- Properties
-// --------------------------------------------------------------------------------------------------------------
+// --- Properties ----------------------------------------------------------------------------------
 
 struct HandState {
     GripKind kind;

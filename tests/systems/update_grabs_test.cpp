@@ -304,8 +304,7 @@ TEST(UpdateGrabs, BodyTakenByBothHandsIsIgnoredOnce) {
     EXPECT_EQ(std::ranges::count(grabs.head_ignores.at(k_player).bodies, k_rock), 1);
 }
 
-// --- Properties
-// --------------------------------------------------------------------------------------------------------------
+// --- Properties ----------------------------------------------------------------------------------
 
 struct Reach {
     Vec3 palm;
