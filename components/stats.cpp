@@ -56,8 +56,6 @@ const char* name_of(Fallback reason) {
             return "contacts_contradict";
         case Fallback::contacts_unresolved:
             return "contacts_unresolved";
-        case Fallback::solver_stalled:
-            return "solver_stalled";
         case Fallback::release_speed_clamped:
             return "release_speed_clamped";
         case Fallback::head_ignores_full:

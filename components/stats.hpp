@@ -39,7 +39,6 @@ enum class Fallback : std::uint8_t {
     contact_rounds_exhausted,  // new contacts after every allowed round
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame
-    solver_stalled,            // the Newton iteration ended above its tolerance on a feasible phase
     release_speed_clamped,
     head_ignores_full,
     count

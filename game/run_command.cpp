@@ -9,6 +9,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/film.hpp"
+#include "game/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/report_html.hpp"
@@ -184,6 +185,19 @@ Film open_film(const RunOptions& options, const Scene& scene, double session_s) 
     return film;
 }
 
+RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
+            const Recording* recording, const RunSettings& settings, SessionFilm* camera) {
+    Progress progress("playing " + scene.name);
+    const double length_s = session_length_s(recording, settings);
+    return run_session(scene, caches, players, recording, settings,
+                       [&](const Scene&, const FrameLog& frame) {
+                           if (camera != nullptr) {
+                               camera->watch(frame);
+                           }
+                           progress.show(frame.t_s / length_s);
+                       });
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -218,12 +232,7 @@ int run_command(const RunOptions& options) {
     if (!options.trace.empty()) {
         start_trace();
     }
-    RunLog log = run_session(scene, caches, players, recording, settings,
-                             [&film](const Scene&, const FrameLog& frame) {
-                                 if (film.camera != nullptr) {
-                                     film.camera->watch(frame);
-                                 }
-                             });
+    RunLog log = play(scene, caches, players, recording, settings, film.camera.get());
     log.input = session.value().name;
     log.spawn = place.value().name;
     if (!options.trace.empty()) {

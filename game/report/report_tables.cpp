@@ -83,8 +83,6 @@ const char* meaning_of(Fallback reason) {
             return "Hands asked for what contacts forbid; the hands' rows were set aside.";
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
-        case Fallback::solver_stalled:
-            return "The iteration ended above its tolerance although a solution exists.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
         case Fallback::head_ignores_full:

@@ -111,15 +111,21 @@ void write_velocities(const UpdateVelocitiesIo& io) {
     }
 }
 
-// What pushed a player may be a jump of his tracking: it must not shoot him away.
-void clamp_pushed(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning, StageStats& stats) {
+// What pushes or pulls a player may be a jump of his tracking: it must not shoot him away, neither now
+// nor when the grip breaks in the next frame. Where he is does not change.
+void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
+                   StageStats& stats) {
     for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
-        if (io.frame.graph.bodies[i].role != BodyRole::player || !io.frame.phase[i].pushed) {
+        const FrameGraph::PhaseBody& info = io.frame.phase[i];
+        if (io.frame.graph.bodies[i].role != BodyRole::player ||
+            !(info.pushed || info.grips_surface)) {
             continue;
         }
         const Entity player = io.frame.entities[i];
-        if (clamp_speed(io.reference.at(player).linear_mps, tuning.release_speed_max_mps,
-                        io.player_velocity.at(player).linear_mps)) {
+        const bool clamped =
+            clamp_speed(io.reference.at(player).linear_mps, tuning.release_speed_max_mps,
+                        io.player_velocity.at(player).linear_mps);
+        if (clamped && info.pushed) {
             stats.count(Fallback::release_speed_clamped);
         }
     }
@@ -197,8 +203,8 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     solve_islands(io.frame, tuning.contact);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io);
-    clamp_pushed(io, tuning.locomotion, stats);
     finish_releases(io, tuning.locomotion, stats);
+    clamp_players(io, tuning.locomotion, stats);
     write_last_valid(io);
 }
 
