@@ -75,6 +75,7 @@ template <typename V>
 void visit_fields(const ReferenceVelocity& c, V&& visit) {
     visit("linear_mps", c.linear_mps);
     visit("body", c.body);
+    visit("point_bs", c.point_bs);
 }
 template <typename V>
 void visit_fields(const HeadTracking& c, V&& visit) {
@@ -147,6 +148,7 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("target_ps", c.target_ps);
     visit("target_velocity_ps_mps", c.target_velocity_ps_mps);
     visit("target_spin_ps_radps", c.target_spin_ps_radps);
+    visit("since_s", c.since_s);
     visit("error_m", c.error_m);
 }
 template <typename V>

@@ -24,7 +24,8 @@ struct FrameGraph {
         bool held = false;  // welded to a hand
         bool grips_surface = false;  // players: a hand holds on to something fixed, driven or heavy
         bool pushed = false;         // the backward or contradiction phase ran on its island
-        double push_back_m = 0.0;    // players: how far contacts moved the origin in this frame
+        Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
+        double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };
     std::vector<PhaseBody> phase;
 

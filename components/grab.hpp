@@ -48,6 +48,8 @@ struct Grab {
     Pose target_ps;  // where the constraint wants the hand at the end of the frame
     Vec3 target_velocity_ps_mps = Vec3::Zero();
     Vec3 target_spin_ps_radps = Vec3::Zero();
+    double since_s =
+        0.0;  // when the hand closed: of two hands the one that holds longer is the first
     double error_m = 0.0;  // of the hand against its anchor, at the end of the frame
 };
 

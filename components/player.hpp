@@ -34,7 +34,8 @@ struct PlayerVelocity {
 // the player, else the scene's. Written by locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
-    Entity body = k_no_entity;  // last gripped
+    Entity body = k_no_entity;     // last gripped
+    Vec3 point_bs = Vec3::Zero();  // where: a turning body's velocity is taken there
 };
 
 // Bodies that the head passes through: those in this player's hands, and those let go until they

@@ -44,6 +44,8 @@ const char* name_of(Fallback reason) {
             return "grab_no_surface";
         case Fallback::grip_stretched:
             return "grip_stretched";
+        case Fallback::grip_lost:
+            return "grip_lost";
         case Fallback::grip_body_gone:
             return "grip_body_gone";
         case Fallback::grip_reanchored:

@@ -1,5 +1,6 @@
 #include "game/run_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -111,7 +112,11 @@ std::vector<PlayerEntities> add_players(Scene& scene, const Place& place,
         const Pose& origin = i == 0 || scene.spawns.empty()
                                  ? place.origin_ws
                                  : scene.spawns[index % scene.spawns.size()].pose_ws;
-        players.push_back(add_scene_player(scene, {"player" + std::to_string(i), origin, 80.0}));
+        // Who comes round to a place again floats a little behind those who are there.
+        const std::size_t round = index / std::max<std::size_t>(1, scene.spawns.size());
+        const Vec3 behind = origin.rotation * Vec3(0.0, 0.0, 0.4 * static_cast<double>(round));
+        const Pose start{origin.position + behind, origin.rotation};
+        players.push_back(add_scene_player(scene, {"player" + std::to_string(i), start, 80.0}));
     }
     return players;
 }

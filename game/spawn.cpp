@@ -76,7 +76,7 @@ Rehearsal rehearse(const Recording& recording, const Tuning& tuning) {
         }
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             const bool grab = (sample.hands[side].buttons & k_grab_buttons) != 0;
-            if (grab && !holds[side]) {
+            if (grab && !holds[side] && is_valid(sample.hands[side].controller)) {
                 Pose hand = sample.hands[side].controller * joints[side];
                 hand.position += origin;
                 out.grabs.push_back(

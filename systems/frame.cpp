@@ -18,6 +18,9 @@
 namespace handhold {
 namespace {
 
+constexpr double k_shortest_frame_s = 1e-6;
+constexpr double k_longest_frame_s = 10.0;
+
 // Times a stage and gives it a zone in traces.
 class StageTimer {
   public:
@@ -46,7 +49,8 @@ void place(World& w, FrameCaches& caches, const Tuning& tuning) {
 
 void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats) {
-    HH_CHECK(input.dt_s > 0.0, "dt_s must be above 0", input.dt_s);
+    HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
+             "dt_s must lie between 1e-6 and 10", input.dt_s);
     const double start_s = w.clock.t_s;
     const double end_s = start_s + input.dt_s;
     FrameGraph& graph = caches.graph;

@@ -14,7 +14,7 @@
 namespace handhold {
 
 struct FrameInput {
-    double dt_s = 1.0 / 90.0;              // > 0
+    double dt_s = 1.0 / 90.0;              // [1e-6, 10]
     std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
@@ -29,7 +29,7 @@ struct FrameCaches {
 };
 
 // One frame: a straight line of stages, each a system over the columns it is given; nothing else
-// decides the order. `stats` is cleared first. Throws PreconditionError where dt_s is not above 0;
+// decides the order. `stats` is cleared first. Throws PreconditionError where dt_s is out of range;
 // no input of a player makes it fail.
 void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats);

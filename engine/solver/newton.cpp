@@ -11,9 +11,14 @@ namespace {
 
 constexpr double k_softness_cap = 1e-2;
 constexpr double k_softness_floor = 1e-9;
-constexpr double k_contact_alpha = 1e-7;     // of the row's diagonal
+constexpr double k_contact_softness = 1e-7;  // of the row's diagonal
+constexpr double k_contact_softness_cap = 1e-3;
+constexpr double k_stubborn_overlap_m =
+    1e-4;                                    // contacts that contradict each other soften from here
+constexpr double k_near_contact_m = 1e-3;    // contacts farther than this and any error stay out
 constexpr double k_stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
 constexpr double k_largest_turn_rad = 1.0;   // of a step
+constexpr double k_largest_move = 10.0;      // of a step, in worst errors: a lever of 1 m
 constexpr double k_smallest_scale = 0.3;     // below: regularise more instead of scaling further
 constexpr int k_retries = 3;
 
@@ -25,13 +30,32 @@ bool takes_part(const IslandView& island, const RowBlock& block) {
     return island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0;
 }
 
+// Rows of the blocks that a step can matter to: hands, and contacts not farther apart than twice
+// the worst error. A contact that a step overlaps all the same is near in the next one.
 void collect_rows(const IslandView& island, std::vector<Row>& rows) {
-    rows.clear();
+    double worst = 0.0;
     for (const std::uint32_t index : island.island_blocks) {
         if (takes_part(island, island.blocks[index])) {
-            append_rows(island.bodies, island.blocks[index], index, rows);
+            worst = std::max(worst, block_error_m(island.bodies, island.blocks[index]));
         }
     }
+    const double reach_m = std::max(k_near_contact_m, 2.0 * worst);
+    rows.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        const RowBlock& block = island.blocks[index];
+        if (takes_part(island, block) &&
+            (is_hand(block) || contact_separation_m(island.bodies, block) < reach_m)) {
+            append_rows(island.bodies, block, index, rows);
+        }
+    }
+}
+
+double worst_overlap_of(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (const Row& row : rows) {
+        worst = row.unilateral ? std::max(worst, -row.value_m) : worst;
+    }
+    return worst;
 }
 
 // Hand rows come in threes along the world's axes: only the three together say the same however the
@@ -113,7 +137,14 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
-void regularise(std::span<const Row> rows, double softness, double factor, DenseSystem& system) {
+// How much each kind of row may give way, relative to the system's diagonal.
+struct Softness {
+    double hand = 1e-6;
+    double contact = k_contact_softness;
+};
+
+void regularise(std::span<const Row> rows, const Softness& softness, double factor,
+                DenseSystem& system) {
     double inverse_sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < system.size();) {
@@ -131,7 +162,7 @@ void regularise(std::span<const Row> rows, double softness, double factor, Dense
     const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;
     for (std::size_t i = 0; i < system.size(); ++i) {
         system.alpha()[i] =
-            factor * (rows[i].hand ? softness * mean : k_contact_alpha * system.diagonal(i));
+            factor * (rows[i].hand ? softness.hand * mean : softness.contact * system.diagonal(i));
     }
 }
 
@@ -182,8 +213,28 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
     return longest;
 }
 
+double longest_move(const SolveScratch& scratch) {
+    double longest = 0.0;
+    for (const Vec3& move : scratch.moves_m) {
+        longest = std::max(longest, move.norm());
+    }
+    return longest;
+}
+
+// Hands give way while the error does not fall. Contacts do so only where they contradict each
+// other: else their multipliers grow without bound and push along what they do not even oppose.
+void adapt(double residual_m, double previous_m, double overlap_m, double previous_overlap_m,
+           Softness& softness) {
+    softness.hand = residual_m < 0.5 * previous_m ? std::max(softness.hand * 0.03, k_softness_floor)
+                                                  : std::min(softness.hand * 10.0, k_softness_cap);
+    const bool stubborn = overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
+    softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
+                                : std::max(softness.contact * 0.1, k_contact_softness);
+}
+
 // One Newton step; returns its length, metres.
-double step(const IslandView& island, double softness, SolveScratch& scratch) {
+double step(const IslandView& island, const Softness& softness, double worst_m,
+            SolveScratch& scratch) {
     double factor = 1.0;
     double scale = 1.0;
     for (int attempt = 0; attempt <= k_retries; ++attempt) {
@@ -192,7 +243,8 @@ double step(const IslandView& island, double softness, SolveScratch& scratch) {
         regularise(scratch.rows, softness, factor, scratch.system);
         const std::span<const double> lambda = scratch.system.solve(scratch.rows);
         const double turn = gather_moves(island, lambda, scratch);
-        scale = turn > k_largest_turn_rad ? k_largest_turn_rad / turn : 1.0;
+        scale = std::min({1.0, k_largest_turn_rad / std::max(turn, 1e-30),
+                          k_largest_move * worst_m / std::max(longest_move(scratch), 1e-30)});
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (scale >= k_smallest_scale) {
             break;
@@ -213,8 +265,9 @@ void write_errors(const IslandView& island) {
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     NewtonResult result;
-    double softness = settings.hand_softness;
+    Softness softness{settings.hand_softness, k_contact_softness};
     double previous = std::numeric_limits<double>::infinity();
+    double previous_overlap = previous;
     clear_stiffness(island, scratch);
     scratch.lambda.clear();
     for (;;) {
@@ -225,9 +278,8 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
             break;
         }
         if (result.iterations > 0) {
-            softness = result.residual_m < 0.5 * previous
-                           ? std::max(softness * 0.03, k_softness_floor)
-                           : std::min(softness * 10.0, k_softness_cap);
+            adapt(result.residual_m, previous, worst_overlap_of(scratch.rows), previous_overlap,
+                  softness);
             if (result.residual_m > k_stiffness_from_m) {
                 gather_stiffness(island, scratch.lambda, scratch);
             } else {
@@ -235,7 +287,8 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
             }
         }
         previous = result.residual_m;
-        const double length = step(island, softness, scratch);
+        previous_overlap = worst_overlap_of(scratch.rows);
+        const double length = step(island, softness, result.residual_m, scratch);
         ++result.iterations;
         if (length < settings.step_tolerance_m) {
             collect_rows(island, scratch.rows);
@@ -337,7 +390,7 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
     clear_stiffness(island, scratch);
     prepare_inertia(island, scratch);
     scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
-    regularise(scratch.rows, k_velocity_softness, 1.0, scratch.system);
+    regularise(scratch.rows, {k_velocity_softness, k_contact_softness}, 1.0, scratch.system);
     apply_impulses(island, scratch.system.solve(scratch.rows), scratch);
     double previous = std::numeric_limits<double>::infinity();
     for (int i = 0; i < k_refinements; ++i) {

@@ -69,6 +69,8 @@ const char* meaning_of(Fallback reason) {
             return "A hand closed with no surface within reach; it holds nothing.";
         case Fallback::grip_stretched:
             return "A hand was pulled farther from its anchor than the stretch allows and let go.";
+        case Fallback::grip_lost:
+            return "A hand came back from lost tracking open; it let go without a throw.";
         case Fallback::grip_body_gone:
             return "The gripped body was destroyed; the hand let go.";
         case Fallback::grip_reanchored:

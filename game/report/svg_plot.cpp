@@ -80,9 +80,9 @@ void make_equal(PlotRanges& ranges, double width_px, double height_px) {
     const double farthest = std::max({std::abs(ranges.x.low), std::abs(ranges.x.high),
                                       std::abs(ranges.y.low), std::abs(ranges.y.high)});
     const double least_span = std::max(k_least_span, k_least_share * farthest);
-    const double per_px = std::max({ranges.x.span() * k_room / width_px,
-                                    ranges.y.span() * k_room / height_px,
-                                    least_span / std::min(width_px, height_px)});
+    const double per_px =
+        std::max({ranges.x.span() * k_room / width_px, ranges.y.span() * k_room / height_px,
+                  least_span / std::min(width_px, height_px)});
     ranges.x = widen_to(ranges.x, per_px * width_px);
     ranges.y = widen_to(ranges.y, per_px * height_px);
 }

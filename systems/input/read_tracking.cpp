@@ -10,6 +10,12 @@ namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
+// What a tracking system can mean: beyond this it is broken, whatever it says.
+bool is_trackable(const Pose& pose_ps) {
+    constexpr double k_farthest_m = 1e4;
+    return is_valid(pose_ps) && pose_ps.position.cwiseAbs().maxCoeff() < k_farthest_m;
+}
+
 bool is_stale(double t_s, bool has_sample, double last_t_s) {
     return !std::isfinite(t_s) || (has_sample && t_s <= last_t_s);
 }
@@ -26,6 +32,9 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
         return;  // never tracked
     }
     const bool first = device.state == TrackingState::never;
+    if (has_sample && later != nullptr && later_t_s - device.sample_t_s > lost_after_s) {
+        later = nullptr;  // nobody knows the way across a gap that long
+    }
     if (!has_sample) {
         device.sample_ps =
             *later;  // the session begins between two samples: the later one is yet to come
@@ -55,15 +64,34 @@ void remember(HandHistory& history, const HandTracking& hand) {
     history.count = std::min<std::uint32_t>(history.count + 1, HandHistory::k_capacity);
 }
 
+// The window, made longer where it holds too short a time to measure a speed in: samples
+// microseconds apart would turn a tenth of a millimetre of noise into metres a second.
+double measured_window(const HandHistory& history, double t_s, double window_s) {
+    constexpr double k_shortest_span_s = 0.005;
+    constexpr int k_longest = 4;  // windows
+    for (int times = 1; times < k_longest; ++times) {
+        double oldest_s = t_s;
+        for (std::uint32_t i = 0; i < history.count; ++i) {
+            const double at_s = history.entries[i].t_s;
+            oldest_s = at_s >= t_s - times * window_s && at_s < oldest_s ? at_s : oldest_s;
+        }
+        if (t_s - oldest_s >= k_shortest_span_s) {
+            return times * window_s;
+        }
+    }
+    return k_longest * window_s;
+}
+
 // Least-squares slope of position and rotation over the window before t_s. Two samples give their
 // difference, one gives zero.
 void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand) {
     double weight = 0.0;
     double mean_t = 0.0;
+    const double from_s = t_s - measured_window(history, t_s, window_s);
     const auto for_window = [&](auto&& visit) {
         for (std::uint32_t i = 0; i < history.count; ++i) {
             const HandHistory::Entry& entry = history.entries[i];
-            if (entry.t_s >= t_s - window_s && entry.t_s <= t_s) {
+            if (entry.t_s >= from_s && entry.t_s <= t_s) {
                 visit(entry);
             }
         }
@@ -88,7 +116,8 @@ void measure_release(const HandHistory& history, double t_s, double window_s, Ha
         angular +=
             dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
     });
-    if (spread > 1e-12) {
+    constexpr double k_least_spread_s2 = 1e-6;
+    if (spread > k_least_spread_s2) {
         hand.release_velocity_ps_mps = linear / spread;
         hand.release_spin_ps_radps = angular / spread;
     }
@@ -131,7 +160,7 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
         const ControllerSample& reading = sample.controllers[index_of(rows.side)];
         const Pose hand_ps = reading.controller_ps * rows.joint;
         if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_valid(reading.controller_ps)) {
+            if (is_trackable(reading.controller_ps)) {
                 later = hand_ps;
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -142,7 +171,7 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
             continue;  // counted once a player, by the head
         }
         hand.raw_pressed = reading.grab;
-        if (is_valid(reading.controller_ps)) {
+        if (is_trackable(reading.controller_ps)) {
             hand.sample_ps = hand_ps;
             hand.sample_t_s = sample.t_s;
             has_sample = true;
@@ -151,7 +180,7 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
             stats.count(Fallback::sample_not_finite);
         }
         // A hand that cannot be seen may let go, but waits with closing until it is seen again.
-        const bool may_begin = has_sample && (is_valid(reading.controller_ps) || !reading.grab);
+        const bool may_begin = has_sample && (is_trackable(reading.controller_ps) || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
             begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps,
                        tuning);
@@ -175,7 +204,7 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
     for (const TrackingSample& sample : input.samples) {
         const Pose head_ps{sample.head_ps.position, sample.head_ps.rotation.normalized()};
         if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_valid(sample.head_ps)) {
+            if (is_trackable(sample.head_ps)) {
                 later = head_ps;
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -184,7 +213,7 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
         }
         if (is_stale(sample.t_s, has_sample, head.sample_t_s)) {
             stats.count(Fallback::sample_out_of_order);
-        } else if (!is_valid(sample.head_ps)) {
+        } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
             head.sample_ps = head_ps;

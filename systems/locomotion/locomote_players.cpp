@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace handhold {
 namespace {
@@ -16,6 +17,14 @@ struct Grips {
     std::size_t count = 0;
 };
 
+bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
+
+// What is fixed to the world leads, and of two equal ones the hand that holds longer.
+bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
+    return is_on_surface(a) != is_on_surface(b) ? is_on_surface(a)
+                                                : a.grab->since_s < b.grab->since_s;
+}
+
 Grips grips_of(const LocomotePlayersIo& io, Entity player) {
     Grips found;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
@@ -26,10 +35,11 @@ Grips grips_of(const LocomotePlayersIo& io, Entity player) {
             found.grips[found.count++] = {&grab, &io.hand.at(entity)};
         }
     }
+    if (found.count == 2 && comes_first(found.grips[1], found.grips[0])) {
+        std::swap(found.grips[0], found.grips[1]);
+    }
     return found;
 }
-
-bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
 // Rotates the play space about a point that stays where it is in the world.
 void turn_about(PlayerOrigin& origin, const Vec3& pivot_ps, const Quat& turn_ws) {
@@ -50,6 +60,7 @@ Quat commanded_turn(const LocomotePlayersIo& io, const PlayerCommands& commands,
 Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& play_space,
                   const LocomotionTuning& tuning) {
     const bool both_on_one = grips.count == 2 && is_on_surface(grips.grips[0]) &&
+                             is_on_surface(grips.grips[1]) &&
                              grips.grips[0].grab->body == grips.grips[1].grab->body;
     if (grips.count == 0 || !is_on_surface(grips.grips[0]) ||
         (tuning.support_follow == SupportFollow::off && !both_on_one)) {
@@ -63,10 +74,11 @@ Quat support_turn(const LocomotePlayersIo& io, const Grips& grips, const Quat& p
     return rotation_from_vector(spin * io.dt_s);
 }
 
-void update_reference(const LocomotePlayersIo& io, const Grips& grips, const Vec3& at_ws,
+void update_reference(const LocomotePlayersIo& io, const Grips& grips,
                       ReferenceVelocity& reference) {
     if (grips.count > 0 && is_on_surface(grips.grips[0])) {
         reference.body = grips.grips[0].grab->body;
+        reference.point_bs = grips.grips[0].grab->anchor_bs.position;
     }
     const BodyVelocity* const support = io.body_velocity.find(reference.body);
     if (support == nullptr) {
@@ -74,7 +86,9 @@ void update_reference(const LocomotePlayersIo& io, const Grips& grips, const Vec
         reference.linear_mps = io.scene_velocity_mps;
         return;
     }
-    const Vec3 arm = at_ws - io.body_pose.at(reference.body).pose_ws.position;
+    // At the point last gripped, not at the player: his distance may grow, and with it the speed of
+    // a turning body there.
+    const Vec3 arm = io.body_pose.at(reference.body).pose_ws.rotation * reference.point_bs;
     reference.linear_mps = support->linear_mps + support->angular_radps.cross(arm);
 }
 
@@ -97,8 +111,7 @@ void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tunin
         const PlayerCommands& commands = io.commands.at(player);
         const HeadTracking& head = io.head.at(player);
         const Grips grips = grips_of(io, player);
-        update_reference(io, grips, transform_point(origin.pose_ws, head.start_ps.position),
-                         io.reference.at(player));
+        update_reference(io, grips, io.reference.at(player));
 
         const Vec3 pivot_ps =
             grips.count > 0 ? grips.grips[0].hand->start_ps.position : head.start_ps.position;

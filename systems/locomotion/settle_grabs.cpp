@@ -129,8 +129,8 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
 }  // namespace
 
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
-    // New grips before anything leaves, the earlier edge first: which hand is listed first never
-    // shows.
+    // New grips before anything leaves, the earlier edge first: which hand is listed first
+    // does not matter.
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.grab.phase != GrabPhase::fresh) {
@@ -146,6 +146,12 @@ void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
         const HandPair pair = pair_of(io, row);
         Grab& grab = pair.grab;
         if (grab.kind == GripKind::none) {
+            continue;
+        }
+        if (grab.phase == GrabPhase::releasing && pair.hand.resumed) {
+            // It opened while nobody saw it: where it is now says nothing of how it let go.
+            grab = {};
+            stats.count(Fallback::grip_lost);
             continue;
         }
         if (grab.phase == GrabPhase::releasing && pair.other != nullptr &&

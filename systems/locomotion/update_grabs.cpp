@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -93,11 +94,31 @@ void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTrack
     grab.kind = grip_kind(io.body.at(surface->body), tuning.phases);
     grab.phase = GrabPhase::fresh;
     grab.body = surface->body;
+    grab.since_s = hand.edge_t_s;
     grab.hit_bs = inverse_transform_point(body_ws, surface->point_ws);
     grab.hit_normal_bs = body_ws.rotation.conjugate() * surface->normal_ws;
     if (grab.kind == GripKind::held) {
         ignore_for_head(io.head_ignores.at(owner.player), grab.body, stats);
     }
+}
+
+// Of a player's two hands the one that is stretched more lets go, of two alike the one that grips
+// for the shorter time: what is left may then be met.
+bool gives_way(const UpdateGrabsIo& io, std::size_t row) {
+    const Grab& grab = io.grab.rows()[row];
+    const Entity player = io.owner.at(io.grab.owners()[row]).player;
+    for (std::size_t other = 0; other < io.grab.size(); ++other) {
+        const Grab& candidate = io.grab.rows()[other];
+        if (other == row || candidate.kind == GripKind::none ||
+            io.owner.at(io.grab.owners()[other]).player != player) {
+            continue;
+        }
+        constexpr double k_alike_m = 1e-6;
+        const double difference = grab.error_m - candidate.error_m;
+        return std::abs(difference) > k_alike_m ? difference > 0.0
+                                                : grab.since_s >= candidate.since_s;
+    }
+    return true;
 }
 
 }  // namespace
@@ -111,7 +132,8 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
             stats.count(Fallback::grip_body_gone);
             grab = {};
         }
-        if (grab.kind != GripKind::none && grab.error_m > tuning.hand.max_stretch_m) {
+        if (grab.kind != GripKind::none && grab.error_m > tuning.hand.max_stretch_m &&
+            gives_way(io, row)) {
             stats.count(Fallback::grip_stretched);
             grab = {};
         }

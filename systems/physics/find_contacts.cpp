@@ -47,17 +47,6 @@ void update_ignores(const FindContactsIo& io) {
     std::sort(io.frame.ignored.begin(), io.frame.ignored.end());
 }
 
-// A head that was never tracked has no place yet.
-bool is_untracked_head(const FindContactsIo& io, std::uint64_t id) {
-    for (std::size_t row = 0; row < io.head.size(); ++row) {
-        if (io.head.rows()[row].state == TrackingState::never &&
-            io.persistent_id.at(io.head.owners()[row]).value == id) {
-            return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace
 
 void find_contacts(const FindContactsIo& io, const ContactTuning& tuning) {
@@ -67,8 +56,7 @@ void find_contacts(const FindContactsIo& io, const ContactTuning& tuning) {
     io.collision.set_ignored_pairs(io.frame.ignored);
     std::erase_if(io.frame.contacts, [&io](const ContactPoint& contact) {
         return std::binary_search(io.frame.ignored.begin(), io.frame.ignored.end(),
-                                  pair_of(contact.id_a, contact.id_b)) ||
-               is_untracked_head(io, contact.id_a) || is_untracked_head(io, contact.id_b);
+                                  pair_of(contact.id_a, contact.id_b));
     });
 }
 

@@ -1,6 +1,7 @@
 #include "systems/physics/place_colliders.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "components/play_space.hpp"
 
@@ -17,6 +18,10 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         const LastValidPose& valid = io.last_valid.at(entity);
         proxy.from_ws = valid.known ? valid.pose_ws : proxy.to_ws;
         proxy.free = true;
+        if (io.head.at(entity).state == TrackingState::never) {
+            // Not anywhere yet: an invalid pose takes no part in collision.
+            proxy.to_ws.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+        }
         return proxy;
     }
     proxy.to_ws = io.body_pose.at(entity).pose_ws;

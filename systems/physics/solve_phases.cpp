@@ -1,6 +1,7 @@
 #include "systems/physics/solve_phases.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
@@ -198,22 +199,29 @@ bool move_proxies(const Solve& s) {
     return moved;
 }
 
-bool is_same_pair(const ContactPoint& x, const ContactPoint& y) {
-    return x.id_a == y.id_a && x.id_b == y.id_b;
+auto order_of(const ContactPoint& contact) {
+    return std::tie(contact.id_a, contact.id_b, contact.feature);
+}
+bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
+    return std::tie(x.id_a, x.id_b) < std::tie(y.id_a, y.id_b);
 }
 
 // New contacts replace the old ones of their pairs; old pairs that are no longer near stay, they
-// hold back what they held back.
+// hold back what they held back. Both lists are sorted.
 void merge_contacts(FrameGraph& frame) {
-    const auto first_fresh = static_cast<std::ptrdiff_t>(frame.fresh_contacts.size());
+    const std::size_t fresh_count = frame.fresh_contacts.size();
+    std::size_t fresh = 0;
     for (const ContactPoint& old : frame.contacts) {
-        const bool replaced =
-            std::any_of(frame.fresh_contacts.begin(), frame.fresh_contacts.begin() + first_fresh,
-                        [&old](const ContactPoint& fresh) { return is_same_pair(old, fresh); });
-        if (!replaced) {
+        while (fresh < fresh_count && is_pair_before(frame.fresh_contacts[fresh], old)) {
+            ++fresh;
+        }
+        if (fresh == fresh_count || is_pair_before(old, frame.fresh_contacts[fresh])) {
             frame.fresh_contacts.push_back(old);
         }
     }
+    std::sort(
+        frame.fresh_contacts.begin(), frame.fresh_contacts.end(),
+        [](const ContactPoint& x, const ContactPoint& y) { return order_of(x) < order_of(y); });
     std::swap(frame.contacts, frame.fresh_contacts);
 }
 

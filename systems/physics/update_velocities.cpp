@@ -111,22 +111,47 @@ void write_velocities(const UpdateVelocitiesIo& io) {
     }
 }
 
-// What pushes or pulls a player may be a jump of his tracking: it must not shoot him away, neither now
-// nor when the grip breaks in the next frame. Where he is does not change.
+// The fastest that the island's own motion explains, against a reference: what drives it or is too
+// heavy to be thrown.
+double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
+    double fastest = 0.0;
+    for (const std::uint32_t i : frame.graph.blocks_of(island)) {
+        const RowBlock& block = frame.graph.blocks[i];
+        for (const std::uint32_t index : {block.a, block.b}) {
+            const SolverBody& body = frame.graph.bodies[index];
+            if (body.role == BodyRole::fixed || body.role == BodyRole::heavy) {
+                const Vec3 arm =
+                    transform_point(frame.graph.bodies[block.a].pose_ws, block.point_a_bs) -
+                    body.pose_ws.position;
+                const Vec3 at_row = body.velocity_mps + body.spin_radps.cross(arm);
+                fastest = std::max(fastest, (at_row - reference_mps).norm());
+            }
+        }
+    }
+    return fastest;
+}
+
+// What pushes or pulls a player may be a jump of his tracking: it must not shoot him away, neither
+// now nor when the grip breaks in the next frame. Where he is does not change, and speed that he
+// had or that a moving thing gave him stays.
 void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
                    StageStats& stats) {
-    for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
-        const FrameGraph::PhaseBody& info = io.frame.phase[i];
-        if (io.frame.graph.bodies[i].role != BodyRole::player ||
-            !(info.pushed || info.grips_surface)) {
-            continue;
-        }
-        const Entity player = io.frame.entities[i];
-        const bool clamped =
-            clamp_speed(io.reference.at(player).linear_mps, tuning.release_speed_max_mps,
-                        io.player_velocity.at(player).linear_mps);
-        if (clamped && info.pushed) {
-            stats.count(Fallback::release_speed_clamped);
+    for (const Island& island : io.frame.graph.islands) {
+        for (const std::uint32_t i : io.frame.graph.bodies_of(island)) {
+            const FrameGraph::PhaseBody& info = io.frame.phase[i];
+            if (io.frame.graph.bodies[i].role != BodyRole::player ||
+                !(info.pushed || info.grips_surface)) {
+                continue;
+            }
+            const Entity player = io.frame.entities[i];
+            const Vec3& reference = io.reference.at(player).linear_mps;
+            const double limit = std::max({tuning.release_speed_max_mps,
+                                           (info.velocity_before_mps - reference).norm(),
+                                           driven_speed(io.frame, island, reference)});
+            if (clamp_speed(reference, limit, io.player_velocity.at(player).linear_mps) &&
+                info.pushed) {
+                stats.count(Fallback::release_speed_clamped);
+            }
         }
     }
 }
@@ -191,15 +216,20 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
             valid->pose_ws = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
             continue;
         }
-        // Stuck: keep the way back, and let it ride along with what the body is stuck in.
+        // Stuck: keep the way back, and let it ride along where what the body is stuck in moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
-        valid->pose_ws = other.to_ws * (inverse(other.from_ws) * valid->pose_ws);
+        if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {
+            valid->pose_ws = other.to_ws * (inverse(other.from_ws) * valid->pose_ws);
+        }
     }
 }
 
 }  // namespace
 
 void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats) {
+    for (std::size_t i = 0; i < io.frame.phase.size(); ++i) {
+        io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
+    }
     solve_islands(io.frame, tuning.contact);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io);

@@ -106,17 +106,6 @@ TEST(FindContacts, WhatIsFartherThanTheMarginMakesNone) {
     EXPECT_TRUE(scene.frame.contacts.empty());
 }
 
-TEST(FindContacts, HeadThatWasNeverTrackedTouchesNothing) {
-    Contacts scene;
-    scene.place_wall(-0.003);
-    scene.head.at(k_player).state = TrackingState::never;
-    scene.run();
-    EXPECT_TRUE(scene.frame.contacts.empty());
-    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but there
-    scene.run();
-    EXPECT_EQ(scene.count_between(k_player, k_wall), 1U);
-}
-
 TEST(FindContacts, HeldRockTouchesWallsButNotItsHoldersHead) {
     Contacts scene;
     scene.place_rock(-0.01);

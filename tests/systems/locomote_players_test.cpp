@@ -188,14 +188,16 @@ TEST(LocomotePlayers, HeldRockTurnsNobody) {
 
 // --- Reference velocity --------------------------------------------------------------------------
 
-// A turning body's velocity where the head is: v + w x r.
-TEST(LocomotePlayers, ReferenceIsTheGrippedBodysVelocityAtThePlayer) {
+// A turning body's velocity where it is gripped: v + w x r. Not where the player is: he may drift
+// away for good, and the body's speed there would grow with him.
+TEST(LocomotePlayers, ReferenceIsTheGrippedBodysVelocityAtTheGrip) {
     Locomotion player;
     player.body_pose.at(k_ship).pose_ws.position = Vec3(10.0, 0.0, 0.0);
     player.body_velocity.at(k_ship) = {Vec3(20.0, 0.0, 0.0), Vec3(0.0, 2.0, 0.0)};
     player.grip(k_left, GripKind::surface, k_ship);
+    const Vec3 arm(0.1, 1.6, 0.2);
+    player.grab.at(k_left).anchor_bs.position = arm;
     player.run();
-    const Vec3 arm = Vec3(0.1, 1.6, 0.2) - Vec3(10.0, 0.0, 0.0);
     const Vec3 expected = Vec3(20.0, 0.0, 0.0) + Vec3(2.0 * arm.z(), 0.0, -2.0 * arm.x());
     EXPECT_LT((player.reference.at(k_player).linear_mps - expected).norm(), 1e-12);
     EXPECT_EQ(player.reference.at(k_player).body, k_ship);

@@ -102,6 +102,7 @@ RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
     Random random(seed);
     Placing scene;
     scene.add_player(random);
+    scene.head.at(k_player).state = TrackingState::tracked;
     HeadTuning tuning;
     tuning.center_m = random.vector(0.2);
     scene.run(tuning);
@@ -113,11 +114,21 @@ RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
     RC_ASSERT(scene.proxy(k_player).free);
 }
 
+TEST(PlaceColliders, HeadThatWasNeverTrackedIsNowhere) {
+    Random random(4);
+    Placing scene;
+    scene.add_player(random);
+    scene.head.at(k_player).state = TrackingState::never;
+    scene.run();
+    EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // what is not valid takes no part
+}
+
 TEST(PlaceColliders, HeadWithoutALastValidPoseIsNotSwept) {
     Random random(3);
     Placing scene;
     scene.add_player(random);
     scene.last_valid.at(k_player).known = false;
+    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but there
     scene.run();
     EXPECT_EQ(distance(scene.proxy(k_player).from_ws, scene.proxy(k_player).to_ws), 0.0);
 }

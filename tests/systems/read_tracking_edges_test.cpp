@@ -157,11 +157,14 @@ TEST(ReadTracking, ReleaseVelocityIsTheSameBitForBitAtAnyFrameRate) {
     }
 }
 
-TEST(ReadTracking, ReleaseWithOneSampleInTheWindowIsStillAndWithTwoIsTheirDifference) {
+TEST(ReadTracking, ReleaseOfASingleSampleIsStillAndOfTwoIsTheirDifference) {
     Devices still;
     still.tuning.tracking.release_window_s = 0.01;
     still.step({sample_at(0.005, Vec3::Zero(), true)});
-    still.step({sample_at(0.0199, Vec3(1.0, 0.0, 0.0))});
+    for (int frame = 0; frame < 8; ++frame) {
+        still.step({});
+    }
+    still.step({sample_at(9.0 * k_frame_s + 0.005, Vec3(1.0, 0.0, 0.0))});
     ASSERT_EQ(still.right().edge, GrabEdge::release);
     EXPECT_EQ(still.right().release_velocity_ps_mps, Vec3(Vec3::Zero()));
 

@@ -170,8 +170,8 @@ TEST(ReadTracking, DeviceThatWasNeverSeenIsNeitherTrackedNorLost) {
     bad.controllers[1].controller_ps.position.x() = k_nan;
     bad.controllers[1].grab = true;
     for (int frame = 0; frame < 100; ++frame) {
-        bad.t_s += k_frame_s;
         devices.step({bad});
+        bad.t_s += k_frame_s;
         EXPECT_EQ(count_of(devices.stats, Fallback::tracking_lost), 0U);
     }
     EXPECT_EQ(devices.right().state, TrackingState::never);
