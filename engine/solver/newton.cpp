@@ -213,6 +213,11 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
     return longest;
 }
 
+// Only contacts can contradict each other into huge steps; hands on long levers may need them.
+bool has_contact(std::span<const Row> rows) {
+    return std::ranges::any_of(rows, [](const Row& row) { return row.unilateral; });
+}
+
 double longest_move(const SolveScratch& scratch) {
     double longest = 0.0;
     for (const Vec3& move : scratch.moves_m) {
@@ -225,9 +230,11 @@ double longest_move(const SolveScratch& scratch) {
 // other: else their multipliers grow without bound and push along what they do not even oppose.
 void adapt(double residual_m, double previous_m, double overlap_m, double previous_overlap_m,
            Softness& softness) {
+    const bool hands_gave_way = softness.hand >= k_softness_cap;
+    const bool stubborn =
+        hands_gave_way && overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
     softness.hand = residual_m < 0.5 * previous_m ? std::max(softness.hand * 0.03, k_softness_floor)
                                                   : std::min(softness.hand * 10.0, k_softness_cap);
-    const bool stubborn = overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
     softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
                                 : std::max(softness.contact * 0.1, k_contact_softness);
 }
@@ -243,8 +250,11 @@ double step(const IslandView& island, const Softness& softness, double worst_m,
         regularise(scratch.rows, softness, factor, scratch.system);
         const std::span<const double> lambda = scratch.system.solve(scratch.rows);
         const double turn = gather_moves(island, lambda, scratch);
-        scale = std::min({1.0, k_largest_turn_rad / std::max(turn, 1e-30),
-                          k_largest_move * worst_m / std::max(longest_move(scratch), 1e-30)});
+        scale = std::min(1.0, k_largest_turn_rad / std::max(turn, 1e-30));
+        if (has_contact(scratch.rows)) {
+            const double move = std::max(longest_move(scratch), 1e-30);
+            scale = std::min(scale, k_largest_move * worst_m / move);
+        }
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (scale >= k_smallest_scale) {
             break;
@@ -377,28 +387,17 @@ double worst_speed(std::span<const Row> rows, const DenseSystem& system) {
     return worst;
 }
 
-}  // namespace
-
-void solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                      SolveScratch& scratch) {
-    constexpr double k_velocity_softness = 1e-6;
+// Takes the error of regularisation down, by a factor that long levers make small, until the rows
+// are met or cannot be: more would only press contradicting rows against each other.
+void refine_velocities(const IslandView& island, SolveScratch& scratch) {
     constexpr double k_speed_tolerance_mps = 1e-10;
-    constexpr int k_refinements =
-        8;  // each takes the error of regularisation down, by a factor that long levers make small
-    collect_velocity_rows(island, settings, scratch);
-    evaluate_velocity_rows(island, scratch);
-    clear_stiffness(island, scratch);
-    prepare_inertia(island, scratch);
-    scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
-    regularise(scratch.rows, {k_velocity_softness, k_contact_softness}, 1.0, scratch.system);
-    apply_impulses(island, scratch.system.solve(scratch.rows), scratch);
+    constexpr int k_refinements = 8;
     double previous = std::numeric_limits<double>::infinity();
     for (int i = 0; i < k_refinements; ++i) {
         evaluate_velocity_rows(island, scratch);
         const double worst = worst_speed(scratch.rows, scratch.system);
         if (worst < k_speed_tolerance_mps || worst > 0.5 * previous) {
-            return;  // met, or not to be met: more would only press contradicting rows against each
-                     // other
+            return;
         }
         previous = worst;
         scratch.values.clear();
@@ -406,6 +405,40 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
             scratch.values.push_back(row.value_m);
         }
         apply_impulses(island, scratch.system.solve_again(scratch.values), scratch);
+    }
+}
+
+}  // namespace
+
+void solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                      SolveScratch& scratch) {
+    constexpr double k_hand_softness = 1e-6;
+    collect_velocity_rows(island, settings, scratch);
+    evaluate_velocity_rows(island, scratch);
+    clear_stiffness(island, scratch);
+    prepare_inertia(island, scratch);
+    scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
+    double lacking = 0.0;
+    for (const Row& row : scratch.rows) {
+        lacking = std::max(lacking, std::abs(row.value_m));
+    }
+    // Contacts that contradict each other (a jam) are met by no velocity; hard ones would try with
+    // huge ones. Nobody may gain more than the rows lack.
+    Softness softness{k_hand_softness, k_contact_softness};
+    for (int attempt = 0; attempt <= k_retries; ++attempt) {
+        regularise(scratch.rows, softness, 1.0, scratch.system);
+        const std::span<const double> lambda = scratch.system.solve(scratch.rows);
+        gather_moves(island, lambda, scratch);
+        scratch.lambda.assign(lambda.begin(), lambda.end());
+        if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
+            break;
+        }
+        softness.hand *= 100.0;
+        softness.contact *= 100.0;
+    }
+    apply_impulses(island, scratch.lambda, scratch);
+    if (softness.contact == k_contact_softness) {
+        refine_velocities(island, scratch);
     }
 }
 
