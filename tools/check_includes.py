@@ -38,7 +38,7 @@ def library(name: str, header: str, identifier: str | None, home: str, home_text
 
 LIBRARIES = [
     library("Bullet", r"bullet/|bt[A-Z]\w*\.h|BulletCollision/|LinearMath/", r"\bbt[A-Z]\w+",
-            r"engine/collision/bullet_collision_world\.cpp", "engine/collision/bullet_collision_world.cpp"),
+            r"engine/collision/bullet_\w+\.[ch]pp", "engine/collision/bullet_*"),
     library("Box2D", r"box2d/", r"\bb2[A-Z]\w+",
             r"engine/geometry/disc_contact_box2d\.cpp", "engine/geometry/disc_contact_box2d.cpp"),
     library("TBB", r"tbb/|oneapi/", r"\btbb::", r"engine/core/parallel\.cpp", "engine/core/parallel.cpp"),

@@ -1,10 +1,6 @@
-// The only file that names Bullet. It is used for what finds candidates: the tree of moving bounds
-// (btDbvt) and the quantised tree of each mesh's triangles. Contacts, sweeps and closest points are
-// closed forms of our own (pair_contact.hpp), because Bullet's narrowphase cannot give what the
-// header promises, in any of its settings (3.24, double precision, measured): boxes that do not
-// overlap yet make no points; a box or capsule flat on one triangle makes one; more points from
-// perturbed poses are up to 0.7 mm off; a sunk body's depth is measured to whichever side is
-// nearer.
+// Bullet finds the candidates (btDbvt over moving bounds, a quantised tree over each mesh's
+// triangles), casts rays on triangles and, in bullet_convex and bullet_sweep, measures distances,
+// clips faces and sweeps. What stays closed forms of our own, and why: docs/decisions.md, 5.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,13 +11,14 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <LinearMath/btAlignedAllocator.h>
 
 #include "engine/collision/bounds.hpp"
+#include "engine/collision/bullet_sweep.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/pair_contact.hpp"
 #include "engine/collision/shape_query.hpp"
-#include "engine/collision/time_of_impact.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold {
@@ -39,8 +36,6 @@ void hook_allocator() {
     static std::once_flag once;
     std::call_once(once, [] { btAlignedAllocSetCustom(&counted_allocate, &std::free); });
 }
-
-btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 btDbvtVolume to_volume(const Bounds& bounds) {
     return btDbvtVolume::FromMM(to_bullet(bounds.low), to_bullet(bounds.high));
@@ -71,10 +66,20 @@ class TriangleTree {
         Callback callback(mesh_, visit);
         shape_->processAllTriangles(&callback, to_bullet(box.low), to_bullet(box.high));
     }
-    template <typename Visit>
-    void visit_ray(const Vec3& from, const Vec3& to, const Visit& visit) const {
-        Callback callback(mesh_, visit);
+    // First triangle on the way, from either side.
+    std::optional<LocalRayHit> cast_ray(const Vec3& from, const Vec3& to) const {
+        struct Nearest final : btTriangleRaycastCallback {
+            using btTriangleRaycastCallback::btTriangleRaycastCallback;
+            btScalar reportHit(const btVector3& unit_normal, btScalar fraction, int /*part*/,
+                               int /*index*/) override {
+                hit = LocalRayHit{fraction, from_bullet(unit_normal)};
+                return fraction;
+            }
+            std::optional<LocalRayHit> hit;
+        };
+        Nearest callback(to_bullet(from), to_bullet(to));
         shape_->performRaycast(&callback, to_bullet(from), to_bullet(to));
+        return callback.hit;
     }
 
   private:
@@ -131,6 +136,7 @@ std::optional<LocalSurfacePoint> closest_on_triangles(const TriangleTree& triang
 struct ShapeCache {
     ShapeExtent extent;
     std::unique_ptr<TriangleTree> triangles;  // null for convex shapes
+    std::unique_ptr<ConvexShape> convex;      // null for meshes
 };
 
 struct Body {
@@ -161,6 +167,8 @@ struct CollisionWorld::Impl {
             cache[i].extent = shape_extent(shape);
             if (shape.kind == ShapeKind::mesh) {
                 cache[i].triangles = std::make_unique<TriangleTree>(*shape.mesh);
+            } else {
+                cache[i].convex = std::make_unique<ConvexShape>(shape);
             }
         }
         stack.reserve(256);
@@ -171,7 +179,7 @@ struct CollisionWorld::Impl {
     void place(Body& body);
     void park(Body& body);
     void find_bodies(const Bounds& box) const;
-    // visit(proxy, shape, triangles or null) for the bodies that may meet the box, by rising id.
+    // visit(proxy, shape, cache of the shape) for the bodies that may meet the box, by rising id.
     template <typename Visit>
     void visit_bodies(const Bounds& box, std::span<const std::uint64_t> skip,
                       const Visit& visit) const {
@@ -179,7 +187,7 @@ struct CollisionWorld::Impl {
         for (const std::size_t index : found) {
             const ColliderProxy& proxy = bodies[index].proxy;
             if (!contains(skip, proxy.id)) {
-                visit(proxy, shapes.at(proxy.shape), cache[proxy.shape.index].triangles.get());
+                visit(proxy, shapes.at(proxy.shape), cache[proxy.shape.index]);
             }
         }
     }
@@ -196,6 +204,7 @@ struct CollisionWorld::Impl {
     std::vector<btDbvtNode*>
         parked;  // leaves without a body, kept in the tree: Bullet frees a removed leaf's memory
     PairScratch scratch;
+    ConvexShape sphere{Shape{}};  // of cast_sphere
     // Results of find_bodies: indices into `bodies`, in their order.
     mutable std::vector<std::size_t> found;
     mutable btAlignedObjectArray<const btDbvtNode*> stack;
@@ -315,8 +324,8 @@ void CollisionWorld::Impl::find_pair(const Body& a, const Body& b, const Contact
         }
     }
     const std::size_t first = contacts.size();
-    find_pair_contacts({shapes.at(a.proxy.shape), shapes.at(b.proxy.shape), from_bs, to_bs,
-                        scratch.triangles, limits, contacts, scratch});
+    find_pair_contacts({*cache[a.proxy.shape.index].convex, cache[b.proxy.shape.index].convex.get(),
+                        from_bs, to_bs, scratch.triangles, limits, contacts, scratch});
     for (std::size_t i = first; i < contacts.size(); ++i) {
         contacts[i].id_a = a.proxy.id;
         contacts[i].id_b = b.proxy.id;
@@ -365,8 +374,7 @@ std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& 
     const Vec3 way_ws = to_ws - from_ws;
     double fraction = std::numeric_limits<double>::infinity();
     std::optional<RayHit> best;
-    const auto cast = [&](const ColliderProxy& proxy, const Shape& shape,
-                          const TriangleTree* triangles) {
+    const auto cast = [&](const ColliderProxy& proxy, const Shape& shape, const ShapeCache& cache) {
         const Vec3 from = inverse_transform_point(proxy.to_ws, from_ws);
         const Vec3 to = inverse_transform_point(proxy.to_ws, to_ws);
         const auto offer = [&](const std::optional<LocalRayHit>& hit) {
@@ -378,10 +386,8 @@ std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& 
                            proxy.to_ws.rotation * (side * hit->normal), fraction * way_ws.norm()};
             }
         };
-        if (triangles != nullptr) {
-            triangles->visit_ray(from, to, [&](const Corners& corners) {
-                offer(cast_ray_on_triangle(corners, from, to));
-            });
+        if (cache.triangles != nullptr) {
+            offer(cache.triangles->cast_ray(from, to));
         } else {
             offer(cast_ray_on_shape(shape, from, to));
         }
@@ -394,36 +400,35 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
                                                   const Vec3& to_ws,
                                                   std::span<const std::uint64_t> skip) const {
     HH_CHECK(radius_m > 0.0, "radius_m must be positive", radius_m);
-    Shape sphere;
-    sphere.radius_m = radius_m;
+    impl_->sphere.set_sphere_radius(radius_m);
     const double reach_m = radius_m + k_rounding_m;
     double fraction = 1.0;
     std::optional<RayHit> best;
-    const auto cast = [&](const ColliderProxy& proxy, const Shape& shape,
-                          const TriangleTree* triangles) {
+    const auto cast = [&](const ColliderProxy& proxy, const Shape& /*shape*/,
+                          const ShapeCache& cache) {
         const Vec3 from =
             inverse_transform_point(proxy.to_ws, from_ws);  // near space lies about it here
         const Vec3 way = inverse_transform_point(proxy.to_ws, to_ws) - from;
         const RelativeMotion motion({}, {way, Quat::Identity()});
-        const auto offer = [&](const ConvexCore& core) {
-            const auto hit = time_of_impact(sphere, motion, core, fraction);
+        const auto offer = [&](const Convex& b) {
+            const auto hit = time_of_impact(impl_->sphere, motion, b, fraction);
             if (hit && (!best || hit->fraction < fraction)) {
                 fraction = hit->fraction;
                 best = RayHit{proxy.id, transform_point(proxy.to_ws, from + hit->point_b_ns),
                               proxy.to_ws.rotation * hit->normal, fraction * way.norm()};
             }
         };
-        if (triangles == nullptr) {
-            offer(make_core(shape, {-from, Quat::Identity()}));
+        if (cache.convex != nullptr) {
+            offer(cache.convex->at({-from, Quat::Identity()}));
             return;
         }
-        triangles->visit_box(bounds_of(from, from + way).grown(reach_m),
-                             [&](const Corners& corners) {
-                                 NearTriangle near;
-                                 if (make_near_triangle(moved(corners, -from), near)) {
-                                     offer(make_triangle_core(near.corners_ns, near.normal));
-                                 }
-                             });
+        cache.triangles->visit_box(
+            bounds_of(from, from + way).grown(reach_m), [&](const Corners& corners) {
+                NearTriangle near;
+                if (make_near_triangle(moved(corners, -from), near)) {
+                    offer(impl_->scratch.triangle.place(near.corners_ns, near.normal));
+                }
+            });
     };
     impl_->visit_bodies(bounds_of(from_ws, to_ws).grown(reach_m), skip, cast);
     return best;
@@ -433,14 +438,13 @@ std::optional<SurfacePoint> CollisionWorld::closest_point(
     const Vec3& point_ws, double max_distance_m, std::span<const std::uint64_t> skip) const {
     double reach_m = max_distance_m;
     std::optional<SurfacePoint> best;
-    const auto find = [&](const ColliderProxy& proxy, const Shape& shape,
-                          const TriangleTree* triangles) {
+    const auto find = [&](const ColliderProxy& proxy, const Shape& shape, const ShapeCache& cache) {
         const Vec3 point = inverse_transform_point(proxy.to_ws, point_ws);
         std::optional<LocalSurfacePoint> near;
-        if (triangles == nullptr) {
+        if (cache.triangles == nullptr) {
             near = closest_on_shape(shape, point);
         } else {
-            near = closest_on_triangles(*triangles, point, reach_m);
+            near = closest_on_triangles(*cache.triangles, point, reach_m);
         }
         if (near && (best ? near->distance_m < reach_m : near->distance_m <= reach_m)) {
             reach_m = near->distance_m;

@@ -55,9 +55,9 @@ bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to
 
 // A sphere about a's core with the margin misses the triangle: tells most of them apart before
 // anything dear is done.
-bool is_far(const MeshContactIo& io, double core_reach_m, const NearTriangle& triangle) {
-    const double reach_m = core_reach_m + io.a.radius_m + io.margin_m;
-    const Vec3& centre = io.a.centre_ns;
+bool is_far(const MeshContactIo& io, const NearTriangle& triangle) {
+    const double reach_m = io.core_reach_m + io.a.radius_m + io.margin_m;
+    const Vec3 centre = io.a.centre_ns();
     if (std::abs((centre - triangle.corners_ns[0]).dot(triangle.normal)) > reach_m) {
         return true;
     }
@@ -65,25 +65,25 @@ bool is_far(const MeshContactIo& io, double core_reach_m, const NearTriangle& tr
 }
 
 void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle) {
-    const ConvexCore b = make_triangle_core(triangle.corners_ns, triangle.normal);
-    auto separation = separate_cores(io.a, b, io.margin_m + io.a.radius_m);
-    if (!separation || separation->separation_m - io.a.radius_m >= io.margin_m) {
+    const Convex b = io.triangle.place(triangle.corners_ns, triangle.normal);
+    CoreSeparation separation = separate(io.a, b);
+    if (separation.separation_m - io.a.radius_m >= io.margin_m) {
         return;
     }
-    const double cosine = separation->normal.dot(triangle.normal);
-    const bool is_face = separation->normal.cross(triangle.normal).norm() < k_face_sine;
+    const double cosine = separation.normal.dot(triangle.normal);
+    const bool is_face = separation.normal.cross(triangle.normal).norm() < k_face_sine;
     if (is_face) {
-        separation->normal = cosine > 0.0 ? triangle.normal : Vec3(-triangle.normal);
-    } else if (!in_normal_cone(io.triangles, separation->point_b_ns, separation->normal)) {
+        separation.normal = cosine > 0.0 ? triangle.normal : Vec3(-triangle.normal);
+    } else if (!in_normal_cone(io.triangles, separation.point_b_ns, separation.normal)) {
         // Beside an internal edge the neighbour is nearer and answers. Sunk across it, no neighbour
         // need be: then the face itself does.
-        if (separation->overlap) {
+        if (separation.overlap) {
             add_face_manifold(io.a, b, outward_normal(triangle, io.centre_from_ns), io.margin_m,
-                              io.contacts);
+                              io.scratch, io.contacts);
         }
         return;
     }
-    add_manifold(io.a, b, *separation, io.margin_m, io.contacts);
+    add_manifold(io.a, b, separation, io.margin_m, io.scratch, io.contacts);
 }
 
 }  // namespace
@@ -110,19 +110,19 @@ bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point,
 
 void add_mesh_contacts(const MeshContactIo& io) {
     const Vec3& from = io.centre_from_ns;
-    const Vec3& to = io.a.centre_ns;
+    const Vec3 to = io.a.centre_ns();
     // A plane's side alone does not tell: a body that slides over the brink of a step changes sides
     // of the step's front without ever touching it. Only a centre that went through the surface is
     // on its wrong side.
     const bool crossed =
         std::any_of(io.triangles.begin(), io.triangles.end(),
                     [&](const NearTriangle& triangle) { return goes_through(triangle, from, to); });
-    const double core_reach_m = (io.a.vertices_ns[0] - to).norm();
     for (const NearTriangle& triangle : io.triangles) {
         if (crossed && changes_side(triangle, from, to)) {
-            const ConvexCore b = make_triangle_core(triangle.corners_ns, triangle.normal);
-            add_face_manifold(io.a, b, outward_normal(triangle, from), io.margin_m, io.contacts);
-        } else if (!is_far(io, core_reach_m, triangle)) {
+            const Convex b = io.triangle.place(triangle.corners_ns, triangle.normal);
+            add_face_manifold(io.a, b, outward_normal(triangle, from), io.margin_m, io.scratch,
+                              io.contacts);
+        } else if (!is_far(io, triangle)) {
             add_triangle_contacts(io, triangle);
         }
     }

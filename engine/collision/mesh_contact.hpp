@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/collision/convex_core.hpp"
-#include "engine/collision/manifold.hpp"
+#include "engine/collision/bullet_convex.hpp"
 
 // What a triangle mesh needs beyond convex shapes: which side is outside, and which normals its
 // surface really has.
@@ -29,12 +28,15 @@ bool make_near_triangle(const Corners& corners_ns, NearTriangle& triangle);
 bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point, const Vec3& normal);
 
 struct MeshContactIo {
-    const ConvexCore& a;
+    const Convex& a;
+    double core_reach_m = 0.0;  // from a's centre to its core's corners
     Vec3 centre_from_ns;  // a's centre at its last valid pose, relative to the mesh: marks the
                           // outside
     std::span<const NearTriangle>
         triangles;  // all within margin_m of a, and of the way from centre_from_ns to a's centre
     double margin_m = 0.0;
+    TriangleShape& triangle;             // memory
+    ClipScratch& scratch;                // memory
     std::vector<NearContact>& contacts;  // appended
 };
 // Contacts of a convex core with the triangles of one mesh. Walls have no inside: where the way of

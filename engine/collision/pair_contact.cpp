@@ -4,23 +4,21 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/collision/time_of_impact.hpp"
+#include "engine/collision/bullet_sweep.hpp"
 
 namespace handhold {
 namespace {
 
 // b as one convex core, in near space.
-ConvexCore core_of_b(const PairIo& io) {
-    return make_core(io.b, {-io.to_bs.position, Quat::Identity()});
-}
+Convex place_b(const PairIo& io) { return io.b->at({-io.to_bs.position, Quat::Identity()}); }
 
 // What may be sunk by the end of the way without a stop on it: contacts at the end push that back
 // whole. Small against both bodies, and enough that a body that slides over a floor is not stopped
 // by the floor before it gets to the wall.
 double graze_m(const PairIo& io) {
-    double least = std::min(io.limits.sweep_m, thinnest_half_extent(io.a));
-    if (io.b.kind != ShapeKind::mesh) {
-        least = std::min(least, thinnest_half_extent(io.b));
+    double least = std::min(io.limits.sweep_m, io.a.thinnest_half_m());
+    if (io.b != nullptr) {
+        least = std::min(least, io.b->thinnest_half_m());
     }
     return 0.1 * least;
 }
@@ -34,7 +32,7 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const RelativeMotio
     const double graze = graze_m(io);
     std::optional<Impact> first;
     for (const NearTriangle& triangle : io.triangles) {
-        const ConvexCore b = make_triangle_core(triangle.corners_ns, triangle.normal);
+        const Convex b = io.scratch.triangle.place(triangle.corners_ns, triangle.normal);
         auto impact = time_of_impact(io.a, motion, b, first ? first->fraction : 1.0);
         if (!impact || (first && impact->fraction >= first->fraction)) {
             continue;
@@ -55,29 +53,27 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const RelativeMotio
 
 std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motion) {
     const double displacement_m =
-        motion.move().norm() + motion.turn_rad().norm() * bounding_radius(io.a);
+        motion.move().norm() + motion.turn_rad().norm() * io.a.bounding_radius_m();
     if (displacement_m <= io.limits.sweep_m) {
         return std::nullopt;
     }
-    if (io.b.kind == ShapeKind::mesh) {
+    if (io.b == nullptr) {
         return first_impact_on_mesh(io, motion);
     }
-    const auto impact = time_of_impact(io.a, motion, core_of_b(io), 1.0);
+    const auto impact = time_of_impact(io.a, motion, place_b(io), 1.0);
     return impact && stops(*impact, motion, impact->normal, graze_m(io)) ? impact : std::nullopt;
 }
 
 void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Vec3& from_ns) {
-    const ConvexCore a = make_core(io.a, pose_ns);
-    std::vector<NearContact>& contacts = io.scratch.contacts;
-    if (io.b.kind == ShapeKind::mesh) {
-        add_mesh_contacts({a, from_ns, io.triangles, io.limits.margin_m, contacts});
+    const Convex a = io.a.at(pose_ns);
+    PairScratch& scratch = io.scratch;
+    if (io.b == nullptr) {
+        add_mesh_contacts({a, io.a.core_reach_m(), from_ns, io.triangles, io.limits.margin_m,
+                           scratch.triangle, scratch.clip, scratch.contacts});
         return;
     }
-    const ConvexCore b = core_of_b(io);
-    if (const auto separation =
-            separate_cores(a, b, io.limits.margin_m + a.radius_m + b.radius_m)) {
-        add_manifold(a, b, *separation, io.limits.margin_m, contacts);
-    }
+    const Convex b = place_b(io);
+    add_manifold(a, b, separate(a, b), io.limits.margin_m, scratch.clip, scratch.contacts);
 }
 
 }  // namespace

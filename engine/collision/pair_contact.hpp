@@ -11,16 +11,18 @@ namespace handhold {
 
 // Memory that is reused from pair to pair; its content means nothing between calls.
 struct PairScratch {
+    TriangleShape triangle;
+    ClipScratch clip;
     std::vector<NearTriangle> triangles;
     std::vector<NearContact> contacts;
     std::vector<NearContact> spare;
 };
 
 struct PairIo {
-    const Shape& a;  // convex
-    const Shape& b;
-    Pose from_bs;  // a's last valid pose in b's frame as b was then
-    Pose to_bs;    // a's present pose in b's present frame
+    const ConvexShape& a;
+    const ConvexShape* b;  // null: a mesh
+    Pose from_bs;          // a's last valid pose in b's frame as b was then
+    Pose to_bs;            // a's present pose in b's present frame
     // For a mesh b: all triangles that come within the margin of a on its way, about
     // to_bs.position. Empty otherwise.
     std::span<const NearTriangle> triangles;

@@ -132,28 +132,6 @@ std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& fro
     return hit.result();
 }
 
-std::optional<LocalRayHit> cast_ray_on_triangle(const Corners& corners, const Vec3& from,
-                                                const Vec3& to) {
-    const Vec3 area = area_vector(corners);
-    const double squared_area = area.squaredNorm();
-    const double before = (from - corners[0]).dot(area);
-    const double after = (to - corners[0]).dot(area);
-    // Ends on the plane count; ways within the plane meet no side of it.
-    const bool one_side = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
-    if (!(squared_area > 0.0) || one_side || before == after) {
-        return std::nullopt;
-    }
-    const double fraction = before / (before - after);
-    const Vec3 point = from + fraction * (to - from);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 edge = corners[(i + 1) % 3] - corners[i];
-        if (edge.cross(point - corners[i]).dot(area) < -k_edge * squared_area) {
-            return std::nullopt;
-        }
-    }
-    return LocalRayHit{fraction, area / std::sqrt(squared_area)};
-}
-
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
     if (shape.kind == ShapeKind::box) {
         return closest_on_box(shape.half_m, point);

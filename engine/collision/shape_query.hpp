@@ -14,12 +14,9 @@ struct LocalRayHit {
 };
 // First point of the surface on the way; from inside, the point where the ray leaves. Not for
 // meshes.
+// Closed forms, because Bullet sees no surface from inside, and its casts on round shapes stop 1.3
+// mm off (measured: btSubsimplexConvexCast).
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
-// Both sides of the triangle; its edges count, so that a ray cannot slip through between two
-// neighbours.
-std::optional<LocalRayHit> cast_ray_on_triangle(const Corners& corners, const Vec3& from,
-                                                const Vec3& to);
-
 struct LocalSurfacePoint {
     Vec3 point = Vec3::Zero();    // on the surface, also for a query point inside
     Vec3 normal = Vec3::UnitY();  // unit: towards the query point, or outward where that is inside

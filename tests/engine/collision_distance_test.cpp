@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
-#include "engine/collision/convex_core.hpp"
+#include "collision_oracle.hpp"
 
 // The oracle of most tests here is a certificate: two points, one on each convex body, are the
 // closest pair if and only if no point of either body lies between the planes through them across
@@ -72,112 +71,114 @@ TEST(ClosestPoint, BetweenSegmentsIsNoFartherThanAnySample) {
     }
 }
 
-ConvexCore random_core(Random& random, int kind, double spread) {
-    Shape shape;
-    const Pose pose = test::at(random.vector(spread), random.rotation());
+ShapeId random_shape(Random& random, ShapeLibrary& shapes, int kind) {
     if (kind == 0) {
-        shape.kind = ShapeKind::sphere;
-        shape.radius_m = 0.1;
-        return make_core(shape, pose);
+        return shapes.add_sphere(0.1);
     }
     if (kind == 1) {
-        shape.kind = ShapeKind::capsule;
-        shape.radius_m = 0.1;
-        shape.half_height_m = random.between(0.05, 0.5);
-        return make_core(shape, pose);
+        return shapes.add_capsule(0.1, random.between(0.05, 0.5));
     }
     if (kind == 2) {
-        shape.kind = ShapeKind::box;
-        shape.half_m = {random.between(0.02, 0.5), random.between(0.02, 0.5),
-                        random.between(0.02, 0.5)};
-        return make_core(shape, pose);
+        return shapes.add_box(
+            {random.between(0.02, 0.5), random.between(0.02, 0.5), random.between(0.02, 0.5)});
     }
-    const Corners corners{pose.position + random.vector(0.5), pose.position + random.vector(0.5),
-                          pose.position + random.vector(0.5)};
-    return make_triangle_core(corners, area_vector(corners).normalized());
+    auto mesh = std::make_shared<Mesh>();
+    mesh->positions = {random.vector(0.5), random.vector(0.5), random.vector(0.5)};
+    mesh->triangles = {{0, 1, 2}};
+    return shapes.add_mesh(mesh);
 }
 
-double gap_along(const ConvexCore& a, const ConvexCore& b, const Vec3& direction) {
-    return direction.dot(support_vertex(a, -direction) - support_vertex(b, direction));
+// Two shapes, the second fixed at the origin, and their deepest contact in b's frame.
+struct Meeting {
+    test::Core a;
+    test::Core b;
+    ContactPoint contact;
+};
+
+Meeting meet(Random& random, int kind_a, int kind_b, double spread) {
+    ShapeLibrary shapes;
+    const ShapeId a = random_shape(random, shapes, kind_a);
+    const ShapeId b = random_shape(random, shapes, kind_b);
+    const Pose pose = test::at(random.vector(spread), random.rotation());
+    const auto contacts = test::contacts_of(
+        shapes, {test::resting(1, b, {}, false), test::resting(2, a, pose, true)}, {10.0, 0.005});
+    Meeting meeting{test::make_core(shapes.at(a), pose), {}, {}};
+    if (kind_b == 3) {
+        const auto& corners = shapes.at(b).mesh->positions;
+        meeting.b = test::make_triangle_core({corners[0], corners[1], corners[2]});
+    } else {
+        meeting.b = test::make_core(shapes.at(b), {});
+    }
+    meeting.contact.separation_m = 1e9;
+    for (const ContactPoint& contact : contacts) {
+        if (contact.separation_m < meeting.contact.separation_m) {
+            meeting.contact = contact;
+        }
+    }
+    return meeting;
 }
 
-TEST(SeparateCores, DisjointPairsCarryTheirCertificate) {
+TEST(Separation, OfDisjointPairsCarriesItsCertificate) {
     Random random(4);
     int disjoint = 0;
     for (int round = 0; round < 4000; ++round) {
-        const ConvexCore a = random_core(random, round % 3, 1.0);
-        const ConvexCore b = random_core(random, round / 3 % 4, 1.0);
-        const CoreSeparation s = *separate_cores(a, b);
-        if (s.overlap) {
+        const Meeting m = meet(random, round % 3, round / 3 % 4, 1.0);
+        const ContactPoint& c = m.contact;
+        ASSERT_LT(c.separation_m, 5.0);
+        if (c.separation_m <= 1e-6) {
             continue;
         }
         ++disjoint;
-        ASSERT_NEAR(s.normal.norm(), 1.0, 1e-12);
-        ASSERT_NEAR((s.point_a_ns - s.point_b_ns - s.separation_m * s.normal).norm(), 0.0, 1e-12);
-        ASSERT_NEAR(gap_along(a, b, s.normal), s.separation_m, 1e-9);
+        ASSERT_NEAR(c.normal_b_bs.norm(), 1.0, 1e-12);
+        const Vec3 point_a = transform_point(m.a.pose, c.point_a_bs);
+        ASSERT_NEAR((point_a - c.point_b_bs).dot(c.normal_b_bs), c.separation_m, 1e-9);
+        ASSERT_NEAR(gap_along(m.a, m.b, c.normal_b_bs), c.separation_m, 1e-9);
     }
     EXPECT_GT(disjoint, 2000);
 }
 
-TEST(SeparateCores, OverlapIsTheLeastWayOut) {
+TEST(Separation, OfOverlappingPairsIsTheLeastWayOut) {
     Random random(5);
     int overlapping = 0;
     for (int round = 0; round < 3000; ++round) {
-        const ConvexCore a = random_core(random, round % 2 == 0 ? 2 : round % 3, 0.3);
-        const ConvexCore b = random_core(random, a.kind == CoreKind::box ? round / 2 % 4 : 2, 0.3);
-        const CoreSeparation s = *separate_cores(a, b);
-        if (!s.overlap) {
+        const int kind_a = round % 2 == 0 ? 2 : round % 3;
+        const Meeting m = meet(random, kind_a, kind_a == 2 ? round / 2 % 3 : 2, 0.3);
+        const ContactPoint& c = m.contact;
+        if (c.separation_m > -0.1) {
             continue;
         }
         ++overlapping;
-        ASSERT_NEAR(gap_along(a, b, s.normal), s.separation_m,
+        ASSERT_NEAR(gap_along(m.a, m.b, c.normal_b_bs), c.separation_m,
                     1e-9);  // moved out by it they just touch
         for (int i = 0; i < 100; ++i) {
-            ASSERT_LE(gap_along(a, b, random.direction()), s.separation_m + 2e-7);
+            ASSERT_LE(gap_along(m.a, m.b, random.direction()), c.separation_m + 2e-7);
         }
     }
     EXPECT_GT(overlapping, 500);
 }
 
-TEST(SeparateCores, MirroredPairsAgree) {
-    Random random(6);
-    for (int round = 0; round < 1000; ++round) {
-        const ConvexCore a = random_core(random, round % 3, 0.5);
-        const ConvexCore b = random_core(random, round / 3 % 3, 0.5);
-        ASSERT_NEAR(separate_cores(a, b)->separation_m, separate_cores(b, a)->separation_m, 1e-9);
-    }
+TEST(Separation, OfACapsuleThroughATriangleIsItsLowerEnds) {
+    ShapeLibrary shapes;
+    auto mesh = std::make_shared<Mesh>();
+    mesh->positions = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 3.0}, {3.0, 0.0, -1.0}};
+    mesh->triangles = {{0, 1, 2}};
+    const ShapeId triangle = shapes.add_mesh(mesh);
+    const ShapeId capsule = shapes.add_capsule(0.01, 0.3);
+    const auto contacts =
+        test::contacts_of(shapes, {test::resting(1, triangle, {}, false),
+                                   test::resting(2, capsule, test::at({0.1, 0.2, 0.1}), true)});
+    EXPECT_NEAR(test::deepest(contacts), -0.11, 1e-12);  // the lower end is at -0.1
+    EXPECT_NEAR(contacts[0].normal_b_bs.y(), 1.0, 1e-12);
 }
 
-TEST(SeparateCores, LimitOnlyLeavesOutWhatIsFarther) {
-    Random random(7);
-    for (int round = 0; round < 1000; ++round) {
-        const ConvexCore a = random_core(random, round % 3, 1.0);
-        const ConvexCore b = random_core(random, 3, 1.0);
-        if (!separate_cores(a, b, 0.2)) {
-            ASSERT_GT(separate_cores(a, b)->separation_m, 0.2);
-        }
-    }
-}
-
-TEST(SeparateCores, CapsuleThroughTriangleOverlaps) {
-    Shape capsule;
-    capsule.kind = ShapeKind::capsule;
-    capsule.radius_m = 0.01;
-    capsule.half_height_m = 0.3;
-    const ConvexCore a = make_core(capsule, test::at({0.1, 0.2, 0.1}));
-    const Corners corners{Vec3(-1.0, 0.0, -1.0), Vec3(-1.0, 0.0, 3.0), Vec3(3.0, 0.0, -1.0)};
-    const CoreSeparation s = *separate_cores(a, make_triangle_core(corners, Vec3::UnitY()));
-    EXPECT_TRUE(s.overlap);
-    EXPECT_NEAR(s.separation_m, -0.1, 1e-12);  // its lower end is at -0.1
-    EXPECT_NEAR(s.normal.y(), 1.0, 1e-12);
-}
-
-TEST(SeparateCores, CoincidentCoresAlwaysTakeTheSameWayOut) {
-    Shape sphere;
-    sphere.radius_m = 0.1;
-    const CoreSeparation s = *separate_cores(make_core(sphere, {}), make_core(sphere, {}));
-    EXPECT_EQ(s.separation_m, 0.0);
-    EXPECT_EQ(s.normal, Vec3::UnitY());
+TEST(Separation, OfCoincidentSpheresTakesAlwaysTheSameWayOut) {
+    ShapeLibrary shapes;
+    const ShapeId sphere = shapes.add_sphere(0.1);
+    const auto contacts = test::contacts_of(
+        shapes, {test::resting(1, sphere, {}, false), test::resting(2, sphere, {}, true)});
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_NEAR(contacts[0].separation_m, -0.2, 1e-12);
+    EXPECT_EQ(contacts[0].normal_b_bs, Vec3::UnitY());
 }
 
 TEST(ClosestPoint, InsidePointsOfATriangleAreTheirOwn) {

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
-#include "engine/collision/convex_core.hpp"
+#include "collision_oracle.hpp"
 #include "engine/io/gltf.hpp"
 
 // What meshes alone can get wrong: internal edges, sides, slivers.
@@ -361,13 +360,11 @@ TEST(MeshContacts, BoxInARealLevelIsAsNearAsItsNearestTriangle) {
     std::vector<ColliderProxy> proxies = level->parts;
     proxies.push_back(resting(1000, box, {}, true));
     const auto distance = [&](const Pose& pose) {
-        const ConvexCore core = make_core(level->shapes.at(box), pose);
-        CoreSeparation nearest;
-        nearest.separation_m = 1e9;
+        const test::Core core = test::make_core(level->shapes.at(box), pose);
+        test::Gap nearest;
         visit_near(*level, pose.position, 0.6, [&](const Corners& corners) {
-            const auto s = separate_cores(
-                core, make_triangle_core(corners, area_vector(corners).normalized()));
-            nearest = s->separation_m < nearest.separation_m ? *s : nearest;
+            const test::Gap gap = test::gap_to_triangle(core, corners);
+            nearest = gap.distance_m < nearest.distance_m ? gap : nearest;
         });
         return nearest;
     };
@@ -380,20 +377,20 @@ TEST(MeshContacts, BoxInARealLevelIsAsNearAsItsNearestTriangle) {
                         random),
                random.rotation());
         // Brought up to the nearest surface, in steps, until it is a few millimetres away.
-        CoreSeparation nearest = distance(pose);
-        for (int step = 0; step < 4 && nearest.separation_m > 0.015 && nearest.separation_m < 1.0;
+        test::Gap nearest = distance(pose);
+        for (int step = 0; step < 4 && nearest.distance_m > 0.015 && nearest.distance_m < 1.0;
              ++step) {
-            pose.position -= (nearest.separation_m - random.between(0.001, 0.015)) * nearest.normal;
+            pose.position -= (nearest.distance_m - random.between(0.001, 0.015)) * nearest.normal;
             nearest = distance(pose);
         }
         proxies.back() = resting(1000, box, pose, true);
         world.set_proxies(proxies);
         world.find_contacts({}, contacts);
-        if (nearest.separation_m > 1e-6) {
-            ASSERT_EQ(contacts.empty(), nearest.separation_m >= 0.02);
+        if (nearest.distance_m > 1e-6) {
+            ASSERT_EQ(contacts.empty(), nearest.distance_m >= 0.02);
             near += contacts.empty() ? 0 : 1;
             ASSERT_TRUE(contacts.empty() ||
-                        std::abs(test::deepest(contacts) - nearest.separation_m) < 1e-6);
+                        std::abs(test::deepest(contacts) - nearest.distance_m) < 1e-6);
         } else {
             ASSERT_FALSE(contacts.empty());
         }

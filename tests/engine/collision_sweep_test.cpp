@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
-#include "engine/collision/time_of_impact.hpp"
+#include "collision_oracle.hpp"
 
 // Bodies that move far in one call: contacts where they first touch, depth at the end of the way.
 namespace handhold {
@@ -170,37 +169,42 @@ TEST(Sweep, ShallowAndSweptPathsAgreeOnDepth) {
 }
 
 // Oracle: small steps along the way with the exact distance at each.
-TEST(TimeOfImpact, IsNeverLateAndHardlyEarly) {
+TEST(Sweep, OfATriangleIsMissedByNothingThatMeetsItAndMetByNothingThatMissesIt) {
     Random random(32);
     int hits = 0;
-    for (int round = 0; round < 300; ++round) {
-        Shape a;
-        a.kind = round % 3 == 0   ? ShapeKind::sphere
-                 : round % 3 == 1 ? ShapeKind::capsule
-                                  : ShapeKind::box;
-        a.radius_m = a.kind == ShapeKind::box ? 0.0 : 0.05;
-        a.half_height_m = a.kind == ShapeKind::capsule ? 0.2 : 0.0;
-        a.half_m = {0.1, 0.15, 0.05};
-        const Corners corners{random.vector(0.6), random.vector(0.6), random.vector(0.6)};
-        const ConvexCore b = make_triangle_core(corners, area_vector(corners).normalized());
+    int misses = 0;
+    for (int round = 0; round < 600; ++round) {
+        ShapeLibrary shapes;
+        const ShapeId body = round % 3 == 0   ? shapes.add_sphere(0.05)
+                             : round % 3 == 1 ? shapes.add_capsule(0.05, 0.2)
+                                              : shapes.add_box({0.1, 0.15, 0.05});
+        auto mesh = std::make_shared<Mesh>();
+        mesh->positions = {random.vector(0.6), random.vector(0.6), random.vector(0.6)};
+        mesh->triangles = {{0, 1, 2}};
+        const Corners corners{mesh->positions[0], mesh->positions[1], mesh->positions[2]};
+        const ShapeId triangle = shapes.add_mesh(mesh);
         const Vec3 start = random.direction();
-        const RelativeMotion motion(at(start, random.rotation()),
-                                    at(-start + random.vector(0.3), random.rotation()));
-        const auto impact = time_of_impact(a, motion, b, 1.0);
-        const auto gap_at = [&](double fraction) {
-            const ConvexCore core = make_core(a, motion.at(fraction));
-            return separate_cores(core, b)->separation_m - core.radius_m;
-        };
-        const double end = impact ? impact->fraction : 1.0;
-        for (int i = 0; i < 400; ++i) {
-            ASSERT_GT(gap_at(end * i / 400.0), -1e-9) << "touched before " << end;
+        const Pose from = at(start, random.rotation());
+        const Pose to = at(-start + random.vector(0.3), random.rotation());
+        double least = 1e9;
+        for (int i = 0; i <= 400; ++i) {
+            const Pose pose = interpolate(from, to, i / 400.0);
+            least = std::min(
+                least,
+                test::gap_to_triangle(test::make_core(shapes.at(body), pose), corners).distance_m);
         }
-        if (impact) {
+        const auto contacts = contacts_of(
+            shapes, {resting(1, triangle, {}, false), moving(2, body, from, to)}, {1e-3, 0.005});
+        if (least < -0.01) {
             ++hits;
-            ASSERT_LT(gap_at(impact->fraction), 1e-3);
+            ASSERT_FALSE(contacts.empty()) << round;
+        } else if (least > 0.015) {  // what turns between two steps is less
+            ++misses;
+            ASSERT_TRUE(contacts.empty()) << round;
         }
     }
-    EXPECT_GT(hits, 100);
+    EXPECT_GT(hits, 150);
+    EXPECT_GT(misses, 50);
 }
 
 }  // namespace

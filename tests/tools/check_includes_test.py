@@ -78,6 +78,7 @@ class CheckIncludes(unittest.TestCase):
         homes = {
             "bullet/btBulletCollisionCommon.h": "engine/collision/bullet_collision_world.cpp",
             "btBulletDynamicsCommon.h": "engine/collision/bullet_collision_world.cpp",
+            "BulletCollision/CollisionShapes/btConvexShape.h": "engine/collision/bullet_convex.hpp",
             "box2d/b2_distance.h": "engine/geometry/disc_contact_box2d.cpp",
             "oneapi/tbb/parallel_for.h": "engine/core/parallel.cpp",
             "tbb/parallel_for.h": "engine/core/parallel.cpp",

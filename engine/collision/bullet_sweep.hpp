@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/collision/convex_core.hpp"
+#include "engine/collision/bullet_convex.hpp"
 
 // When a moving convex shape first touches a resting one.
 namespace handhold {
@@ -32,13 +32,11 @@ struct Impact {
     double fraction = 0.0;           // of the way, in [0, 1]
     Vec3 normal = Vec3::UnitY();     // unit, from b towards a
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
-    bool overlap = false;            // the cores meet: the normal is the shallowest way out
 };
 
 // First fraction of the way at which a is within a micrometre of b, or nullopt where it is not
-// before `limit`. Never late: each step is one that no point of a can outrun. A start in touch is
-// an impact at 0.
-std::optional<Impact> time_of_impact(const Shape& a, const RelativeMotion& motion,
-                                     const ConvexCore& b, double limit);
+// before `limit`. A start in touch is an impact at 0.
+std::optional<Impact> time_of_impact(const ConvexShape& a, const RelativeMotion& motion,
+                                     const Convex& b, double limit);
 
 }  // namespace handhold

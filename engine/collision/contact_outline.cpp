@@ -1,0 +1,126 @@
+// Bullet's persistent manifold keeps four points by their order of arrival and merges those nearer
+// than its breaking threshold (2 cm): over many triangles the corners of a face would get lost.
+#include "engine/collision/contact_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace handhold {
+namespace {
+
+bool place_less(const NearContact& a, const NearContact& b) {
+    const auto key = [](const NearContact& c) {
+        return std::array<double, 7>{c.point_b_ns.x(), c.point_b_ns.y(), c.point_b_ns.z(),
+                                     c.separation_m,   c.normal_ns.x(),  c.normal_ns.y(),
+                                     c.normal_ns.z()};
+    };
+    return key(a) < key(b);
+}
+
+constexpr double k_same_normal_cosine = 1.0 - 1e-7;
+constexpr double k_same_place_m = 1e-6;
+
+// How far `point` lies to the left of the line from `from` to `to`, seen against the normal.
+double height_over_line(const NearContact& from, const NearContact& to, const NearContact& point) {
+    const Vec3 line = to.point_b_ns - from.point_b_ns;
+    const double length = line.norm();
+    return length > 0.0
+               ? from.normal_ns.dot(line.cross(point.point_b_ns - from.point_b_ns)) / length
+               : 0.0;
+}
+
+double distance_between(const NearContact& a, const NearContact& b) {
+    return (a.point_b_ns - b.point_b_ns).norm();
+}
+
+// The corner of the group's outline that follows `from` counter-clockwise: nothing lies to the
+// right of the way to it. Points along one line leave the farthest.
+const NearContact& next_corner(std::span<const NearContact> group, const NearContact& from) {
+    const NearContact* best = &from;
+    for (const NearContact& other : group) {
+        if (distance_between(from, other) <= k_same_place_m) {
+            continue;
+        }
+        const double height = height_over_line(from, *best, other);
+        const bool farther = distance_between(from, other) > distance_between(from, *best);
+        if (best == &from || height < -k_same_place_m || (height <= k_same_place_m && farther)) {
+            best = &other;
+        }
+    }
+    return *best;
+}
+
+// Leaves out the flattest corners until 8 are left.
+void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
+    constexpr std::size_t k_most = 8;
+    while (outline.size() - first > k_most) {
+        const std::size_t count = outline.size() - first;
+        std::size_t flattest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double height =
+                std::abs(height_over_line(outline[first + (i + count - 1) % count],
+                                          outline[first + (i + 1) % count], outline[first + i]));
+            if (height < least) {
+                least = height;
+                flattest = i;
+            }
+        }
+        outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(first + flattest));
+    }
+}
+
+// Appends what bounds one group of contacts with equal normals: its outline by gift wrapping
+// (Jarvis 1973), and its deepest.
+void add_outline(std::span<const NearContact> group, std::vector<NearContact>& result) {
+    const Vec3 along = group.front().normal_ns.unitOrthogonal();
+    const auto deeper = [](const NearContact& a, const NearContact& b) {
+        return a.separation_m < b.separation_m;
+    };
+    const NearContact& deepest = *std::min_element(group.begin(), group.end(), deeper);
+    const NearContact& start = *std::min_element(
+        group.begin(), group.end(), [&](const NearContact& a, const NearContact& b) {
+            return along.dot(a.point_b_ns) < along.dot(b.point_b_ns);
+        });
+    const std::size_t first = result.size();
+    const NearContact* corner = &start;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        result.push_back(*corner);
+        corner = &next_corner(group, *corner);
+        if (distance_between(*corner, start) <= k_same_place_m) {
+            break;
+        }
+    }
+    limit_corners(result, first);
+    const auto outline = std::span<const NearContact>(result).subspan(first);
+    const double least = std::min_element(outline.begin(), outline.end(), deeper)->separation_m;
+    if (deepest.separation_m < least - k_same_place_m) {
+        result.push_back(deepest);
+    }
+}
+
+}  // namespace
+
+void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch) {
+    std::sort(contacts.begin(), contacts.end(), place_less);
+    scratch.clear();
+    // Groups are taken out one after another, each by the first normal left: small numbers, and no
+    // order but that of the places decides.
+    std::span<NearContact> rest = contacts;
+    while (!rest.empty()) {
+        const Vec3 normal = rest.front().normal_ns;
+        const auto end = std::partition(rest.begin(), rest.end(), [&](const NearContact& c) {
+            return c.normal_ns.dot(normal) > k_same_normal_cosine;
+        });
+        const auto count = static_cast<std::size_t>(end - rest.begin());
+        add_outline(rest.first(count), scratch);
+        rest = rest.subspan(count);
+    }
+    contacts.swap(scratch);
+    std::sort(contacts.begin(), contacts.end(), place_less);
+}
+
+}  // namespace handhold

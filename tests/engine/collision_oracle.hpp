@@ -1,0 +1,112 @@
+#pragma once
+
+#include "collision_scene.hpp"
+#include "engine/collision/closest_point.hpp"
+
+// Distances of convex shapes found without the library under test: all features are compared.
+namespace handhold::test {
+
+// A convex shape's core at a place: its corners, edges as pairs of corners, and a radius about it.
+struct Core {
+    std::vector<Vec3> corners;
+    std::vector<std::pair<std::size_t, std::size_t>> edges;
+    double radius_m = 0.0;
+    Pose pose;
+    Vec3 half_m = Vec3::Zero();  // box
+
+    Vec3 support(const Vec3& direction) const {
+        return *std::max_element(corners.begin(), corners.end(), [&](const Vec3& a, const Vec3& b) {
+            return a.dot(direction) < b.dot(direction);
+        });
+    }
+};
+
+inline Core make_core(const Shape& shape, const Pose& pose) {
+    Core core{{}, {}, shape.kind == ShapeKind::box ? 0.0 : shape.radius_m, pose, shape.half_m};
+    if (shape.kind == ShapeKind::box) {
+        for (unsigned i = 0; i < 8; ++i) {
+            const Vec3 side((i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0,
+                            (i & 4U) != 0 ? 1.0 : -1.0);
+            core.corners.push_back(transform_point(pose, side.cwiseProduct(shape.half_m)));
+            for (const unsigned bit : {1U, 2U, 4U}) {
+                if ((i & bit) == 0) {
+                    core.edges.emplace_back(i, i | bit);
+                }
+            }
+        }
+    } else {
+        const Vec3 end = shape.half_height_m * Vec3::UnitY();
+        core.corners = {transform_point(pose, -end), transform_point(pose, end)};
+        core.edges = {{0, 1}};
+    }
+    return core;
+}
+
+inline Core make_triangle_core(const Corners& c) {
+    return {{c[0], c[1], c[2]}, {{0, 1}, {1, 2}, {2, 0}}, 0.0, {}, Vec3::Zero()};
+}
+
+// How far apart a's and b's planes across `direction` (from b towards a) are, radii included.
+inline double gap_along(const Core& a, const Core& b, const Vec3& direction) {
+    return direction.dot(a.support(-direction) - b.support(direction)) - a.radius_m - b.radius_m;
+}
+
+inline bool pierces(const Vec3& from, const Vec3& to, const Corners& corners) {
+    const Vec3 area = area_vector(corners);
+    const double before = (from - corners[0]).dot(area);
+    const double after = (to - corners[0]).dot(area);
+    if (before * after >= 0.0) {
+        return false;
+    }
+    const Vec3 through = from + before / (before - after) * (to - from);
+    return (closest_on_triangle(through, corners) - through).norm() < 1e-9;
+}
+
+struct Gap {
+    double distance_m = 1e9;      // of the surfaces; at most -radius where the cores meet
+    Vec3 normal = Vec3::UnitY();  // from the triangle; means nothing where the cores meet
+};
+
+// Of a shape and a triangle.
+inline Gap gap_to_triangle(const Core& core, const Corners& corners) {
+    Gap gap;
+    const auto offer = [&](const Vec3& on_core, const Vec3& on_triangle) {
+        const double distance = (on_core - on_triangle).norm();
+        if (distance < gap.distance_m) {
+            gap = {distance, (on_core - on_triangle) / std::max(distance, 1e-300)};
+        }
+    };
+    for (const Vec3& corner : core.corners) {
+        offer(corner, closest_on_triangle(corner, corners));
+    }
+    for (const auto& [i, j] : core.edges) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [on_core, on_triangle] = closest_between_segments(
+                {core.corners[i], core.corners[j]}, {corners[k], corners[(k + 1) % 3]});
+            offer(on_core, on_triangle);
+        }
+        if (pierces(core.corners[i], core.corners[j], corners)) {
+            gap.distance_m = 0.0;
+        }
+    }
+    if (core.half_m != Vec3::Zero()) {  // the triangle's corners against, or inside, the box
+        for (const Vec3& corner : corners) {
+            const Vec3 local = inverse_transform_point(core.pose, corner);
+            offer(transform_point(core.pose, local.cwiseMax(-core.half_m).cwiseMin(core.half_m)),
+                  corner);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {  // edges right through the box: a point inside
+            for (int i = 1; i < 64; ++i) {
+                const Vec3 point = corners[k] + i / 64.0 * (corners[(k + 1) % 3] - corners[k]);
+                if ((inverse_transform_point(core.pose, point).cwiseAbs() - core.half_m)
+                        .maxCoeff() < 0.0) {
+                    gap.distance_m = 0.0;
+                }
+            }
+        }
+    }
+    gap.distance_m -= core.radius_m;
+    return gap;
+}
+
+}  // namespace handhold::test
