@@ -13,11 +13,11 @@
 #endif
 #endif
 
+#ifndef HH_SANITIZED
 namespace {
 std::atomic<std::uint64_t> allocations{0};
 }
 
-#ifndef HH_SANITIZED
 // The linker finds these before the C library's: everything that allocates in this program comes
 // through here.
 extern "C" {
