@@ -161,32 +161,62 @@ double depth_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal));
 }
 
-// Bullet leaves the normal in a's frame.
-void read(const Convex& a, const btGjkEpaSolver2::sResults& found, CoreSeparation& result) {
-    result.normal = from_bullet(a.pose_ns.getBasis() * found.normal).normalized();
-    result.separation_m = found.distance;
-    result.point_a_ns = from_bullet(found.witnesses[0]);
-    result.point_b_ns = from_bullet(found.witnesses[1]);
+enum class Search { apart, way_out };
+
+bool run(Search search, const Convex& a, const Convex& b, const btVector3& guess,
+         CoreSeparation& result) {
+    btGjkEpaSolver2::sResults found;
+    const bool any =
+        search == Search::apart
+            ? btGjkEpaSolver2::Distance(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found)
+            : btGjkEpaSolver2::Penetration(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found,
+                                           false);
+    if (any) {
+        // Bullet leaves the normal in a's frame.
+        result.normal = from_bullet(a.pose_ns.getBasis() * found.normal).normalized();
+        result.separation_m = found.distance;
+        result.point_a_ns = from_bullet(found.witnesses[0]);
+        result.point_b_ns = from_bullet(found.witnesses[1]);
+        snap_to_faces(a, -1.0, result);
+        snap_to_faces(b, 1.0, result);
+    }
+    return any;
 }
 
-// False where the cores meet. GJK may stop early (boxes: once in 1000 pairs, 4 cm off): no point
-// lies between the planes through the closest ones, or it starts again elsewhere.
-bool separate_apart(const Convex& a, const Convex& b, btVector3 guess, CoreSeparation& result) {
-    constexpr int k_tries = 4;
-    for (int i = 0; i < k_tries; ++i) {
-        btGjkEpaSolver2::sResults found;
-        if (!btGjkEpaSolver2::Distance(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found)) {
+// A start for a search that stopped early: another octant each time.
+btVector3 other_guess(int attempt) {
+    return {(attempt & 1) != 0 ? 0.9 : -0.8, (attempt & 2) != 0 ? 0.7 : -1.0,
+            (attempt & 4) != 0 ? 1.0 : -0.6};
+}
+
+// An answer is whole where no point of the cores lies between the planes across its normal. That
+// Bullet stops early was measured in 1 of 5000 pairs, up to 30 cm off: it then starts again
+// elsewhere, and the best of all answers counts. False where the cores meet, or have no volume.
+bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess,
+                CoreSeparation& best) {
+    constexpr int k_attempts = 8;
+    bool any = false;
+    for (int attempt = 0; attempt < k_attempts; ++attempt) {
+        CoreSeparation result;
+        if (run(search, a, b, guess, result)) {
+            const double along_m = depth_along(a, b, result.normal);
+            // Two points that nearly meet leave noise in the normal.
+            const double noise_m = 1e-9 + 1e-14 / std::max(std::abs(result.separation_m), 1e-13);
+            if (std::abs(along_m - result.separation_m) < noise_m) {
+                best = result;
+                return true;
+            }
+            result.separation_m = along_m;
+            if (!any || along_m > best.separation_m) {
+                best = result;
+            }
+            any = true;
+        } else if (search == Search::apart && !any) {
             return false;
         }
-        read(a, found, result);
-        if (depth_along(a, b, result.normal) > result.separation_m - 1e-9) {
-            break;
-        }
-        guess = {found.normal.z(), -found.normal.x(), found.normal.y()};
+        guess = other_guess(attempt);
     }
-    snap_to_faces(a, -1.0, result);
-    snap_to_faces(b, 1.0, result);
-    return true;
+    return any;
 }
 
 // What a core turns towards `direction`: its face, else its segment where that lies across the
@@ -389,18 +419,15 @@ CoreSeparation separate(const Convex& a, const Convex& b) {
     const btVector3 guess =
         -(to_bullet(fallback) * a.pose_ns.getBasis());  // where EPA has no volume: its answer
     CoreSeparation result;
-    if (separate_apart(a, b, guess, result)) {
+    if (find_whole(Search::apart, a, b, guess, result) && result.separation_m > 0.0) {
         return result;
     }
-    result = {fallback, 0.0, a.support(-fallback), a.support(-fallback), true};
-    btGjkEpaSolver2::sResults found;
-    if (btGjkEpaSolver2::Penetration(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found, false)) {
-        read(a, found, result);
-        snap_to_faces(a, -1.0, result);
-        snap_to_faces(b, 1.0, result);
+    if (!find_whole(Search::way_out, a, b, guess, result)) {
+        result.normal = fallback;
+        result.separation_m = depth_along(a, b, fallback);
+        result.point_a_ns = result.point_b_ns = a.support(-fallback);
     }
-    // Also where EPA found no way: once in 1000 deep pairs.
-    result.separation_m = depth_along(a, b, result.normal);
+    result.overlap = true;
     try_faces(a, b, 1.0, result);
     try_faces(a, b, -1.0, result);
     return result;

@@ -144,7 +144,7 @@ TEST(Separation, OfOverlappingPairsIsTheLeastWayOut) {
         const int kind_a = round % 2 == 0 ? 2 : round % 3;
         const Meeting m = meet(random, kind_a, kind_a == 2 ? round / 2 % 3 : 2, 0.3);
         const ContactPoint& c = m.contact;
-        if (c.separation_m > -0.1) {
+        if (c.separation_m > -1e-6) {
             continue;
         }
         ++overlapping;
