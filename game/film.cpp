@@ -50,6 +50,7 @@ struct SessionFilm::Impl {
 
     static std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
         std::vector<MeshId> ids;
+        ids.reserve(meshes.size());
         for (const Mesh& mesh : meshes) {
             ids.push_back(renderer.add_mesh(mesh));
         }
@@ -116,8 +117,8 @@ struct SessionFilm::Impl {
         return look_along(best, target - best, up);
     }
 
-    void add_figures(const Stage& stage, const RenderPose& render, View view, bool own,
-                     RenderFrame& frame) const {
+    static void add_figures(const Stage& stage, const RenderPose& render, View view, bool own,
+                            RenderFrame& frame) {
         if (!(own && view == View::first_person)) {
             for (const MeshId mesh : stage.head) {
                 frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});

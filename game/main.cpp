@@ -46,6 +46,7 @@ int list_scenes() {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
 int main(int argc, char** argv) {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
     app.require_subcommand(1);

@@ -124,7 +124,9 @@ std::optional<Impact> time_of_impact(const ConvexShape& a, const RelativeMotion&
             return advance(a, motion, b, from + result.m_fraction * (to - from), limit);
         }
     }
-    return std::nullopt;
+    // The caster misses a touch of what turns fast now and then (1 of 600 capsules): a miss is
+    // checked.
+    return advance(a, motion, b, start, limit);
 }
 
 }  // namespace handhold

@@ -179,8 +179,8 @@ class LevelReader {
     // Leaves `roots` without a value where the file has no scene: then all of it is one.
     bool choose_roots(std::optional<std::vector<int>>& roots, std::string& place);
     bool read_nodes(std::vector<FileNode>& nodes);
-    bool read_transform(int node, Affine& transform);
-    bool read_part(int node, const Affine& transform);
+    bool read_transform(int index, Affine& transform);
+    bool read_part(int index, const Affine& transform);
     bool read_primitive(const tinygltf::Primitive& primitive, const std::string& place,
                         const Affine& transform, LevelPart& part);
     bool read_indices(int accessor, const std::string& place, std::size_t vertices);

@@ -14,7 +14,8 @@ namespace handhold {
 
 using Json = nlohmann::json;
 
-struct JsonValue::Document {
+// nlohmann's destructor allocates for deep documents: depth is limited to k_max_depth.
+struct JsonValue::Document {  // NOLINT(bugprone-exception-escape)
     Json root;
     std::string file;
     std::optional<FileError> error;
@@ -101,7 +102,11 @@ class TreeBuilder {
         return add(Json(value)) != nullptr;
     }
     bool string(std::string& value) { return add(Json(std::move(value))) != nullptr; }
-    bool binary(Json::binary_t& /*value*/) { return false; }  // never met in text
+    // Never met in text.
+    bool binary(  // NOLINT(readability-convert-member-functions-to-static)
+        Json::binary_t& /*value*/) {
+        return false;
+    }
     bool start_object(std::size_t /*size*/) { return open(Json::object()); }
     bool start_array(std::size_t /*size*/) { return open(Json::array()); }
     bool end_object() { return close(); }
@@ -141,8 +146,12 @@ class TreeBuilder {
     std::string pointer() const {
         std::string result;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
-            result = open_[i]->is_array() ? result + "/" + std::to_string(open_[i]->size() - 1)
-                                          : append_key(result, keys_[i + 1]);
+            if (open_[i]->is_array()) {
+                result += "/";
+                result += std::to_string(open_[i]->size() - 1);
+            } else {
+                result = append_key(result, keys_[i + 1]);
+            }
         }
         return result;
     }

@@ -201,7 +201,7 @@ FigureParts build_palm() {
     return parts;
 }
 
-std::vector<Mesh> finish_hand(FigureParts parts, FigureSide side) {
+std::vector<Mesh> finish_hand(const FigureParts& parts, FigureSide side) {
     FigureParts turned;
     append(turned.shell, parts.shell, to_hand());
     append(turned.joints, parts.joints, to_hand());

@@ -12,7 +12,8 @@ Matrix4 to_floats(const Eigen::Matrix4d& m) {
     Matrix4 out{};
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
-            out[static_cast<std::size_t>(4 * column + row)] = static_cast<float>(m(row, column));
+            out[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)] =
+                static_cast<float>(m(row, column));
         }
     }
     return out;
@@ -124,6 +125,7 @@ std::vector<Lamp> choose_lamps(const RenderFrame& frame, std::size_t limit) {
     order.resize(std::min(order.size(), limit));
     std::sort(order.begin(), order.end());
     std::vector<Lamp> chosen;
+    chosen.reserve(order.size());
     for (const std::size_t i : order) {
         chosen.push_back(frame.lamps[i]);
     }

@@ -33,7 +33,8 @@ void append_bytes(void* context, void* data, int size) {
 const std::uint8_t* Image::pixel(int x, int y) const {
     HH_CHECK(x >= 0 && x < width_px, "no such column", x);
     HH_CHECK(y >= 0 && y < height_px, "no such row", y);
-    return &rgba[static_cast<std::size_t>((y * width_px + x) * k_channels)];
+    const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px);
+    return &rgba[(row + static_cast<std::size_t>(x)) * static_cast<std::size_t>(k_channels)];
 }
 
 std::vector<std::uint8_t> encode_png(const Image& image) {

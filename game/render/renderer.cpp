@@ -74,11 +74,12 @@ struct Renderer::Impl {
     void collect(const RenderFrame& frame, const FrameView& view);
     void draw_mesh(GLuint program, const Visible& item);
     void draw_shadows(const ShadowView& shadow);
-    void set_lights(const RenderFrame& frame, const FrameView& view, const ShadowView& shadow);
+    void set_lights(const RenderFrame& frame, const FrameView& view,
+                    const ShadowView& shadow) const;
     void draw_surface(const Visible& item);
     void draw_opaque(const FrameView& view);
     void draw_glass(const FrameView& view);
-    void draw_backdrop(const RenderFrame& frame, const FrameView& view);
+    void draw_backdrop(const RenderFrame& frame, const FrameView& view) const;
     void draw_lines(const RenderFrame& frame, const FrameView& view);
 };
 
@@ -112,6 +113,7 @@ void Renderer::Impl::create_line_layout() {
     glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(LineVertex), nullptr);
     glEnableVertexAttribArray(1);
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(LineVertex),
+                          // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way of an offset
                           reinterpret_cast<const void*>(offsetof(LineVertex, color)));
 }
 
@@ -161,7 +163,7 @@ void Renderer::Impl::draw_shadows(const ShadowView& shadow) {
 }
 
 void Renderer::Impl::set_lights(const RenderFrame& frame, const FrameView& view,
-                                const ShadowView& shadow) {
+                                const ShadowView& shadow) const {
     const GLuint program = mesh_program;
     glUseProgram(program);
     set_uniform(program, "cs_to_clip", view.cs_to_clip);
@@ -247,7 +249,7 @@ void Renderer::Impl::draw_glass(const FrameView& view) {
     glDisable(GL_BLEND);
 }
 
-void Renderer::Impl::draw_backdrop(const RenderFrame& frame, const FrameView& view) {
+void Renderer::Impl::draw_backdrop(const RenderFrame& frame, const FrameView& view) const {
     if (frame.backdrop == Backdrop::plain) {
         return;
     }
@@ -343,6 +345,7 @@ MeshId Renderer::add_mesh(const Mesh& mesh) {
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, k_stride, nullptr);
     glEnableVertexAttribArray(1);
     glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, k_stride,
+                          // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way of an offset
                           reinterpret_cast<const void*>(3 * sizeof(float)));
     impl_->meshes.push_back(std::move(gpu));
     return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};

@@ -13,8 +13,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
-
 namespace handhold {
 namespace {
 
@@ -28,6 +26,7 @@ struct ChildStreams {
 int start_program(const std::vector<std::string>& arguments, const ChildStreams& streams,
                   std::string& why_not) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) {
         argv.push_back(const_cast<char*>(argument.c_str()));
     }
@@ -48,7 +47,7 @@ int start_program(const std::vector<std::string>& arguments, const ChildStreams&
     const int error = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
-        why_not = arguments[0] + " cannot be started: " + std::strerror(error);
+        why_not = arguments[0] + " cannot be started: " + std::system_category().message(error);
         return -1;
     }
     return process;
@@ -69,7 +68,7 @@ bool wait_for(int process) {
 std::string output_of(const std::vector<std::string>& arguments, std::string& why_not) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-        why_not = std::string("no pipe: ") + std::strerror(errno);
+        why_not = std::string("no pipe: ") + std::system_category().message(errno);
         return {};
     }
     const int process = start_program(arguments, {.output = ends[1]}, why_not);
@@ -128,7 +127,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
     // signal.
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        why_not = std::string("no socket: ") + std::strerror(errno);
+        why_not = std::string("no socket: ") + std::system_category().message(errno);
         return nullptr;
     }
     const std::string temporary = path + ".part";
