@@ -32,12 +32,12 @@ class SceneReader {
     SceneLevel read_level(const JsonValue& value) const;
     SceneShape read_shape(const JsonValue& value) const;
     SceneBody read_body(const JsonValue& value);
-    void read_free_body(const JsonValue& value, SceneBody& body) const;
-    SceneMotion read_motion(const JsonValue& value) const;
+    static void read_free_body(const JsonValue& value, SceneBody& body);
+    static SceneMotion read_motion(const JsonValue& value);
     SceneSpawn read_spawn(const JsonValue& value);
     ScenePlayer read_player(const JsonValue& value);
     SceneSession read_session(const JsonValue& value) const;
-    Pose read_pose(const JsonValue& value) const;
+    static Pose read_pose(const JsonValue& value);
     std::filesystem::path read_path(const JsonValue& value) const;
 
     JsonValue root_;
@@ -83,7 +83,7 @@ std::array<float, 3> read_color(const JsonValue& value) {
             static_cast<float>(color.z())};
 }
 
-Pose SceneReader::read_pose(const JsonValue& value) const {
+Pose SceneReader::read_pose(const JsonValue& value) {
     return {value["position_m"].vector_or(Vec3::Zero(), k_coordinate_m),
             value["rotation_xyzw"].rotation_or(Quat::Identity())};
 }
@@ -122,14 +122,14 @@ SceneShape SceneReader::read_shape(const JsonValue& value) const {
     return shape;
 }
 
-SceneMotion SceneReader::read_motion(const JsonValue& value) const {
+SceneMotion SceneReader::read_motion(const JsonValue& value) {
     value.allow_only({"velocity_mps", "angular_velocity_radps", "turns_with_body"});
     return {value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps),
             value["angular_velocity_radps"].vector_or(Vec3::Zero(), k_turn_rate_radps),
             value["turns_with_body"].flag_or(false)};
 }
 
-void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) const {
+void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
     body.mass_kg = value["mass_kg"].number(k_mass_kg);
     body.velocity_mps = value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps);
     body.angular_velocity_radps =

@@ -163,7 +163,7 @@ void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, st
     // colour.
     for (const double side : {-1.0, 1.0}) {
         for (int i = 0; i < 3; ++i) {
-            const auto salt = static_cast<std::size_t>(2 * i + (side > 0.0 ? 1 : 0));
+            const auto salt = 2 * static_cast<std::size_t>(i) + (side > 0.0 ? 1U : 0U);
             const double half_z = k_rack_pitch_m / 6.0;
             const Cell cell{side * 0.718, z0 + (2 * i + 1) * half_z, 0.082, half_z};
             const bool is_accent = chance(seed, 21, salt) < 0.16;

@@ -21,7 +21,7 @@ void add_deck(StationKit& kit) {
              Vec3(k_half_width_m, 0.09, k_half_length_m));
     for (int row = 0; row < 8; ++row) {
         for (int column = 0; column < 3; ++column) {
-            const auto place = static_cast<std::size_t>(3 * row + column);
+            const auto place = 3 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column);
             const double drop = 0.012 * chance(place, 1, 77);
             const bool is_accent = chance(place, 2, 77) < 0.12;
             kit.panel(is_accent ? Material::accent : Material::metal, frame,

@@ -217,7 +217,7 @@ std::vector<Mesh> finish_hand(const FigureParts& parts, FigureSide side) {
 std::vector<Mesh> make_hand(FigureSide side, HandShape shape) {
     FigureParts parts = build_palm();
     add_fingers(parts, shape);
-    return finish_hand(std::move(parts), side);
+    return finish_hand(parts, side);
 }
 
 std::vector<Mesh> make_palm(FigureSide side) { return finish_hand(build_palm(), side); }

@@ -50,7 +50,7 @@ std::optional<Surface> first_body(const UpdateGrabsIo& io, Query&& query) {
 
 std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray,
                                     const HandTuning& tuning) {
-    const auto hit = first_body(io, [&](std::span<const std::uint64_t> skip) {
+    auto hit = first_body(io, [&](std::span<const std::uint64_t> skip) {
         return io.collision.cast_ray(ray.from_ws, ray.to_ws, skip);
     });
     if (hit) {
