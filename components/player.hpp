@@ -31,7 +31,7 @@ struct PlayerVelocity {
 };
 
 // What drags, brakes and clamps count as standing still: the velocity of the body last gripped, at
-// the player, else the scene's. Written by locomote_players.
+// the point of the grip, else the scene's. Written by locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
     Entity body = k_no_entity;     // last gripped

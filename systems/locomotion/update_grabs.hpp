@@ -25,8 +25,9 @@ struct UpdateGrabsIo {
 
 // Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
 // it; where that meets nothing, for the nearest surface within reach of the palm: any surface, from
-// any angle. Hands that open, that are stretched too far, or whose body is gone let go. Talk rows
-// 2, 3.
+// any angle. Hands that open, that are stretched too far, or whose body is gone let go; of a
+// player's two stretched hands only the worse, of two alike the one that grips for the shorter
+// time. Talk rows 2, 3.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold
