@@ -69,6 +69,7 @@ struct Contraption {
     std::function<Pose(double)> hand_move = [](double) { return Pose{}; };
     double release_s = 1e9;
     Error worst;
+    double highest = 0.0;  // coordinate
 
     void add_thing(const Vec3& half_m, const Vec3& center, double mass_kg) {
         thing = scene.add_crate("thing", mass_kg, center, half_m);
@@ -91,7 +92,10 @@ struct Contraption {
         scene.add_player_here();
     }
     void run(double seconds) {
-        scene.run(seconds, [this] { worst.take(error_of(scene, joint)); if (getenv("DBG")) printf("%.3f q %.4f org %.4f %.4f %.4f grip %d err %.2e pushed %d it %d res %.1e je %.1e\n", scene.t_s(), scene.world.joint_state.at(joint).coordinate, scene.origin().x(), scene.origin().y(), scene.origin().z(), int(scene.grab(HandSide::right).kind), scene.stats.hand_error_m, int(scene.stats.islands_pushed), int(scene.stats.newton_iterations), scene.stats.residual_m, scene.stats.joint_error_m);});
+        scene.run(seconds, [this] {
+            worst.take(error_of(scene, joint));
+            highest = std::max(highest, state().coordinate);
+        });
     }
     const JointState& state() const { return scene.world.joint_state.at(joint); }
     bool holds() const { return scene.grab(HandSide::right).kind == GripKind::held; }
@@ -172,9 +176,8 @@ TEST(Lever, AtItsLimitIsPulledLikeAWall) {
     c.start();
     c.run(1.4);
     ASSERT_TRUE(c.holds());
-    EXPECT_LE(c.state().coordinate, 1.2 + 1e-6);
-    EXPECT_NEAR(c.state().coordinate, 1.2, 0.02);
-    EXPECT_GT(c.scene.origin().norm(), 0.1);
+    EXPECT_NEAR(c.highest, 1.2, 1e-6);
+    EXPECT_GT(c.scene.origin().norm(), 0.1) << "and he drifts on as fast as he pulled himself";
     EXPECT_LE(c.worst.m, 1e-6);
     EXPECT_LE(c.scene.grab(HandSide::right).error_m, 1e-6);
 }
@@ -196,8 +199,8 @@ TEST(Drawer, SlidesWithTheHandAndStopsAtItsEnd) {
     ASSERT_TRUE(c.holds());
     EXPECT_LE(c.worst.m, 1e-6);
     EXPECT_LE(c.worst.rad, 1e-5);
-    EXPECT_NEAR(c.state().coordinate, 0.3, 1e-6);
-    EXPECT_NEAR(c.scene.origin().z(), -0.15, 1e-5);
+    EXPECT_NEAR(c.highest, 0.3, 1e-6);
+    EXPECT_LT(c.scene.origin().z(), -0.15) << "and he drifts on as fast as he pulled himself";
 }
 
 TEST(Valve, CountsOverWholeTurns) {
@@ -228,7 +231,7 @@ TEST(Joints, FrictionStopsALetGoLeverAfterTheAngleOfTheClosedForm) {
     const double expected = spin * spin * inertia / (2.0 * 0.5);
     // One frame's rotation is what a first-order integrator may miss.
     EXPECT_NEAR(c.state().coordinate, expected, spin * k_frame_s);
-    EXPECT_EQ(c.state().speed, 0.0) << "friction holds what it stopped";
+    EXPECT_NEAR(c.state().speed, 0.0, 1e-12) << "friction holds what it stopped";
 }
 
 TEST(Joints, DetentDrawsALetGoLeverToTheNearestRest) {
