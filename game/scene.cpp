@@ -42,6 +42,11 @@ class SceneBuilder {
         for (const SceneBody& body : file_.bodies) {
             add_scene_body(body);
         }
+        for (const SceneJoint& joint : file_.joints) {
+            if (!error_) {
+                add_scene_joint(joint);
+            }
+        }
         for (const SceneSpawn& spawn : file_.spawns) {
             scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
         }
@@ -132,6 +137,7 @@ class SceneBuilder {
         description.name = body.name;
         description.body.kind = body.kind;
         description.body.restitution = body.restitution;
+        description.body.friction = body.friction;
         description.pose_ws = file_.world_transform * body.pose;
         description.shape = shape;
         if (body.kind == BodyKind::free) {
@@ -156,6 +162,24 @@ class SceneBuilder {
             color = *body.color;
         }
         scene_.visuals.push_back({entity, visual, color, {}});
+    }
+
+    void add_scene_joint(const SceneJoint& joint) {
+        const auto entity_of = [this](const std::string& name) {
+            return name.empty() ? k_no_entity
+                                : find_by_id(scene_.world, persistent_id_from_name(name));
+        };
+        Joint made = joint.joint;
+        made.a = entity_of(joint.a);
+        made.b = entity_of(joint.b);
+        made.latch.handle = entity_of(joint.handle);
+        made = joint_at(scene_.world, made, file_.world_transform * joint.pose);
+        const Vec3 end_ws = transform_point(file_.world_transform, joint.end_a);
+        made.frame_a_bs.position =
+            is_null(made.a)
+                ? end_ws
+                : inverse_transform_point(scene_.world.body_pose.at(made.a).pose_ws, end_ws);
+        add_joint(scene_.world, {joint.name, made});
     }
 
     const SceneFile& file_;

@@ -18,6 +18,7 @@ constexpr NumberRange k_speed_mps = {-1e5, 1e5, false};
 constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
 constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
 constexpr NumberRange k_inertia_kgm2 = {1e-12, 1e18, false};
+constexpr NumberRange k_friction = {0.0, 10.0, false};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
 // Reads the sections of one document; errors are kept there.
@@ -42,7 +43,8 @@ class SceneReader {
 
     JsonValue root_;
     std::filesystem::path folder_;
-    std::set<std::string> entity_names_;  // bodies and players: they share the persistent ids
+    std::set<std::string> entity_names_;  // bodies, joints, players: they share persistent ids
+    SceneJointNames joint_names_;
     std::set<std::string> spawn_names_;
 };
 
@@ -151,7 +153,7 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
 SceneBody SceneReader::read_body(const JsonValue& value) {
     value.allow_only({"name", "kind", "shape", "position_m", "rotation_xyzw", "mass_kg",
                       "inertia_kgm2", "velocity_mps", "angular_velocity_radps", "motion", "color",
-                      "restitution"});
+                      "restitution", "friction"});
     SceneBody body;
     body.name = read_new_name(value["name"], entity_names_);
     body.kind = read_kind(value["kind"]);
@@ -172,6 +174,8 @@ SceneBody SceneReader::read_body(const JsonValue& value) {
         body.color = read_color(color);
     }
     body.restitution = value["restitution"].number_or(body.restitution, k_unit_interval);
+    body.friction = value["friction"].number_or(body.friction, k_friction);
+    joint_names_.bodies.emplace(body.name, body.kind);
     return body;
 }
 
@@ -213,8 +217,8 @@ SceneSession SceneReader::read_session(const JsonValue& value) const {
 }
 
 SceneFile SceneReader::read() {
-    root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "spawns",
-                      "players", "session", "world_transform", "tuning"});
+    root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "joints",
+                      "spawns", "players", "session", "world_transform", "tuning"});
     SceneFile scene;
     scene.name = root_["name"].text();
     scene.description = root_["description"].text_or({});
@@ -225,6 +229,10 @@ SceneFile SceneReader::read() {
     }
     for (const JsonValue& body : root_["bodies"].optional_items()) {
         scene.bodies.push_back(read_body(body));
+    }
+    for (const JsonValue& joint : root_["joints"].optional_items()) {
+        scene.joints.push_back(read_scene_joint(joint, joint_names_));
+        entity_names_.insert(scene.joints.back().name);
     }
     for (const JsonValue& spawn : root_["spawns"].optional_items()) {
         scene.spawns.push_back(read_spawn(spawn));

@@ -11,6 +11,7 @@
 #include "components/body.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
+#include "game/scene_joint.hpp"
 
 // What a scene's JSON says, checked but not built: docs/scene_format.md. World space is written _ws
 // in code; in the file, everything is in the scene's frame, which world_transform puts into the
@@ -55,6 +56,7 @@ struct SceneBody {
     std::optional<std::array<float, 3>>
         color;                 // linear RGB in [0, 1]; absent: the mesh's own, or grey
     double restitution = 0.0;  // [0, 1]; the larger of two bodies' counts
+    double friction = 0.4;     // Coulomb's coefficient; of two bodies the geometric mean
 };
 
 struct SceneSpawn {
@@ -81,6 +83,7 @@ struct SceneFile {
         Vec3::Zero();  // what counts as standing still before anything was gripped
     std::vector<SceneLevel> levels;
     std::vector<SceneBody> bodies;
+    std::vector<SceneJoint> joints;
     std::vector<SceneSpawn> spawns;
     std::vector<ScenePlayer> players;
     std::optional<SceneSession> session;
