@@ -19,7 +19,6 @@ bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_s
 
 constexpr double k_min_scale = 1e-3;
 constexpr double k_max_scale = 1e3;
-constexpr std::size_t k_most_triangles = std::size_t{1} << 21U;  // what the tree can number
 
 bool is_scale(double factor) { return factor >= k_min_scale && factor <= k_max_scale; }
 
@@ -147,12 +146,10 @@ ShapeId ShapeLibrary::add_hull(std::span<const Vec3> points) {
 }
 
 ShapeId ShapeLibrary::add_hull(const ConvexHull& hull) {
-    HH_CHECK(is_size(hull_width(hull)), "hull's width outside of [1e-3, 1e4] m", hull_width(hull));
+    HH_CHECK(is_solid(hull), "hull's width outside of [1e-3, 1e4] m", hull_width(hull));
     Shape shape;
     shape.kind = ShapeKind::hull;
     shape.hull = std::make_shared<const ConvexHull>(hull);
-    HH_CHECK(is_size(bounding_radius(shape)), "hull's reach outside of [1e-3, 1e4] m",
-             bounding_radius(shape));
     return add(std::move(shape));
 }
 
@@ -220,6 +217,16 @@ CentredShape ShapeLibrary::add_centred(ShapeId id) {
 const Shape& ShapeLibrary::at(ShapeId id) const {
     HH_CHECK(id.index < shapes_.size(), "no shape with this id", id.index);
     return shapes_[id.index];
+}
+
+bool is_solid(const ConvexHull& hull) {
+    Vec3 low = hull.corners.front();
+    Vec3 high = low;
+    for (const Vec3& corner : hull.corners) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+    }
+    return is_size(hull_width(hull)) && is_size((high - low).maxCoeff());
 }
 
 double bounding_radius(const Shape& shape) {

@@ -63,9 +63,8 @@ class ShapeLibrary {
     ShapeId add_sphere(double radius_m);
     ShapeId add_capsule(double radius_m, double half_height_m);
     ShapeId add_cylinder(double radius_m, double half_height_m);
-    // The convex hull of points that are finite and not in a plane, 1e-3 to 1e4 m wide at its
-    // thinnest and widest. At most k_most_hull_corners corners: convex_hull.hpp says what more
-    // points lose.
+    // The convex hull of points that are finite and not in a plane; is_solid. At most
+    // k_most_hull_corners corners: convex_hull.hpp says what more points lose.
     ShapeId add_hull(std::span<const Vec3> points);
     ShapeId add_hull(const ConvexHull& hull);
     // 1 to k_most_parts convex shapes that move as one; they may overlap. Masses: all 0 or all > 0.
@@ -87,6 +86,11 @@ class ShapeLibrary {
 };
 
 constexpr std::size_t k_most_parts = 64;  // of a compound
+constexpr std::size_t k_most_triangles = std::size_t{1}
+                                         << 21U;  // of a mesh: what its tree can number
+
+// True where add_hull takes it: 1e-3 to 1e4 m at its thinnest and widest.
+bool is_solid(const ConvexHull& hull);
 
 // Radius of a sphere about the shape's origin that holds it, metres: the smallest, but of a
 // compound with cylinders.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -67,7 +68,6 @@ class HullBuilder {
         std::size_t corners = 4;
         for (Index face = outermost(); face != k_none; face = outermost()) {
             if (corners == k_most_hull_corners) {
-                left_out_m_ = triangles_[face].farthest_m;
                 break;
             }
             corners += add_point(face) ? 1U : 0U;
@@ -83,12 +83,15 @@ class HullBuilder {
     // Adds the farthest point outside of a face. False where that would tear the surface: the point
     // is then left out.
     bool add_point(Index face);
+    void forget_farthest(Triangle& triangle) const;
     void find_visible(Index face, const Vec3& point);
     bool order_horizon();
     void add_cone(Index point);
     Index add_triangle(Index a, Index b, Index c);
     void assign(std::span<const Index> candidates, Index first_triangle);
     ConvexHull collect() const;
+    std::vector<HullFace> flat_faces() const;
+    static void drop_edge_points(std::vector<HullFace>& faces);
     std::vector<Index> flat_group(Index seed, std::vector<bool>& taken) const;
     std::vector<Index> outline(const std::vector<Index>& group) const;
 
@@ -110,7 +113,6 @@ class HullBuilder {
     std::vector<Index> visible_;
     std::vector<Edge> horizon_;
     double flat_m_ = 0.0;
-    double left_out_m_ = 0.0;
 };
 
 bool HullBuilder::start() {
@@ -201,24 +203,24 @@ bool HullBuilder::add_point(Index face) {
     const Index point = triangles_[face].farthest;
     find_visible(face, points_[point]);
     if (!order_horizon()) {
-        Triangle& triangle = triangles_[face];
-        std::erase(triangle.outside, point);
-        const std::vector<Index> rest = std::exchange(triangle.outside, {});
-        left_out_m_ = std::max(left_out_m_, triangle.farthest_m);
-        triangle.farthest = k_none;
-        triangle.farthest_m = 0.0;
-        for (const Index other : rest) {
-            const double height = triangle.plane.height(points_[other]);
-            triangle.outside.push_back(other);
-            if (height > triangle.farthest_m) {
-                triangle.farthest_m = height;
-                triangle.farthest = other;
-            }
-        }
+        forget_farthest(triangles_[face]);
         return false;
     }
     add_cone(point);
     return true;
+}
+
+void HullBuilder::forget_farthest(Triangle& triangle) const {
+    std::erase(triangle.outside, triangle.farthest);
+    triangle.farthest = k_none;
+    triangle.farthest_m = 0.0;
+    for (const Index point : triangle.outside) {
+        if (const double height = triangle.plane.height(points_[point]);
+            height > triangle.farthest_m) {
+            triangle.farthest_m = height;
+            triangle.farthest = point;
+        }
+    }
 }
 
 // All triangles that the point sees, and the edges between them and the others.
@@ -323,7 +325,7 @@ std::vector<Index> HullBuilder::outline(const std::vector<Index>& group) const {
     return loop;
 }
 
-ConvexHull HullBuilder::collect() const {
+std::vector<HullFace> HullBuilder::flat_faces() const {
     std::vector<Index> by_area;
     for (Index i = 0; i < triangles_.size(); ++i) {
         if (!triangles_[i].gone) {
@@ -336,25 +338,47 @@ ConvexHull HullBuilder::collect() const {
     };
     std::stable_sort(by_area.begin(), by_area.end(),
                      [&](Index i, Index j) { return area(i) > area(j); });
-    ConvexHull hull;
-    hull.left_out_m = left_out_m_ + flat_m_;
+    std::vector<HullFace> faces;
     std::vector<bool> taken(triangles_.size(), false);
     for (const Index seed : by_area) {
         if (taken[seed]) {
             continue;
         }
         const std::vector<Index> group = flat_group(seed, taken);
-        const Vec3& normal = triangles_[seed].plane.normal;
         std::vector<Index> loop = outline(group);
         if (!loop.empty()) {
-            hull.faces.push_back({std::move(loop), normal, 0.0});
+            faces.push_back({std::move(loop), triangles_[seed].plane.normal, 0.0});
             continue;
         }
         for (const Index i : group) {
             const auto& corner = triangles_[i].corner;
-            hull.faces.push_back({{corner.begin(), corner.end()}, triangles_[i].plane.normal, 0.0});
+            faces.push_back({{corner.begin(), corner.end()}, triangles_[i].plane.normal, 0.0});
         }
     }
+    return faces;
+}
+
+// A point on an edge is none of the hull's corners, though the first tetrahedron may have begun
+// there: only two faces have it.
+void HullBuilder::drop_edge_points(std::vector<HullFace>& faces) {
+    std::map<Index, std::vector<HullFace*>> around;
+    for (HullFace& face : faces) {
+        for (const Index corner : face.loop) {
+            around[corner].push_back(&face);
+        }
+    }
+    for (const auto& [corner, both] : around) {
+        if (both.size() == 2 && both[0]->loop.size() > 3 && both[1]->loop.size() > 3) {
+            std::erase(both[0]->loop, corner);
+            std::erase(both[1]->loop, corner);
+        }
+    }
+}
+
+ConvexHull HullBuilder::collect() const {
+    ConvexHull hull;
+    hull.faces = flat_faces();
+    drop_edge_points(hull.faces);
     // Only corners that some face has, numbered by place.
     std::vector<Index> number(points_.size(), k_none);
     for (const HullFace& face : hull.faces) {
@@ -373,7 +397,13 @@ ConvexHull HullBuilder::collect() const {
             corner = number[corner];
         }
     }
-    return moved_hull(hull, {});
+    hull = moved_hull(hull, {});
+    for (const HullFace& face : hull.faces) {
+        for (const Vec3& point : points_) {
+            hull.left_out_m = std::max(hull.left_out_m, face.normal.dot(point) - face.offset_m);
+        }
+    }
+    return hull;
 }
 
 }  // namespace
