@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "game/playground.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
 
@@ -186,7 +187,7 @@ Scene make_ship_scene() {
 
 }  // namespace
 
-std::vector<std::string_view> built_in_scenes() { return {"station", "ship"}; }
+std::vector<std::string_view> built_in_scenes() { return {"station", "ship", "playground"}; }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "station") {
@@ -194,6 +195,9 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
     }
     if (name == "ship") {
         return make_ship_scene();
+    }
+    if (name == "playground") {
+        return make_playground_scene();
     }
     return std::nullopt;
 }
@@ -205,6 +209,9 @@ std::optional<Recording> make_built_in_session(std::string_view name) {
     }
     if (name == "ship") {
         return record_session(ship_script(), tuning);
+    }
+    if (name == "playground") {
+        return record_session(playground_script(), tuning);
     }
     return std::nullopt;
 }
