@@ -108,7 +108,7 @@ void work_valve(double t_s, SessionScript& script) {
 }
 
 void work_cable(double t_s, SessionScript& script) {
-    const Work link{script, t_s, Vec3(2.6, 1.2, 0.567), Vec3::UnitZ(), Vec3::UnitX()};
+    const Work link{script, t_s, Vec3(2.75, 1.25, 0.317), Vec3::UnitZ(), Vec3::UnitX()};
     link.hold(t_s + 3.4);
     link.move(t_s + 0.3, Vec3::Zero());
     link.move(t_s + 1.1, Vec3(0.25, 0.15, 0.05));
@@ -119,13 +119,13 @@ void work_cable(double t_s, SessionScript& script) {
 
 // The rock is wider than the gap: shoved at it, it pushes whoever shoves.
 void work_rock(double t_s, SessionScript& script) {
-    const Work rock{script, t_s, Vec3(3.55, 1.45, 0.705), Vec3::UnitZ(), Vec3::UnitY()};
+    const Work rock{script, t_s, Vec3(3.42, 1.62, 0.505), Vec3::UnitZ(), Vec3::UnitY()};
     rock.hold(t_s + 3.6);
     rock.move(t_s + 0.4, Vec3::Zero());
-    rock.move(t_s + 1.2, Vec3(0.20, 0.05, 0.05));
-    rock.move(t_s + 2.0, Vec3(0.20, 0.05, -0.25));
-    rock.move(t_s + 2.6, Vec3(0.20, 0.05, -0.25));
-    rock.move(t_s + 3.4, Vec3(0.0, 0.10, 0.10));
+    rock.move(t_s + 1.2, Vec3(0.33, -0.12, 0.12));
+    rock.move(t_s + 2.0, Vec3(0.33, -0.12, -0.12));
+    rock.move(t_s + 2.6, Vec3(0.33, -0.12, -0.12));
+    rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ SessionScript playground_script() {
     stay(27.4, 31.2, 2.2, script);
     work_cable(27.7, script);
     crawl(31.3, 2.45, 3.45, script);
-    stay(33.2, 37.4, 3.2, script);
+    stay(33.2, 34.4, 3.2, script);
     work_rock(33.5, script);
     script.duration_s = 38.0;
     return script;
