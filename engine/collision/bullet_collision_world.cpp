@@ -11,6 +11,7 @@
 
 #include "engine/collision/bullet_world.hpp"
 #include "engine/core/check.hpp"
+#include "engine/core/parallel.hpp"
 
 namespace handhold {
 namespace {
@@ -26,6 +27,12 @@ void* counted_allocate(std::size_t size) {
 void hook_allocator() {
     static std::once_flag once;
     std::call_once(once, [] { btAlignedAllocSetCustom(&counted_allocate, &std::free); });
+}
+
+// One a thread: several meet pairs of one world at the same time.
+PairScratch& pair_scratch() {
+    thread_local PairScratch scratch;
+    return scratch;
 }
 
 Corners moved(const Corners& corners, const Vec3& by) {
@@ -72,8 +79,9 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
 }
 
 void CollisionWorld::Impl::find_pair(const BroadphaseBody& a, const BroadphaseBody& b,
-                                     const ContactLimits& limits, PairScratch& scratch,
+                                     const ContactLimits& limits,
                                      std::vector<ContactPoint>& contacts) const {
+    PairScratch& scratch = pair_scratch();
     const Pose from_bs = inverse(b.proxy.from_ws) * a.proxy.from_ws;
     const Pose to_bs = inverse(b.proxy.to_ws) * a.proxy.to_ws;
     const CollisionShape& shape_a = cache[a.proxy.shape.index];
@@ -104,6 +112,36 @@ void CollisionWorld::Impl::find_pair(const BroadphaseBody& a, const BroadphaseBo
     }
 }
 
+void CollisionWorld::Impl::find_pairs(double margin_m) {
+    body_pairs.clear();
+    pairs.clear();
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const BroadphaseBody& a = bodies[i];
+        if (!a.proxy.free || a.leaf == nullptr) {
+            continue;
+        }
+        const std::size_t first = pairs.size();
+        for (const std::size_t other :
+             broadphase.find(a.bounds_ws.grown(margin_m), broadphase_scratch)) {
+            if (is_pair(a, bodies[other])) {
+                pairs.push_back(other);
+            }
+        }
+        if (pairs.size() > first) {
+            body_pairs.push_back({i, first, pairs.size()});
+        }
+    }
+}
+
+void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
+                                            std::vector<ContactPoint>& contacts) const {
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    for (std::size_t i = body.first; i < body.last; ++i) {
+        find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
+    }
+}
+
 CollisionWorld::CollisionWorld(const ShapeLibrary& shapes) {
     hook_allocator();
     impl_ = std::make_unique<Impl>(shapes);
@@ -128,18 +166,22 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     HH_CHECK(limits.margin_m > 0.0, "margin_m must be positive", limits.margin_m);
     HH_CHECK(limits.sweep_m > 0.0, "sweep_m must be positive", limits.sweep_m);
     contacts.clear();
-    const std::span<const BroadphaseBody> bodies = impl_->broadphase.bodies();
-    for (const BroadphaseBody& a : bodies) {
-        if (!a.proxy.free || a.leaf == nullptr) {
-            continue;
+    Impl& world = *impl_;
+    world.find_pairs(limits.margin_m);
+    if (thread_count() == 1 || world.body_pairs.size() < 2) {
+        for (const BodyPairs& body : world.body_pairs) {
+            world.find_contacts_of(body, limits, contacts);
         }
-        const Bounds box = a.bounds_ws.grown(limits.margin_m);
-        for (const std::size_t index : impl_->broadphase.find(box, impl_->broadphase_scratch)) {
-            const BroadphaseBody& b = bodies[index];
-            if (impl_->is_pair(a, b)) {
-                impl_->find_pair(a, b, limits, impl_->pair_scratch, contacts);
-            }
-        }
+        return;
+    }
+    world.found.resize(std::max(world.found.size(), world.body_pairs.size()));
+    auto find = [&](std::size_t i) {
+        world.found[i].clear();
+        world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
+    };
+    parallel_for(world.body_pairs.size(), find);
+    for (std::size_t i = 0; i < world.body_pairs.size(); ++i) {
+        contacts.insert(contacts.end(), world.found[i].begin(), world.found[i].end());
     }
 }
 

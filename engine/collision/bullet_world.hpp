@@ -13,21 +13,35 @@ struct CollisionShape {
     std::vector<ConvexPart> parts;             // of anything else
 };
 
+// A free body and those that it may touch: a range of Impl::pairs.
+struct BodyPairs {
+    std::size_t body = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
 struct CollisionWorld::Impl {
     explicit Impl(const ShapeLibrary& library);
 
     void check(std::span<const ColliderProxy> proxies) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
+    // Fills body_pairs and pairs.
+    void find_pairs(double margin_m);
     void find_pair(const BroadphaseBody& a, const BroadphaseBody& b, const ContactLimits& limits,
-                   PairScratch& scratch, std::vector<ContactPoint>& contacts) const;
+                   std::vector<ContactPoint>& contacts) const;
+    void find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
+                          std::vector<ContactPoint>& contacts) const;
 
     const ShapeLibrary& shapes;
     std::vector<CollisionShape> cache;  // by shape
     std::vector<ShapeExtent> extents;   // by shape
     Broadphase broadphase;
     std::vector<IgnoredPair> ignored;
-    BroadphaseScratch broadphase_scratch;  // of find_contacts, as the next
-    PairScratch pair_scratch;
+    // Of find_contacts.
+    BroadphaseScratch broadphase_scratch;
+    std::vector<BodyPairs> body_pairs;             // by rising id of a
+    std::vector<std::size_t> pairs;                // numbers of the bodies b
+    std::vector<std::vector<ContactPoint>> found;  // by body_pairs, where threads share the work
 };
 
 }  // namespace handhold

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "collision_scene.hpp"
+#include "engine/core/parallel.hpp"
 
 // Four threads ask one world at the same time; preset tsan runs what is called Threaded.
 namespace handhold {
@@ -84,6 +85,44 @@ TEST(CollisionThreaded, QueriesFromFourThreadsAnswerAsFromOne) {
         EXPECT_EQ(found[i], expected[i]);
         EXPECT_NE(std::count(found[i].begin(), found[i].end(), -1.0), 900);  // something was hit
     }
+}
+
+TEST(CollisionThreaded, ContactsDoNotDependOnTheNumberOfThreads) {
+    const Crowd crowd = make_crowd();
+    CollisionWorld world(crowd.shapes);
+    std::vector<ColliderProxy> proxies = crowd.proxies;
+    const auto contacts_with = [&](int threads) {
+        const int before = thread_count();
+        set_thread_count(threads);
+        std::vector<ContactPoint> contacts;
+        world.find_contacts({}, contacts);
+        set_thread_count(before);
+        return contacts;
+    };
+    Random random(112);
+    std::size_t most = 0;
+    for (int round = 0; round < 5; ++round) {
+        for (ColliderProxy& proxy : proxies) {
+            proxy.to_ws.position += random.vector(0.05);
+        }
+        world.set_proxies(proxies);
+        const auto expected = contacts_with(1);
+        most = std::max(most, expected.size());
+        for (const int threads : {2, 4, 7}) {
+            const auto found = contacts_with(threads);
+            ASSERT_EQ(found.size(), expected.size());
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                ASSERT_EQ(found[i].id_a, expected[i].id_a);
+                ASSERT_EQ(found[i].id_b, expected[i].id_b);
+                ASSERT_EQ(found[i].feature, expected[i].feature);
+                ASSERT_EQ(found[i].separation_m, expected[i].separation_m);
+                ASSERT_EQ(found[i].point_a_bs, expected[i].point_a_bs);
+                ASSERT_EQ(found[i].point_b_bs, expected[i].point_b_bs);
+                ASSERT_EQ(found[i].normal_b_bs, expected[i].normal_b_bs);
+            }
+        }
+    }
+    EXPECT_GT(most, 50U);
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include "engine/geometry/convex_hull.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "collision_scene.hpp"
+#include "engine/io/gltf.hpp"
 
 // The oracle is what a hull is: no given point outside of it, every corner a given point, and a
 // surface that closes.
@@ -168,6 +172,36 @@ TEST(ConvexHull, SurvivesPointsThatAreNearlyInOnePlaneOrLine) {
             ASSERT_LT(flatness, 1e-5);
         }
     }
+}
+
+TEST(ConvexHull, OfRealObjectsHoldsThem) {
+    const std::filesystem::path folder = std::string(HANDHOLD_DATA_DIR) + "/objects";
+    if (!std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "no object data";
+    }
+    int objects = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".glb") {
+            continue;
+        }
+        SCOPED_TRACE(entry.path().filename());
+        const Result<GltfLevel> file = load_gltf_level(entry.path());
+        ASSERT_TRUE(file.ok());
+        std::vector<Vec3> points;
+        for (const LevelPart& part : file.value().parts) {
+            points.insert(points.end(), part.mesh.positions.begin(), part.mesh.positions.end());
+        }
+        const auto hull = make_convex_hull(points);
+        ASSERT_TRUE(hull.has_value());
+        expect_hull(*hull, points);
+        double reach = 0.0;
+        for (const Vec3& point : points) {
+            reach = std::max(reach, (point - points[0]).norm());
+        }
+        EXPECT_LT(hull->left_out_m, 0.02 * reach);
+        ++objects;
+    }
+    EXPECT_GT(objects, 10);
 }
 
 }  // namespace
