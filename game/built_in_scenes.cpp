@@ -29,6 +29,13 @@ void add_spawns(const Structure& structure, Scene& scene) {
     }
 }
 
+// The parts lie in one frame: any of their bodies carries the rails.
+void add_rails(const Structure& structure, Entity body, Scene& scene) {
+    for (const HandrailSpan& rail : structure.rails) {
+        scene.rails.push_back({body, rail.start, rail.end});
+    }
+}
+
 // --- station
 // ---------------------------------------------------------------------------------------------------------
 
@@ -87,6 +94,7 @@ Scene make_station_scene() {
     scene.lamps = station.lamps;
     scene.spawns.push_back({"rail", session_origin(station_script())});
     add_spawns(station, scene);
+    add_rails(station, scene.visuals.front().body, scene);
     return scene;
 }
 
@@ -181,6 +189,7 @@ Scene make_ship_scene() {
     scene.lamps = ship.lamps;
     scene.spawns.push_back({"rail", session_origin(ship_script())});
     add_spawns(ship, scene);
+    add_rails(ship, scene.visuals.front().body, scene);
     return scene;
 }
 

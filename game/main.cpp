@@ -18,8 +18,11 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
         ->required();
     run.add_option("--input", options.input, "A recorded session (.csv); default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(CLI::Range(10.0, 1000.0));
-    run.add_option("--players", options.players, "Players, all driven by the session")
+    run.add_option("--players", options.players,
+                   "Players: the first plays the session, the others are scripted climbers")
         ->check(CLI::Range(1, 1000));
+    run.add_flag("--climbers", options.climbers, "The first player is a climber too");
+    run.add_option("--seed", options.seed, "Of the climbers and where they begin");
     run.add_option("--threads", options.threads, "Threads; the result does not depend on them")
         ->check(CLI::Range(1, 256));
     run.add_option("--seconds", options.seconds,
