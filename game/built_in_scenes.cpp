@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "game/crowd_scene.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
 
@@ -193,9 +194,22 @@ Scene make_ship_scene() {
     return scene;
 }
 
+// --- crowd
+// -----------------------------------------------------------------------------------------------------------
+
+// Whoever plays goes where the station's session goes.
+Scene make_crowd_scene() {
+    Scene scene = make_station_scene();
+    scene.name = "crowd";
+    scene.description = "the station with a dozen scripted climbers and things that float about";
+    scene.session = SceneSession{{}, scene.name};
+    fill_with_crowd(scene);
+    return scene;
+}
+
 }  // namespace
 
-std::vector<std::string_view> built_in_scenes() { return {"station", "ship"}; }
+std::vector<std::string_view> built_in_scenes() { return {"station", "ship", "crowd"}; }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "station") {
@@ -204,12 +218,15 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "ship") {
         return make_ship_scene();
     }
+    if (name == "crowd") {
+        return make_crowd_scene();
+    }
     return std::nullopt;
 }
 
 std::optional<Recording> make_built_in_session(std::string_view name) {
     const HandTuning tuning;
-    if (name == "station") {
+    if (name == "station" || name == "crowd") {
         return record_session(station_script(), tuning);
     }
     if (name == "ship") {

@@ -142,9 +142,11 @@ void head_anywhere(const Mind& mind) {
 }
 
 void look_ahead(const Mind& mind) {
-    constexpr double k_far_m = 3.0;
-    mind.state.way_ahead_m =
+    constexpr double k_far_m = 6.0;
+    const auto way_m =
         free_way_m(mind.sight, mind.player(), mind.now.head_ws, mind.state.heading_ws, k_far_m);
+    mind.state.way_ahead_m = way_m.value_or(k_far_m);
+    mind.state.shore_ahead = way_m.has_value();
 }
 
 // How fast the head is to move, and where: along the heading, slower before a wall, off whatever is
@@ -209,6 +211,19 @@ void release_trailing(const Mind& mind) {
     let_go(mind.state, left_m < right_m ? HandSide::left : HandSide::right);
 }
 
+// Between one hold and the next he floats for a moment.
+void hand_over(const Mind& mind) {
+    constexpr double k_float_s = 0.06;
+    for (const HandSide side : k_sides) {
+        const ClimberHand& next = mind.hand(other(side));
+        if (mind.hand(side).mode == ClimberHandMode::holding &&
+            (next.mode == ClimberHandMode::closing ||
+             (next.mode == ClimberHandMode::reaching && next.until_s < mind.now.t_s + k_float_s))) {
+            let_go(mind.state, side);
+        }
+    }
+}
+
 void begin_leap(const Mind& mind) {
     mind.state.leaping = true;
     mind.state.leap_until_s = mind.now.t_s + k_leap_longest_s;
@@ -236,7 +251,7 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
         if (try_reach(mind, side, state.heading_ws)) {
             state.empty_looks = 0;
         } else if (++state.empty_looks >= k_looks_before_leap) {
-            if (mind.task.may_leap && state.way_ahead_m > k_leap_way_m) {
+            if (mind.task.may_leap && state.shore_ahead && state.way_ahead_m > k_leap_way_m) {
                 begin_leap(mind);
             } else if (mind.task.waypoints.empty()) {
                 head_anywhere(mind);
@@ -325,7 +340,7 @@ void drift(const Mind& mind) {
         constexpr double k_far_m = 6.0;
         const bool meets_something =
             speed_mps > k_drifts_mps &&
-            free_way_m(mind.sight, mind.player(), mind.now.head_ws, toward_ws, k_far_m) < k_far_m;
+            free_way_m(mind.sight, mind.player(), mind.now.head_ws, toward_ws, k_far_m);
         constexpr double k_patience_s = 4.0;
         if (!meets_something || mind.now.t_s - state.carried_s > k_patience_s) {
             return_home(mind);
@@ -363,6 +378,7 @@ ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uin
     state.carried_s = now_s;
     state.waypoint_since_s = now_s;
     place_body(state);
+    state.last = sample_body(scene, task, now_s, state);
     state.home.wrist_bs.position = transform_point(origin_ws, state.eyes_ps);
     return state;
 }
@@ -371,8 +387,9 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
                      ClimberState& state, std::vector<TrackingSample>& samples) {
     samples.clear();
     Mind mind{sight, task, sense(sight.scene, task, state), state};
-    if (state.last.t_s > mind.now.t_s) {
+    if (state.last.t_s > mind.now.t_s || !state.first_given) {
         samples.push_back(state.last);
+        state.first_given = true;
     }
     feel_hands(mind);
     mind.now = sense(sight.scene, task, state);  // what he holds now is what carries him
@@ -380,6 +397,9 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
         // Not all climbers of a crowd look about in the same frame.
         state.next_look_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_look_every_s;
         decide(mind);
+    }
+    if (task.single_hand) {
+        hand_over(mind);
     }
     if (state.leaping && mind.now.carried) {
         leap(mind);

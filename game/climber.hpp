@@ -30,6 +30,7 @@ struct ClimberTask {
     double cruise_mps = 0.6;                 // [0.2, 1]
     bool may_leap = true;                    // push off where there is nothing to reach for
     bool takes_things = true;                // picks up what floats about, and throws it
+    bool single_hand = false;  // lets go before the other hand closes: never two supports
 };
 
 enum class ClimberHandMode : std::uint8_t {
@@ -66,7 +67,7 @@ struct ClimberState {
     Random random;
     std::uint64_t next_sample = 0;  // the next regular one, at next_sample / sample_hz
     TrackingSample last;            // the newest sample made; it may lie after the frame's end
-    bool started = false;
+    bool first_given = false;       // the sample of where he began
     double tremor_phase_rad = 0.0;
 
     // The body, at last.t_s. A head's velocity is that of its play space.
@@ -83,6 +84,7 @@ struct ClimberState {
     double heading_until_s = 0.0;
     double next_look_s = 0.0;
     double way_ahead_m = 0.0;  // free along the heading, as last seen
+    bool shore_ahead = false;  // something ends that way
     std::uint32_t empty_looks = 0;
     std::uint32_t waypoint = 0;
     double waypoint_since_s = 0.0;

@@ -212,22 +212,25 @@ ClimberHold make_hold(const Search& search, const Candidate& chosen) {
 
 }  // namespace
 
-double free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                  const Vec3& direction_ws, double length_m) {
+std::optional<double> free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
+                                 const Vec3& direction_ws, double length_m) {
     const auto hit = look(sight, player, from_ws, from_ws + length_m * direction_ws);
-    return hit ? hit->distance_m : length_m;
+    return hit ? std::optional(hit->distance_m) : std::nullopt;
 }
 
 Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                     ClimberState& state) {
     constexpr int k_directions = 12;
-    constexpr double k_far_m = 5.0;
+    constexpr double k_far_m = 6.0;
+    constexpr double k_open_m = 0.3;
     Vec3 best = -state.heading_ws;
     double best_value = -1e9;
     for (int i = 0; i < k_directions; ++i) {
         const Vec3 direction = state.random.direction();
         const double luck = state.random.unit();
-        const double way_m = free_way_m(sight, player, from_ws, direction, k_far_m);
+        // Open space is no way at all: nothing there stops him again.
+        const double way_m =
+            free_way_m(sight, player, from_ws, direction, k_far_m).value_or(k_open_m);
         const double value = way_m + 1.0 * direction.dot(state.heading_ws) + 2.0 * luck;
         if (value > best_value) {
             best_value = value;

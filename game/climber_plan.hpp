@@ -8,9 +8,9 @@
 // Where a climber looks, and what he chooses of what he sees.
 namespace handhold {
 
-// How far the way is free from his head, at most length_m, for all that is not himself.
-double free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                  const Vec3& direction_ws, double length_m);
+// How far the way is free for him; nothing where it is for more than length_m.
+std::optional<double> free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
+                                 const Vec3& direction_ws, double length_m);
 
 // A direction for someone who wanders: free for some metres, rather ahead than back.
 Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,

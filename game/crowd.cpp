@@ -50,11 +50,11 @@ class Spreader {
     Random random_;
 };
 
+}  // namespace
+
 Vec3 head_over(const Pose& origin_ws) {
     return transform_point(origin_ws, Vec3(0.0, k_eye_height_m, 0.0));
 }
-
-}  // namespace
 
 std::vector<Pose> spread_players(const Scene& scene, FrameCaches& caches, const Pose& first_ws,
                                  std::size_t count, std::uint64_t seed) {

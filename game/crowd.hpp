@@ -18,6 +18,9 @@ namespace handhold {
 std::vector<Pose> spread_players(const Scene& scene, FrameCaches& caches, const Pose& first_ws,
                                  std::size_t count, std::uint64_t seed);
 
+// Where the head of someone is who stands there at ease.
+Vec3 head_over(const Pose& origin_ws);
+
 // Many climbers in one scene.
 class Crowd {
   public:

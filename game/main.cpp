@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "game/built_in_scenes.hpp"
+#include "game/climber_session.hpp"
 #include "game/run_command.hpp"
 #include "game/scene.hpp"
 
@@ -39,6 +40,15 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
                  "With --out: files only, no pictures and no video");
 }
 
+void add_climb_options(CLI::App& climb, handhold::ClimbOptions& options) {
+    climb.add_option("--scene", options.scene, "As for run")->required();
+    climb.add_option("--spawn", options.spawn, "A spawn of the scene; default: its first");
+    climb.add_option("--seconds", options.seconds, "How long he climbs")
+        ->check(CLI::Range(0.1, 1e5));
+    climb.add_option("--seed", options.seed, "What he decides");
+    climb.add_option("--out", options.out, "The recording (.csv)")->required();
+}
+
 int list_scenes() {
     for (const std::string_view name : handhold::built_in_scenes()) {
         const auto scene = handhold::make_built_in_scene(name);
@@ -57,6 +67,10 @@ int main(int argc, char** argv) {
     CLI::App* const run =
         app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
+    handhold::ClimbOptions climb_options;
+    CLI::App* const climb =
+        app.add_subcommand("climb", "Record a session of a scripted climber who wanders");
+    add_climb_options(*climb, climb_options);
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -69,6 +83,9 @@ int main(int argc, char** argv) {
     }
     if (scenes->parsed()) {
         return list_scenes();
+    }
+    if (climb->parsed()) {
+        return handhold::climb_command(climb_options);
     }
     return handhold::run_command(options);
 }
