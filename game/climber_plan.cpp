@@ -29,6 +29,16 @@ std::optional<RayHit> look(const ClimberSight& sight, Entity player, const Vec3&
     return sight.collision.cast_ray(from_ws, to_ws, himself);
 }
 
+// The body of an id; null for a head. Bodies are few, entities are many.
+Entity body_of_id(const World& world, std::uint64_t id) {
+    for (const Entity body : world.body.owners()) {
+        if (world.persistent_id.at(body).value == id) {
+            return body;
+        }
+    }
+    return k_no_entity;
+}
+
 // A point that the eyes see.
 struct Seen {
     std::uint64_t id = 0;
@@ -80,7 +90,7 @@ bool is_loose(const Search& search, const RigidBody& body) {
 // Nothing where the hand cannot or should not go there.
 std::optional<Candidate> judge(const Search& search, const Seen& seen, double luck) {
     const World& world = search.sight.scene.world;
-    const Entity body = find_by_id(world, {seen.id});
+    const Entity body = body_of_id(world, seen.id);
     const RigidBody* const rigid = world.body.find(body);
     if (rigid == nullptr || (is_loose(search, *rigid) && !search.ask.loose_too)) {
         return std::nullopt;  // a head, or too light to climb on
@@ -263,7 +273,7 @@ std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, 
     for (int i = 0; i < k_directions; ++i) {
         const auto hit = look(sight, player, from_ws, from_ws + k_far_m * random.direction());
         if (hit && hit->distance_m < nearest_m &&
-            sight.scene.world.body.contains(find_by_id(sight.scene.world, {hit->id}))) {
+            !is_null(body_of_id(sight.scene.world, hit->id))) {
             id = hit->id;
             point_ws = hit->point_ws;
             nearest_m = hit->distance_m;
@@ -278,7 +288,7 @@ std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, 
         id = near->id;
         point_ws = near->point_ws;
     }
-    const Entity body = find_by_id(sight.scene.world, {id});
+    const Entity body = body_of_id(sight.scene.world, id);
     const BodyPose* const pose = sight.scene.world.body_pose.find(body);
     if (pose == nullptr) {
         return std::nullopt;  // another's head

@@ -18,6 +18,7 @@
 #include "engine/collision/bullet_sweep.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/pair_contact.hpp"
+#include "engine/collision/pair_memory.hpp"
 #include "engine/collision/shape_query.hpp"
 #include "engine/core/check.hpp"
 
@@ -204,6 +205,7 @@ struct CollisionWorld::Impl {
     std::vector<btDbvtNode*>
         parked;  // leaves without a body, kept in the tree: Bullet frees a removed leaf's memory
     PairScratch scratch;
+    PairMemory memory;
     ConvexShape sphere{Shape{}};  // of cast_sphere
     // Results of find_bodies: indices into `bodies`, in their order.
     mutable std::vector<std::size_t> found;
@@ -355,16 +357,25 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     HH_CHECK(limits.margin_m > 0.0, "margin_m must be positive", limits.margin_m);
     HH_CHECK(limits.sweep_m > 0.0, "sweep_m must be positive", limits.sweep_m);
     contacts.clear();
-    for (const Body& a : impl_->bodies) {
+    PairMemory& memory = impl_->memory;
+    memory.begin(limits);
+    for (const Body& body : impl_->bodies) {
+        memory.add(body.proxy);
+    }
+    for (std::size_t i = 0; i < impl_->bodies.size(); ++i) {
+        const Body& a = impl_->bodies[i];
         if (!a.proxy.free || a.leaf == nullptr) {
             continue;
         }
         impl_->find_bodies(a.bounds_ws.grown(limits.margin_m));
         for (const std::size_t index : impl_->found) {
             const Body& b = impl_->bodies[index];
-            if (impl_->is_pair(a, b)) {
-                impl_->find_pair(a, b, limits, contacts);
+            if (!impl_->is_pair(a, b) || memory.recall(i, index, contacts)) {
+                continue;
             }
+            const std::size_t first = contacts.size();
+            impl_->find_pair(a, b, limits, contacts);
+            memory.note(i, index, std::span(contacts).subspan(first));
         }
     }
 }
