@@ -93,8 +93,9 @@ void work_door(double t_s, SessionScript& script) {
     const Vec3 palm = pivot + down * (handle.palm - pivot);
     for (int i = 1; i <= 4; ++i) {
         const Quat open = rotation_about(Vec3::UnitY(), -0.3 * i);
-        script.reaches.push_back({HandSide::right, t_s + 0.9 + 0.5 * i, hinge + open * (palm - hinge),
-                                  open * down * handle.away, open * down * handle.fingers});
+        script.reaches.push_back({HandSide::right, t_s + 0.9 + 0.5 * i,
+                                  hinge + open * (palm - hinge), open * down * handle.away,
+                                  open * down * handle.fingers});
     }
 }
 

@@ -134,11 +134,38 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
     }
 }
 
+void CollisionWorld::Impl::recall_pairs(const ContactLimits& limits) {
+    memory.begin(limits);
+    for (const BroadphaseBody& body : broadphase.bodies()) {
+        memory.add(body.proxy);
+    }
+    met.clear();
+    for (const BodyPairs& body : body_pairs) {
+        for (std::size_t i = body.first; i < body.last; ++i) {
+            met.push_back({memory.recall(body.body, pairs[i]), 0});
+        }
+    }
+}
+
 void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
-                                            std::vector<ContactPoint>& contacts) const {
+                                            std::vector<ContactPoint>& contacts) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     for (std::size_t i = body.first; i < body.last; ++i) {
-        find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
+        const std::size_t before = contacts.size();
+        if (met[i].recalled) {
+            contacts.insert(contacts.end(), met[i].recalled->begin(), met[i].recalled->end());
+        } else {
+            find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
+        }
+        met[i].count = contacts.size() - before;
+    }
+}
+
+void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const ContactPoint> contacts) {
+    std::size_t first = 0;
+    for (std::size_t i = body.first; i < body.last; ++i) {
+        memory.note(body.body, pairs[i], contacts.subspan(first, met[i].count));
+        first += met[i].count;
     }
 }
 
@@ -168,19 +195,17 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     contacts.clear();
     Impl& world = *impl_;
     world.find_pairs(limits.margin_m);
-    if (thread_count() == 1 || world.body_pairs.size() < 2) {
-        for (const BodyPairs& body : world.body_pairs) {
-            world.find_contacts_of(body, limits, contacts);
-        }
-        return;
+    world.recall_pairs(limits);
+    if (world.found.size() < world.body_pairs.size()) {
+        world.found.resize(world.body_pairs.size());
     }
-    world.found.resize(std::max(world.found.size(), world.body_pairs.size()));
     auto find = [&](std::size_t i) {
         world.found[i].clear();
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };
     parallel_for(world.body_pairs.size(), find);
     for (std::size_t i = 0; i < world.body_pairs.size(); ++i) {
+        world.remember(world.body_pairs[i], world.found[i]);
         contacts.insert(contacts.end(), world.found[i].begin(), world.found[i].end());
     }
 }

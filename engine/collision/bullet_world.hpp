@@ -3,6 +3,7 @@
 #include "engine/collision/bullet_broadphase.hpp"
 #include "engine/collision/bullet_triangle_tree.hpp"
 #include "engine/collision/pair_contact.hpp"
+#include "engine/collision/pair_memory.hpp"
 
 // What a CollisionWorld holds.
 namespace handhold {
@@ -29,8 +30,11 @@ struct CollisionWorld::Impl {
     void find_pairs(double margin_m);
     void find_pair(const BroadphaseBody& a, const BroadphaseBody& b, const ContactLimits& limits,
                    std::vector<ContactPoint>& contacts) const;
+    // Asks the memory for every pair: what it has need not be met.
+    void recall_pairs(const ContactLimits& limits);
     void find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
-                          std::vector<ContactPoint>& contacts) const;
+                          std::vector<ContactPoint>& contacts);
+    void remember(const BodyPairs& body, std::span<const ContactPoint> contacts);
 
     const ShapeLibrary& shapes;
     std::vector<CollisionShape> cache;  // by shape
@@ -41,7 +45,13 @@ struct CollisionWorld::Impl {
     BroadphaseScratch broadphase_scratch;
     std::vector<BodyPairs> body_pairs;             // by rising id of a
     std::vector<std::size_t> pairs;                // numbers of the bodies b
-    std::vector<std::vector<ContactPoint>> found;  // by body_pairs, where threads share the work
+    std::vector<std::vector<ContactPoint>> found;  // by body_pairs: threads share the work
+    struct Met {
+        std::optional<std::span<const ContactPoint>> recalled;
+        std::size_t count = 0;  // contacts of the pair
+    };
+    std::vector<Met> met;  // by pairs
+    PairMemory memory;
 };
 
 }  // namespace handhold

@@ -87,9 +87,11 @@ class CollisionWorld {
     // Replaces the pairs that make no contacts; sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
-    // Contacts between all pairs with at least one free collider, made afresh: nothing of an
-    // earlier call is used. Replaces `contacts`; sorted by (id_a, id_b, feature). The bodies are
-    // shared out over the threads of parallel_for: the contacts do not depend on how many.
+    // Contacts between all pairs with at least one free collider. Nothing of an earlier call shows:
+    // what did not move since the last call has, bit for bit, the contacts it would have in a new
+    // world. Replaces `contacts`; sorted by (id_a, id_b, feature). The
+    // bodies are shared out over the threads of parallel_for: the contacts do not depend on how
+    // many.
     //
     // A pair that moved less than limits.sweep_m against each other is met at to_ws. Else a's way,
     // relative to b, is swept from from_ws to to_ws, and the contacts are those at the place of
