@@ -16,7 +16,8 @@ Quat any_rotation(Random& random) {
 
 }  // namespace
 
-HostilePlayer::HostilePlayer(std::uint64_t seed) : random_(mix64(seed)) {
+HostilePlayer::HostilePlayer(std::uint64_t seed, double far_jump_m)
+    : random_(mix64(seed)), far_jump_m_(far_jump_m) {
     head_.at.position = head_.to = k_head_rest;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const Vec3 rest(side == 0 ? -k_hand_rest.x() : k_hand_rest.x(), k_hand_rest.y(),
@@ -40,7 +41,7 @@ void HostilePlayer::move(Device& device, double reach_m, double dt_s) {
     }
     if (random_.chance(0.0005)) {
         const Vec3 by = random_.cube();
-        device.at.position += 5000.0 * by;  // a far one
+        device.at.position += far_jump_m_ * by;
     }
     device.lost = random_.chance(0.01) != device.lost;
     device.grab = random_.chance(0.04) != device.grab;

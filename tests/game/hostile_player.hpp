@@ -12,7 +12,8 @@ namespace handhold {
 // and of times that make no sense, buttons mashed, sticks that say anything. Seeded.
 class HostilePlayer {
   public:
-    explicit HostilePlayer(std::uint64_t seed);
+    // far_jump_m: how far devices jump now and then; 0: never farther than a metre or two.
+    HostilePlayer(std::uint64_t seed, double far_jump_m);
 
     // Input of the frame from start_s to end_s; the samples stay good until the next call.
     PlayerInput play(Entity player, double start_s, double end_s);
@@ -29,6 +30,7 @@ class HostilePlayer {
     double broken_number();
 
     Random random_;
+    double far_jump_m_;
     Device head_;
     std::array<Device, k_hand_count> hands_;
     std::vector<TrackingSample> samples_;

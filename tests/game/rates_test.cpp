@@ -1,9 +1,11 @@
 // One session, looked at more or less often: paths on a single support and without contacts do not
 // depend on the frame rate, nor on frames that were dropped. Expected values are those of a much
 // higher rate; the limits are the design's: 5 mm and 1 % of the distance drifted.
-#include <array>
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,37 +72,46 @@ Recording record(std::uint64_t seed) {
     return record_climb(scene, plan);
 }
 
-class SessionRates : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(SessionRates, SingleSupportPathsAgree) {
-    const Recording recording = record(GetParam());
-    const auto keep_all = [](int) { return false; };
-    const Path expected = play(recording, 720.0, keep_all);
-    if (expected.collided) {
-        GTEST_SKIP() << "this climber's head came near a wall";
-    }
-    const auto compare = [&](const Path& path, const char* what, double hz) {
-        EXPECT_FALSE(path.collided) << what << hz;
-        double worst = 0.0;
-        for (std::size_t i = 0; i < expected.origins_ws.size(); ++i) {
-            if (!path.origins_ws[i]) {
-                continue;
-            }
-            const double off_m = (*path.origins_ws[i] - *expected.origins_ws[i]).norm();
-            worst = std::max(worst, off_m);
-            ASSERT_LE(off_m, 0.005 + 0.01 * expected.drifted_m[i])
-                << what << hz << " Hz at " << static_cast<double>(i + 1) / k_compare_hz << " s";
+// Fails where a path leaves the expected one; the farthest that it is off, in metres.
+double compare(const Path& path, const Path& expected, const std::string& what) {
+    EXPECT_FALSE(path.collided) << what;
+    double worst_m = 0.0;
+    for (std::size_t i = 0; i < expected.origins_ws.size(); ++i) {
+        if (!path.origins_ws[i]) {
+            continue;
         }
-        std::printf("seed %d %s %.0f Hz: worst %.2f mm, drifted %.2f m\n",
-                    static_cast<int>(GetParam()), what, hz, worst * 1e3, expected.drifted_m.back());
-    };
-    for (const double hz : {60.0, 72.0, 90.0, 120.0, 144.0}) {
-        compare(play(recording, hz, keep_all), "even", hz);
-        Random chance(GetParam());
-        compare(play(recording, hz, [&chance](int) { return chance.chance(0.1); }), "dropped", hz);
+        const double off_m = (*path.origins_ws[i] - *expected.origins_ws[i]).norm();
+        worst_m = std::max(worst_m, off_m);
+        EXPECT_LE(off_m, 0.005 + 0.01 * expected.drifted_m[i])
+            << what << " at " << static_cast<double>(i + 1) / k_compare_hz << " s";
     }
+    return worst_m;
 }
-INSTANTIATE_TEST_SUITE_P(Climbers, SessionRates, testing::Range<std::uint64_t>(1, 9));
+
+TEST(SessionRates, SingleSupportPathsAgree) {
+    const auto keep_all = [](int) { return false; };
+    int sessions = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Recording recording = record(seed);
+        const Path expected = play(recording, 720.0, keep_all);
+        if (expected.collided) {
+            continue;  // a head that touches something is another matter
+        }
+        ++sessions;
+        double worst_m = 0.0;
+        for (const double hz : {60.0, 72.0, 90.0, 120.0, 144.0}) {
+            const std::string what =
+                "climber " + std::to_string(seed) + " at " + std::to_string(hz) + " Hz";
+            worst_m = std::max(worst_m, compare(play(recording, hz, keep_all), expected, what));
+            Random chance(seed);
+            const Path dropped = play(recording, hz, [&chance](int) { return chance.chance(0.1); });
+            worst_m = std::max(worst_m, compare(dropped, expected, what + ", a tenth dropped"));
+        }
+        std::printf("climber %d: at most %.2f mm off after %.2f m of drift\n",
+                    static_cast<int>(seed), 1e3 * worst_m, expected.drifted_m.back());
+    }
+    EXPECT_GE(sessions, 4);
+}
 
 }  // namespace
 }  // namespace handhold

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/text_file.hpp"
+#include "game/climber_session.hpp"
 
 namespace handhold {
 namespace {
@@ -75,6 +76,66 @@ TEST_F(RunCommand, SceneFileWithItsOwnPlayersRuns) {
         "players": [{"name": "one", "spawn": "a"}, {"name": "two", "spawn": "b", "mass_kg": 60}]})");
     options.seconds = 0.5;
     EXPECT_EQ(run(options), 0) << err_;
+}
+
+TEST_F(RunCommand, SeveralPlayersAreAllInTheFilesAndTheFirstPlaysTheSession) {
+    const auto first_rows = [this](int players) {
+        RunOptions options;
+        options.scene = "station";
+        options.seconds = 1.0;
+        options.players = players;
+        options.pictures = false;
+        options.out = (folder_ / "out").string();
+        EXPECT_EQ(run(options), 0) << err_;
+        const std::string csv = read_file(folder_ / "out" / "frames.csv").value();
+        EXPECT_EQ(lines_of(csv), 1 + 90 * static_cast<std::size_t>(players));
+        const auto report =
+            nlohmann::json::parse(read_file(folder_ / "out" / "report.json").value());
+        EXPECT_EQ(report["players"].size(), static_cast<std::size_t>(players));
+        EXPECT_GT(report["bytes_per_player"], 1000);
+        return report["players"][0]["path_m"].get<double>();
+    };
+    // The others climb elsewhere: what the first does is his session, as when he is alone.
+    EXPECT_EQ(first_rows(3), first_rows(1));
+}
+
+TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
+    RunOptions options;
+    options.scene = "ship";
+    options.seconds = 1.0;
+    options.players = 2;
+    options.climbers = true;
+    ASSERT_EQ(run(options), 0) << err_;
+    EXPECT_NE(out_.find("90 frames at 90 Hz, 1.00 s simulated"), std::string::npos) << out_;
+    EXPECT_NE(out_.find("2 players, "), std::string::npos) << out_;
+}
+
+TEST_F(RunCommand, RefusesMorePlayersThanThereIsRoomFor) {
+    RunOptions options;
+    options.scene = write("void.json", R"({"name": "void"})");
+    options.players = 2;
+    options.seconds = 0.1;
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("expected room for 2 players, found it for 1"), std::string::npos) << err_;
+}
+
+TEST_F(RunCommand, PlaysWhatTheClimbCommandRecorded) {
+    ClimbOptions climb;
+    climb.scene = "station";
+    climb.seconds = 3.0;
+    climb.out = (folder_ / "climb.csv").string();
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(climb_command(climb), 0);
+    testing::internal::GetCapturedStdout();
+    RunOptions options;
+    options.scene = "station";
+    options.input = climb.out;
+    EXPECT_EQ(run(options), 0) << err_;
+    EXPECT_EQ(out_.find("grabs: 0 onsets"), std::string::npos) << out_;
+    climb.spawn = "nowhere";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(climb_command(climb), 2);
+    EXPECT_EQ(lines_of(testing::internal::GetCapturedStderr()), 1U);
 }
 
 TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
