@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "engine/core/check.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
+#include "game/station_scene.hpp"
 
 namespace handhold {
 namespace {
@@ -75,19 +77,21 @@ SessionScript station_script() {
     return script;
 }
 
+// The game's own description, built without a file in between.
 Scene make_station_scene() {
-    Scene scene = empty_scene(
-        "station", "three modules round a node: rails, racks and hatches to crawl along");
-    Structure station = make_station();
-    for (std::size_t i = 0; i < station.parts.size(); ++i) {
-        const std::string name = station.parts[i].name;
-        add_static_mesh(scene, name, std::make_shared<const Mesh>(std::move(station.parts[i])), {},
-                        station.looks[i]);
-    }
-    scene.lamps = station.lamps;
-    scene.spawns.push_back({"rail", session_origin(station_script())});
-    add_spawns(station, scene);
-    return scene;
+    StationScene station = make_station_scene(own_station_description());
+    add_session_spawn(station.scene);
+    const auto find_model = [&station](const std::filesystem::path& file) -> Result<GltfLevel> {
+        for (const StationModel& model : station.models) {
+            if (model.file == file) {
+                return level_of(model.structure);
+            }
+        }
+        return FileError{file.string(), "", "expected one of the station's models"};
+    };
+    Result<Scene> scene = build_scene(station.scene, "station.json", find_model);
+    HH_CHECK(scene.ok(), "the game's own station is refused", station.models.size());
+    return std::move(scene.value());
 }
 
 // --- ship
@@ -179,6 +183,7 @@ Scene make_ship_scene() {
     scene.visuals.push_back(
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
+    scene.lamps_body = scene.world.mover.owners()[0];
     scene.spawns.push_back({"rail", session_origin(ship_script())});
     add_spawns(ship, scene);
     return scene;
@@ -196,6 +201,13 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
         return make_ship_scene();
     }
     return std::nullopt;
+}
+
+void add_session_spawn(SceneFile& scene) {
+    if (!scene.session || scene.session->built_in != "station") {
+        return;
+    }
+    scene.spawns.insert(scene.spawns.begin(), {"rail", session_origin(station_script())});
 }
 
 std::optional<Recording> make_built_in_session(std::string_view name) {

@@ -197,7 +197,7 @@ TEST(Station, RailsAreThreeCentimetresClearOfEveryWall) {
 TEST(Station, RailSpansLieOnTheirBars) {
     for (const HandrailSpan& rail : station().rails) {
         const Vec3 middle = 0.37 * rail.start + 0.63 * rail.end;
-        // The bar is a prism of twelve sides: its surface lies between both radii off the axis,
+        // The bar is a prism of ten sides: its surface lies between both radii off the axis,
         // unless a post is near.
         EXPECT_LE(clearance(station(), middle, 0.1, Count::everything), rail.radius_m + 1e-9)
             << rail.name;
