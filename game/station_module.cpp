@@ -257,7 +257,7 @@ void dress_hatch_plate(StationKit& kit, const Pose& frame, const std::string& na
             kit.panel(Material::panel, turned, Vec3(half * 0.40, -0.008, 0.915),
                       Vec3(0.335, 0.018, 0.155));
         }
-        kit.panel(Material::metal, turned, Vec3(0.0, -0.004, 0.915), Vec3(0.055, 0.020, 0.165));
+        kit.panel(Material::metal, turned, Vec3(0.0, -0.008, 0.915), Vec3(0.055, 0.020, 0.165));
         kit.block(Material::accent, turned, Vec3(0.40, 0.010, 1.00), Vec3(0.070, 0.0015, 0.010));
         if (rails == HatchRails::beside && side % 2 == 0) {
             continue;

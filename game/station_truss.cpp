@@ -73,7 +73,7 @@ void add_loads(StationKit& kit, const Pose& pose, const StationSection& section)
             for (const double side : {-1.0, 1.0}) {
                 kit.add(Material::foil,
                         make_capsule(Vec3(side * 0.17, -0.05, z - 0.22),
-                                     Vec3(side * 0.17, -0.05, z + 0.22), 0.14, 14),
+                                     Vec3(side * 0.17, -0.05, z + 0.22), 0.14, 12),
                         pose);
                 kit.beam(Material::metal, pose, Vec3(side * 0.17, -0.05, z),
                          Vec3(0.148, 0.148, 0.02));
@@ -98,7 +98,7 @@ void add_loads(StationKit& kit, const Pose& pose, const StationSection& section)
 // Along +Z: an arm and ten panels of solar cells in the plane of X and Z.
 void add_wing(StationKit& kit, const Pose& pose) {
     kit.beam(Material::metal, pose, Vec3(0.0, 0.0, 3.65), Vec3(0.035, 0.035, 3.65));
-    kit.add(Material::hull, make_cylinder(Vec3(0, 0, 0.0), Vec3(0, 0, 0.5), 0.16, 24), pose);
+    kit.add(Material::hull, make_cylinder(Vec3(0, 0, 0.0), Vec3(0, 0, 0.5), 0.16, 16), pose);
     for (int cell = 0; cell < 5; ++cell) {
         const double z = 1.30 + 1.30 * cell;
         for (const double half : {-1.0, 1.0}) {
@@ -129,8 +129,8 @@ void add_radiator(StationKit& kit, const Pose& pose) {
 }
 
 void add_dish(StationKit& kit, const Pose& pose) {
-    kit.add(Material::metal, make_cylinder(Vec3(0, 0, 0), Vec3(0, 0, 0.75), 0.035, 16), pose);
-    const Pose bowl = pose * Pose{Vec3(0.0, 0.0, 0.75), rotation_about(Vec3(0.8, 0.6, 0.0), 0.6)};
+    kit.add(Material::metal, make_cylinder(Vec3(0, 0, 0), Vec3(0, 0, 1.20), 0.035, 12), pose);
+    const Pose bowl = pose * Pose{Vec3(0.0, 0.0, 1.20), rotation_about(Vec3(0.8, 0.6, 0.0), 0.6)};
     const std::array<ProfilePoint, 7> profile = {{{0.05, -0.04},
                                                   {0.30, 0.02},
                                                   {0.55, 0.14},
@@ -138,13 +138,13 @@ void add_dish(StationKit& kit, const Pose& pose) {
                                                   {0.69, 0.275},
                                                   {0.28, 0.05},
                                                   {0.04, 0.0}}};
-    kit.add(Material::hull, make_revolved(profile, 32), bowl);
+    kit.add(Material::hull, make_revolved(profile, 24), bowl);
     for (int strut = 0; strut < 3; ++strut) {
         const Quat turn = rotation_about(Vec3::UnitZ(), strut * 4.0 / 3.0 * k_half_pi);
         kit.add(Material::metal,
                 make_cylinder(turn * Vec3(0.5, 0.0, 0.12), Vec3(0.0, 0.0, 0.55), 0.010, 8), bowl);
     }
-    kit.add(Material::dark, make_cylinder(Vec3(0, 0, 0.47), Vec3(0, 0, 0.60), 0.045, 16), bowl);
+    kit.add(Material::dark, make_cylinder(Vec3(0, 0, 0.47), Vec3(0, 0, 0.60), 0.045, 10), bowl);
 }
 
 }  // namespace
