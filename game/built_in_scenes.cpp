@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "game/robot_scene.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
 #include "game/station_scene.hpp"
@@ -191,7 +192,7 @@ Scene make_ship_scene() {
 
 }  // namespace
 
-std::vector<std::string_view> built_in_scenes() { return {"station", "ship"}; }
+std::vector<std::string_view> built_in_scenes() { return {"station", "ship", "robot"}; }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "station") {
@@ -199,6 +200,9 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
     }
     if (name == "ship") {
         return make_ship_scene();
+    }
+    if (name == "robot") {
+        return make_robot_scene();
     }
     return std::nullopt;
 }
@@ -217,6 +221,9 @@ std::optional<Recording> make_built_in_session(std::string_view name) {
     }
     if (name == "ship") {
         return record_session(ship_script(), tuning);
+    }
+    if (name == "robot") {
+        return record_session(robot_script(), tuning);
     }
     return std::nullopt;
 }
