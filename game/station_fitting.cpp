@@ -49,11 +49,11 @@ void add_plant(StationKit& kit, const Pose& frame, const Vec3& foot, double heig
         double sine = 0.0;
         double cosine = 1.0;
         sin_cos(2.4 * leaf + 6.0 * chance(seed, 2, 0), sine, cosine);
-        const double lean = 0.025 + 0.035 * chance(seed, 3, salt);
+        const double lean = 0.045 + 0.055 * chance(seed, 3, salt);
         const double rise = height * (0.65 + 0.35 * chance(seed, 4, salt));
         const Vec3 root = foot + 0.12 * lean * Vec3(cosine, 0.0, sine);
         add_leaf(kit, frame, root, foot + Vec3(lean * cosine, rise, lean * sine),
-                 0.016 + 0.010 * chance(seed, 5, salt));
+                 0.022 + 0.014 * chance(seed, 5, salt));
     }
 }
 
@@ -69,7 +69,7 @@ void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed)
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 5; ++column) {
                 const auto salt = static_cast<std::size_t>(15 * tray + 5 * row + column);
-                if (chance(seed, 31, salt) < 0.12) {
+                if (chance(seed, 31, salt) < 0.18) {
                     continue;  // harvested
                 }
                 const Vec3 foot(-0.33 + 0.165 * column, -0.202, z + (row - 1) * 0.125);

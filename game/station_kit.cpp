@@ -160,7 +160,8 @@ void StationKit::hose(Material material, const Pose& frame, std::span<const Vec3
         }
     }
     path.push_back(points.back());
-    add(material, make_tube(path, radius_m, 8), frame);
+    // A wide one is turned smooth: twelve sides meet at 30 degrees.
+    add(material, make_tube(path, radius_m, radius_m > 0.046 ? 12 : 6), frame);
 }
 
 void StationKit::bracket(Material material, const Pose& frame, const Vec3& foot, double width_m) {

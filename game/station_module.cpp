@@ -123,7 +123,7 @@ void add_cables(StationKit& kit, const Pose& frame, const Module& module, std::s
         }
         const double radius = 0.011 + 0.004 * chance(module.section.seed, cable, corner);
         const Material material = cable == 1 ? Material::accent : Material::cable;
-        kit.add(material, make_tube(path, radius, 5), frame);
+        kit.add(material, make_tube(path, radius, 4), frame);
     }
 }
 
@@ -165,7 +165,7 @@ void add_outside(StationKit& kit, const Module& module) {
         for (int band = 0; band < 4; ++band) {
             const double z = length * (band + 1) / 4.0;
             if (band == 3 ||
-                chance(module.section.seed, step, static_cast<std::size_t>(band)) < 0.55) {
+                chance(module.section.seed, step, static_cast<std::size_t>(band)) < 0.42) {
                 continue;
             }
             const bool is_accent =
@@ -204,7 +204,7 @@ void add_door(StationKit& kit, const Pose& frame) {
                                       hatch_outline(0.42, -0.03)};
     kit.add(Material::panel, make_loft(door, LoftEnds::capped), out);
     kit.add(Material::metal, make_cylinder(Vec3(0, 0, -0.05), Vec3(0, 0, 0.06), 0.055, 24), out);
-    kit.add(Material::rail, make_torus(0.20, k_rail_radius_m, 24, 8),
+    kit.add(Material::rail, make_torus(0.20, k_rail_radius_m, 20, 8),
             out * Pose{Vec3(0.0, 0.0, 0.055), Quat::Identity()});
     for (int spoke = 0; spoke < 3; ++spoke) {
         const Quat turn = rotation_about(Vec3::UnitZ(), spoke * k_half_pi * 4.0 / 3.0);

@@ -30,17 +30,14 @@ void add_front(StationKit& kit, Material material, const Pose& frame, const Cell
 void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     const bool is_accent = chance(seed, 1, 0) < 0.22;
     add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell, 0.0);
-    // Sunk handle plate with a bar over it, latches in the corners, a label.
+    // Sunk handle plate with a bar over it, a latch at its end, a label.
     kit.block(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
     const std::array<Vec3, 4> bar = {on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.056, 0.017, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.062, -0.004, 0.0)};
     kit.add(Material::metal, make_tube(bar, 0.0055, 4), frame);
-    for (const double side : {-1.0, 1.0}) {
-        kit.block(Material::metal, frame, on_face(cell, 0.86 * side, 0.0, 0.0),
-                  Vec3(0.010, 0.005, 0.016));
-    }
+    kit.block(Material::metal, frame, on_face(cell, 0.86, 0.0, 0.0), Vec3(0.010, 0.005, 0.016));
     kit.block(is_accent ? Material::panel : Material::accent, frame,
               on_face(cell, -0.58, 0.0, 0.55), Vec3(0.045, 0.0015, 0.009));
 }

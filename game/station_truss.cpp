@@ -109,7 +109,6 @@ void add_wing(StationKit& kit, const Pose& pose) {
                 kit.block(Material::metal, pose, Vec3(x, 0.0125, z + line),
                           Vec3(0.64, 0.0025, 0.004));
             }
-            kit.block(Material::metal, pose, Vec3(x, 0.0135, z), Vec3(0.004, 0.0025, 0.60));
         }
     }
 }
