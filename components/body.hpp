@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "engine/anim/crawler_leg.hpp"
+#include "engine/anim/pose_path.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
@@ -60,6 +62,21 @@ struct Mover {
     Vec3 velocity_ws_mps = Vec3::Zero();  // at time 0
     Vec3 angular_velocity_ws_radps = Vec3::Zero();
     bool turns_with_body = false;  // the velocity keeps its direction in the body's frame
+};
+
+// A kinematic body that goes round a closed path. Read by animate_movers, also for the legs of the
+// body.
+struct PathMover {
+    PosePath path;
+};
+
+// A kinematic body that is one bone of a crawling leg: a capsule or box about the bone's middle
+// with its length along Y. Read by animate_movers.
+struct LegMover {
+    Entity torso = k_no_entity;  // has a PathMover; without one the bone stays where it is
+    CrawlerLeg leg;
+    CrawlerGait gait;
+    LegBone bone = LegBone::upper;
 };
 
 }  // namespace handhold

@@ -80,6 +80,44 @@ void visit_fields(const JointState& c, V&& visit) {
     visit("latched", c.latched);
 }
 template <typename V>
+void visit_fields(const PathKey& c, V&& visit) {
+    visit("pose", c.pose);
+    visit("velocity_mps", c.velocity_mps);
+    visit("quaternion_rate", c.quaternion_rate);
+}
+template <typename V>
+void visit_fields(const PosePath& c, V&& visit) {
+    visit("keys", c.keys);
+    visit("count", c.count);
+    visit("period_s", c.period_s);
+}
+template <typename V>
+void visit_fields(const PathMover& c, V&& visit) {
+    visit("path", c.path);
+}
+template <typename V>
+void visit_fields(const CrawlerLeg& c, V&& visit) {
+    visit("hip_bs", c.hip_bs);
+    visit("foot_bs", c.foot_bs);
+    visit("knee_bs", c.knee_bs);
+    visit("upper_m", c.upper_m);
+    visit("lower_m", c.lower_m);
+    visit("phase", c.phase);
+}
+template <typename V>
+void visit_fields(const CrawlerGait& c, V&& visit) {
+    visit("step_s", c.step_s);
+    visit("standing", c.standing);
+    visit("lift_m", c.lift_m);
+}
+template <typename V>
+void visit_fields(const LegMover& c, V&& visit) {
+    visit("torso", c.torso);
+    visit("leg", c.leg);
+    visit("gait", c.gait);
+    visit("bone", c.bone);
+}
+template <typename V>
 void visit_fields(const PlayerBody& c, V&& visit) {
     visit("mass_kg", c.mass_kg);
 }

@@ -33,6 +33,8 @@ struct World {
     Column<BodyVelocity> body_velocity;  // every body
     Column<Collider> collider;           // bodies that can be touched; players: the head
     Column<Mover> mover;                 // kinematic bodies that move by themselves
+    Column<PathMover> path_mover;        // kinematic bodies on closed paths
+    Column<LegMover> leg_mover;          // bones of those bodies' legs
     Column<LastValidPose> last_valid;    // free bodies and players
 
     Column<Joint> joint;
@@ -66,6 +68,8 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("body_velocity", world.body_velocity);
     visit("collider", world.collider);
     visit("mover", world.mover);
+    visit("path_mover", world.path_mover);
+    visit("leg_mover", world.leg_mover);
     visit("last_valid", world.last_valid);
     visit("joint", world.joint);
     visit("joint_state", world.joint_state);

@@ -2,10 +2,13 @@
 
 #include <utility>
 
+#include "engine/core/check.hpp"
 #include "game/crowd_scene.hpp"
 #include "game/playground.hpp"
+#include "game/robot_scene.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
+#include "game/station_scene.hpp"
 
 namespace handhold {
 namespace {
@@ -32,9 +35,9 @@ void add_spawns(const Structure& structure, Scene& scene) {
 }
 
 // The parts lie in one frame: any of their bodies carries the rails.
-void add_rails(const Structure& structure, Entity body, Scene& scene) {
-    for (const HandrailSpan& rail : structure.rails) {
-        scene.rails.push_back({body, rail.start, rail.end});
+void add_rails(const std::vector<HandrailSpan>& rails, Scene& scene) {
+    for (const HandrailSpan& rail : rails) {
+        scene.rails.push_back({scene.visuals.front().body, rail.start, rail.end});
     }
 }
 
@@ -84,20 +87,22 @@ SessionScript station_script() {
     return script;
 }
 
+// The game's own description, built without a file in between.
 Scene make_station_scene() {
-    Scene scene = empty_scene(
-        "station", "three modules round a node: rails, racks and hatches to crawl along");
-    Structure station = make_station();
-    for (std::size_t i = 0; i < station.parts.size(); ++i) {
-        const std::string name = station.parts[i].name;
-        add_static_mesh(scene, name, std::make_shared<const Mesh>(std::move(station.parts[i])), {},
-                        station.looks[i]);
-    }
-    scene.lamps = station.lamps;
-    scene.spawns.push_back({"rail", session_origin(station_script())});
-    add_spawns(station, scene);
-    add_rails(station, scene.visuals.front().body, scene);
-    return scene;
+    StationScene station = make_station_scene(own_station_description());
+    add_session_spawn(station.scene);
+    const auto find_model = [&station](const std::filesystem::path& file) -> Result<GltfLevel> {
+        for (const StationModel& model : station.models) {
+            if (model.file == file) {
+                return level_of(model.structure);
+            }
+        }
+        return FileError{file.string(), "", "expected one of the station's models"};
+    };
+    Result<Scene> scene = build_scene(station.scene, "station.json", find_model);
+    HH_CHECK(scene.ok(), "the game's own station is refused", station.models.size());
+    add_rails(station_rails(), scene.value());
+    return std::move(scene.value());
 }
 
 // --- ship
@@ -189,9 +194,10 @@ Scene make_ship_scene() {
     scene.visuals.push_back(
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
+    scene.lamps_body = scene.world.mover.owners()[0];
     scene.spawns.push_back({"rail", session_origin(ship_script())});
     add_spawns(ship, scene);
-    add_rails(ship, scene.visuals.front().body, scene);
+    add_rails(ship.rails, scene);
     return scene;
 }
 
@@ -211,7 +217,7 @@ Scene make_crowd_scene() {
 }  // namespace
 
 std::vector<std::string_view> built_in_scenes() {
-    return {"station", "ship", "playground", "crowd"};
+    return {"station", "ship", "playground", "robot", "crowd"};
 }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
@@ -224,10 +230,20 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "playground") {
         return make_playground_scene();
     }
+    if (name == "robot") {
+        return make_robot_scene();
+    }
     if (name == "crowd") {
         return make_crowd_scene();
     }
     return std::nullopt;
+}
+
+void add_session_spawn(SceneFile& scene) {
+    if (!scene.session || scene.session->built_in != "station") {
+        return;
+    }
+    scene.spawns.insert(scene.spawns.begin(), {"rail", session_origin(station_script())});
 }
 
 std::optional<Recording> make_built_in_session(std::string_view name) {
@@ -240,6 +256,9 @@ std::optional<Recording> make_built_in_session(std::string_view name) {
     }
     if (name == "playground") {
         return record_session(playground_script(), tuning);
+    }
+    if (name == "robot") {
+        return record_session(robot_script(), tuning);
     }
     return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
 #include "game/render/video_writer.hpp"
+#include "game/scene_picture.hpp"
 
 namespace handhold {
 namespace {
@@ -63,9 +64,7 @@ struct SessionFilm::Impl {
             return std::nullopt;
         }
         Stage stage{std::move(*renderer), {}, {}, {}};
-        for (const SceneVisual& visual : scene.visuals) {
-            stage.visuals.push_back(stage.renderer.add_mesh(*visual.mesh));
-        }
+        stage.visuals = add_scene_meshes(scene, stage.renderer);
         stage.head = add_all(stage.renderer, make_head());
         for (std::size_t side = 0; side < k_hand_count; ++side) {
             const FigureSide figure = side == 0 ? FigureSide::left : FigureSide::right;
@@ -142,21 +141,8 @@ struct SessionFilm::Impl {
     }
 
     void draw(Stage& stage, View view, double fov_rad) {
-        const World& world = scene.world;
-        RenderFrame frame;
-        frame.backdrop = Backdrop::space;
-        frame.up_ws = scene.up_ws;
-        frame.lamps = scene.lamps;
-        if (scene.lamps.empty()) {
-            frame.head_light = 0.55F;  // a level without lamps of its own
-        }
-        for (std::size_t i = 0; i < scene.visuals.size(); ++i) {
-            const SceneVisual& visual = scene.visuals[i];
-            frame.instances.push_back({stage.visuals[i], world.body_pose.at(visual.body).pose_ws,
-                                       visual.color, visual.look});
-        }
-        move_lamps(frame);
-        const auto players = world.render_pose.rows();
+        RenderFrame frame = make_scene_frame(scene, stage.visuals);
+        const auto players = scene.world.render_pose.rows();
         for (std::size_t i = 0; i < players.size(); ++i) {
             add_figures(stage, players[i], view, i == 0, frame);
         }
@@ -164,17 +150,6 @@ struct SessionFilm::Impl {
             view == View::first_person ? players[0].head_ws : outside_camera(players[0]);
         frame.camera.vertical_fov_rad = fov_rad;
         stage.renderer.draw(frame, image);
-    }
-
-    // The lamps of a ship fly with it: they are given in the frame of the first kinematic body.
-    void move_lamps(RenderFrame& frame) const {
-        if (scene.world.mover.empty()) {
-            return;
-        }
-        const Pose& ship = scene.world.body_pose.at(scene.world.mover.owners()[0]).pose_ws;
-        for (Lamp& lamp : frame.lamps) {
-            lamp.position_ws = transform_point(ship, lamp.position_ws);
-        }
     }
 
     void add_shot(View view, const FrameLog& frame) {

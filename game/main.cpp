@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "game/build_station_command.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
+#include "game/picture_command.hpp"
 #include "game/run_command.hpp"
 #include "game/scene.hpp"
 
@@ -49,6 +51,18 @@ void add_climb_options(CLI::App& climb, handhold::ClimbOptions& options) {
     climb.add_option("--out", options.out, "The recording (.csv)")->required();
 }
 
+void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) {
+    pictures.add_option("--scene", options.scene, "As of run")->required();
+    pictures.add_option("--out", options.out, "A folder for <spawn>.png")->required();
+    pictures.add_option("--spawn", options.spawn, "Only this one");
+    pictures.add_option("--yaw", options.yaw_deg, "Degrees to the left of where the spawn faces");
+    pictures.add_option("--pitch", options.pitch_deg, "Degrees up");
+    pictures.add_option("--seconds", options.seconds, "After so many seconds without a player")
+        ->check(CLI::Range(0.0, 1e4));
+    pictures.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
+    pictures.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
+}
+
 int list_scenes() {
     for (const std::string_view name : handhold::built_in_scenes()) {
         const auto scene = handhold::make_built_in_scene(name);
@@ -71,6 +85,16 @@ int main(int argc, char** argv) {
     CLI::App* const climb =
         app.add_subcommand("climb", "Record a session of a scripted climber who wanders");
     add_climb_options(*climb, climb_options);
+    handhold::PictureOptions picture_options;
+    CLI::App* const pictures =
+        app.add_subcommand("pictures", "Draw what is seen from each spawn of a scene");
+    add_picture_options(*pictures, picture_options);
+    handhold::BuildStationOptions station_options;
+    CLI::App* const build_station = app.add_subcommand(
+        "build-station", "Write a station's scene file and its models from a description");
+    build_station->add_option("description", station_options.description,
+                              "A .json; default: the game's own station");
+    build_station->add_option("--out", station_options.out, "A folder")->required();
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -86,6 +110,12 @@ int main(int argc, char** argv) {
     }
     if (climb->parsed()) {
         return handhold::climb_command(climb_options);
+    }
+    if (build_station->parsed()) {
+        return handhold::build_station_command(station_options);
+    }
+    if (pictures->parsed()) {
+        return handhold::picture_command(picture_options);
     }
     return handhold::run_command(options);
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "components/tuning_json.hpp"
-#include "engine/io/gltf.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/render/level_meshes.hpp"
 #include "game/render/mesh_edit.hpp"
@@ -35,7 +34,8 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
 // Builds a scene file's bodies one by one; the first error is kept and ends it.
 class SceneBuilder {
   public:
-    SceneBuilder(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
+    SceneBuilder(const SceneFile& file, const LevelSource& levels, Scene& scene)
+        : file_(file), levels_(levels), scene_(scene) {}
 
     std::optional<FileError> build() {
         for (const SceneLevel& level : file_.levels) {
@@ -48,6 +48,10 @@ class SceneBuilder {
             if (!error_) {
                 add_scene_joint(joint);
             }
+        }
+        for (Lamp lamp : file_.lamps) {
+            lamp.position_ws = transform_point(file_.world_transform, lamp.position_ws);
+            scene_.lamps.push_back(lamp);
         }
         for (const SceneSpawn& spawn : file_.spawns) {
             scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
@@ -63,7 +67,7 @@ class SceneBuilder {
         if (error_) {
             return std::nullopt;
         }
-        Result<GltfLevel> level = load_gltf_level(path);
+        Result<GltfLevel> level = levels_(path);
         if (!level) {
             error_ = level.error();
             return std::nullopt;
@@ -90,12 +94,21 @@ class SceneBuilder {
                     add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
         }
-        for (Mesh& mesh : make_level_meshes(*loaded)) {
-            if (!bodies.empty()) {  // level meshes stand still together: any of its bodies carries
-                                    // the picture
-                scene_.visuals.push_back(
-                    {bodies.front(), placed_mesh(std::move(mesh), level), std::nullopt, {}});
+        if (!bodies.empty()) {  // they stand still together: any of them carries the pictures
+            for (LevelMesh& part : make_level_meshes(*loaded)) {
+                scene_.visuals.push_back({bodies.front(), placed_mesh(std::move(part.mesh), level),
+                                          std::nullopt, part.look});
             }
+        }
+    }
+
+    // A model that is drawn instead of the body's shape.
+    void add_visuals(Entity body, const GltfLevel& model, const Pose& pose_bs) {
+        SceneLevel placed;
+        placed.pose = pose_bs;
+        for (LevelMesh& part : make_level_meshes(model)) {
+            scene_.visuals.push_back(
+                {body, placed_mesh(std::move(part.mesh), placed), std::nullopt, part.look});
         }
     }
 
@@ -207,19 +220,14 @@ class SceneBuilder {
         const Entity entity = add_body(scene_.world, description);
         scene_.body_names.push_back(body.name);
         if (body.kind == BodyKind::kinematic) {
-            const Mover mover{description.pose_ws, turned(body.motion.velocity_mps),
-                              turned(body.motion.angular_velocity_radps),
-                              body.motion.turns_with_body};
-            scene_.world.mover.add(entity, mover);
-            scene_.world.body_velocity.at(entity) = {mover.velocity_ws_mps,
-                                                     mover.angular_velocity_ws_radps};
+            set_moving(body, entity);
         }
-        std::optional<Color> color;
-        if (body.color) {
-            color = *body.color;
+        if (body.visual.empty()) {
+            scene_.visuals.push_back(
+                {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), body.color, {}});
+        } else if (const std::optional<GltfLevel> drawn = load(body.visual)) {
+            add_visuals(entity, *drawn, inverse(shape.frame));
         }
-        scene_.visuals.push_back(
-            {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), color, {}});
     }
 
     void add_scene_joint(const SceneJoint& joint) {
@@ -240,7 +248,28 @@ class SceneBuilder {
         add_joint(scene_.world, {joint.name, made});
     }
 
+    void set_moving(const SceneBody& body, Entity entity) {
+        BodyVelocity& velocity = scene_.world.body_velocity.at(entity);
+        if (body.motion.path) {
+            std::vector<Pose> poses = body.motion.path->poses;
+            for (Pose& pose : poses) {
+                pose = file_.world_transform * pose;
+            }
+            const PathMover mover{make_pose_path(poses, body.motion.path->period_s)};
+            scene_.world.path_mover.add(entity, mover);
+            const PosePathState state = evaluate(mover.path, 0.0);
+            velocity = {state.velocity_mps, state.angular_velocity_radps};
+            return;
+        }
+        const Mover mover{scene_.world.body_pose.at(entity).pose_ws,
+                          turned(body.motion.velocity_mps),
+                          turned(body.motion.angular_velocity_radps), body.motion.turns_with_body};
+        scene_.world.mover.add(entity, mover);
+        velocity = {mover.velocity_ws_mps, mover.angular_velocity_ws_radps};
+    }
+
     const SceneFile& file_;
+    const LevelSource& levels_;
     Scene& scene_;
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
     std::optional<FileError> error_;
@@ -264,7 +293,8 @@ Entity add_static_mesh(Scene& scene, const std::string& name, std::shared_ptr<co
     return entity;
 }
 
-Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path) {
+Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path,
+                          const LevelSource& levels) {
     Result<Tuning> tuning = parse_tuning(file.tuning_json, path.string());
     if (!tuning) {
         return tuning.error();
@@ -278,7 +308,7 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     scene.world.reference_velocity_mps =
         file.world_transform.rotation * file.reference_velocity_mps;
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
-    if (std::optional<FileError> error = SceneBuilder(file, scene).build()) {
+    if (std::optional<FileError> error = SceneBuilder(file, levels, scene).build()) {
         return *error;
     }
     for (const ScenePlayer& player : file.players) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "components/world.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/geometry/mesh.hpp"
+#include "engine/io/gltf.hpp"
 #include "engine/io/result.hpp"
 #include "game/render/render_frame.hpp"
 #include "game/scene_file.hpp"
@@ -56,6 +58,8 @@ struct Scene {
     ShapeId head_shape;  // a sphere of the tuning's head radius
     std::vector<SceneVisual> visuals;
     std::vector<Lamp> lamps;
+    Entity lamps_body = k_no_entity;  // in whose frame the lamps are; the world's where null
+    KeyLight key;                     // the sun, or what stands for it in a room
     Vec3 up_ws = Vec3::UnitY();
     std::vector<SceneRail> rails;           // may be empty
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
@@ -68,8 +72,11 @@ struct Scene {
 // A built-in scene's name, a scene file (.json), or any level (.glb, .gltf: every mesh node a
 // static body). Nothing half loaded.
 Result<Scene> load_scene(const std::string& name_or_file);
-// From a checked scene file; loads the levels and meshes that it names.
-Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path);
+// Gives the levels and meshes that a scene file names.
+using LevelSource = std::function<Result<GltfLevel>(const std::filesystem::path&)>;
+// From a checked scene file.
+Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path,
+                          const LevelSource& levels = load_gltf_level);
 
 // Adds a player who moves with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);

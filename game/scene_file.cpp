@@ -19,6 +19,9 @@ constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
 constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
 constexpr NumberRange k_inertia_kgm2 = {1e-12, 1e18, false};
 constexpr NumberRange k_friction = {0.0, 10.0, false};
+constexpr NumberRange k_period_s = {1e-3, 1e6, false};
+constexpr NumberRange k_reach_m = {0.0, 1e6, true};
+constexpr NumberRange k_brightness = {0.0, 1e3, false};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
 // Reads the sections of one document; errors are kept there.
@@ -34,6 +37,8 @@ class SceneReader {
     SceneBody read_body(const JsonValue& value);
     static void read_free_body(const JsonValue& value, SceneBody& body);
     static SceneMotion read_motion(const JsonValue& value);
+    static ScenePath read_path_of_poses(const JsonValue& value);
+    static Lamp read_lamp(const JsonValue& value);
     SceneSpawn read_spawn(const JsonValue& value);
     ScenePlayer read_player(const JsonValue& value);
     SceneSession read_session(const JsonValue& value) const;
@@ -78,8 +83,8 @@ BodyKind read_kind(const JsonValue& value) {
     return BodyKind::free;
 }
 
-std::array<float, 3> read_color(const JsonValue& value) {
-    const Vec3 color = value.vector(k_unit_interval);
+std::array<float, 3> read_color(const JsonValue& value, const NumberRange& range) {
+    const Vec3 color = value.vector(range);
     return {static_cast<float>(color.x()), static_cast<float>(color.y()),
             static_cast<float>(color.z())};
 }
@@ -99,10 +104,39 @@ SceneLevel SceneReader::read_level(const JsonValue& value) const {
 }
 
 SceneMotion SceneReader::read_motion(const JsonValue& value) {
+    if (const JsonValue path = value["path"]; path.exists()) {
+        value.allow_only({"path"});
+        SceneMotion motion;
+        motion.path = read_path_of_poses(path);
+        return motion;
+    }
     value.allow_only({"velocity_mps", "angular_velocity_radps", "turns_with_body"});
     return {value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps),
             value["angular_velocity_radps"].vector_or(Vec3::Zero(), k_turn_rate_radps),
-            value["turns_with_body"].flag_or(false)};
+            value["turns_with_body"].flag_or(false), std::nullopt};
+}
+
+ScenePath SceneReader::read_path_of_poses(const JsonValue& value) {
+    value.allow_only({"period_s", "poses"});
+    ScenePath path;
+    path.period_s = value["period_s"].number(k_period_s);
+    const std::vector<JsonValue> poses = value["poses"].items();
+    if (poses.size() < 2 || poses.size() > k_max_path_keys) {
+        value["poses"].refuse("2 to " + std::to_string(k_max_path_keys) + " poses");
+        return path;
+    }
+    for (const JsonValue& pose : poses) {
+        pose.allow_only({"position_m", "rotation_xyzw"});
+        path.poses.push_back(read_pose(pose));
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Quat& from = path.poses[i].rotation;
+        const Quat& to = path.poses[(i + 1) % poses.size()].rotation;
+        if (rotation_to_vector(from.conjugate() * to).norm() > k_max_path_turn_rad - 1e-6) {
+            poses[i].refuse("a turn of at most 120 degrees to the next pose");
+        }
+    }
+    return path;
 }
 
 void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
@@ -127,7 +161,7 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
 SceneBody SceneReader::read_body(const JsonValue& value) {
     value.allow_only({"name", "kind", "shape", "position_m", "rotation_xyzw", "mass_kg",
                       "inertia_kgm2", "velocity_mps", "angular_velocity_radps", "motion", "color",
-                      "restitution", "friction"});
+                      "visual", "restitution", "friction"});
     SceneBody body;
     body.name = read_new_name(value["name"], entity_names_);
     body.kind = read_kind(value["kind"]);
@@ -143,14 +177,27 @@ SceneBody SceneReader::read_body(const JsonValue& value) {
         refuse_keys(value, {"motion"}, "only kinematic bodies have it");
     } else if (const JsonValue motion = value["motion"]; motion.exists()) {
         body.motion = read_motion(motion);
+        if (body.motion.path) {
+            refuse_keys(value, {"position_m", "rotation_xyzw"}, "the path's first pose is its");
+            body.pose = body.motion.path->poses.empty() ? Pose{} : body.motion.path->poses.front();
+        }
     }
     if (const JsonValue color = value["color"]; color.exists()) {
-        body.color = read_color(color);
+        body.color = read_color(color, k_unit_interval);
+    }
+    if (const JsonValue visual = value["visual"]; visual.exists()) {
+        body.visual = read_path(visual);
     }
     body.restitution = value["restitution"].number_or(body.restitution, k_unit_interval);
     body.friction = value["friction"].number_or(body.friction, k_friction);
     joint_names_.bodies.emplace(body.name, body.kind);
     return body;
+}
+
+Lamp SceneReader::read_lamp(const JsonValue& value) {
+    value.allow_only({"position_m", "color", "reach_m"});
+    return {value["position_m"].vector(k_coordinate_m), read_color(value["color"], k_brightness),
+            value["reach_m"].number(k_reach_m)};
 }
 
 SceneSpawn SceneReader::read_spawn(const JsonValue& value) {
@@ -192,7 +239,8 @@ SceneSession SceneReader::read_session(const JsonValue& value) const {
 
 SceneFile SceneReader::read() {
     root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "joints",
-                      "chains", "spawns", "players", "session", "world_transform", "tuning"});
+                      "chains", "lamps", "spawns", "players", "session", "world_transform",
+                      "tuning"});
     SceneFile scene;
     scene.name = root_["name"].text();
     scene.description = root_["description"].text_or({});
@@ -211,6 +259,9 @@ SceneFile SceneReader::read() {
     for (const JsonValue& chain : root_["chains"].optional_items()) {
         const std::string name = read_new_name(chain["name"], entity_names_);
         read_scene_chain(chain, name, joint_names_, scene);
+    }
+    for (const JsonValue& lamp : root_["lamps"].optional_items()) {
+        scene.lamps.push_back(read_lamp(lamp));
     }
     for (const JsonValue& spawn : root_["spawns"].optional_items()) {
         scene.spawns.push_back(read_spawn(spawn));

@@ -11,6 +11,7 @@
 #include "components/body.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
+#include "game/render/render_frame.hpp"
 #include "game/scene_joint.hpp"
 #include "game/scene_shape.hpp"
 
@@ -26,11 +27,19 @@ struct SceneLevel {
     Vec3 scale = Vec3::Ones();   // along the file's axes
 };
 
-// Constant twist of a kinematic body; as Mover.
+// A closed path; as PathMover. The body's own pose is that of its first one.
+struct ScenePath {
+    double period_s = 1.0;    // > 0
+    std::vector<Pose> poses;  // 2 to 16, in the scene's frame, at equal steps of the period
+};
+
+// Of a kinematic body: a constant twist, as Mover, or a path, beside which the other fields are
+// unused.
 struct SceneMotion {
     Vec3 velocity_mps = Vec3::Zero();  // at time 0
     Vec3 angular_velocity_radps = Vec3::Zero();
     bool turns_with_body = false;  // the velocity keeps its direction in the body's frame
+    std::optional<ScenePath> path;
 };
 
 struct SceneBody {
@@ -46,9 +55,11 @@ struct SceneBody {
     Vec3 angular_velocity_radps = Vec3::Zero();  // free: at time 0
     SceneMotion motion;                          // kinematic; all zero: it stands still
     std::optional<std::array<float, 3>>
-        color;                 // linear RGB in [0, 1]; absent: the mesh's own, or grey
-    double restitution = 0.0;  // [0, 1]; the larger of two bodies' counts
-    double friction = 0.4;     // Coulomb's coefficient; of two bodies the geometric mean
+        color;                     // linear RGB in [0, 1]; absent: the mesh's own, or grey
+    std::filesystem::path visual;  // .glb or .gltf in the body's frame, drawn instead of its shape;
+                                   // empty: the shape
+    double restitution = 0.0;      // [0, 1]; the larger of two bodies' counts
+    double friction = 0.4;         // Coulomb's coefficient; of two bodies the geometric mean
 };
 
 struct SceneSpawn {
@@ -76,6 +87,7 @@ struct SceneFile {
     std::vector<SceneLevel> levels;
     std::vector<SceneBody> bodies;
     std::vector<SceneJoint> joints;
+    std::vector<Lamp> lamps;
     std::vector<SceneSpawn> spawns;
     std::vector<ScenePlayer> players;
     std::optional<SceneSession> session;

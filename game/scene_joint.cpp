@@ -119,6 +119,7 @@ void read_latch(const JsonValue& value, const Units& units, const SceneJointName
         return;
     }
     const Units handle_units(handle->second);
+    out.handle_is_angle = is_angle(handle->second);
     latch.handle_at = handle_units.positive(value[handle_units.key("handle")]);
 }
 

@@ -14,11 +14,12 @@ namespace handhold {
 
 struct SceneJoint {
     std::string name;
-    std::string a;              // a body's name; empty: the scene itself
-    std::string b;              // a body's name
-    std::string handle;         // of the latch: the name of an earlier joint; empty: none
-    Pose pose;                  // the joint's frame in the scene as everything stands at time 0
-    Vec3 end_a = Vec3::Zero();  // distance: its end on a; else as the frame
+    std::string a;                // a body's name; empty: the scene itself
+    std::string b;                // a body's name
+    std::string handle;           // of the latch: the name of an earlier joint; empty: none
+    bool handle_is_angle = true;  // a hinge, not a slider
+    Pose pose;                    // the joint's frame in the scene as everything stands at time 0
+    Vec3 end_a = Vec3::Zero();    // distance: its end on a; else as the frame
     Joint joint;  // kind and numbers; its entities and frames are for whoever builds it
 };
 

@@ -6,9 +6,9 @@
 #include "engine/geometry/mesh.hpp"
 #include "game/render/render_frame.hpp"
 
-// The game's own level, made in code: a T of three modules round a node, a cupola, and the platform
-// that flies past. Lengths in metres. The meshes are colliders too, so they are equal on every
-// machine.
+// The game's own level, made from a description (docs/station_format.md), and, in code, the
+// platform that flies past. Lengths in metres. The meshes are colliders too, so they are equal on
+// every machine.
 namespace handhold {
 
 // The straight part of a handrail, along its axis.
@@ -35,8 +35,12 @@ struct Structure {
     std::vector<Lamp> lamps;
 };
 
-// World frame; the node's centre is the origin, the habitat lies towards +Z, the laboratory -X, the
-// airlock +X, the cupola -Z. Static.
+struct StationDescription;  // game/station_description.hpp
+
+// Static; its frame is that of the description. Coordinates are exact floats.
+Structure make_station(const StationDescription& description);
+// The game's own: the node's centre is the origin, the habitat lies towards +Z, the laboratory and
+// what is beyond it -X, the airlock +X, the cupola -Z, the truss above.
 Structure make_station();
 // The station's rails alone, for scripts that plan along them.
 std::vector<HandrailSpan> station_rails();

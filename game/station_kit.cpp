@@ -31,9 +31,21 @@ constexpr std::array<MaterialLook, k_material_count> k_materials = {{
     {"screens", {0.10F, 0.42F, 0.60F}, {1.1F, 1.0F, 0.5F}},
     {"glass", {0.10F, 0.13F, 0.16F}, {0.0F, 0.10F, 1.0F}},
     {"dark", {0.035F, 0.037F, 0.042F}, {0.0F, 1.0F, 0.30F}},
+    {"leaves", {0.07F, 0.24F, 0.045F}, {0.0F, 1.0F, 0.20F}},
+    {"soil", {0.060F, 0.042F, 0.030F}, {0.0F, 1.0F, 0.0F}},
+    {"grow_lamps", {0.95F, 0.35F, 0.80F}, {1.5F, 1.0F, 0.0F}},
+    {"solar", {0.020F, 0.030F, 0.085F}, {0.0F, 1.0F, 0.75F}},
+    {"foil", {0.62F, 0.44F, 0.12F}, {0.0F, 1.0F, 0.80F}},
 }};
 
-constexpr double k_post_spacing_m = 0.75;
+constexpr double k_post_spacing_m = 0.85;
+
+// Through memory: GCC 12's vectoriser leaves the last rows of a loop over (double)(float)x as they
+// were.
+double to_nearest_float(double x) {
+    const volatile float rounded = static_cast<float>(x);
+    return static_cast<double>(rounded);
+}
 
 double bevel_of(const Vec3& half_m) { return std::min(0.006, 0.4 * half_m.minCoeff()); }
 
@@ -51,6 +63,11 @@ StationKit::StationKit(Structure& out, std::string section, const Color& accent)
 void StationKit::finish() {
     for (std::size_t i = 0; i < k_material_count; ++i) {
         if (!meshes_[i].triangles.empty()) {
+            for (Vec3& position : meshes_[i].positions) {
+                for (double& coordinate : position) {
+                    coordinate = to_nearest_float(coordinate);
+                }
+            }
             weld(meshes_[i]);
             out_.parts.push_back(std::move(meshes_[i]));
             out_.looks.push_back(k_materials[i].look);
@@ -109,19 +126,52 @@ void StationKit::handrail(const std::string& name, const Pose& frame, const Vec3
                                       b + up - bend * along,
                                       b + up - Vec3(0.0, bend, 0.0),
                                       b + low};
-    add(Material::rail, make_tube(path, k_rail_radius_m, 12), frame);
+    add(Material::rail, make_tube(path, k_rail_radius_m, 10), frame);
     const double length = (b - a).norm();
     const int spans = std::max(1, static_cast<int>(std::lround(length / k_post_spacing_m)));
     for (int i = 0; i <= spans; ++i) {
         const Vec3 foot = a + along * (length * i / spans);
-        add(Material::rail, make_cylinder(foot + low, foot + Vec3(0.0, 0.008, 0.0), 0.030, 8),
-            frame);
+        // X along the bar: a foot plate and, between the ends, a flat post.
+        const Pose turned = frame * Pose{foot, rotation_between(Vec3::UnitX(), along)};
+        block(Material::rail, turned, Vec3(0.0, -0.003, 0.0), Vec3(0.030, 0.009, 0.024));
         if (i > 0 && i < spans) {
-            add(Material::rail, make_cylinder(foot + low, foot + up, 0.011, 6), frame);
+            block(Material::rail, turned, 0.5 * (up + low),
+                  Vec3(0.014, 0.5 * (height + 0.012), 0.006));
         }
     }
     out_.rails.push_back({section_ + "/" + name, transform_point(frame, a + up + bend * along),
                           transform_point(frame, b + up - bend * along), k_rail_radius_m});
+}
+
+void StationKit::hose(Material material, const Pose& frame, std::span<const Vec3> points,
+                      double radius_m) {
+    constexpr int k_steps = 4;
+    std::vector<Vec3> path;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec3& a = points[i];
+        const Vec3& b = points[i + 1];
+        const Vec3 before = i > 0 ? points[i - 1] : Vec3(2.0 * a - b);
+        const Vec3 after = i + 2 < points.size() ? points[i + 2] : Vec3(2.0 * b - a);
+        for (int step = 0; step < k_steps; ++step) {
+            const double s = static_cast<double>(step) / k_steps;
+            const Vec3 bend = 2.0 * before - 5.0 * a + 4.0 * b - after;
+            path.emplace_back(
+                a + 0.5 * s * ((b - before) + s * (bend + s * (3.0 * (a - b) + after - before))));
+        }
+    }
+    path.push_back(points.back());
+    // A wide one is turned smooth: twelve sides meet at 30 degrees.
+    add(material, make_tube(path, radius_m, radius_m > 0.046 ? 12 : 6), frame);
+}
+
+void StationKit::bracket(Material material, const Pose& frame, const Vec3& foot, double width_m) {
+    constexpr double k_sheet_half_m = 0.0015;
+    constexpr double k_leg_half_m = 0.022;
+    const double half = 0.5 * width_m;
+    block(material, frame, foot + Vec3(0.0, k_sheet_half_m, k_leg_half_m),
+          Vec3(half, k_sheet_half_m, k_leg_half_m));
+    block(material, frame, foot + Vec3(0.0, k_leg_half_m, k_sheet_half_m),
+          Vec3(half, k_leg_half_m, k_sheet_half_m));
 }
 
 void StationKit::lamp(const Vec3& position, const Color& color, double reach_m) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "game/station.hpp"
@@ -22,9 +23,14 @@ enum class Material {
     fabric,
     screen,
     glass,
-    dark
+    dark,
+    leaf,
+    soil,
+    grow,
+    solar,
+    foil
 };
-inline constexpr std::size_t k_material_count = 12;
+inline constexpr std::size_t k_material_count = 17;
 
 inline constexpr double k_rail_radius_m = 0.0175;
 inline constexpr double k_rail_clearance_m = 0.045;  // between bar and wall
@@ -41,7 +47,8 @@ struct RimShape {
 class StationKit {
   public:
     StationKit(Structure& out, std::string section, const Color& accent);
-    // Writes what was collected into the structure. Once, last.
+    // Writes what was collected into the structure. Once, last. Coordinates become the nearest
+    // floats: a file of them holds the same station.
     void finish();
 
     void add(Material material, const Mesh& solid, const Pose& frame);
@@ -56,6 +63,11 @@ class StationKit {
     // A bar on posts over the wall from `a` to `b` (points on the wall), its ends bent into the
     // wall.
     void handrail(const std::string& name, const Pose& frame, const Vec3& a, const Vec3& b);
+    // A round bar swept along the smooth curve (Catmull and Rom 1974) through at least two points.
+    void hose(Material material, const Pose& frame, std::span<const Vec3> points, double radius_m);
+    // An angle bracket: two sheets of 3 mm, `width_m` along X, one on the wall and one standing on
+    // it.
+    void bracket(Material material, const Pose& frame, const Vec3& foot, double width_m);
     void lamp(const Vec3& position, const Color& color, double reach_m);
     void spawn(const std::string& name, const Pose& pose);
 

@@ -2,29 +2,26 @@
 
 #include <string>
 
+#include "game/station_description.hpp"
 #include "game/station_kit.hpp"
 
 namespace handhold {
 
-// What a solid wall across a section opens with, and what closes it.
-enum class EndKind { hatchway, door, window };
-
 inline constexpr double k_hatch_half_m = 0.64;  // half the clear width of every hatchway
 inline constexpr double k_vestibule_length_m = 0.30;
 
-struct ModuleSpec {
-    std::string name;
-    Pose pose;  // +Z along the module, away from the node; the origin in the middle of its near end
-    std::size_t racks = 5;
-    EndKind far_end = EndKind::door;
-    Color accent = {0.5F, 0.5F, 0.5F};
-    std::size_t seed = 1;
-};
-double module_length_m(const ModuleSpec& spec);
+// Of a section of type module.
+double module_length_m(const StationSection& section);
 
-// A cylinder with four walls of racks, stand-offs with lamps and cables between them, a vestibule
-// at its near end.
-void build_module(Structure& out, const ModuleSpec& spec);
+// A cylinder with four walls of racks, stand-offs with lamps and cables between them, and at its
+// near end a vestibule. `pose` is that of the section.
+void build_module(Structure& out, const StationSection& section, const Pose& pose);
+
+// The passage between two sections: from z = -k_vestibule_length_m to 0 of `pose`, sunk by 20 mm
+// into both.
+void add_vestibule(StationKit& kit, const Pose& pose);
+// A closed door in a hatchway; the frame as of dress_hatch_plate.
+void add_door(StationKit& kit, const Pose& frame);
 
 // A frame on the wall at `distance_m` from the Z axis, turned by `angle_rad` about it from the
 // floor.
@@ -39,5 +36,8 @@ Mesh make_hatch_plate(double half_m, double corner_m, double thickness_m);
 enum class HatchRails { around, beside };
 void dress_hatch_plate(StationKit& kit, const Pose& frame, const std::string& name,
                        HatchRails rails);
+
+// The rails and hoses of a section's description, on its walls and in its frame `pose`.
+void add_described_parts(StationKit& kit, const StationSection& section, const Pose& pose);
 
 }  // namespace handhold

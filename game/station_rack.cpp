@@ -3,13 +3,13 @@
 #include <array>
 
 #include "game/render/primitives.hpp"
+#include "game/station_fitting.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_depth_m = 0.31;     // of a rack, behind its face
-constexpr double k_bay_half_m = 0.47;  // across: the middle of the front, between the tracks
-constexpr double k_gap_m = 0.006;      // between two fronts
+constexpr double k_depth_m = 0.31;  // of a rack, behind its face
+constexpr double k_gap_m = 0.006;   // between two fronts
 
 // A cell of the front: middle and half sizes across (x) and along (z).
 struct Cell {
@@ -30,17 +30,14 @@ void add_front(StationKit& kit, Material material, const Pose& frame, const Cell
 void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     const bool is_accent = chance(seed, 1, 0) < 0.22;
     add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell, 0.0);
-    // Sunk handle plate with a bar over it, latches in the corners, a label.
-    kit.panel(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
+    // Sunk handle plate with a bar over it, a latch at its end, a label.
+    kit.block(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
     const std::array<Vec3, 4> bar = {on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.056, 0.017, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(0.062, -0.004, 0.0)};
-    kit.add(Material::metal, make_tube(bar, 0.0055, 6), frame);
-    for (const double side : {-1.0, 1.0}) {
-        kit.block(Material::metal, frame, on_face(cell, 0.86 * side, 0.0, 0.0),
-                  Vec3(0.010, 0.005, 0.016));
-    }
+    kit.add(Material::metal, make_tube(bar, 0.0055, 4), frame);
+    kit.block(Material::metal, frame, on_face(cell, 0.86, 0.0, 0.0), Vec3(0.010, 0.005, 0.016));
     kit.block(is_accent ? Material::panel : Material::accent, frame,
               on_face(cell, -0.58, 0.0, 0.55), Vec3(0.045, 0.0015, 0.009));
 }
@@ -104,7 +101,7 @@ void add_dials(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t
         const double across = -0.72 + 0.48 * i;
         const auto salt = static_cast<std::size_t>(i);
         const Vec3 foot = on_face(cell, across, -0.012, 0.30);
-        kit.add(Material::dark, make_cylinder(foot, foot + Vec3(0.0, 0.030, 0.0), 0.024, 8), frame);
+        kit.add(Material::dark, make_cylinder(foot, foot + Vec3(0.0, 0.030, 0.0), 0.024, 6), frame);
         const bool is_lit = chance(seed, 5, salt) < 0.7;
         kit.panel(is_lit ? Material::screen : Material::accent, frame,
                   on_face(cell, across, -0.006, -0.45), Vec3(0.022, 0.006, 0.011));
@@ -117,10 +114,10 @@ void add_light(StationKit& kit, const Pose& frame, const Cell& cell) {
               Vec3(0.60 * cell.half_x, 0.006, cell.half_z - 0.045));
 }
 
-void add_cell(StationKit& kit, const Pose& frame, const Cell& cell, WallKind wall,
+void add_cell(StationKit& kit, const Pose& frame, const Cell& cell, RackKind kind,
               std::size_t seed) {
     const double pick = chance(seed, 11, 2);
-    if (wall == WallKind::floor) {
+    if (kind == RackKind::deck) {
         return pick < 0.75 ? add_drawer(kit, frame, cell, seed) : add_vent(kit, frame, cell);
     }
     if (pick < 0.38) {
@@ -157,21 +154,21 @@ void add_bones(StationKit& kit, const Pose& frame, double z0) {
 
 }  // namespace
 
-void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, std::size_t seed) {
+void build_rack(StationKit& kit, const Pose& frame, double z0, RackKind kind, std::size_t seed) {
     add_bones(kit, frame, z0);
-    // Outer strips between track and stand-off: three panels, now and then one in the section's
+    // Outer strips between track and stand-off: two panels, now and then one in the section's
     // colour.
     for (const double side : {-1.0, 1.0}) {
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 2; ++i) {
             const auto salt = 2 * static_cast<std::size_t>(i) + (side > 0.0 ? 1U : 0U);
-            const double half_z = k_rack_pitch_m / 6.0;
+            const double half_z = k_rack_pitch_m / 4.0;
             const Cell cell{side * 0.718, z0 + (2 * i + 1) * half_z, 0.082, half_z};
             const bool is_accent = chance(seed, 21, salt) < 0.16;
             add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell,
                       -0.010 * chance(seed, 22, salt));
         }
     }
-    if (wall == WallKind::ceiling) {
+    if (kind == RackKind::lights) {
         add_light(kit, frame, {0.0, z0 + 0.5 * k_rack_pitch_m, 0.16, 0.5 * k_rack_pitch_m});
         for (const double side : {-1.0, 1.0}) {
             const Cell cell{side * 0.318, z0 + 0.5 * k_rack_pitch_m, 0.155, 0.5 * k_rack_pitch_m};
@@ -181,6 +178,11 @@ void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, st
         }
         return;
     }
+    if (kind == RackKind::garden || kind == RackKind::bunk || kind == RackKind::bench ||
+        kind == RackKind::stowage) {
+        build_fitting(kit, frame, z0, kind, seed);
+        return;
+    }
     const int rows = 2 + (chance(seed, 24, 0) < 0.5 ? 1 : 0);
     for (int row = 0; row < rows; ++row) {
         const auto salt = static_cast<std::size_t>(row);
@@ -188,10 +190,10 @@ void build_rack(StationKit& kit, const Pose& frame, double z0, WallKind wall, st
         const double z = z0 + 0.03 + (2 * row + 1) * half_z;
         if (chance(seed, 25, salt) < 0.45) {
             const double half_x = 0.5 * k_bay_half_m;
-            add_cell(kit, frame, {-half_x, z, half_x, half_z}, wall, 16 * seed + 2 * salt);
-            add_cell(kit, frame, {half_x, z, half_x, half_z}, wall, 16 * seed + 2 * salt + 1);
+            add_cell(kit, frame, {-half_x, z, half_x, half_z}, kind, 16 * seed + 2 * salt);
+            add_cell(kit, frame, {half_x, z, half_x, half_z}, kind, 16 * seed + 2 * salt + 1);
         } else {
-            add_cell(kit, frame, {0.0, z, k_bay_half_m, half_z}, wall, 16 * seed + 2 * salt);
+            add_cell(kit, frame, {0.0, z, k_bay_half_m, half_z}, kind, 16 * seed + 2 * salt);
         }
     }
 }

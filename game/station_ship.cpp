@@ -43,8 +43,8 @@ void add_wall(StationKit& kit) {
     constexpr std::size_t k_racks = 7;
     const double start = -0.5 * k_rack_pitch_m * k_racks;
     for (std::size_t rack = 0; rack < k_racks; ++rack) {
-        build_rack(kit, frame, start + static_cast<double>(rack) * k_rack_pitch_m, WallKind::side,
-                   500 + rack);
+        build_rack(kit, frame, start + static_cast<double>(rack) * k_rack_pitch_m,
+                   RackKind::equipment, 500 + rack);
     }
     kit.beam(Material::hull, frame, Vec3(0.0, -0.325, 0.0), Vec3(1.24, 0.014, 3.96));
     for (const double side : {-1.0, 1.0}) {

@@ -84,7 +84,8 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::animate_movers, stats);
-        animate_movers({end_s, w.mover, w.body_pose, w.body_start, w.body_velocity});
+        animate_movers({end_s, w.mover, w.path_mover, w.leg_mover, w.body_pose, w.body_start,
+                        w.body_velocity});
     }
     {
         const StageTimer timer(Stage::predict_bodies, stats);

@@ -138,6 +138,30 @@ std::optional<TriangleMode> triangle_mode(int gltf_mode) {
     }
 }
 
+void read_material(const tinygltf::Material& material, ColorRun& run) {
+    const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+    float brightest = 0.0F;
+    for (std::size_t i = 0; i < run.color.size(); ++i) {
+        run.color[i] = static_cast<float>(pbr.baseColorFactor[i]);
+        brightest = std::max(brightest, run.color[i]);
+    }
+    run.gloss = 1.0F - static_cast<float>(pbr.roughnessFactor);
+    if (material.alphaMode == "BLEND") {
+        run.opacity = static_cast<float>(pbr.baseColorFactor[3]);
+    }
+    // Ours glows in its own colour: of another one only the brightness is taken.
+    const double glow =
+        *std::max_element(material.emissiveFactor.begin(), material.emissiveFactor.end());
+    double strength = 1.0;
+    const auto extension = material.extensions.find("KHR_materials_emissive_strength");
+    if (extension != material.extensions.end() && extension->second.Has("emissiveStrength")) {
+        strength = extension->second.Get("emissiveStrength").GetNumberAsDouble();
+    }
+    if (brightest > 0.0F) {
+        run.emissive = static_cast<float>(glow / static_cast<double>(brightest) * strength);
+    }
+}
+
 // Reads a model's scene into parts. The first error stops it.
 class LevelReader {
   public:
@@ -381,11 +405,7 @@ bool LevelReader::begin_color(int material, const std::string& place, LevelPart&
         if (!is_index_of(material, model_.materials.size())) {
             return refuse_index(place, "material", model_.materials.size(), material);
         }
-        const std::vector<double>& factor = model_.materials[static_cast<std::size_t>(material)]
-                                                .pbrMetallicRoughness.baseColorFactor;
-        for (std::size_t i = 0; i < run.color.size(); ++i) {
-            run.color[i] = static_cast<float>(factor[i]);
-        }
+        read_material(model_.materials[static_cast<std::size_t>(material)], run);
     }
     part.color_runs.push_back(run);
     return true;

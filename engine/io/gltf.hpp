@@ -15,10 +15,13 @@
 // to 3.7 and 4.
 namespace handhold {
 
-// Triangles from `first_triangle` to the next run's have this colour.
+// Triangles from `first_triangle` to the next run's look like this.
 struct ColorRun {
     std::uint32_t first_triangle = 0;
     std::array<float, 3> color = {};  // linear RGB in [0, 1]
+    float emissive = 0.0F;            // times the colour, added: its emissive factor and strength
+    float opacity = 1.0F;             // [0, 1]; below 1 only where alphaMode is BLEND
+    float gloss = 0.25F;              // [0, 1]: 1 - roughness; 0.25 where there is no material
 };
 
 // One mesh node of the file's scene.

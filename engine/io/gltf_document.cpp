@@ -185,6 +185,15 @@ void check_meshes(const JsonValue& root) {
     for (const JsonValue& material : root["materials"].optional_items()) {
         if (const JsonValue pbr = material["pbrMetallicRoughness"]; pbr.exists()) {
             check_numbers(pbr["baseColorFactor"], 4, k_unit_interval);
+            pbr["roughnessFactor"].number_or(1.0, k_unit_interval);
+        }
+        check_numbers(material["emissiveFactor"], 3, k_unit_interval);
+        material["alphaMode"].text_or("OPAQUE");
+        if (const JsonValue extensions = material["extensions"]; extensions.is_object()) {
+            if (const JsonValue glow = extensions["KHR_materials_emissive_strength"];
+                glow.exists()) {
+                glow["emissiveStrength"].number_or(1.0, k_not_negative);
+            }
         }
     }
 }
@@ -215,7 +224,9 @@ void check_nodes(const JsonValue& root) {
     }
 }
 
-std::string join_container(std::string json, std::string_view binary) {
+}  // namespace
+
+std::string join_glb(std::string json, std::string_view binary) {
     const auto pad = [](std::size_t size) { return (4 - size % 4) % 4; };
     json.append(pad(json.size()), ' ');
     const std::size_t binary_size = binary.size() + pad(binary.size());
@@ -238,8 +249,6 @@ std::string join_container(std::string json, std::string_view binary) {
     return glb;
 }
 
-}  // namespace
-
 Result<std::string> extract_geometry_glb(std::string_view bytes, const std::string& file) {
     const Result<GltfSource> source = split_container(bytes, file);
     if (!source) {
@@ -261,9 +270,9 @@ Result<std::string> extract_geometry_glb(std::string_view bytes, const std::stri
     if (document.value().failed()) {
         return document.value().error();
     }
-    return join_container(root.dump_without({"images", "textures", "samplers", "animations",
-                                             "skins", "cameras", "extensions"}),
-                          source.value().binary);
+    return join_glb(root.dump_without({"images", "textures", "samplers", "animations", "skins",
+                                       "cameras", "extensions"}),
+                    source.value().binary);
 }
 
 }  // namespace handhold

@@ -14,4 +14,7 @@ namespace handhold {
 // to decode. References between the sections are not checked here. `file` is for messages.
 Result<std::string> extract_geometry_glb(std::string_view bytes, const std::string& file);
 
+// A .glb of a JSON chunk and, where `binary` is not empty, a binary one (specification, section 4).
+std::string join_glb(std::string json, std::string_view binary);
+
 }  // namespace handhold

@@ -333,7 +333,9 @@ Quat JsonValue::rotation() const {
         refuse("a quaternion of length 1, not " + write_number(value.norm()));
         return Quat::Identity();
     }
-    return value.normalized();
+    // One that is unit up to rounding stays as it is: written and read again it is the same.
+    constexpr double k_rounding = 1e-15;
+    return std::abs(value.squaredNorm() - 1.0) <= k_rounding ? value : value.normalized();
 }
 
 double JsonValue::number_or(double fallback, const NumberRange& range) const {

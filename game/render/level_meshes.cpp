@@ -28,24 +28,27 @@ void copy_run(const Mesh& from, std::size_t first, std::size_t end, Mesh& to,
 
 }  // namespace
 
-std::vector<Mesh> make_level_meshes(const GltfLevel& level) {
-    std::vector<Mesh> meshes;
+std::vector<LevelMesh> make_level_meshes(const GltfLevel& level) {
+    std::vector<LevelMesh> meshes;
     for (const LevelPart& part : level.parts) {
-        std::map<std::array<float, 3>, std::size_t> mesh_of_color;
+        std::map<std::array<float, 6>, std::size_t> mesh_of_color;
         std::vector<std::map<std::uint32_t, std::uint32_t>> places;
         const std::size_t first_mesh = meshes.size();
         for (std::size_t run = 0; run < part.color_runs.size(); ++run) {
             const ColorRun& colors = part.color_runs[run];
+            const std::array<float, 6> surface = {colors.color[0], colors.color[1], colors.color[2],
+                                                  colors.emissive, colors.opacity,  colors.gloss};
             const auto [at, is_new] =
-                mesh_of_color.try_emplace(colors.color, meshes.size() - first_mesh);
+                mesh_of_color.try_emplace(surface, meshes.size() - first_mesh);
             if (is_new) {
-                meshes.push_back({part.mesh.name, {}, {}, colors.color});
+                meshes.push_back({{part.mesh.name, {}, {}, colors.color},
+                                  {colors.emissive, colors.opacity, colors.gloss}});
                 places.emplace_back();
             }
             const std::size_t end = run + 1 < part.color_runs.size()
                                         ? part.color_runs[run + 1].first_triangle
                                         : part.mesh.triangles.size();
-            copy_run(part.mesh, colors.first_triangle, end, meshes[first_mesh + at->second],
+            copy_run(part.mesh, colors.first_triangle, end, meshes[first_mesh + at->second].mesh,
                      places[at->second]);
         }
     }

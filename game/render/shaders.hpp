@@ -4,7 +4,7 @@
 // line is added when they are compiled). All positions are relative to the camera, with the world's
 // axes (suffix _cs). Sources: shadow maps after Williams 1978 with percentage closer filtering
 // (Reeves et al. 1987); ambient occlusion after McGuire et al. 2011 ("The Alchemy Screen-Space
-// Ambient Obscurance Algorithm"), half resolution; interleaved gradient noise after Jimenez 2014;
+// Ambient Obscurance Algorithm"), half resolution;
 // the edge filter is of the kind of Lottes 2009 (FXAA).
 namespace handhold::shaders {
 
@@ -264,7 +264,10 @@ void main() {
         return;
     }
     vec3 n = normalize(cross(slope(p, pixel, vec2(texel.x, 0.0)), slope(p, pixel, vec2(0.0, texel.y))));
-    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    // Sixteen turns in every square of 4 x 4 pixels, each once: what smooths the occlusion averages exactly these, and
+    // on an even surface nothing of the pattern is left.
+    ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+    float turn = 6.2831853 * (float((7 * (4 * cell.y + cell.x)) & 15) + 0.5) / 16.0;
     float reach_uv = clamp(0.5 * radius_m / (distance_m * half_extent.y), 0.006, 0.16);
     float sum = 0.0;
     const int k_taps = 10;

@@ -38,13 +38,42 @@ BodyVelocity mover_velocity(const Mover& mover, double t_s) {
     return {rotation_from_vector(spin * t_s) * mover.velocity_ws_mps, spin};
 }
 
+BodyVelocity leg_velocity(const PosePath& torso, const LegMover& mover, double t_s) {
+    constexpr double k_step_s = 1e-4;
+    const auto pose_at = [&](double at_s) {
+        return crawler_bone_pose(torso, mover.gait, mover.leg, mover.bone, at_s);
+    };
+    const Pose before = pose_at(t_s - k_step_s);
+    const Pose after = pose_at(t_s + k_step_s);
+    return {(after.position - before.position) / (2.0 * k_step_s),
+            rotation_to_vector(after.rotation * before.rotation.conjugate()) / (2.0 * k_step_s)};
+}
+
 void animate_movers(const AnimateMoversIo& io) {
-    for (std::size_t row = 0; row < io.mover.size(); ++row) {
-        const Entity body = io.mover.owners()[row];
-        const Mover& mover = io.mover.rows()[row];
+    const auto move = [&io](Entity body, const Pose& pose_ws, const BodyVelocity& velocity) {
         io.body_start.at(body).pose_ws = io.body_pose.at(body).pose_ws;
-        io.body_pose.at(body).pose_ws = mover_pose(mover, io.end_s);
-        io.velocity.at(body) = mover_velocity(mover, io.end_s);
+        io.body_pose.at(body).pose_ws = pose_ws;
+        io.velocity.at(body) = velocity;
+    };
+    for (std::size_t row = 0; row < io.mover.size(); ++row) {
+        const Mover& mover = io.mover.rows()[row];
+        move(io.mover.owners()[row], mover_pose(mover, io.end_s), mover_velocity(mover, io.end_s));
+    }
+    for (std::size_t row = 0; row < io.path_mover.size(); ++row) {
+        const PosePathState state = evaluate(io.path_mover.rows()[row].path, io.end_s);
+        move(io.path_mover.owners()[row], state.pose,
+             {state.velocity_mps, state.angular_velocity_radps});
+    }
+    for (std::size_t row = 0; row < io.leg_mover.size(); ++row) {
+        const Entity body = io.leg_mover.owners()[row];
+        const LegMover& mover = io.leg_mover.rows()[row];
+        const PathMover* const torso = io.path_mover.find(mover.torso);
+        if (torso == nullptr) {
+            move(body, io.body_pose.at(body).pose_ws, {});
+            continue;
+        }
+        move(body, crawler_bone_pose(torso->path, mover.gait, mover.leg, mover.bone, io.end_s),
+             leg_velocity(torso->path, mover, io.end_s));
     }
 }
 

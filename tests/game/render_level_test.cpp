@@ -21,16 +21,16 @@ TEST(LevelMeshes, OneMeshAColourWithItsOwnVertices) {
     part.color_runs = {{0, k_red}, {2, k_blue}, {10, k_red}};
     GltfLevel level;
     level.parts = {part, part};
-    const std::vector<Mesh> meshes = make_level_meshes(level);
+    const std::vector<LevelMesh> meshes = make_level_meshes(level);
     ASSERT_EQ(meshes.size(), 4U);
-    EXPECT_EQ(meshes[0].color, k_red);
-    EXPECT_EQ(meshes[0].triangles.size(), 4U);
-    EXPECT_EQ(meshes[1].color, k_blue);
-    EXPECT_EQ(meshes[1].triangles.size(), 8U);
-    EXPECT_EQ(meshes[0].name, "room");
+    EXPECT_EQ(meshes[0].mesh.color, k_red);
+    EXPECT_EQ(meshes[0].mesh.triangles.size(), 4U);
+    EXPECT_EQ(meshes[1].mesh.color, k_blue);
+    EXPECT_EQ(meshes[1].mesh.triangles.size(), 8U);
+    EXPECT_EQ(meshes[0].mesh.name, "room");
     const auto& first = part.mesh.triangles[2];
     for (std::size_t corner = 0; corner < 3; ++corner) {
-        EXPECT_EQ(meshes[1].positions[meshes[1].triangles[0][corner]],
+        EXPECT_EQ(meshes[1].mesh.positions[meshes[1].mesh.triangles[0][corner]],
                   part.mesh.positions[first[corner]]);
     }
 }
@@ -49,8 +49,8 @@ TEST(LevelMeshes, RealStationFillsThePicture) {
     const Result<GltfLevel> level = load_gltf_level(path);
     ASSERT_TRUE(level) << level.error().message();
     RenderFrame frame;
-    for (const Mesh& mesh : make_level_meshes(level.value())) {
-        frame.instances.push_back({renderer->add_mesh(mesh), {}, std::nullopt, {}});
+    for (const LevelMesh& part : make_level_meshes(level.value())) {
+        frame.instances.push_back({renderer->add_mesh(part.mesh), {}, std::nullopt, part.look});
     }
     // In the middle of its second node, towards the laboratory: closed all round but for seams.
     frame.camera.pose_ws = look_along(Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 1.0), Vec3::UnitY());

@@ -36,7 +36,7 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     ASSERT_EQ(scene.levels.size(), 1U);
     EXPECT_EQ(scene.levels[0].file, std::filesystem::path("scenes/assets/module.glb"));
 
-    ASSERT_EQ(scene.bodies.size(), 4U);
+    ASSERT_EQ(scene.bodies.size(), 5U);
     const SceneBody& crate = scene.bodies[0];
     EXPECT_EQ(crate.kind, BodyKind::free);
     EXPECT_EQ(crate.shape.kind, ShapeKind::box);
@@ -55,6 +55,17 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     EXPECT_EQ(scene.bodies[2].shape.kind, ShapeKind::capsule);
     EXPECT_EQ(scene.bodies[2].kind, BodyKind::fixed);
     EXPECT_EQ(scene.bodies[3].shape.radius_m, 0.1);
+    EXPECT_EQ(scene.bodies[3].visual, std::filesystem::path("scenes/assets/beacon.glb"));
+    EXPECT_TRUE(scene.bodies[2].visual.empty());
+    ASSERT_EQ(scene.lamps.size(), 1U);
+    EXPECT_EQ(scene.lamps[0].color, (Color{0.5F, 0.47F, 0.42F}));
+    EXPECT_EQ(scene.lamps[0].reach_m, 4.0);
+    const SceneBody& lift = scene.bodies[4];
+    ASSERT_TRUE(lift.motion.path.has_value());
+    EXPECT_EQ(lift.motion.path->period_s, 12.0);
+    ASSERT_EQ(lift.motion.path->poses.size(), 3U);
+    EXPECT_EQ(lift.motion.path->poses[2].position, Vec3(5.0, 4.0, 0.0));
+    EXPECT_EQ(lift.pose.position, Vec3(3.0, 0.0, 0.0));
 
     ASSERT_EQ(scene.spawns.size(), 2U);
     // A yaw of 90 degrees turns left: from -Z to -X.
@@ -164,6 +175,33 @@ const BadScene k_bad_scenes[] = {
      [](Json& s) { s["bodies"][1]["motion"]["spin"] = 1; }},
     {"flag as number", "/bodies/1/motion/turns_with_body",
      [](Json& s) { s["bodies"][1]["motion"]["turns_with_body"] = 1; }},
+    {"path beside a velocity", "/bodies/4/motion/velocity_mps",
+     [](Json& s) {
+         s["bodies"][4]["motion"]["velocity_mps"] = {0, 0, 1};
+     }},
+    {"path beside a place", "/bodies/4/position_m",
+     [](Json& s) {
+         s["bodies"][4]["position_m"] = {0, 0, 1};
+     }},
+    {"path of one pose", "/bodies/4/motion/path/poses",
+     [](Json& s) { s["bodies"][4]["motion"]["path"]["poses"] = Json::array({Json::object()}); }},
+    {"path of 17 poses", "/bodies/4/motion/path/poses",
+     [](Json& s) {
+         s["bodies"][4]["motion"]["path"]["poses"] = Json::array();
+         for (int i = 0; i < 17; ++i) {
+             s["bodies"][4]["motion"]["path"]["poses"].push_back(Json::object());
+         }
+     }},
+    {"path without a period", "/bodies/4/motion/path/period_s",
+     [](Json& s) { s["bodies"][4]["motion"]["path"].erase("period_s"); }},
+    {"path that turns half around", "/bodies/4/motion/path/poses/0",
+     [](Json& s) {
+         s["bodies"][4]["motion"]["path"]["poses"][1]["rotation_xyzw"] = {0, 1, 0, 0};
+     }},
+    {"pose of a path with a speed", "/bodies/4/motion/path/poses/1/velocity_mps",
+     [](Json& s) {
+         s["bodies"][4]["motion"]["path"]["poses"][1]["velocity_mps"] = {0, 0, 1};
+     }},
     {"too fast", "/bodies/0/velocity_mps/2",
      [](Json& s) { s["bodies"][0]["velocity_mps"][2] = 3e8; }},
     {"too far", "/bodies/0/position_m/0", [](Json& s) { s["bodies"][0]["position_m"][0] = 1e7; }},
@@ -175,6 +213,9 @@ const BadScene k_bad_scenes[] = {
      [](Json& s) { s["bodies"][0]["restitution"] = 1.1; }},
     {"colour above 1", "/bodies/0/color/0", [](Json& s) { s["bodies"][0]["color"][0] = 255; }},
     {"null", "/bodies/0/color", [](Json& s) { s["bodies"][0]["color"] = nullptr; }},
+    {"lamp without a colour", "/lamps/0/color", [](Json& s) { s["lamps"][0].erase("color"); }},
+    {"lamp without reach", "/lamps/0/reach_m", [](Json& s) { s["lamps"][0]["reach_m"] = 0; }},
+    {"visual as number", "/bodies/3/visual", [](Json& s) { s["bodies"][3]["visual"] = 1; }},
     {"level without file", "/levels/0/file", [](Json& s) { s["levels"][0].erase("file"); }},
     {"yaw and rotation", "/spawns/0/yaw_deg",
      [](Json& s) {

@@ -5,13 +5,18 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "engine/collision/collision_world.hpp"
 #include "game/render/figures.hpp"
 #include "game/render/primitives.hpp"
+#include "game/station_description.hpp"
 
 namespace handhold {
 namespace {
@@ -25,49 +30,61 @@ const Structure& ship() {
     return made;
 }
 
-// Distance from a point to a triangle: within its prism the distance to the plane, else to the
-// nearest edge.
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (p - a - t * along).norm();
-}
-double distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
-    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
-    bool is_inside = true;
-    double nearest = HUGE_VAL;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3& a = t[i];
-        const Vec3& b = t[(i + 1) % 3];
-        is_inside = is_inside && (b - a).cross(p - a).dot(normal) >= 0.0;
-        nearest = std::min(nearest, distance_to_segment(p, a, b));
-    }
-    return is_inside ? std::abs((p - t[0]).dot(normal)) : nearest;
-}
-
 bool is_rail(const Mesh& mesh) { return mesh.name.ends_with("/rails"); }
 
 enum class Count { everything, all_but_rails };
 
-// Distance from a point to the nearest surface, cut off at `limit_m`.
-double clearance(const Structure& structure, const Vec3& p, double limit_m, Count count) {
-    double nearest = limit_m;
-    for (const Mesh& mesh : structure.parts) {
-        if (count == Count::all_but_rails && is_rail(mesh)) {
-            continue;
-        }
-        for (const auto& t : mesh.triangles) {
-            const std::array<Vec3, 3> corners = {mesh.positions[t[0]], mesh.positions[t[1]],
-                                                 mesh.positions[t[2]]};
-            const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-            const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-            if ((low - p).maxCoeff() < nearest && (p - high).maxCoeff() < nearest) {
-                nearest = std::min(nearest, distance_to_triangle(p, corners));
+// A structure's surfaces, to be asked for the nearest one.
+class Surfaces {
+  public:
+    explicit Surfaces(const Structure& structure) {
+        std::vector<ColliderProxy> proxies;
+        for (const Mesh& mesh : structure.parts) {
+            const std::uint64_t id = proxies.size() + 1;
+            proxies.push_back(
+                {id, shapes_.add_mesh(std::make_shared<const Mesh>(mesh)), {}, {}, false});
+            if (is_rail(mesh)) {
+                rails_.push_back(id);
             }
         }
+        world_ = std::make_unique<CollisionWorld>(shapes_);
+        world_->set_proxies(proxies);
     }
-    return nearest;
+    // Distance from a point to the nearest surface, cut off at `limit_m`.
+    double clearance(const Vec3& p, double limit_m, Count count) const {
+        const std::optional<SurfacePoint> nearest = world_->closest_point(
+            p, limit_m,
+            count == Count::everything ? std::span<const std::uint64_t>{}
+                                       : std::span<const std::uint64_t>(rails_));
+        return nearest ? nearest->distance_m : limit_m;
+    }
+
+  private:
+    ShapeLibrary shapes_;
+    std::vector<std::uint64_t> rails_;
+    std::unique_ptr<CollisionWorld> world_;
+};
+
+const Surfaces& station_surfaces() {
+    static const Surfaces made(station());
+    return made;
+}
+const Surfaces& ship_surfaces() {
+    static const Surfaces made(ship());
+    return made;
+}
+
+// Least distance between two straight pieces, to a centimetre.
+double distance_between(const HandrailSpan& a, const HandrailSpan& b) {
+    double nearest = HUGE_VAL;
+    const int steps = static_cast<int>((a.end - a.start).norm() / 0.02) + 1;
+    const Vec3 along = b.end - b.start;
+    for (int i = 0; i <= steps; ++i) {
+        const Vec3 p = a.start + (a.end - a.start) * i / steps;
+        const double t = std::clamp((p - b.start).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        nearest = std::min(nearest, (p - b.start - t * along).norm());
+    }
+    return nearest - 0.01;
 }
 
 double area_m2(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
@@ -120,22 +137,50 @@ TEST(Station, EveryPartIsWeldedClosedAndWithoutSlivers) {
     EXPECT_EQ(station().parts.size(), station().looks.size());
 }
 
-TEST(Station, HasBetweenTwentyAndEightyThousandTriangles) {
+TEST(Station, HasBetweenEightyAndAHundredAndThirtyThousandTriangles) {
     std::size_t count = 0;
     for (const Mesh& part : station().parts) {
         count += part.triangles.size();
     }
-    EXPECT_GE(count, 20000U);
-    EXPECT_LE(count, 80000U);
+    EXPECT_GE(count, 80000U);
+    EXPECT_LE(count, 130000U);
+}
+
+TEST(Station, HasAtLeastSixModulesOfFiveKindsAndTenTools) {
+    const StationDescription& own = own_station_description();
+    std::size_t rooms = 0;
+    bool has_truss = false;
+    for (const StationSection& section : own.sections) {
+        rooms += section.type == SectionType::node || section.type == SectionType::module ? 1 : 0;
+        has_truss = has_truss || section.type == SectionType::truss;
+    }
+    EXPECT_GE(rooms, 6U);
+    EXPECT_TRUE(has_truss);
+    std::set<ToolType> kinds;
+    for (const StationTool& tool : own.tools) {
+        kinds.insert(tool.type);
+    }
+    EXPECT_GE(own.tools.size(), 10U);
+    EXPECT_GE(kinds.size(), 10U);
+}
+
+TEST(Station, CoordinatesAreExactFloats) {
+    for (const Mesh& part : station().parts) {
+        for (const Vec3& p : part.positions) {
+            for (const double coordinate : p) {
+                const volatile float nearest = static_cast<float>(coordinate);
+                ASSERT_EQ(coordinate, static_cast<double>(nearest)) << part.name;
+            }
+        }
+    }
 }
 
 TEST(Station, StaysWithinItsBounds) {
     for (const Mesh& part : station().parts) {
         for (const Vec3& p : part.positions) {
-            ASSERT_LT(std::abs(p.x()), 8.0) << part.name;
-            ASSERT_LT(std::abs(p.y()), 3.7) << part.name;
-            ASSERT_GT(p.z(), -2.3) << part.name;
-            ASSERT_LT(p.z(), 7.5) << part.name;
+            ASSERT_LT(std::abs(p.x()), 11.6) << part.name;
+            ASSERT_LT(std::abs(p.y()), 4.9) << part.name;
+            ASSERT_LT(std::abs(p.z()), 7.7) << part.name;
         }
     }
 }
@@ -146,7 +191,8 @@ TEST(Station, PartNamesAreSectionAndMaterialAndOccurOnce) {
         EXPECT_TRUE(names.insert(part.name).second) << part.name;
         EXPECT_EQ(std::count(part.name.begin(), part.name.end(), '/'), 1) << part.name;
     }
-    for (const char* section : {"hab", "lab", "airlock", "node"}) {
+    for (const char* section :
+         {"hab", "lab", "airlock", "node", "junction", "greenhouse", "storage"}) {
         EXPECT_TRUE(names.contains(std::string(section) + "/panels"));
     }
 }
@@ -161,35 +207,46 @@ TEST(Station, IsTheSameEveryTime) {
 }
 
 TEST(Station, SpawnsAreThirtyCentimetresClear) {
-    ASSERT_GE(station().spawns.size(), 4U);
+    ASSERT_GE(station().spawns.size(), 10U);
     for (const SpawnPoint& spawn : station().spawns) {
         EXPECT_TRUE(is_valid(spawn.pose)) << spawn.name;
-        EXPECT_GE(clearance(station(), spawn.pose.position, 0.5, Count::everything), 0.3)
+        EXPECT_GE(station_surfaces().clearance(spawn.pose.position, 0.5, Count::everything), 0.3)
             << spawn.name;
     }
 }
 
+// Along the axes of all modules, through every hatchway, to half a metre from what closes their
+// ends; tools float elsewhere.
 TEST(Station, WayFromModuleToModuleIsHalfAMetreClear) {
-    // Along both passages and through all three hatchways, to half a metre from the doors at their
-    // ends.
-    for (double along = -6.4; along <= 6.4; along += 0.1) {
-        if (along > -6.4 && along < 4.4) {
-            EXPECT_GE(clearance(station(), Vec3(along, 0.0, 0.0), 0.6, Count::everything), 0.5);
+    const auto expect_clear = [](const Vec3& from, const Vec3& to) {
+        const int steps = static_cast<int>((to - from).norm() / 0.1);
+        for (int i = 0; i <= steps; ++i) {
+            const Vec3 p = from + (to - from) * i / steps;
+            EXPECT_GE(station_surfaces().clearance(p, 0.6, Count::everything), 0.5)
+                << p.transpose();
         }
-        if (along >= 0.0 && along < 6.4) {
-            EXPECT_GE(clearance(station(), Vec3(0.0, 0.0, along), 0.6, Count::everything), 0.5);
-        }
-    }
+    };
+    expect_clear(Vec3(-8.4, 0.0, 0.0), Vec3(6.0, 0.0, 0.0));  // out of the open airlock
+    expect_clear(Vec3::Zero(), Vec3(0.0, 0.0, 6.4));
+    expect_clear(Vec3(-7.94, 0.0, -4.3), Vec3(-7.94, 0.0, 4.3));
 }
 
-TEST(Station, RailsAreThreeCentimetresClearOfEveryWall) {
-    ASSERT_GE(station().rails.size(), 20U);
+// But for the posts and ends of the rail itself.
+TEST(Station, RailsAreFourCentimetresClearOfEverythingElse) {
+    ASSERT_GE(station().rails.size(), 60U);
     for (const HandrailSpan& rail : station().rails) {
         const int steps = static_cast<int>((rail.end - rail.start).norm() / 0.02) + 1;
         for (int i = 0; i <= steps; ++i) {
             const Vec3 p = rail.start + (rail.end - rail.start) * i / steps;
-            ASSERT_GE(clearance(station(), p, 0.1, Count::all_but_rails), rail.radius_m + 0.03)
-                << rail.name;
+            EXPECT_GE(station_surfaces().clearance(p, 0.1, Count::all_but_rails),
+                      rail.radius_m + 0.04)
+                << rail.name << " at " << p.transpose();
+        }
+        for (const HandrailSpan& other : station().rails) {
+            if (rail.name != other.name) {
+                EXPECT_GE(distance_between(rail, other), rail.radius_m + other.radius_m + 0.04)
+                    << rail.name << " and " << other.name;
+            }
         }
     }
 }
@@ -197,18 +254,19 @@ TEST(Station, RailsAreThreeCentimetresClearOfEveryWall) {
 TEST(Station, RailSpansLieOnTheirBars) {
     for (const HandrailSpan& rail : station().rails) {
         const Vec3 middle = 0.37 * rail.start + 0.63 * rail.end;
-        // The bar is a prism of twelve sides: its surface lies between both radii off the axis,
+        // The bar is a prism of ten sides: its surface lies between both radii off the axis,
         // unless a post is near.
-        EXPECT_LE(clearance(station(), middle, 0.1, Count::everything), rail.radius_m + 1e-9)
+        EXPECT_LE(station_surfaces().clearance(middle, 0.1, Count::everything),
+                  rail.radius_m + 1e-9)
             << rail.name;
     }
 }
 
-TEST(Station, EachModuleHasAStraightRailOfThreeMetresOrItsWholeLength) {
-    for (const char* module : {"hab/", "lab/"}) {
+TEST(Station, EachModuleHasAStraightRailAlongItsWholeLength) {
+    for (const char* module : {"hab/", "lab/", "airlock/", "greenhouse/", "storage/"}) {
         const bool has_long = std::any_of(
             station().rails.begin(), station().rails.end(), [&](const HandrailSpan& rail) {
-                return rail.name.starts_with(module) && (rail.end - rail.start).norm() >= 3.0;
+                return rail.name.starts_with(module) && (rail.end - rail.start).norm() >= 2.8;
             });
         EXPECT_TRUE(has_long) << module;
     }
@@ -236,12 +294,12 @@ TEST(Ship, RailsAndSpawnsAreClear) {
         const int steps = static_cast<int>((rail.end - rail.start).norm() / 0.02) + 1;
         for (int i = 0; i <= steps; ++i) {
             const Vec3 p = rail.start + (rail.end - rail.start) * i / steps;
-            ASSERT_GE(clearance(ship(), p, 0.1, Count::all_but_rails), rail.radius_m + 0.03)
+            ASSERT_GE(ship_surfaces().clearance(p, 0.1, Count::all_but_rails), rail.radius_m + 0.03)
                 << rail.name;
         }
     }
     for (const SpawnPoint& spawn : ship().spawns) {
-        EXPECT_GE(clearance(ship(), spawn.pose.position, 0.5, Count::everything), 0.3);
+        EXPECT_GE(ship_surfaces().clearance(spawn.pose.position, 0.5, Count::everything), 0.3);
     }
 }
 

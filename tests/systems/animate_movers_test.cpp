@@ -1,5 +1,6 @@
 #include "systems/physics/animate_movers.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,8 @@ RC_GTEST_PROP(MoverPose, TinySpinIsNearlyStraight, (std::uint64_t seed)) {
 
 struct Movers {
     Column<Mover> mover;
+    Column<PathMover> path_mover;
+    Column<LegMover> leg_mover;
     Column<BodyPose> body_pose;
     Column<BodyStart> body_start;
     Column<BodyVelocity> velocity;
@@ -116,7 +119,14 @@ struct Movers {
         body_start.add(entity);
         velocity.add(entity);
     }
-    void run(double end_s) { animate_movers({end_s, mover, body_pose, body_start, velocity}); }
+    void add_at_rest(Entity entity) {
+        body_pose.add(entity);
+        body_start.add(entity);
+        velocity.add(entity);
+    }
+    void run(double end_s) {
+        animate_movers({end_s, mover, path_mover, leg_mover, body_pose, body_start, velocity});
+    }
 };
 
 TEST(AnimateMovers, StartsEachFrameWhereTheLastEnded) {
@@ -151,6 +161,99 @@ TEST(AnimateMovers, OrderDoesNotMatterAndBodiesWithoutAMoverStay) {
         EXPECT_EQ(distance(forth.body_pose.at(body).pose_ws, back.body_pose.at(body).pose_ws), 0.0);
     }
     EXPECT_EQ(back.body_pose.at(entity(3)).pose_ws.position, Vec3(7.0, 7.0, 7.0));
+}
+
+// --- Paths and legs ------------------------------------------------------------------------------
+
+PosePath loop() {
+    std::array<Pose, 6> poses;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Quat turn = rotation_about(Vec3::UnitY(), test::k_pi / 3.0 * static_cast<double>(i));
+        poses[i] = {turn * Vec3(4.0, 0.0, 0.0) + Vec3(0.0, 0.8, 0.0), turn};
+    }
+    return make_pose_path(poses, 30.0);
+}
+
+LegMover leg_of(Entity torso, LegBone bone) {
+    LegMover mover;
+    mover.torso = torso;
+    mover.leg.hip_bs = Vec3(0.5, 0.0, 0.2);
+    mover.leg.foot_bs = Vec3(1.1, -0.8, 0.2);
+    mover.leg.upper_m = 0.7;
+    mover.leg.lower_m = 0.8;
+    mover.bone = bone;
+    return mover;
+}
+
+TEST(AnimateMovers, PathBodyIsWhereThePathIsAtTheFramesEnd) {
+    Movers movers;
+    movers.add_at_rest(entity(1));
+    movers.path_mover.add(entity(1), {loop()});
+    movers.run(3.7);
+    movers.run(3.8);
+    const PosePathState expected = evaluate(loop(), 3.8);
+    EXPECT_EQ(distance(movers.body_pose.at(entity(1)).pose_ws, expected.pose), 0.0);
+    EXPECT_EQ(distance(movers.body_start.at(entity(1)).pose_ws, evaluate(loop(), 3.7).pose), 0.0);
+    EXPECT_EQ(movers.velocity.at(entity(1)).linear_mps, expected.velocity_mps);
+    EXPECT_EQ(movers.velocity.at(entity(1)).angular_radps, expected.angular_velocity_radps);
+}
+
+TEST(AnimateMovers, BonesFollowTheirTorsoWhicheverWasAddedFirst) {
+    Movers movers;
+    for (std::uint32_t i = 1; i <= 3; ++i) {
+        movers.add_at_rest(entity(i));
+    }
+    movers.leg_mover.add(entity(1), leg_of(entity(3), LegBone::upper));
+    movers.path_mover.add(entity(3), {loop()});
+    movers.leg_mover.add(entity(2), leg_of(entity(3), LegBone::lower));
+    movers.run(2.3);
+    const LegMover lower = leg_of(entity(3), LegBone::lower);
+    EXPECT_EQ(distance(movers.body_pose.at(entity(2)).pose_ws,
+                       crawler_bone_pose(loop(), lower.gait, lower.leg, LegBone::lower, 2.3)),
+              0.0);
+    // They meet at the knee.
+    const Vec3 knee =
+        transform_point(movers.body_pose.at(entity(1)).pose_ws, Vec3(0.0, -0.35, 0.0));
+    const Vec3 same = transform_point(movers.body_pose.at(entity(2)).pose_ws, Vec3(0.0, 0.4, 0.0));
+    EXPECT_LT((knee - same).norm(), 1e-12);
+}
+
+TEST(AnimateMovers, BoneWithoutItsTorsoStopsWhereItIs) {
+    Movers movers;
+    movers.add_at_rest(entity(1));
+    movers.add_at_rest(entity(3));
+    movers.leg_mover.add(entity(1), leg_of(entity(3), LegBone::upper));
+    movers.path_mover.add(entity(3), {loop()});
+    movers.run(1.0);
+    const Pose last = movers.body_pose.at(entity(1)).pose_ws;
+    movers.path_mover.remove(entity(3));
+    movers.run(1.1);
+    EXPECT_EQ(distance(movers.body_pose.at(entity(1)).pose_ws, last), 0.0);
+    EXPECT_EQ(distance(movers.body_start.at(entity(1)).pose_ws, last), 0.0);
+    EXPECT_EQ(movers.velocity.at(entity(1)).linear_mps, Vec3(Vec3::Zero()));
+}
+
+// Against Richardson's extrapolation of two coarser differences, whose own error is of the fourth
+// order.
+TEST(AnimateMovers, BoneVelocitiesAreThePosesDerivativeWithinTheStatedError) {
+    for (const LegBone bone : {LegBone::upper, LegBone::lower}) {
+        const LegMover mover = leg_of(entity(3), bone);
+        for (double t_s = 0.013; t_s < 3.0; t_s += 0.0371) {
+            const auto slope = [&](double step_s) {
+                const auto at = [&](double time_s) {
+                    return crawler_bone_pose(loop(), mover.gait, mover.leg, bone, time_s).position;
+                };
+                return Vec3((at(t_s + step_s) - at(t_s - step_s)) / (2.0 * step_s));
+            };
+            // Not across a foot's start or landing, where the third derivative jumps.
+            const double share = t_s / mover.gait.step_s - std::floor(t_s / mover.gait.step_s);
+            if (share < 0.01 || share > 0.99 || std::abs(share - mover.gait.standing) < 0.01) {
+                continue;
+            }
+            const Vec3 exact = (4.0 * slope(5e-4) - slope(1e-3)) / 3.0;
+            EXPECT_LT((leg_velocity(loop(), mover, t_s).linear_mps - exact).norm(), 1e-5) << t_s;
+        }
+    }
 }
 
 }  // namespace

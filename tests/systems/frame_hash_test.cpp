@@ -39,6 +39,9 @@ World full_world() {
     World world;
     const Entity ship = add_body(world, rock("ship", 1));
     world.mover.add(ship, {Pose{}, Vec3::UnitX(), Vec3::UnitY(), true});
+    const std::array<Pose, 2> poses = {Pose{}, Pose{Vec3::UnitX(), Quat::Identity()}};
+    world.path_mover.add(ship, {make_pose_path(poses, 4.0)});
+    world.leg_mover.add(ship);
     const Entity other = add_body(world, rock("rock", 2));
     Joint joint;
     joint.a = ship;

@@ -1,0 +1,168 @@
+#include "engine/anim/pose_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+// Position and quaternion as one vector: the spline treats all seven numbers alike.
+using Numbers = std::array<double, 7>;
+
+Numbers numbers_of(const Pose& pose) {
+    const Quat& q = pose.rotation;
+    return {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+// What comes after the last key is the first one again; a path that turned once around comes back
+// to the negative of its quaternion.
+struct Neighbour {
+    std::size_t index = 0;
+    double sign = 1.0;  // of the quaternion
+};
+
+double sign_of(std::size_t number, const Neighbour& neighbour) {
+    return number < 3 ? 1.0 : neighbour.sign;
+}
+
+class PeriodicSpline {
+  public:
+    PeriodicSpline(std::span<const Pose> poses, double step_s) : step_s_(step_s) {
+        count_ = poses.size();
+        Quat before = poses[0].rotation.normalized();
+        for (std::size_t i = 0; i < count_; ++i) {
+            Pose pose{poses[i].position, poses[i].rotation.normalized()};
+            const double cosine = before.dot(pose.rotation);
+            check_turn(cosine, i);
+            if (cosine < 0.0) {
+                pose.rotation.coeffs() = -pose.rotation.coeffs();
+            }
+            before = pose.rotation;
+            points_[i] = numbers_of(pose);
+        }
+        const Quat first = poses[0].rotation.normalized();
+        check_turn(before.dot(first), 0);
+        closing_sign_ = before.dot(first) < 0.0 ? -1.0 : 1.0;
+    }
+
+    // Continuous curvature asks for m[i-1] + 4 m[i] + m[i+1] = 3 (p[i+1] - p[i-1]) / step of the
+    // rates m. Gauss and Seidel's sweeps at least halve the error each: after 64 nothing is left.
+    void solve_rates() {
+        for (int sweep = 0; sweep < 64; ++sweep) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                const Neighbour before = previous(i);
+                const Neighbour after = next(i);
+                for (std::size_t n = 0; n < rates_[i].size(); ++n) {
+                    const double rise = sign_of(n, after) * points_[after.index][n] -
+                                        sign_of(n, before) * points_[before.index][n];
+                    const double others = sign_of(n, after) * rates_[after.index][n] +
+                                          sign_of(n, before) * rates_[before.index][n];
+                    rates_[i][n] = 0.25 * (3.0 * rise / step_s_ - others);
+                }
+            }
+        }
+    }
+
+    PathKey key(std::size_t i) const {
+        const Numbers& p = points_[i];
+        const Numbers& m = rates_[i];
+        return {{Vec3(p[0], p[1], p[2]), Quat(p[6], p[3], p[4], p[5])},
+                Vec3(m[0], m[1], m[2]),
+                {m[3], m[4], m[5], m[6]}};
+    }
+
+  private:
+    static void check_turn(double cosine, std::size_t key) {
+        // Of half the angle between two rotations.
+        double sine = 0.0;
+        double least = 1.0;
+        sin_cos(0.5 * k_max_path_turn_rad, sine, least);
+        HH_CHECK(std::abs(cosine) >= least, "a path turns too far between two poses", key);
+    }
+    Neighbour previous(std::size_t i) const {
+        return i > 0 ? Neighbour{i - 1, 1.0} : Neighbour{count_ - 1, closing_sign_};
+    }
+    Neighbour next(std::size_t i) const {
+        return i + 1 < count_ ? Neighbour{i + 1, 1.0} : Neighbour{0, closing_sign_};
+    }
+
+    double step_s_;
+    std::size_t count_ = 0;
+    double closing_sign_ = 1.0;
+    std::array<Numbers, k_max_path_keys> points_ = {};
+    std::array<Numbers, k_max_path_keys> rates_ = {};
+};
+
+using Four = Eigen::Vector4d;
+
+Four rate_of(const PathKey& key) {
+    return {key.quaternion_rate[0], key.quaternion_rate[1], key.quaternion_rate[2],
+            key.quaternion_rate[3]};
+}
+
+// Hermite's cubic from a (rate ra) to b (rate rb) in step_s, at the share s of the way.
+template <typename Vector>
+struct Cubic {
+    Vector value;
+    Vector rate;
+};
+template <typename Vector>
+Cubic<Vector> cubic(const Vector& a, const Vector& ra, const Vector& b, const Vector& rb,
+                    double step_s, double s) {
+    const double s2 = s * s;
+    const double s3 = s2 * s;
+    const Vector value = (2.0 * s3 - 3.0 * s2 + 1.0) * a + (step_s * (s3 - 2.0 * s2 + s)) * ra +
+                         (3.0 * s2 - 2.0 * s3) * b + (step_s * (s3 - s2)) * rb;
+    const Vector rate = (6.0 * (s2 - s) / step_s) * (a - b) + (3.0 * s2 - 4.0 * s + 1.0) * ra +
+                        (3.0 * s2 - 2.0 * s) * rb;
+    return {value, rate};
+}
+
+}  // namespace
+
+PosePath make_pose_path(std::span<const Pose> poses, double period_s) {
+    HH_CHECK(poses.size() >= 2 && poses.size() <= k_max_path_keys, "a path has 2 to 16 poses",
+             poses.size());
+    HH_CHECK(period_s > 0.0 && std::isfinite(period_s), "the period must be above 0", period_s);
+    for (const Pose& pose : poses) {
+        HH_CHECK(is_valid(pose), "the pose is not valid", pose.rotation.norm());
+    }
+    PeriodicSpline spline(poses, period_s / static_cast<double>(poses.size()));
+    spline.solve_rates();
+    PosePath path;
+    path.count = static_cast<std::uint32_t>(poses.size());
+    path.period_s = period_s;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        path.keys[i] = spline.key(i);
+    }
+    return path;
+}
+
+PosePathState evaluate(const PosePath& path, double t_s) {
+    HH_CHECK(path.count >= 2 && path.count <= k_max_path_keys, "not a path", path.count);
+    const double step_s = path.period_s / path.count;
+    const double laps = t_s / path.period_s;
+    const double steps = (laps - std::floor(laps)) * path.count;
+    const std::uint32_t index = std::min(static_cast<std::uint32_t>(steps), path.count - 1);
+    const PathKey& a = path.keys[index];
+    const PathKey& b = path.keys[index + 1 < path.count ? index + 1 : 0];
+    const double sign = a.pose.rotation.dot(b.pose.rotation) < 0.0 ? -1.0 : 1.0;
+    const double s = steps - index;
+    const Cubic<Vec3> place =
+        cubic<Vec3>(a.pose.position, a.velocity_mps, b.pose.position, b.velocity_mps, step_s, s);
+    const Four to = sign * b.pose.rotation.coeffs();
+    const Cubic<Four> turn =
+        cubic<Four>(a.pose.rotation.coeffs(), rate_of(a), to, sign * rate_of(b), step_s, s);
+    // q = c / |c|: its rate is the cubic's without the part along q; the spin is 2 q' q*.
+    const double length = turn.value.norm();
+    const Four unit = turn.value / length;
+    const Four rate = (turn.rate - unit * unit.dot(turn.rate)) / length;
+    const Quat rotation(unit[3], unit[0], unit[1], unit[2]);
+    const Quat rotation_rate(rate[3], rate[0], rate[1], rate[2]);
+    const Quat spin = rotation_rate * rotation.conjugate();
+    return {{place.value, rotation}, place.rate, 2.0 * spin.vec()};
+}
+
+}  // namespace handhold

@@ -1,0 +1,50 @@
+#include "game/build_station_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "game/built_in_scenes.hpp"
+#include "game/station_description.hpp"
+#include "game/station_scene.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_exit_bad_file = 2;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "%s\n", error.message().c_str());
+    return k_exit_bad_file;
+}
+
+}  // namespace
+
+int build_station_command(const BuildStationOptions& options) {
+    StationDescription description;
+    if (options.description.empty()) {
+        description = own_station_description();
+    } else {
+        Result<StationDescription> read = load_station_description(options.description);
+        if (!read) {
+            return refuse(read.error());
+        }
+        description = std::move(read.value());
+    }
+    StationScene station = make_station_scene(description);
+    add_session_spawn(station.scene);
+    if (const auto error = write_station(station, options.out)) {
+        return refuse(*error);
+    }
+    std::size_t triangles = 0;
+    const Structure& structure = station.models.front().structure;
+    for (const Mesh& part : structure.parts) {
+        triangles += part.triangles.size();
+    }
+    std::printf("%s: %zu sections, %zu parts, %zu triangles, %zu rails, %zu tools\n",
+                (std::filesystem::path(options.out) / (station.scene.name + ".json")).c_str(),
+                description.sections.size(), structure.parts.size(), triangles,
+                structure.rails.size(), description.tools.size());
+    return 0;
+}
+
+}  // namespace handhold

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace handhold {
+
+struct BuildStationOptions {
+    std::string description;  // a file; empty: the game's own station
+    std::string out;          // folder
+};
+
+// `handhold build-station`: writes a station's scene file and models. Returns the exit status.
+int build_station_command(const BuildStationOptions& options);
+
+}  // namespace handhold

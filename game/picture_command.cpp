@@ -1,0 +1,84 @@
+#include "game/picture_command.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <system_error>
+
+#include "engine/io/text_file.hpp"
+#include "game/scene_picture.hpp"
+#include "systems/frame.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_exit_bad_file = 2;
+constexpr double k_eye_height_m = 1.6;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "%s\n", error.message().c_str());
+    return k_exit_bad_file;
+}
+
+void step_to(Scene& scene, double seconds) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    FrameCaches caches(*scene.shapes);
+    StageStats stats;
+    while (scene.world.clock.t_s + 0.5 * k_dt_s < seconds) {
+        step_frame(scene.world, caches, scene.tuning, {k_dt_s, {}}, stats);
+    }
+}
+
+Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
+    constexpr double k_degree = std::numbers::pi / 180.0;
+    const Quat look = rotation_about(Vec3::UnitY(), options.yaw_deg * k_degree) *
+                      rotation_about(Vec3::UnitX(), options.pitch_deg * k_degree);
+    return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
+}
+
+}  // namespace
+
+int picture_command(const PictureOptions& options) {
+    Result<Scene> loaded = load_scene(options.scene);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    Scene& scene = loaded.value();
+    std::error_code failure;
+    std::filesystem::create_directories(options.out, failure);
+    if (failure) {
+        return refuse({options.out, "", "expected a folder that can be made"});
+    }
+    step_to(scene, options.seconds);
+    std::string why_not;
+    std::optional<Renderer> renderer =
+        Renderer::create(options.width_px, options.height_px, why_not, PictureQuality::fine);
+    if (!renderer) {
+        std::fprintf(stderr, "no pictures: %s\n", why_not.c_str());
+        return k_exit_bad_file;
+    }
+    const std::vector<MeshId> meshes = add_scene_meshes(scene, *renderer);
+    Image image;
+    for (const SceneSpawnPoint& spawn : scene.spawns) {
+        if (!options.spawn.empty() && options.spawn != spawn.name) {
+            continue;
+        }
+        RenderFrame frame = make_scene_frame(scene, meshes);
+        frame.camera.pose_ws = eyes_at(spawn, options);
+        const auto begin = std::chrono::steady_clock::now();
+        renderer->draw(frame, image);
+        const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;
+        const std::vector<std::uint8_t> png = encode_png(image);
+        const std::filesystem::path file =
+            std::filesystem::path(options.out) / (spawn.name + ".png");
+        if (const auto error = write_file_atomically(file, std::string(png.begin(), png.end()))) {
+            return refuse(*error);
+        }
+        std::printf("%s: %.2f s, %d triangles in all passes\n", file.string().c_str(), cost.count(),
+                    renderer->counters().triangles);
+    }
+    return 0;
+}
+
+}  // namespace handhold

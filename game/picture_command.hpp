@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+namespace handhold {
+
+struct PictureOptions {
+    std::string scene;
+    std::string out;         // folder
+    std::string spawn;       // one of the scene's; empty: all
+    double yaw_deg = 0.0;    // turned to the left from where the spawn faces
+    double pitch_deg = 0.0;  // up
+    double seconds = 0.0;    // into the scene
+    int width_px = 960;
+    int height_px = 540;
+};
+
+// `handhold pictures`: what somebody at each spawn sees, as DIR/<spawn>.png. Returns the exit
+// status.
+int picture_command(const PictureOptions& options);
+
+}  // namespace handhold

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "game/scene.hpp"
+#include "game/session_script.hpp"
+
+namespace handhold {
+
+// A robot of rigid colliders crawls round a loop on a hull; its session climbs along its back while
+// it walks, and rides on it into the bend.
+Scene make_robot_scene();
+// Planned in the frame of the robot's torso.
+SessionScript robot_script();
+
+}  // namespace handhold

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "game/scene_file.hpp"
+#include "game/station.hpp"
+#include "game/station_description.hpp"
+
+namespace handhold {
+
+struct ToolModel {
+    SceneShape shape;      // box, sphere or capsule, about the middle
+    double mass_kg = 1.0;  // of a real one
+    Structure visual;      // in the body's frame, closed solids; no rails, lamps or spawns
+};
+ToolModel make_tool(ToolType type);
+const char* tool_type_name(ToolType type);
+
+}  // namespace handhold
