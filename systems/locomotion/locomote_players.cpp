@@ -12,6 +12,7 @@ struct Grips {
     struct Grip {
         const Grab* grab = nullptr;
         const HandTracking* hand = nullptr;
+        HandSide side = HandSide::left;
     };
     std::array<Grip, k_hand_count> grips;
     std::size_t count = 0;
@@ -19,10 +20,13 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// What is fixed to the world leads, and of two equal ones the hand that holds longer.
+// What is fixed to the world leads, of two equal ones the hand that holds longer, and of two that
+// closed at one instant the left: never the one that is listed first.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
-    return is_on_surface(a) != is_on_surface(b) ? is_on_surface(a)
-                                                : a.grab->since_s < b.grab->since_s;
+    if (is_on_surface(a) != is_on_surface(b)) {
+        return is_on_surface(a);
+    }
+    return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
 Grips grips_of(const LocomotePlayersIo& io, Entity player) {
@@ -31,8 +35,9 @@ Grips grips_of(const LocomotePlayersIo& io, Entity player) {
         const Entity entity = io.owner.owners()[row];
         const Grab& grab = io.grab.at(entity);
         const bool holds = grab.phase == GrabPhase::holding || grab.phase == GrabPhase::releasing;
-        if (io.owner.rows()[row].player == player && holds && found.count < k_hand_count) {
-            found.grips[found.count++] = {&grab, &io.hand.at(entity)};
+        const HandOwner& owner = io.owner.rows()[row];
+        if (owner.player == player && holds && found.count < k_hand_count) {
+            found.grips[found.count++] = {&grab, &io.hand.at(entity), owner.side};
         }
     }
     if (found.count == 2 && comes_first(found.grips[1], found.grips[0])) {
