@@ -116,7 +116,8 @@ std::vector<PlayerEntities> add_players(Scene& scene, const Place& place,
         const std::size_t round = index / std::max<std::size_t>(1, scene.spawns.size());
         const Vec3 behind = origin.rotation * Vec3(0.0, 0.0, 0.4 * static_cast<double>(round));
         const Pose start{origin.position + behind, origin.rotation};
-        players.push_back(add_scene_player(scene, {"player" + std::to_string(i), start, 80.0}));
+        const std::string name = free_player_name(scene.world, "player" + std::to_string(i));
+        players.push_back(add_scene_player(scene, {name, start, 80.0}));
     }
     return players;
 }

@@ -1,6 +1,8 @@
 #include "game/scene.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "components/tuning_json.hpp"
@@ -33,22 +35,40 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
 // Builds a scene file's bodies one by one; the first error is kept and ends it.
 class SceneBuilder {
   public:
-    SceneBuilder(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
+    SceneBuilder(const SceneFile& file, const std::filesystem::path& path, Scene& scene)
+        : file_(file), path_(path), scene_(scene) {}
 
     std::optional<FileError> build() {
-        for (const SceneLevel& level : file_.levels) {
-            add_level(level);
+        for (std::size_t i = 0; i < file_.levels.size(); ++i) {
+            place_ = "/levels/" + std::to_string(i);
+            add_level(file_.levels[i]);
         }
-        for (const SceneBody& body : file_.bodies) {
-            add_scene_body(body);
+        for (std::size_t i = 0; i < file_.bodies.size(); ++i) {
+            place_ = "/bodies/" + std::to_string(i) + "/name";
+            add_scene_body(file_.bodies[i]);
         }
         for (const SceneSpawn& spawn : file_.spawns) {
             scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
+        }
+        for (std::size_t i = 0; i < file_.players.size(); ++i) {
+            place_ = "/players/" + std::to_string(i) + "/name";
+            add_player_start(file_.players[i]);
         }
         return error_;
     }
 
   private:
+    // The file's own names differ, but parts of levels and players' hands get theirs here. False,
+    // with the error kept, where somebody has it already.
+    bool take_name(const std::string& name) {
+        if (!error_ && !names_.insert(name).second) {
+            error_ =
+                FileError{path_.string(), place_,
+                          "expected names that nothing else has, found \"" + name + "\" twice"};
+        }
+        return !error_;
+    }
+
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
     // Null, with the error kept, where the file is refused.
@@ -75,6 +95,9 @@ class SceneBuilder {
             const Mesh& mesh = loaded->parts[i].mesh;
             if (!mesh.triangles.empty()) {
                 const std::string name = stem + "/" + std::to_string(i) + "/" + mesh.name;
+                if (!take_name(name)) {
+                    return;
+                }
                 bodies.push_back(add_static_body(scene_, name, moved_mesh(mesh, level.pose),
                                                  file_.world_transform));
             }
@@ -125,7 +148,7 @@ class SceneBuilder {
     void add_scene_body(const SceneBody& body) {
         std::shared_ptr<const Mesh> visual;
         const ShapeId shape = add_shape(body.shape, visual);
-        if (error_) {
+        if (error_ || !take_name(body.name)) {
             return;
         }
         BodyDescription description;
@@ -158,8 +181,23 @@ class SceneBuilder {
         scene_.visuals.push_back({entity, visual, color, {}});
     }
 
+    void add_player_start(const ScenePlayer& player) {
+        for (const char* const part : {"", "/left_hand", "/right_hand"}) {
+            if (!take_name(player.name + part)) {
+                return;
+            }
+        }
+        const auto spawn = std::find_if(
+            scene_.spawns.begin(), scene_.spawns.end(),
+            [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
+        scene_.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
+    }
+
     const SceneFile& file_;
+    const std::filesystem::path& path_;
     Scene& scene_;
+    std::string place_;            // of what is being added
+    std::set<std::string> names_;  // taken
     std::optional<FileError> error_;
 };
 
@@ -195,14 +233,8 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     scene.world.reference_velocity_mps =
         file.world_transform.rotation * file.reference_velocity_mps;
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
-    if (std::optional<FileError> error = SceneBuilder(file, scene).build()) {
+    if (std::optional<FileError> error = SceneBuilder(file, path, scene).build()) {
         return *error;
-    }
-    for (const ScenePlayer& player : file.players) {
-        const auto spawn = std::find_if(
-            scene.spawns.begin(), scene.spawns.end(),
-            [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
-        scene.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
     }
     return scene;
 }
@@ -228,6 +260,17 @@ Result<Scene> load_scene(const std::string& name_or_file) {
         return file.error();
     }
     return build_scene(file.value(), path);
+}
+
+std::string free_player_name(const World& world, std::string wanted) {
+    const auto is_taken = [&world](const std::string& name) {
+        return !is_null(find_by_id(world, persistent_id_from_name(name)));
+    };
+    while (is_taken(wanted) || is_taken(wanted + "/left_hand") ||
+           is_taken(wanted + "/right_hand")) {
+        wanted += "'";
+    }
+    return wanted;
 }
 
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start) {

@@ -62,6 +62,9 @@ Result<Scene> load_scene(const std::string& name_or_file);
 // From a checked scene file; loads the levels and meshes that it names.
 Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path);
 
+// `wanted`, with as many primes behind it as it takes until it and its hands' names are free: a
+// scene's bodies may have any names.
+std::string free_player_name(const World& world, std::string wanted);
 // Adds a player who moves with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
 

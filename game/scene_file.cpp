@@ -13,7 +13,7 @@ namespace handhold {
 namespace {
 
 constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
-constexpr NumberRange k_extent_m = {0.0, 1e6, true};
+constexpr NumberRange k_extent_m = {1e-3, 1e4, false};  // as ShapeLibrary takes them
 constexpr NumberRange k_speed_mps = {-1e5, 1e5, false};
 constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
 constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};

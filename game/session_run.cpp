@@ -10,6 +10,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_seconds_without_recording = 10.0;
+constexpr std::uint64_t k_frames_reserved = 10000;
 
 // Entity -> index in RunLog::body_names, -1 for none.
 class BodyIndex {
@@ -112,7 +113,8 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + 1e-9)));
 
     RunLog log = begin_log(scene, players, settings);
-    log.frames.reserve(frames);
+    // As many as a session of minutes has: what a file claims to last is no reason to take memory.
+    log.frames.reserve(std::min<std::uint64_t>(frames, k_frames_reserved));
     const BodyIndex bodies(scene.world);
     std::vector<PlayerInput> inputs(players.size());
     StageStats stats;

@@ -77,6 +77,27 @@ TEST_F(RunCommand, SceneFileWithItsOwnPlayersRuns) {
     EXPECT_EQ(run(options), 0) << err_;
 }
 
+// A name gives the persistent id: two of one name were a broken precondition, not a refused file.
+TEST_F(RunCommand, NamesThatPlayersHandsWouldTakeAreRefusedAndInventedOnesMakeWay) {
+    const std::string ball =
+        R"("kind": "static", "shape": {"type": "sphere", "radius_m": 0.1}, "position_m": [0, 9, 0]})";
+    RunOptions options;
+    options.seconds = 0.1;
+    options.scene = write("hand.json", R"({"name": "hand", "bodies": [{"name": "p/left_hand", )" +
+                                           ball + R"(], "spawns": [{"name": "s"}],
+        "players": [{"name": "p", "spawn": "s"}]})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("/players/0/name: expected names that nothing else has"), std::string::npos)
+        << err_;
+    options.scene = write("players.json", R"({"name": "players", "spawns": [{"name": "s"}],
+        "players": [{"name": "a/left_hand", "spawn": "s"}, {"name": "a", "spawn": "s"}]})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("/players/1/name"), std::string::npos) << err_;
+    options.scene =
+        write("taken.json", R"({"name": "taken", "bodies": [{"name": "player0", )" + ball + "]}");
+    EXPECT_EQ(run(options), 0) << err_;
+}
+
 TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
     std::vector<RunOptions> wrong(5);
     wrong[0].scene = "no_such_scene";
