@@ -123,5 +123,61 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
     EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
 }
 
+// --- Saved and taken up again --------------------------------------------------------------------
+
+class ResumedRun : public RunCommand {
+  protected:
+    ResumedRun() {
+        options_.scene = "ship";
+        options_.seconds = 2.0;
+        options_.players = 2;
+        snapshot_ = (folder_ / "half.snapshot").string();
+    }
+    std::string hash() { return out_.substr(out_.rfind("state_hash")); }
+
+    RunOptions options_;
+    std::string snapshot_;
+};
+
+TEST_F(ResumedRun, EndsWithTheSameHash) {
+    options_.snapshot = snapshot_;
+    options_.snapshot_at_s = 1.0;
+    ASSERT_EQ(run(options_), 0) << err_;
+    const std::string expected = hash();
+    options_.snapshot.clear();
+    options_.resume = snapshot_;
+    ASSERT_EQ(run(options_), 0) << err_;
+    EXPECT_EQ(hash(), expected);
+    EXPECT_NE(out_.find("ship: 90 frames"), std::string::npos) << out_;  // the second half only
+}
+
+TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
+    options_.snapshot = snapshot_;
+    options_.snapshot_at_s = 0.1;
+    options_.seconds = 0.2;
+    ASSERT_EQ(run(options_), 0) << err_;
+    options_.snapshot.clear();
+    options_.resume = snapshot_;
+    options_.players = 3;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
+        << err_;
+    options_.players = 2;
+    options_.scene = "station";
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("half.snapshot: byte 24"), std::string::npos) << err_;
+    options_.resume = (folder_ / "absent").string();
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_EQ(lines_of(err_), 1U) << err_;
+}
+
+TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {
+    options_.snapshot = snapshot_;
+    options_.seconds = 0.2;
+    options_.snapshot_at_s = 0.3;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_FALSE(std::filesystem::exists(snapshot_));
+}
+
 }  // namespace
 }  // namespace handhold
