@@ -10,15 +10,16 @@
 namespace handhold {
 namespace {
 
+using test::angle_between;
 using test::distance;
 using test::entity;
+using test::k_left;
+using test::k_player;
+using test::k_right;
+using test::k_ship;
+using test::k_wall;
 using test::Random;
 
-constexpr Entity k_player = entity(0);
-constexpr Entity k_left = entity(1);
-constexpr Entity k_right = entity(2);
-constexpr Entity k_ship = entity(3);
-constexpr Entity k_wall = entity(4);
 constexpr double k_dt_s = 1.0 / 90.0;
 
 struct Locomotion {

@@ -11,14 +11,14 @@ namespace {
 using test::count_of;
 using test::count_of_all;
 using test::distance;
-using test::entity;
+using test::k_left;
+using test::k_player;
+using test::k_right;
+using test::k_ship;
+using test::k_wall;
+using test::pose_at;
 using test::Random;
 
-constexpr Entity k_player = entity(0);
-constexpr Entity k_left = entity(1);
-constexpr Entity k_right = entity(2);
-constexpr Entity k_wall = entity(3);
-constexpr Entity k_ship = entity(4);
 constexpr double k_start_s = 2.0;
 constexpr double k_end_s = 2.01;
 constexpr double k_dt_s = k_end_s - k_start_s;
@@ -83,8 +83,6 @@ struct Settling {
             stats);
     }
 };
-
-Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 
 // Everything moves; the player drifts along a line.
 Settling random_settling(Random& random, std::initializer_list<Entity> hands = {k_left, k_right}) {
