@@ -40,23 +40,23 @@ class BreachFinder {
         }
     }
 
-    // Every owner in `column` has a row in `other`.
+    // Every owner in `column` has a row in `required`.
     template <typename A, typename B>
-    void require(const char* name, const Column<A>& column, const char* other_name,
-                 const Column<B>& other) {
+    void require(const char* name, const Column<A>& column, const char* required_name,
+                 const Column<B>& required) {
         for (const Entity owner : column.owners()) {
-            if (!other.contains(owner)) {
+            if (!required.contains(owner)) {
                 check(false, name, owner, "",
-                      (std::string("a row in ") + other_name + " beside it").c_str());
+                      (std::string("a row in ") + required_name + " beside it").c_str());
             }
         }
     }
     // Two columns have the same owners.
     template <typename A, typename B>
-    void require_both(const char* name, const Column<A>& column, const char* other_name,
-                      const Column<B>& other) {
-        require(name, column, other_name, other);
-        require(other_name, other, name, column);
+    void require_both(const char* a_name, const Column<A>& a, const char* b_name,
+                      const Column<B>& b) {
+        require(a_name, a, b_name, b);
+        require(b_name, b, a_name, a);
     }
 
     void check_globals() {

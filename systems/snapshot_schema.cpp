@@ -97,7 +97,10 @@ std::string schema_difference(std::string_view expected, std::string_view found)
         const std::string expected_line = take_line(expected);
         const std::string found_line = take_line(found);
         if (expected_line != found_line) {
-            return "expected " + expected_line + ", found " + found_line;
+            return std::string("expected ")
+                .append(expected_line)
+                .append(", found ")
+                .append(found_line);
         }
     }
     return "expected a line end after every field";
