@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "components/world.hpp"
 
 // The fields of every component, by name: what hashes, snapshots and the inspector go through.
@@ -7,6 +9,23 @@
 // component as bytes. A test compares the number of fields visited with the number that the struct
 // has.
 namespace handhold {
+
+// How many values an enum in a component has, from 0 on: what a snapshot may hold. Whoever puts a
+// new enum into a component says it here; what walks over the fields does not compile before.
+template <typename Enum>
+inline constexpr std::uint32_t k_value_count = 0;
+template <>
+inline constexpr std::uint32_t k_value_count<BodyKind> = 3;
+template <>
+inline constexpr std::uint32_t k_value_count<TrackingState> = 3;
+template <>
+inline constexpr std::uint32_t k_value_count<HandSide> = 2;
+template <>
+inline constexpr std::uint32_t k_value_count<GrabEdge> = 3;
+template <>
+inline constexpr std::uint32_t k_value_count<GripKind> = 3;
+template <>
+inline constexpr std::uint32_t k_value_count<GrabPhase> = 4;
 
 template <typename V>
 void visit_fields(const PersistentId& c, V&& visit) {

@@ -38,6 +38,14 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
                    "Write stage zones as a Chrome trace (Perfetto reads it)");
     run.add_option("--out", options.out,
                    "Write frames.csv, report.json, report.html, pictures and a video here");
+    CLI::Option* const snapshot = run.add_option(
+        "--snapshot", options.snapshot, "Save the state to this file, at the time --snapshot-at");
+    snapshot->needs(
+        run.add_option("--snapshot-at", options.snapshot_at_s, "When to save the state, seconds")
+            ->check(CLI::Range(0.0, 1e6))
+            ->needs(snapshot));
+    run.add_option("--resume", options.resume,
+                   "Go on from a saved state of the same scene and players");
     run.add_flag("!--no-pictures", options.pictures,
                  "With --out: files only, no pictures and no video");
 }

@@ -19,6 +19,7 @@
 #include "game/report/run_summary.hpp"
 #include "game/session_run.hpp"
 #include "game/spawn.hpp"
+#include "systems/snapshot.hpp"
 
 namespace handhold {
 namespace {
@@ -118,10 +119,66 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
         }
     }
     std::vector<PlayerEntities> players;
-    for (const ScenePlayerStart& start : starts) {
+    for (ScenePlayerStart& start : starts) {
+        start.name = scene.players.empty() ? free_player_name(scene.world, start.name) : start.name;
         players.push_back(add_scene_player(scene, start));
     }
     return players;
+}
+
+// Saves the state when its time has come.
+class SnapshotTaker {
+  public:
+    SnapshotTaker(const RunOptions& options, const SnapshotAssets& assets)
+        : options_(options), assets_(assets) {}
+
+    void watch(const Scene& scene, double t_s) {
+        constexpr double k_rounding_s = 1e-9;
+        if (!options_.snapshot.empty() && !taken_ && t_s >= options_.snapshot_at_s - k_rounding_s) {
+            taken_ = true;
+            error_ = save_snapshot_file(options_.snapshot, scene.world, assets_);
+        }
+    }
+    // After the session.
+    std::optional<FileError> error() const {
+        if (!options_.snapshot.empty() && !taken_) {
+            return FileError{options_.snapshot, "",
+                             "expected a time within the session for --snapshot-at, found " +
+                                 std::to_string(options_.snapshot_at_s)};
+        }
+        return error_;
+    }
+
+  private:
+    const RunOptions& options_;
+    const SnapshotAssets& assets_;
+    bool taken_ = false;
+    std::optional<FileError> error_;
+};
+
+// Puts the saved state in the place of the scene's first one. The players stay who they are.
+std::optional<FileError> resume(const RunOptions& options, const SnapshotAssets& assets,
+                                Scene& scene, std::vector<PlayerEntities>& players) {
+    const World before = scene.world;
+    if (std::optional<FileError> error = load_snapshot_file(options.resume, assets, scene.world)) {
+        return error;
+    }
+    bool all_there = scene.world.player.size() == players.size();
+    const auto find_again = [&](Entity& entity) {
+        entity = find_by_id(scene.world, before.persistent_id.at(entity));
+        all_there = all_there && !is_null(entity);
+    };
+    for (PlayerEntities& player : players) {
+        find_again(player.player);
+        for (Entity& hand : player.hands) {
+            find_again(hand);
+        }
+    }
+    if (!all_there) {
+        return FileError{options.resume, "",
+                         "expected a snapshot with the players of this run, found others"};
+    }
+    return std::nullopt;
 }
 
 std::optional<FileError> write_pictures(const std::filesystem::path& folder,
@@ -210,13 +267,29 @@ Film open_film(const RunOptions& options, const Scene& scene, double session_s) 
     return film;
 }
 
+// The shots; the video is on disk then.
+std::vector<FilmShot> finish_film(Film& film) {
+    if (film.camera == nullptr) {
+        return {};
+    }
+    std::string why_not;
+    std::vector<FilmShot> shots = film.camera->finish(why_not);
+    if (why_not.empty()) {
+        film.media.video = "run.mp4";
+    } else {
+        std::printf("no video: %s\n", why_not.c_str());
+    }
+    return shots;
+}
+
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
-            RunTally& tally) {
+            RunTally& tally, SnapshotTaker& snapshots) {
     Progress progress("playing " + scene.name);
     const double length_s = session_length_s(recording, settings);
     return run_session(scene, caches, players, recording, settings,
-                       [&](const Scene&, const FrameLog& frame) {
+                       [&](const Scene& played, const FrameLog& frame) {
+                           snapshots.watch(played, frame.t_s);
                            if (camera != nullptr) {
                                camera->watch(frame);
                            }
@@ -250,10 +323,16 @@ int run_command(const RunOptions& options) {
     if (!place) {
         return refuse(place.error());
     }
-    const Result<std::vector<PlayerEntities>> players =
+    Result<std::vector<PlayerEntities>> players =
         add_players(scene, caches, place.value(), options);
     if (!players) {
         return refuse(players.error());
+    }
+    const SnapshotAssets assets(*scene.shapes, scene.name);
+    if (!options.resume.empty()) {
+        if (const auto error = resume(options, assets, scene, players.value())) {
+            return refuse(*error);
+        }
     }
 
     const Recording* const recording =
@@ -264,8 +343,12 @@ int run_command(const RunOptions& options) {
         start_trace();
     }
     RunTally tally;
-    RunLog log =
-        play(scene, caches, players.value(), recording, settings, film.camera.get(), tally);
+    SnapshotTaker snapshots(options, assets);
+    RunLog log = play(scene, caches, players.value(), recording, settings, film.camera.get(), tally,
+                      snapshots);
+    if (const auto error = snapshots.error()) {
+        return refuse(*error);
+    }
     log.input = session.value().name;
     log.spawn = place.value().name;
     if (!options.trace.empty()) {
@@ -275,16 +358,7 @@ int run_command(const RunOptions& options) {
         }
     }
     if (!options.out.empty()) {
-        std::vector<FilmShot> shots;
-        if (film.camera != nullptr) {
-            std::string why_not;
-            shots = film.camera->finish(why_not);
-            if (why_not.empty()) {
-                film.media.video = "run.mp4";
-            } else {
-                std::printf("no video: %s\n", why_not.c_str());
-            }
-        }
+        std::vector<FilmShot> shots = finish_film(film);
         if (auto error = write_output(options.out, log, std::move(film.media), std::move(shots))) {
             return refuse(*error);
         }

@@ -8,10 +8,13 @@ namespace handhold {
 // `handhold run`, as given on the command line.
 struct RunOptions {
     std::string scene;
-    std::string input;  // empty: the scene's own session, if it has one
-    std::string spawn;  // empty: the scene's first; "auto"
-    std::string trace;  // empty: none
-    std::string out;    // empty: no files
+    std::string input;           // empty: the scene's own session, if it has one
+    std::string spawn;           // empty: the scene's first; "auto"
+    std::string trace;           // empty: none
+    std::string out;             // empty: no files
+    std::string snapshot;        // file; empty: none
+    double snapshot_at_s = 0.0;  // when it is taken: after the first frame that ends then or later
+    std::string resume;  // a snapshot of this scene and these players; empty: from the start
     double hz = 90.0;
     double seconds = 0.0;    // 0: as long as the session
     int players = 0;         // 0: the scene's own, or one and the scene's climbers

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "components/tuning_json.hpp"
@@ -34,19 +36,23 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
 // Builds a scene file's bodies one by one; the first error is kept and ends it.
 class SceneBuilder {
   public:
-    SceneBuilder(const SceneFile& file, const LevelSource& levels, Scene& scene)
-        : file_(file), levels_(levels), scene_(scene) {}
+    SceneBuilder(const SceneFile& file, const std::filesystem::path& path,
+                 const LevelSource& levels, Scene& scene)
+        : file_(file), path_(path), levels_(levels), scene_(scene) {}
 
     std::optional<FileError> build() {
-        for (const SceneLevel& level : file_.levels) {
-            add_level(level);
+        for (std::size_t i = 0; i < file_.levels.size(); ++i) {
+            place_ = "/levels/" + std::to_string(i);
+            add_level(file_.levels[i]);
         }
-        for (const SceneBody& body : file_.bodies) {
-            add_scene_body(body);
+        for (std::size_t i = 0; i < file_.bodies.size(); ++i) {
+            place_ = "/bodies/" + std::to_string(i) + "/name";
+            add_scene_body(file_.bodies[i]);
         }
-        for (const SceneJoint& joint : file_.joints) {
-            if (!error_) {
-                add_scene_joint(joint);
+        for (std::size_t i = 0; i < file_.joints.size() && !error_; ++i) {
+            place_ = "/joints/" + std::to_string(i) + "/name";
+            if (take_name(file_.joints[i].name)) {
+                add_scene_joint(file_.joints[i]);
             }
         }
         for (Lamp lamp : file_.lamps) {
@@ -56,10 +62,25 @@ class SceneBuilder {
         for (const SceneSpawn& spawn : file_.spawns) {
             scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
         }
+        for (std::size_t i = 0; i < file_.players.size(); ++i) {
+            place_ = "/players/" + std::to_string(i) + "/name";
+            add_player_start(file_.players[i]);
+        }
         return error_;
     }
 
   private:
+    // The file's own names differ, but parts of levels and players' hands get theirs here. False,
+    // with the error kept, where somebody has it already.
+    bool take_name(const std::string& name) {
+        if (!error_ && !names_.insert(name).second) {
+            error_ =
+                FileError{path_.string(), place_,
+                          "expected names that nothing else has, found \"" + name + "\" twice"};
+        }
+        return !error_;
+    }
+
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
     // Null, with the error kept, where the file is refused.
@@ -90,6 +111,9 @@ class SceneBuilder {
             }
             if (!mesh.triangles.empty()) {
                 const std::string name = stem + "/" + std::to_string(i) + "/" + mesh.name;
+                if (!take_name(name)) {
+                    return;
+                }
                 bodies.push_back(
                     add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
@@ -197,7 +221,7 @@ class SceneBuilder {
 
     void add_scene_body(const SceneBody& body) {
         CentredShape shape{add_shape(body.shape), {}};
-        if (error_) {
+        if (error_ || !take_name(body.name)) {
             return;
         }
         if (body.kind == BodyKind::free) {
@@ -268,9 +292,24 @@ class SceneBuilder {
         velocity = {mover.velocity_ws_mps, mover.angular_velocity_ws_radps};
     }
 
+    void add_player_start(const ScenePlayer& player) {
+        for (const char* const part : {"", "/left_hand", "/right_hand"}) {
+            if (!take_name(player.name + part)) {
+                return;
+            }
+        }
+        const auto spawn = std::find_if(
+            scene_.spawns.begin(), scene_.spawns.end(),
+            [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
+        scene_.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
+    }
+
     const SceneFile& file_;
+    const std::filesystem::path& path_;
     const LevelSource& levels_;
     Scene& scene_;
+    std::string place_;            // of what is being added
+    std::set<std::string> names_;  // taken
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
     std::optional<FileError> error_;
 };
@@ -308,14 +347,8 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     scene.world.reference_velocity_mps =
         file.world_transform.rotation * file.reference_velocity_mps;
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
-    if (std::optional<FileError> error = SceneBuilder(file, levels, scene).build()) {
+    if (std::optional<FileError> error = SceneBuilder(file, path, levels, scene).build()) {
         return *error;
-    }
-    for (const ScenePlayer& player : file.players) {
-        const auto spawn = std::find_if(
-            scene.spawns.begin(), scene.spawns.end(),
-            [&player](const SceneSpawnPoint& point) { return point.name == player.spawn; });
-        scene.players.push_back({player.name, spawn->pose_ws, player.mass_kg});
     }
     return scene;
 }
@@ -341,6 +374,17 @@ Result<Scene> load_scene(const std::string& name_or_file) {
         return file.error();
     }
     return build_scene(file.value(), path);
+}
+
+std::string free_player_name(const World& world, std::string wanted) {
+    const auto is_taken = [&world](const std::string& name) {
+        return !is_null(find_by_id(world, persistent_id_from_name(name)));
+    };
+    while (is_taken(wanted) || is_taken(wanted + "/left_hand") ||
+           is_taken(wanted + "/right_hand")) {
+        wanted += "'";
+    }
+    return wanted;
 }
 
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start) {

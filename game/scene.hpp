@@ -78,6 +78,9 @@ using LevelSource = std::function<Result<GltfLevel>(const std::filesystem::path&
 Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path,
                           const LevelSource& levels = load_gltf_level);
 
+// `wanted`, with as many primes behind it as it takes until it and its hands' names are free: a
+// scene's bodies may have any names.
+std::string free_player_name(const World& world, std::string wanted);
 // Adds a player who moves with the scene's reference velocity.
 PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start);
 

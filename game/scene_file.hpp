@@ -96,10 +96,10 @@ struct SceneFile {
         "{}";  // the object "tuning" as JSON text: its parser is the tuning's own
 };
 
-// Lengths up to 1e6 m, speeds up to 1e5 m/s and 1e3 rad/s, masses in [1e-6, 1e12] kg. Refused, with
-// JSON pointer and value: what is out of range or of the wrong type, a key that is unknown or does
-// not fit the body's kind, a name that is taken, a free body shaped by a mesh, a player without his
-// spawn.
+// Coordinates up to 1e6 m, sizes of shapes in [1e-3, 1e4] m, speeds up to 1e5 m/s and 1e3 rad/s,
+// masses in [1e-6, 1e12] kg. Refused, with JSON pointer and value: what is out of range or of the
+// wrong type, a key that is unknown or does not fit the body's kind, a name that is taken, a free
+// body shaped by a mesh, a player without his spawn.
 Result<SceneFile> load_scene_file(const std::filesystem::path& path);
 // The same for text in memory; `path` is for messages and gives the folder for the paths in it.
 Result<SceneFile> parse_scene_file(std::string_view text, const std::filesystem::path& path);

@@ -11,6 +11,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_seconds_without_recording = 10.0;
+constexpr std::uint64_t k_frames_reserved = 10000;
 
 // Entity -> index in RunLog::body_names, -1 for none.
 class BodyIndex {
@@ -123,12 +124,19 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
     if (recording != nullptr) {
         playback.emplace(*recording);
     }
-    const double seconds = session_length_s(recording, settings);
+    const double begin_s = scene.world.clock.t_s;
+    const double seconds = session_length_s(recording, settings) - begin_s;
+    constexpr double k_rounding = 1e-6;  // of a frame: the clock is a sum
     const auto frames =
-        static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + 1e-9)));
+        static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
+    if (playback && scene.world.clock.frame > 0) {
+        playback->window(begin_s);  // what was played before the world was saved
+    }
 
     RunLog log = begin_log(scene, players, settings);
-    log.frames.reserve(settings.keep_frames ? frames : 1);
+    // As many as a session of minutes has: what a file claims to last is no reason to take memory.
+    log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
+                                            : 1);
     const BodyIndex bodies(scene.world);
     const std::size_t recorded = std::min(players.size(), settings.climbers_from);
     Crowd climbers(scene, std::span(players).subspan(recorded), settings.seed);

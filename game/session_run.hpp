@@ -31,8 +31,8 @@ double session_length_s(const Recording* recording, const RunSettings& settings)
 using FrameObserver = std::function<void(const Scene&, const FrameLog&)>;
 
 // Plays a recording in a scene without a window, as fast as it can: every player who is no climber
-// is driven by the same recording. Players must be in the world already. Leaves the world at the
-// last frame.
+// is driven by the same recording. Players must be in the world already. Begins at the world's
+// clock: a world that was saved in the middle goes on there. Leaves the world at the last frame.
 RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
                    const Recording* recording, const RunSettings& settings,
                    const FrameObserver& observe = {});

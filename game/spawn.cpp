@@ -211,7 +211,8 @@ struct Played {
 Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording,
                  const Pose& origin_ws, double hz) {
     trial.world = world;
-    const PlayerEntities player = add_scene_player(trial, {"player0", origin_ws});
+    const PlayerEntities player =
+        add_scene_player(trial, {free_player_name(world, "player0"), origin_ws});
     const RunLog log = run_session(trial, caches, {player}, &recording, {hz, 0.0, 1});
     Played played;
     Vec3 last = origin_ws.position;

@@ -14,6 +14,7 @@ struct Grips {
     struct Grip {
         const Grab* grab = nullptr;
         const HandTracking* hand = nullptr;
+        HandSide side = HandSide::left;
     };
     std::array<Grip, k_hand_count> grips;
     std::size_t count = 0;
@@ -21,10 +22,13 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// What is fixed to the world leads, and of two equal ones the hand that holds longer.
+// What is fixed to the world leads, of two equal ones the hand that holds longer, and of two that
+// closed at one instant the left: never the one that is listed first.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
-    return is_on_surface(a) != is_on_surface(b) ? is_on_surface(a)
-                                                : a.grab->since_s < b.grab->since_s;
+    if (is_on_surface(a) != is_on_surface(b)) {
+        return is_on_surface(a);
+    }
+    return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
 // `expected_row` of the hands: where the player's would be if all hands were made in the order of
@@ -42,7 +46,7 @@ Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_
         const bool holds = grab.phase == GrabPhase::holding || grab.phase == GrabPhase::releasing;
         const bool once = first != second || row != first || found.count == 0;
         if (holds && once) {
-            found.grips[found.count++] = {&grab, &io.hand.at(entity)};
+            found.grips[found.count++] = {&grab, &io.hand.at(entity), io.owner.rows()[row].side};
         }
     }
     if (found.count == 2 && comes_first(found.grips[1], found.grips[0])) {

@@ -128,7 +128,11 @@ HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
 
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const Instant now{io, fraction_of(io, pair.hand.edge_t_s)};
-    take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.edge_ps,
+    // Two that close at one instant take their anchors alike, on the predicted way: neither leads.
+    const bool at_once = pair.other != nullptr && pair.other_hand->edge == GrabEdge::onset &&
+                         pair.other_hand->edge_t_s == pair.hand.edge_t_s;
+    const Grab* const leading = at_once ? nullptr : pair.other;
+    take_anchor(now, origin_at(now, pair.player, leading, pair.other_hand), pair.hand.edge_ps,
                 pair.grab);
     pair.grab.phase = GrabPhase::holding;
 }

@@ -14,6 +14,7 @@
 namespace {
 
 thread_local std::size_t t_allocations = 0;
+thread_local std::size_t t_bytes = 0;
 
 }  // namespace
 
@@ -21,6 +22,7 @@ thread_local std::size_t t_allocations = 0;
 // The library's other forms (arrays, nothrow, sized) call these.
 void* operator new(std::size_t size) {
     ++t_allocations;
+    t_bytes += size;
     if (void* const memory = std::malloc(size == 0 ? 1 : size)) {
         return memory;
     }
@@ -33,6 +35,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace handhold {
 
 std::size_t allocation_count() { return t_allocations; }
+std::size_t allocated_bytes() { return t_bytes; }
 
 bool counts_allocations() {
 #ifdef HH_SANITIZER_OPERATORS

@@ -4,9 +4,9 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include "engine/io/gltf.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "tests/engine/io_gltf_builder.hpp"
 
 namespace handhold {
@@ -242,19 +242,25 @@ TEST(LoadGltfLevel, RefusesManyNodesThatMultiplyOneLargeMesh) {
 }
 
 TEST(LoadGltfLevel, ClaimsOfGigabytesTakeNoMemory) {
-    const auto peak_kb = [] {
-        rusage usage{};
-        getrusage(RUSAGE_SELF, &usage);
-        return usage.ru_maxrss;
-    };
-    const auto before_kb = peak_kb();
     for (const char* place : {"/buffers/0/byteLength", "/bufferViews/0/byteLength",
                               "/accessors/0/count", "/accessors/1/count"}) {
         GltfBuilder builder = triangle_file();
         builder.json[Json::json_pointer(place)] = 1LL << 30;
-        EXPECT_FALSE(parse_gltf_level(builder.glb(), "claim.glb").ok()) << place;
+        const std::string glb = builder.glb();
+        const std::size_t before = allocated_bytes();
+        EXPECT_FALSE(parse_gltf_level(glb, "claim.glb").ok()) << place;
+        EXPECT_LT(allocated_bytes() - before, std::size_t{1} << 20U) << place;
     }
-    EXPECT_LT(peak_kb() - before_kb, 64 * 1024);
+}
+
+TEST(LoadGltfLevel, ContainersThatClaimGigabytesTakeNoMemory) {
+    for (const std::size_t length_at : {8U, 12U}) {  // of the file, of its first chunk
+        std::string glb = triangle_file().glb();
+        glb.replace(length_at, 4, std::string("\0\0\0\x40", 4));
+        const std::size_t before = allocated_bytes();
+        EXPECT_FALSE(parse_gltf_level(glb, "claim.glb").ok()) << length_at;
+        EXPECT_LT(allocated_bytes() - before, std::size_t{1} << 20U) << length_at;
+    }
 }
 
 TEST(LoadGltfLevel, RefusesJsonNestedTooDeeply) {

@@ -138,6 +138,27 @@ TEST_F(RunCommand, PlaysWhatTheClimbCommandRecorded) {
     EXPECT_EQ(lines_of(testing::internal::GetCapturedStderr()), 1U);
 }
 
+// A name gives the persistent id: two of one name were a broken precondition, not a refused file.
+TEST_F(RunCommand, NamesThatPlayersHandsWouldTakeAreRefusedAndInventedOnesMakeWay) {
+    const std::string ball =
+        R"("kind": "static", "shape": {"type": "sphere", "radius_m": 0.1}, "position_m": [0, 9, 0]})";
+    RunOptions options;
+    options.seconds = 0.1;
+    options.scene = write("hand.json", R"({"name": "hand", "bodies": [{"name": "p/left_hand", )" +
+                                           ball + R"(], "spawns": [{"name": "s"}],
+        "players": [{"name": "p", "spawn": "s"}]})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("/players/0/name: expected names that nothing else has"), std::string::npos)
+        << err_;
+    options.scene = write("players.json", R"({"name": "players", "spawns": [{"name": "s"}],
+        "players": [{"name": "a/left_hand", "spawn": "s"}, {"name": "a", "spawn": "s"}]})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("/players/1/name"), std::string::npos) << err_;
+    options.scene =
+        write("taken.json", R"({"name": "taken", "bodies": [{"name": "player0", )" + ball + "]}");
+    EXPECT_EQ(run(options), 0) << err_;
+}
+
 TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
     std::vector<RunOptions> wrong(5);
     wrong[0].scene = "no_such_scene";
@@ -161,6 +182,62 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
         write("tuned.json", R"({"name": "tuned", "tuning": {"hand": {"reach_m": -1}}})");
     EXPECT_EQ(run(options), 2);
     EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
+}
+
+// --- Saved and taken up again --------------------------------------------------------------------
+
+class ResumedRun : public RunCommand {
+  protected:
+    ResumedRun() {
+        options_.scene = "ship";
+        options_.seconds = 2.0;
+        options_.players = 2;
+        snapshot_ = (folder_ / "half.snapshot").string();
+    }
+    std::string hash() { return out_.substr(out_.rfind("state_hash")); }
+
+    RunOptions options_;
+    std::string snapshot_;
+};
+
+TEST_F(ResumedRun, EndsWithTheSameHash) {
+    options_.snapshot = snapshot_;
+    options_.snapshot_at_s = 1.0;
+    ASSERT_EQ(run(options_), 0) << err_;
+    const std::string expected = hash();
+    options_.snapshot.clear();
+    options_.resume = snapshot_;
+    ASSERT_EQ(run(options_), 0) << err_;
+    EXPECT_EQ(hash(), expected);
+    EXPECT_NE(out_.find("ship: 90 frames"), std::string::npos) << out_;  // the second half only
+}
+
+TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
+    options_.snapshot = snapshot_;
+    options_.snapshot_at_s = 0.1;
+    options_.seconds = 0.2;
+    ASSERT_EQ(run(options_), 0) << err_;
+    options_.snapshot.clear();
+    options_.resume = snapshot_;
+    options_.players = 3;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
+        << err_;
+    options_.players = 2;
+    options_.scene = "station";
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("half.snapshot: byte 24"), std::string::npos) << err_;
+    options_.resume = (folder_ / "absent").string();
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_EQ(lines_of(err_), 1U) << err_;
+}
+
+TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {
+    options_.snapshot = snapshot_;
+    options_.seconds = 0.2;
+    options_.snapshot_at_s = 0.3;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_FALSE(std::filesystem::exists(snapshot_));
 }
 
 }  // namespace

@@ -14,6 +14,12 @@ namespace handhold::test {
 constexpr double k_pi = 3.14159265358979323846;
 
 constexpr Entity entity(std::uint32_t number) { return {number, 1}; }
+// Who is in most of the scenes.
+inline constexpr Entity k_player = entity(0);
+inline constexpr Entity k_left = entity(1);
+inline constexpr Entity k_right = entity(2);
+inline constexpr Entity k_wall = entity(3);
+inline constexpr Entity k_ship = entity(4);
 
 inline std::uint64_t count_of(const StageStats& stats, Fallback reason) {
     return stats.fallbacks[static_cast<std::size_t>(reason)];
@@ -42,6 +48,8 @@ class Random {
   private:
     std::mt19937_64 engine_;
 };
+
+inline Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 
 // In the plane x = 0.
 inline Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }

@@ -10,15 +10,16 @@
 namespace handhold {
 namespace {
 
+using test::angle_between;
 using test::distance;
 using test::entity;
+using test::k_left;
+using test::k_player;
+using test::k_right;
+using test::k_ship;
+using test::k_wall;
 using test::Random;
 
-constexpr Entity k_player = entity(0);
-constexpr Entity k_left = entity(1);
-constexpr Entity k_right = entity(2);
-constexpr Entity k_ship = entity(3);
-constexpr Entity k_wall = entity(4);
 constexpr double k_dt_s = 1.0 / 90.0;
 
 struct Locomotion {
@@ -247,6 +248,27 @@ TEST(LocomotePlayers, BrakeActsAgainstTheReference) {
     player.speed() = player.scene_velocity;
     player.run();
     EXPECT_EQ(player.speed(), player.scene_velocity);
+}
+
+// Two hands that closed at one instant: the left one leads, whichever is listed first.
+TEST(LocomotePlayers, OrderOfHandsDoesNotMatterWhereBothClosedAtOnce) {
+    const auto turned = [](bool reversed) {
+        Locomotion scene;
+        scene.grip(k_left, GripKind::surface, k_wall);
+        scene.grip(k_right, GripKind::surface, k_ship);
+        scene.grab.at(k_left).anchor_bs.position = Vec3::UnitX();
+        scene.grab.at(k_right).anchor_bs.position = Vec3::UnitY();
+        scene.command().snap_turns = 1;
+        if (reversed) {
+            const HandOwner left = scene.owner.at(k_left);
+            scene.owner.remove(k_left);  // the right hand moves to the front
+            scene.owner.add(k_left, left);
+        }
+        scene.run();
+        EXPECT_EQ(scene.reference.at(k_player).body, k_wall);
+        return scene.play_space();
+    };
+    EXPECT_EQ(distance(turned(false), turned(true)), 0.0);
 }
 
 // Against exp(-drag t): first order in the frame's length.

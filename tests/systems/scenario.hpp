@@ -35,6 +35,16 @@ inline double ease(double t_s, double from_s, double to_s) {
     return smooth_step(t_s, from_s, to_s);
 }
 
+inline TrackingSample sample_of(const DeviceScript& script, double t_s) {
+    TrackingSample sample;
+    sample.t_s = t_s;
+    sample.head_ps = script.head(t_s);
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        sample.controllers[side] = {script.hands[side](t_s), script.grabs[side](t_s)};
+    }
+    return sample;
+}
+
 class Scenario {
   public:
     ShapeLibrary shapes;
@@ -109,7 +119,7 @@ class Scenario {
         samples_.clear();
         for (;;) {
             const double t_s = static_cast<double>(next_sample_) / sample_hz;
-            samples_.push_back(sample_at(t_s));
+            samples_.push_back(sample_of(script, t_s));
             if (t_s > end_s) {
                 break;
             }
@@ -155,16 +165,6 @@ class Scenario {
     }
 
   private:
-    TrackingSample sample_at(double t_s) const {
-        TrackingSample sample;
-        sample.t_s = t_s;
-        sample.head_ps = script.head(t_s);
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            sample.controllers[side] = {script.hands[side](t_s), script.grabs[side](t_s)};
-        }
-        return sample;
-    }
-
     std::unique_ptr<FrameCaches> caches_;
     std::vector<TrackingSample> samples_;
     std::vector<PlayerInput> inputs_;

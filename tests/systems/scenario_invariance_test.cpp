@@ -1,10 +1,7 @@
-// What must not matter: where the world is and how it is turned, how many threads solve it, whether
-// caches survive, in which order bodies were made.
-#include <algorithm>
-
+// What must not matter: where the world is, how it is turned, and how often it is looked at.
+// determinism_test.cpp has what must not matter to the last bit.
 #include <gtest/gtest.h>
 
-#include "engine/core/parallel.hpp"
 #include "tests/systems/scenario.hpp"
 
 namespace handhold {
@@ -16,32 +13,12 @@ struct Play {
     Scenario s;
     Entity rock;
 
-    explicit Play(const Pose& frame_ws = {}, bool reversed = false, int extra_rocks = 0) {
+    explicit Play(const Pose& frame_ws = {}) {
         s.frame_ws = frame_ws;
-        const auto add_walls = [&] {
-            s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
-            s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.5));
-        };
-        const auto add_rocks = [&] {
-            rock = s.add_rock("rock", 5.0, Vec3(-0.3, 1.3, 0.0));
-            for (int i = 0; i < extra_rocks; ++i) {
-                s.add_rock("extra" + std::to_string(i), 2.0, Vec3(-0.9 + 0.17 * i, 1.14, 0.9));
-            }
-        };
-        if (reversed) {
-            add_rocks();
-            add_walls();
-        } else {
-            add_walls();
-            add_rocks();
-        }
+        s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
+        s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.5));
+        rock = s.add_rock("rock", 5.0, Vec3(-0.3, 1.3, 0.0));
         s.add_player_here();
-        for (int i = 0; i < extra_rocks; ++i) {  // rolling into one another: islands that change
-            const Entity body =
-                find_by_id(s.world, persistent_id_from_name("extra" + std::to_string(i)));
-            s.world.body_velocity.at(body).linear_mps =
-                s.frame_ws.rotation * Vec3(i % 2 == 0 ? 0.4 : -0.4, -0.2, 0.0);
-        }
         const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
         const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
         s.script.grabs[0] = [](double t) { return t > 0.3; };
@@ -88,60 +65,13 @@ TEST_P(Placed, WorldGivesTheSamePath) {
 }
 INSTANTIATE_TEST_SUITE_P(TenKilometresAndTurned, Placed, testing::Range(0, 3));
 
-std::uint64_t hash_after(
-    Play& play, double seconds, const std::function<void()>& after_frame = [] {}) {
-    play.s.run(seconds, after_frame);
-    return hash_state(play.s.world);
-}
-
-TEST(StateHash, IsEqualForTwoRuns) {
-    Play a;
-    Play b;
-    EXPECT_EQ(hash_after(a, 2.0), hash_after(b, 2.0));
-}
-
 TEST(StateHash, ChangesWithTheInput) {
     Play a;
     Play b;
     b.s.script.head = [](double) { return Pose{Vec3(0.0, 1.6, 0.6000001), Quat::Identity()}; };
-    EXPECT_NE(hash_after(a, 0.2), hash_after(b, 0.2));
-}
-
-TEST(StateHash, DoesNotDependOnTheOrderOfCreation) {
-    Play a({}, false, 8);
-    Play b({}, true, 8);
-    EXPECT_EQ(hash_after(a, 2.0), hash_after(b, 2.0));
-}
-
-TEST(StateHash, SurvivesThrowingTheCachesAwayInEveryFrame) {
-    Play a({}, false, 8);
-    Play b({}, false, 8);
-    EXPECT_EQ(hash_after(a, 1.7), hash_after(b, 1.7, [&] { b.s.drop_caches(); }));
-}
-
-TEST(StateHash, SurvivesRollback) {
-    Play a({}, false, 4);
-    a.s.run(1.2);
-    const World saved = a.s.world;
-    Play b({}, false, 4);
-    b.s.run(1.2);
-    b.s.run(60.0 / 90.0);  // sixty frames that are taken back
-    const std::uint64_t later = hash_state(b.s.world);
-    a.s.world = saved;
-    a.s.run(60.0 / 90.0);
-    EXPECT_EQ(hash_state(a.s.world), later);
-}
-
-TEST(StateHashThreaded, IsEqualForOneTwoAndFourThreads) {
-    std::vector<std::uint64_t> hashes;
-    for (const int threads : {1, 2, 4}) {
-        set_thread_count(threads);
-        Play play({}, false, 12);
-        hashes.push_back(hash_after(play, 1.6));
-    }
-    set_thread_count(1);
-    EXPECT_EQ(hashes[0], hashes[1]);
-    EXPECT_EQ(hashes[0], hashes[2]);
+    a.s.run(0.2);
+    b.s.run(0.2);
+    EXPECT_NE(hash_state(a.s.world), hash_state(b.s.world));
 }
 
 // A single support without a contact: the path depends on the hands, not on how often they were

@@ -11,9 +11,6 @@
 namespace handhold::test {
 
 inline constexpr double k_frame_s = 0.01;
-inline constexpr Entity k_player = entity(0);
-
-inline Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 
 inline TrackingSample sample_at(double t_s, const Vec3& place = Vec3::Zero(), bool grab = false) {
     TrackingSample sample;

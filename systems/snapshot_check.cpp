@@ -1,0 +1,193 @@
+#include "systems/snapshot_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace handhold {
+namespace {
+
+// Beyond this adding a frame's length to a time loses it.
+constexpr double k_latest_s = 1e9;
+
+// Keeps the first breach; what is asked after it changes nothing.
+class BreachFinder {
+  public:
+    BreachFinder(const World& world, const ShapeLibrary& shapes) : w_(world), shapes_(shapes) {}
+
+    std::optional<WorldBreach> find() {
+        check_globals();
+        check_ids();
+        if (!breach_) {  // from here on everybody can be named
+            check_bodies();
+            check_players();
+            check_hands();
+            check_colliders();
+        }
+        return breach_;
+    }
+
+  private:
+    void check(bool is_good, const char* column, Entity owner, const char* field,
+               const char* expected) {
+        if (!is_good && !breach_) {
+            const PersistentId* const id = w_.persistent_id.find(owner);
+            breach_ = WorldBreach{std::string(column) + "[" +
+                                      text_of(id != nullptr ? *id : PersistentId{}) + "]" + field,
+                                  std::string("expected ") + expected};
+        }
+    }
+
+    // Every owner in `column` has a row in `required`.
+    template <typename A, typename B>
+    void require(const char* name, const Column<A>& column, const char* required_name,
+                 const Column<B>& required) {
+        for (const Entity owner : column.owners()) {
+            if (!required.contains(owner)) {
+                check(false, name, owner, "",
+                      (std::string("a row in ") + required_name + " beside it").c_str());
+            }
+        }
+    }
+    // Two columns have the same owners.
+    template <typename A, typename B>
+    void require_both(const char* a_name, const Column<A>& a, const char* b_name,
+                      const Column<B>& b) {
+        require(a_name, a, b_name, b);
+        require(b_name, b, a_name, a);
+    }
+
+    void check_globals() {
+        if (!(std::abs(w_.clock.t_s) <= k_latest_s)) {
+            breach_ = WorldBreach{"clock.t_s", "expected a time within 1e9 s"};
+        }
+    }
+
+    void check_ids() {
+        visit_columns(w_, [this](const char* name, const auto& column) {
+            require(name, column, "persistent_id", w_.persistent_id);
+        });
+        std::vector<PersistentId> ids(w_.persistent_id.rows().begin(),
+                                      w_.persistent_id.rows().end());
+        std::sort(ids.begin(), ids.end());
+        const auto twice = std::adjacent_find(ids.begin(), ids.end());
+        if (!breach_ && twice != ids.end()) {
+            breach_ = WorldBreach{"persistent_id[" + text_of(*twice) + "]",
+                                  "expected ids that nothing else has"};
+        }
+        if (!breach_ && !ids.empty() && ids.front().value == 0) {
+            breach_ = WorldBreach{"persistent_id", "expected ids above 0"};
+        }
+    }
+
+    void check_bodies() {
+        require_both("body", w_.body, "body_pose", w_.body_pose);
+        require_both("body", w_.body, "body_start", w_.body_start);
+        require_both("body", w_.body, "body_velocity", w_.body_velocity);
+        require("mover", w_.mover, "body", w_.body);
+        for (std::size_t row = 0; row < w_.body.size(); ++row) {
+            const Entity owner = w_.body.owners()[row];
+            const RigidBody& body = w_.body.rows()[row];
+            check(!w_.player.contains(owner), "body", owner, "", "no player in the same place");
+            check(body.restitution >= 0.0 && body.restitution <= 1.0, "body", owner, ".restitution",
+                  "a number in [0, 1]");
+            if (body.kind == BodyKind::free) {
+                check(body.mass_kg > 0.0, "body", owner, ".mass_kg", "a mass above 0");
+                check(body.inertia_kgm2.minCoeff() > 0.0, "body", owner, ".inertia_kgm2",
+                      "moments above 0");
+            }
+        }
+    }
+
+    void check_players() {
+        require_both("player", w_.player, "player_origin", w_.player_origin);
+        require_both("player", w_.player, "player_start", w_.player_start);
+        require_both("player", w_.player, "player_velocity", w_.player_velocity);
+        require_both("player", w_.player, "player_commands", w_.player_commands);
+        require_both("player", w_.player, "reference_velocity", w_.reference_velocity);
+        require_both("player", w_.player, "head_tracking", w_.head_tracking);
+        require_both("player", w_.player, "head_ignores", w_.head_ignores);
+        require_both("player", w_.player, "render_pose", w_.render_pose);
+        for (std::size_t row = 0; row < w_.player.size(); ++row) {
+            check(w_.player.rows()[row].mass_kg > 0.0, "player", w_.player.owners()[row],
+                  ".mass_kg", "a mass above 0");
+        }
+        for (std::size_t row = 0; row < w_.head_ignores.size(); ++row) {
+            check(w_.head_ignores.rows()[row].next < HeadIgnores::k_capacity, "head_ignores",
+                  w_.head_ignores.owners()[row], ".next", "a place in the array");
+        }
+    }
+
+    void check_hands() {
+        require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
+        require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
+        require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
+        require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
+        Column<std::array<std::uint8_t, k_hand_count>> has_hand;
+        for (const Entity player : w_.player.owners()) {
+            has_hand.add(player);
+        }
+        for (std::size_t row = 0; row < w_.hand_owner.size(); ++row) {
+            const Entity hand = w_.hand_owner.owners()[row];
+            const HandOwner& owner = w_.hand_owner.rows()[row];
+            auto* const taken = has_hand.find(owner.player);
+            check(taken != nullptr, "hand_owner", hand, ".player", "a player");
+            if (taken != nullptr) {
+                std::uint8_t& place = (*taken)[index_of(owner.side)];
+                check(place == 0, "hand_owner", hand, ".side", "one hand a side");
+                place = 1;
+            }
+        }
+        for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
+            const HandHistory& history = w_.hand_history.rows()[row];
+            check(
+                history.next < HandHistory::k_capacity && history.count <= HandHistory::k_capacity,
+                "hand_history", w_.hand_history.owners()[row], "", "next and count in the array");
+        }
+        for (std::size_t row = 0; row < w_.grab.size(); ++row) {
+            const Grab& grab = w_.grab.rows()[row];
+            check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
+                  w_.grab.owners()[row], ".phase", "a phase where there is a grip, and none else");
+        }
+    }
+
+    void check_colliders() {
+        for (std::size_t row = 0; row < w_.collider.size(); ++row) {
+            const Entity owner = w_.collider.owners()[row];
+            const ShapeId shape = w_.collider.rows()[row].shape;
+            const RigidBody* const body = w_.body.find(owner);
+            check(body != nullptr || w_.player.contains(owner), "collider", owner, "",
+                  "a body or a player");
+            check(shape.index < shapes_.size(), "collider", owner, ".shape", "a shape that exists");
+            if (breach_) {
+                return;
+            }
+            if (body == nullptr || body->kind == BodyKind::free) {
+                check(w_.last_valid.contains(owner), "collider", owner, "",
+                      "a row in last_valid beside it");
+                check(shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner, ".shape",
+                      "no mesh on what is moved by contacts");
+            }
+        }
+    }
+
+    const World& w_;
+    const ShapeLibrary& shapes_;
+    std::optional<WorldBreach> breach_;
+};
+
+}  // namespace
+
+std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes) {
+    return BreachFinder(world, shapes).find();
+}
+
+std::string text_of(PersistentId id) {
+    char text[19];
+    std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(id.value));
+    return text;
+}
+
+}  // namespace handhold

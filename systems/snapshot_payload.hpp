@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include "components/world.hpp"
+#include "engine/io/result.hpp"
+
+// The part of a snapshot that is the world: docs/snapshot_format.md, "Payload".
+namespace handhold {
+
+// Numbers in a snapshot are little-endian: this turns to and from it.
+template <typename T>
+T swapped_unless_little(T value) {
+    if constexpr (std::endian::native == std::endian::little) {
+        return value;
+    } else {
+        auto bytes = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
+        std::reverse(bytes.begin(), bytes.end());
+        return std::bit_cast<T>(bytes);
+    }
+}
+
+template <typename T>
+T load_little(const std::byte* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return swapped_unless_little(value);
+}
+
+template <typename T>
+void store_little(T value, std::byte* at) {
+    const T little = swapped_unless_little(value);
+    std::memcpy(at, &little, sizeof little);
+}
+
+std::size_t payload_bytes(const World& world);
+// Writes payload_bytes(world) bytes from `to` on; returns their end.
+std::byte* write_payload(const World& world, std::byte* to);
+// Reads bytes [begin, end) of a snapshot into `world`, which should be empty and is not to be used
+// after an error: the first byte that is not as it should be. Fields are checked each by itself.
+std::optional<FileError> read_payload(std::span<const std::byte> snapshot, std::size_t begin,
+                                      std::size_t end, World& world);
+
+}  // namespace handhold

@@ -1,0 +1,18 @@
+#include "components/tuning_json.hpp"
+#include "tests/fuzz/promise.hpp"
+
+namespace handhold::fuzz {
+
+void run_tuning(Bytes bytes) {
+    const Result<Tuning> tuning = parse_tuning(text_of(bytes), "fuzz.json");
+    if (!tuning) {
+        promise(!tuning.error().expected.empty(), "a refusal says what was expected");
+        return;
+    }
+    const std::string written = tuning_to_json(tuning.value());
+    const Result<Tuning> again = parse_tuning(written, "again.json");
+    promise(again.ok(), "what was read can be written and read again");
+    promise(tuning_to_json(again.value()) == written, "and is the same");
+}
+
+}  // namespace handhold::fuzz

@@ -1,0 +1,209 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/systems/column_scene.hpp"
+#include "tests/systems/scenario.hpp"
+
+// A lively world for what must not matter: several players who crawl with one hand and with two,
+// wave, shove and throw rocks, share a crate, among things that roll into one another. Nothing but
+// the world and the caches changes while it runs: where the devices are follows from the clock.
+namespace handhold::test {
+
+class Crowd {
+  public:
+    ShapeLibrary shapes;
+    World world;
+    Tuning tuning;
+    StageStats stats;  // of the last frame
+
+    // Seed 0: bodies and players are made in the order in which they stand here; others: shuffled.
+    explicit Crowd(std::uint64_t order_seed = 0) {
+        std::vector<std::function<void()>> makers;
+        make_bodies(makers);
+        make_players(makers);
+        if (order_seed != 0) {
+            Random random(order_seed);
+            shuffle(makers, random);
+        }
+        for (const auto& make : makers) {
+            make();
+        }
+        drop_caches();
+    }
+
+    void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes); }
+
+    void step() {
+        const double start_s = world.clock.t_s;
+        std::vector<std::vector<TrackingSample>> samples(cast_.size());
+        std::vector<PlayerInput> inputs;
+        for (std::size_t i = 0; i < cast_.size(); ++i) {
+            auto next = static_cast<std::uint64_t>(std::floor(start_s * k_sample_hz));
+            for (double t_s = start_s; t_s <= start_s + k_frame_s; ++next) {
+                t_s = static_cast<double>(next) / k_sample_hz;
+                if (t_s > start_s || world.clock.frame == 0) {
+                    samples[i].push_back(sample_of(cast_[i].script, t_s));
+                }
+            }
+            const Entity player = find_by_id(world, persistent_id_from_name(cast_[i].name));
+            inputs.push_back({player, samples[i], {}});
+        }
+        step_frame(world, *caches_, tuning, {k_frame_s, inputs}, stats);
+    }
+
+    // The state hash after each of so many frames.
+    std::vector<std::uint64_t> run(
+        int frames, const std::function<void(int)>& before_frame = [](int) {}) {
+        std::vector<std::uint64_t> hashes;
+        for (int frame = 0; frame < frames; ++frame) {
+            before_frame(frame);
+            step();
+            hashes.push_back(hash_state(world));
+        }
+        return hashes;
+    }
+
+    template <typename T>
+    static void shuffle(std::vector<T>& items, Random& random) {
+        for (std::size_t i = items.size(); i > 1; --i) {
+            const auto other =
+                static_cast<std::size_t>(random.between(0.0, static_cast<double>(i)));
+            std::swap(items[i - 1], items[other]);
+        }
+    }
+
+    static constexpr int k_frames = 270;  // until everybody has done everything
+    static constexpr double k_frame_s = 1.0 / 90.0;
+
+  private:
+    static constexpr double k_sample_hz = 97.0;  // beside the frames, as devices are
+
+    struct Actor {
+        std::string name;
+        DeviceScript script;
+    };
+
+    void make_bodies(std::vector<std::function<void()>>& makers) {
+        const ShapeId floor = shapes.add_box(Vec3(6.0, 0.05, 3.0));
+        const ShapeId wall = shapes.add_box(Vec3(6.0, 2.0, 0.05));
+        const ShapeId pebble = shapes.add_sphere(0.08);
+        const ShapeId crate = shapes.add_box(Vec3(0.2, 0.06, 0.06));
+        const auto add = [&](std::string name, BodyKind kind, double mass_kg, ShapeId shape,
+                             const Vec3& at, const Vec3& velocity_mps = Vec3::Zero()) {
+            makers.emplace_back([=, this] {
+                const Vec3 inertia =
+                    mass_kg > 0.0 ? solid_inertia(shapes.at(shape), mass_kg) : Vec3(Vec3::Zero());
+                add_body(world, {name,
+                                 {kind, mass_kg, inertia, 0.2},
+                                 {at, Quat::Identity()},
+                                 {velocity_mps, Vec3::Zero()},
+                                 shape});
+            });
+        };
+        add("floor", BodyKind::fixed, 0.0, floor, Vec3(0.0, 1.0, 0.0));
+        add("wall", BodyKind::fixed, 0.0, wall, Vec3(0.0, 1.0, -0.5));
+        add("crate", BodyKind::free, 8.0, crate, Vec3(3.0, 1.305, 0.0));
+        add("rock", BodyKind::free, 5.0, pebble, Vec3(-0.3, 1.3, 0.0));
+        for (int i = 0; i < 24; ++i) {
+            const double side = i % 2 == 0 ? 0.4 : -0.4;
+            add("pebble" + std::to_string(i), BodyKind::free, 0.5 + 0.3 * i, pebble,
+                Vec3(-5.0 + 0.17 * (i % 12), 1.14, 0.9 + 0.5 * (i / 12)), Vec3(side, -0.2, 0.0));
+        }
+        makers.emplace_back([=, this] {
+            const Vec3 spin(0.0, 0.7, 0.0);
+            const Entity rotor = add_body(world, {"rotor",
+                                                  {BodyKind::kinematic, 0.0, Vec3::Zero(), 0.0},
+                                                  {Vec3(-4.2, 1.2, 1.2), Quat::Identity()},
+                                                  {Vec3::Zero(), spin},
+                                                  crate});
+            world.mover.add(rotor,
+                            {{Vec3(-4.2, 1.2, 1.2), Quat::Identity()}, Vec3::Zero(), spin, false});
+        });
+    }
+
+    void make_players(std::vector<std::function<void()>>& makers) {
+        const ShapeId head = shapes.add_sphere(tuning.head.radius_m);
+        const auto add = [&](std::string name, const Vec3& origin, double mass_kg,
+                             DeviceScript script) {
+            cast_.push_back({name, std::move(script)});
+            makers.emplace_back([=, this] {
+                const PlayerEntities made = add_player(
+                    world, {name, {mass_kg}, {origin, Quat::Identity()}, Vec3::Zero(), head});
+                for (const Entity hand : made.hands) {
+                    world.controller_to_hand.add(hand);  // hands are scripted as hands
+                }
+            });
+        };
+        add("crawler", Vec3(0.0, 0.0, 0.0), 80.0, crawler());
+        add("thrower", Vec3(1.5, 0.0, 0.0), 70.0, crawler_with_two_hands());
+        add("carrier", Vec3(3.0, 0.0, 0.0), 60.0, carrier());
+    }
+
+    Vec3 hand_over(const Vec3& palm) const { return palm - tuning.hand.palm_center_m; }
+
+    // The right hand on the floor, the left one waves a rock, shoves it into the wall and throws
+    // it.
+    DeviceScript crawler() const {
+        DeviceScript script;
+        const Vec3 right = hand_over(Vec3(0.3, 1.06, 0.1));
+        const Vec3 left = hand_over(Vec3(-0.3, 1.385, 0.0));
+        script.grabs[0] = [](double t) { return t > 0.3 && t < 2.123; };
+        script.grabs[1] = [](double t) { return t > 0.05 && t < 1.507; };
+        script.hands[1] = [=](double t) {
+            return Pose{right + 0.1 * ease(t, 0.2, 0.8) *
+                                    Vec3(std::sin(3 * t), 0.2 * std::sin(2 * t), std::sin(4 * t)),
+                        rotation_about(Vec3::UnitY(), 0.2 * std::sin(t))};
+        };
+        script.hands[0] = [=](double t) {
+            const Vec3 wave(0.1 * std::sin(3 * t) * ease(t, 0.4, 0.8), 0.0,
+                            -0.5 * ease(t, 1.0, 1.4) + 1.0 * ease(t, 1.8, 2.3));
+            return Pose{left + wave, rotation_about(Vec3::UnitX(), 0.2 * std::sin(2 * t))};
+        };
+        script.head = [](double t) {
+            return Pose{Vec3(0.05 * std::sin(2 * t), 1.6, 0.6),
+                        rotation_about(Vec3::UnitY(), 0.3 * std::sin(t))};
+        };
+        return script;
+    }
+    // Both hands on the floor, let go one after the other.
+    DeviceScript crawler_with_two_hands() const {
+        DeviceScript script;
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const double out = side == 0 ? -1.0 : 1.0;
+            const Vec3 hand = hand_over(Vec3(0.25 * out, 1.06, 0.1));
+            script.grabs[side] = [=](double t) { return t > 0.1 && t < 1.2 + 0.3 * out; };
+            script.hands[side] = [=](double t) {
+                return Pose{hand + 0.12 * Vec3(std::sin(2 * t), 0.1 * t, out * std::sin(t)),
+                            Quat::Identity()};
+            };
+        }
+        return script;
+    }
+    // A crate in both hands, which do not quite agree.
+    DeviceScript carrier() const {
+        DeviceScript script;
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const double out = side == 0 ? -1.0 : 1.0;
+            const Vec3 hand = hand_over(Vec3(0.12 * out, 1.38, 0.0));
+            script.grabs[side] = [=](double t) { return t > 0.1 && t < 2.0 + 0.2 * out; };
+            script.hands[side] = [=](double t) {
+                return Pose{hand + Vec3(0.01 * out * std::sin(5 * t), 0.15 * std::sin(2 * t),
+                                        -0.5 * ease(t, 0.8, 1.5)),
+                            Quat::Identity()};
+            };
+        }
+        return script;
+    }
+
+    std::vector<Actor> cast_;
+    std::unique_ptr<FrameCaches> caches_;
+};
+
+}  // namespace handhold::test
