@@ -189,14 +189,15 @@ void add_plate_marks(StationKit& kit, const Vec3& center, std::size_t salt) {
 
 void add_plates(StationKit& kit) {
     kit.beam(Material::dark, {}, Vec3(0.0, -0.30, 0.0), Vec3(10.0, 0.18, 13.0));
-    for (int row = 0; row < 16; ++row) {
-        for (int column = 0; column < 12; ++column) {
-            const auto salt = static_cast<std::size_t>(16 * column + row);
+    for (std::size_t row = 0; row < 16; ++row) {
+        for (std::size_t column = 0; column < 12; ++column) {
+            const std::size_t salt = 16 * column + row;
             const double pick = chance(41, salt, 3);
             const Material material = pick < 0.06   ? Material::accent
                                       : pick < 0.30 ? Material::panel
                                                     : Material::hull;
-            const Vec3 center(-9.08 + 1.65 * column, -0.075, -12.2 + 1.625 * row);
+            const Vec3 center(-9.08 + 1.65 * static_cast<double>(column), -0.075,
+                              -12.2 + 1.625 * static_cast<double>(row));
             if (chance(41, salt, 4) < 0.65) {
                 kit.panel(material, {}, center, Vec3(0.815, 0.075, 0.803));
                 add_plate_marks(kit, center, salt);

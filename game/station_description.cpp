@@ -328,7 +328,7 @@ const StationDescription& own_station_description() {
         Result<StationDescription> read =
             parse_station_description(game_asset("station.json"), "game/assets/station.json");
         if (!read) {
-            fail_precondition(__func__, "the game's own station is refused",
+            fail_precondition("own_station_description", "the game's own station is refused",
                               read.error().message());
         }
         return std::move(read.value());

@@ -60,19 +60,20 @@ void add_plant(StationKit& kit, const Pose& frame, const Vec3& foot, double heig
 // Two trays of plants under strips of light, in a bay.
 void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
-    for (int tray = 0; tray < 2; ++tray) {
+    for (std::size_t tray = 0; tray < 2; ++tray) {
         const double half_z = 0.5 * k_half_z_m;
-        const double z = middle + (2 * tray - 1) * half_z;
+        const double z = tray == 0 ? middle - half_z : middle + half_z;
         add_box_bay(kit, frame, z, half_z - 0.004, Material::panel);
         kit.panel(Material::metal, frame, Vec3(0.0, -0.235, z), Vec3(0.43, 0.026, half_z - 0.03));
         kit.block(Material::soil, frame, Vec3(0.0, -0.209, z), Vec3(0.415, 0.008, half_z - 0.045));
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 5; ++column) {
-                const auto salt = static_cast<std::size_t>(15 * tray + 5 * row + column);
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column < 5; ++column) {
+                const std::size_t salt = 15 * tray + 5 * row + column;
                 if (chance(seed, 31, salt) < 0.18) {
                     continue;  // harvested
                 }
-                const Vec3 foot(-0.33 + 0.165 * column, -0.202, z + (row - 1) * 0.125);
+                const Vec3 foot(-0.33 + 0.165 * static_cast<double>(column), -0.202,
+                                z + (static_cast<double>(row) - 1.0) * 0.125);
                 add_plant(kit, frame, foot, 0.11 + 0.08 * chance(seed, 32, salt), 64 * seed + salt);
             }
         }

@@ -41,7 +41,7 @@ Vec3 crawler_foot(const PosePath& torso, const CrawlerGait& gait, const CrawlerL
         return transform_point(evaluate(torso, middle_s).pose, leg.foot_bs);
     };
     const double share = steps - step;
-    const Vec3 here = foothold(step);
+    Vec3 here = foothold(step);
     if (share <= gait.standing) {
         return here;
     }
