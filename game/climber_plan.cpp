@@ -179,8 +179,8 @@ void look_at_rails(const Search& search, Random& random, std::optional<Candidate
             continue;
         }
         // The nearest few, nearest first.
-        const auto at = std::find_if(places.begin(), places.begin() + count,
-                                     [&](const RailPlace& p) { return place.off_m < p.off_m; });
+        auto* const at = std::find_if(places.begin(), places.begin() + count,
+                                      [&](const RailPlace& p) { return place.off_m < p.off_m; });
         count = std::min(count + 1, places.size());
         if (at != places.begin() + count) {
             std::move_backward(at, places.begin() + count - 1, places.begin() + count);

@@ -30,7 +30,7 @@ struct FoundHold {
 };
 // The best place that the hand can reach by the time it gets there: on a rail, or on any surface
 // that the eyes see.
-std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& search,
+std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& ask,
                                    ClimberState& state);
 
 // The nearest surface of a dozen directions, else the nearest of all within a hundred metres:
