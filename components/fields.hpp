@@ -26,6 +26,10 @@ template <>
 inline constexpr std::uint32_t k_value_count<GripKind> = 3;
 template <>
 inline constexpr std::uint32_t k_value_count<GrabPhase> = 4;
+template <>
+inline constexpr std::uint32_t k_value_count<JointKind> = 5;
+template <>
+inline constexpr std::uint32_t k_value_count<LegBone> = 2;
 
 template <typename V>
 void visit_fields(const PersistentId& c, V&& visit) {

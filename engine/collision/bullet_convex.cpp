@@ -168,9 +168,13 @@ Vec3 Convex::face_normal(int face) const {
 }
 
 int Convex::facing(const Vec3& direction) const {
+    const Vec3 local = from_bullet(to_bullet(direction) * pose_ns.getBasis());
     int best = 0;
-    for (int i = 1; i < faces->m_faces.size(); ++i) {
-        if (face_normal(i).dot(direction) > face_normal(best).dot(direction)) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < faces->m_faces.size(); ++i) {
+        const btScalar* plane = faces->m_faces[i].m_plane;
+        if (const double cosine = local.dot(Vec3(plane[0], plane[1], plane[2])); cosine > most) {
+            most = cosine;
             best = i;
         }
     }

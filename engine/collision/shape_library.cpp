@@ -47,42 +47,6 @@ double farthest_m(const PlacedShape& part) {
     }
 }
 
-double extent_along(const ConvexHull& hull, const Vec3& direction) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Vec3& corner : hull.corners) {
-        low = std::min(low, direction.dot(corner));
-        high = std::max(high, direction.dot(corner));
-    }
-    return high - low;
-}
-
-// A polyhedron is thinnest across one of its faces or across two of its edges (Houle and Toussaint,
-// Computing the Width of a Set, 1988).
-double hull_width(const ConvexHull& hull) {
-    std::vector<Vec3> edges;
-    double least = std::numeric_limits<double>::infinity();
-    for (const HullFace& face : hull.faces) {
-        least = std::min(least, extent_along(hull, face.normal));
-        for (std::size_t i = 0; i < face.loop.size(); ++i) {
-            const std::uint32_t from = face.loop[i];
-            const std::uint32_t to = face.loop[(i + 1) % face.loop.size()];
-            if (from < to) {  // each edge has two faces
-                edges.push_back((hull.corners[to] - hull.corners[from]).normalized());
-            }
-        }
-    }
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            const Vec3 across = edges[i].cross(edges[j]);
-            if (across.norm() > 1e-6) {
-                least = std::min(least, extent_along(hull, across.normalized()));
-            }
-        }
-    }
-    return least;
-}
-
 // True where the shape's frame is the one that principal_frame would choose, to what rounding and a
 // file's digits leave.
 bool is_centred(const MassProperties& properties, double reach_m) {
@@ -146,7 +110,7 @@ ShapeId ShapeLibrary::add_hull(std::span<const Vec3> points) {
 }
 
 ShapeId ShapeLibrary::add_hull(const ConvexHull& hull) {
-    HH_CHECK(is_solid(hull), "hull's width outside of [1e-3, 1e4] m", hull_width(hull));
+    HH_CHECK(is_solid(hull), "hull's width outside of [1e-3, 1e4] m", hull.width_m);
     Shape shape;
     shape.kind = ShapeKind::hull;
     shape.hull = std::make_shared<const ConvexHull>(hull);
@@ -226,7 +190,7 @@ bool is_solid(const ConvexHull& hull) {
         low = low.cwiseMin(corner);
         high = high.cwiseMax(corner);
     }
-    return is_size(hull_width(hull)) && is_size((high - low).maxCoeff());
+    return is_size(hull.width_m) && is_size((high - low).maxCoeff());
 }
 
 double bounding_radius(const Shape& shape) {
@@ -270,7 +234,7 @@ double thinnest_half_extent(const Shape& shape) {
         case ShapeKind::cylinder:
             return std::min(shape.radius_m, shape.half_height_m);
         case ShapeKind::hull:
-            return 0.5 * hull_width(*shape.hull);
+            return 0.5 * shape.hull->width_m;
         case ShapeKind::compound:
             for (const PlacedShape& part : *shape.parts) {
                 least_m = std::min(least_m, thinnest_half_extent(part.shape));

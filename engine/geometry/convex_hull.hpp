@@ -22,6 +22,7 @@ struct HullFace {
 struct ConvexHull {
     std::vector<Vec3> corners;  // sorted by place
     std::vector<HullFace> faces;
+    double width_m = 0.0;     // its thinnest extent, in whatever direction
     double left_out_m = 0.0;  // no given point is farther outside than this
 };
 

@@ -36,9 +36,9 @@ ShapeId random_shape(Random& random, ShapeLibrary& shapes, Kind kind) {
     }
     std::vector<Vec3> points;
     const Vec3 middle = random.vector(0.2);  // a hull's frame may be anywhere
-    const int count = static_cast<int>(random.between(8.0, 60.0));
-    for (int i = 0; i < count; ++i) {
-        points.push_back(middle + random.vector(0.05 + y));
+    points.resize(static_cast<std::size_t>(random.between(8.0, 60.0)));
+    for (Vec3& point : points) {
+        point = middle + random.vector(0.05 + y);
     }
     return shapes.add_hull(points);
 }

@@ -66,7 +66,9 @@ struct BadShape {
     const char* place;  // after /bodies/0/shape
     Json shape;
 };
-void PrintTo(const BadShape& shape, std::ostream* stream) { *stream << shape.what; }
+std::ostream& operator<<(std::ostream& stream, const BadShape& shape) {
+    return stream << shape.what;
+}
 
 class MalformedShape : public ::testing::TestWithParam<BadShape> {};
 
