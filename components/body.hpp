@@ -22,6 +22,7 @@ struct RigidBody {
     double mass_kg = 0.0;              // free: > 0; else unused
     Vec3 inertia_kgm2 = Vec3::Zero();  // free: principal moments, > 0
     double restitution = 0.0;          // [0, 1]; the larger of two bodies' counts
+    double friction = 0.4;             // Coulomb's coefficient; of two bodies the geometric mean
 };
 
 // Where a body is. Written by animate_movers and predict_bodies, then solve_phases.

@@ -26,6 +26,8 @@ template <>
 inline constexpr std::uint32_t k_value_count<GripKind> = 3;
 template <>
 inline constexpr std::uint32_t k_value_count<GrabPhase> = 4;
+template <>
+inline constexpr std::uint32_t k_value_count<JointKind> = 5;
 
 template <typename V>
 void visit_fields(const PersistentId& c, V&& visit) {
@@ -37,6 +39,7 @@ void visit_fields(const RigidBody& c, V&& visit) {
     visit("mass_kg", c.mass_kg);
     visit("inertia_kgm2", c.inertia_kgm2);
     visit("restitution", c.restitution);
+    visit("friction", c.friction);
 }
 template <typename V>
 void visit_fields(const BodyPose& c, V&& visit) {
@@ -66,6 +69,36 @@ void visit_fields(const Mover& c, V&& visit) {
     visit("velocity_ws_mps", c.velocity_ws_mps);
     visit("angular_velocity_ws_radps", c.angular_velocity_ws_radps);
     visit("turns_with_body", c.turns_with_body);
+}
+template <typename V>
+void visit_fields(const JointLatch& c, V&& visit) {
+    visit("at", c.at);
+    visit("catch_range", c.catch_range);
+    visit("strength", c.strength);
+    visit("handle", c.handle);
+    visit("handle_at", c.handle_at);
+}
+template <typename V>
+void visit_fields(const Joint& c, V&& visit) {
+    visit("kind", c.kind);
+    visit("a", c.a);
+    visit("b", c.b);
+    visit("frame_a_bs", c.frame_a_bs);
+    visit("frame_b_bs", c.frame_b_bs);
+    visit("collides", c.collides);
+    visit("limited", c.limited);
+    visit("lower", c.lower);
+    visit("upper", c.upper);
+    visit("friction", c.friction);
+    visit("detent_spacing", c.detent_spacing);
+    visit("detent_strength", c.detent_strength);
+    visit("latch", c.latch);
+}
+template <typename V>
+void visit_fields(const JointState& c, V&& visit) {
+    visit("coordinate", c.coordinate);
+    visit("speed", c.speed);
+    visit("latched", c.latched);
 }
 template <typename V>
 void visit_fields(const PlayerBody& c, V&& visit) {
@@ -161,6 +194,7 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("kind", c.kind);
     visit("phase", c.phase);
     visit("body", c.body);
+    visit("jointed", c.jointed);
     visit("hit_bs", c.hit_bs);
     visit("hit_normal_bs", c.hit_normal_bs);
     visit("anchor_bs", c.anchor_bs);

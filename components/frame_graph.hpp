@@ -10,6 +10,20 @@
 
 namespace handhold {
 
+// Free bodies that joints tie together; empty where there is no joint. By the rows of the body
+// column.
+struct JointGroups {
+    std::vector<std::uint32_t> of_body;  // a body of the group: the same for all of them
+    std::vector<std::uint8_t> anchored;  // by that body: the group hangs on something unmoved
+
+    bool is_anchored(std::size_t body_row) const {
+        return !of_body.empty() && anchored[of_body[body_row]] != 0;
+    }
+    bool share_group(std::size_t row, std::size_t other_row) const {
+        return row == other_row || (!of_body.empty() && of_body[row] == of_body[other_row]);
+    }
+};
+
 // What the physics stages hand on to each other within one frame. Not state: filled anew in every
 // frame, kept only so that warm frames allocate nothing.
 struct FrameGraph {
@@ -21,13 +35,15 @@ struct FrameGraph {
         Pose reached_ws;  // where the reach phase left it
         double forward_share =
             0.0;            // players: 1/kappa; how much of 1/mass the forward phase grants
-        bool held = false;  // welded to a hand
+        bool held = false;  // in a hand, or tied to what is
         bool grips_surface = false;  // players: a hand holds on to something fixed, driven or heavy
         bool pushed = false;         // the backward or contradiction phase ran on its island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
         double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };
+    // As graph.bodies, whose last may be one more: the world, where a joint hangs on it.
     std::vector<PhaseBody> phase;
+    JointGroups joint_groups;  // written by group_joints
 
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts

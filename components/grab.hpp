@@ -25,7 +25,7 @@ struct ControllerToHand {
 enum class GripKind : std::uint8_t {
     none = 0,
     surface = 1,  // a point of something fixed, driven or heavy: three rows, the hand may turn
-    held = 2,     // a free object welded to the hand: six rows
+    held = 2,     // a free object: six rows, or three where it hangs on joints
 };
 
 enum class GrabPhase : std::uint8_t {
@@ -51,6 +51,8 @@ struct Grab {
     double since_s =
         0.0;  // when the hand closed: of two hands the one that holds longer is the first
     double error_m = 0.0;  // of the hand against its anchor, at the end of the frame
+    bool jointed = false;  // held, and joints lead from it to something fixed: the hand may turn on
+                           // it, as on a surface
 };
 
 }  // namespace handhold

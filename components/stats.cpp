@@ -6,6 +6,8 @@ const char* name_of(Stage stage) {
     switch (stage) {
         case Stage::read_tracking:
             return "read_tracking";
+        case Stage::group_joints:
+            return "group_joints";
         case Stage::update_grabs:
             return "update_grabs";
         case Stage::locomote_players:
@@ -24,6 +26,8 @@ const char* name_of(Stage stage) {
             return "solve_phases";
         case Stage::update_velocities:
             return "update_velocities";
+        case Stage::update_joints:
+            return "update_joints";
         case Stage::publish_pose:
             return "publish_pose";
         case Stage::count:

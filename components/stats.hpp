@@ -12,6 +12,7 @@ namespace handhold {
 // In the order of the frame.
 enum class Stage : std::uint8_t {
     read_tracking,
+    group_joints,
     update_grabs,
     locomote_players,
     animate_movers,
@@ -21,6 +22,7 @@ enum class Stage : std::uint8_t {
     build_constraints,
     solve_phases,
     update_velocities,
+    update_joints,
     publish_pose,
     count
 };
@@ -68,6 +70,8 @@ struct StageStats {
     std::uint64_t contact_rounds = 0;     // narrowphase passes inside solve_phases
     std::uint64_t newton_iterations = 0;  // over all islands and phases
     double residual_m = 0.0;              // worst contact overlap at the end of the frame
+    double joint_error_m = 0.0;           // worst joint: points, and limits passed, in metres
+    double joint_error_rad = 0.0;         // the same of directions and angles
     double hand_error_m = 0.0;            // worst hand against its anchor
     MomentumLedger ledger;
 

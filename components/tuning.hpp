@@ -27,6 +27,7 @@ struct HeadTuning {
     double radius_m = 0.11;
     Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // of the collider, in the tracked head's frame
     double restitution = 0.2;
+    double friction = 0.0;
 };
 
 enum class SupportFollow : std::int32_t { off = 0, yaw = 1, full = 2 };
@@ -111,6 +112,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "centre of the head's collider in the tracked head's frame");
     see("head.restitution", t.head.restitution, "", 0.0, 1.0,
         "bounce of a drifting head off a wall");
+    see("head.friction", t.head.friction, "", 0.0, 10.0,
+        "Coulomb's coefficient of the head; 0: it glides along walls");
     see("locomotion.release_speed_max_mps", t.locomotion.release_speed_max_mps, "m/s", 0.0, 1e6,
         "a player who lets go or is pushed leaves at most this fast, against the reference "
         "velocity");

@@ -40,6 +40,31 @@ Entity add_body(World& world, const BodyDescription& description) {
     return entity;
 }
 
+Entity add_joint(World& world, const JointDescription& description) {
+    const Joint& joint = description.joint;
+    HH_CHECK(world.body.contains(joint.b), "a joint's second body must exist", joint.b.slot);
+    HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
+             "a joint's first body must exist, or be null for the world", joint.a.slot);
+    HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
+    HH_CHECK(is_valid(joint.frame_a_bs) && is_valid(joint.frame_b_bs),
+             "a joint's frame is not valid", joint.frame_a_bs.rotation.norm());
+    HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
+    HH_CHECK(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 && joint.detent_strength >= 0.0 &&
+                 joint.latch.catch_range >= 0.0 && joint.latch.strength >= 0.0,
+             "friction, detents and latches are not negative", joint.friction);
+    const Entity entity = add_named(world, description.name);
+    world.joint.add(entity, joint);
+    world.joint_state.add(entity);
+    return entity;
+}
+
+Joint joint_at(const World& world, Joint joint, const Pose& frame_ws) {
+    joint.frame_a_bs =
+        is_null(joint.a) ? frame_ws : inverse(world.body_pose.at(joint.a).pose_ws) * frame_ws;
+    joint.frame_b_bs = inverse(world.body_pose.at(joint.b).pose_ws) * frame_ws;
+    return joint;
+}
+
 PlayerEntities add_player(World& world, const PlayerDescription& description) {
     HH_CHECK(is_valid(description.origin_ws), "the origin is not valid",
              description.origin_ws.rotation.norm());
@@ -81,6 +106,14 @@ bool destroy(World& world, Entity entity) {
         for (std::size_t row = world.hand_owner.size(); row-- > 0;) {
             if (world.hand_owner.rows()[row].player == entity) {
                 destroy(world, world.hand_owner.owners()[row]);
+            }
+        }
+    }
+    if (world.body.contains(entity)) {
+        for (std::size_t row = world.joint.size(); row-- > 0;) {
+            const Joint& joint = world.joint.rows()[row];
+            if (joint.a == entity || joint.b == entity) {
+                destroy(world, world.joint.owners()[row]);
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include "components/body.hpp"
 #include "components/grab.hpp"
+#include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/render.hpp"
 #include "components/tracking.hpp"
@@ -33,6 +34,9 @@ struct World {
     Column<Collider> collider;           // bodies that can be touched; players: the head
     Column<Mover> mover;                 // kinematic bodies that move by themselves
     Column<LastValidPose> last_valid;    // free bodies and players
+
+    Column<Joint> joint;
+    Column<JointState> joint_state;  // every joint
 
     Column<PlayerBody> player;
     Column<PlayerOrigin> player_origin;
@@ -63,6 +67,8 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("collider", world.collider);
     visit("mover", world.mover);
     visit("last_valid", world.last_valid);
+    visit("joint", world.joint);
+    visit("joint_state", world.joint_state);
     visit("player", world.player);
     visit("player_origin", world.player_origin);
     visit("player_start", world.player_start);
@@ -90,6 +96,18 @@ struct BodyDescription {
 // valid, or a free body without mass or inertia.
 Entity add_body(World& world, const BodyDescription& description);
 
+struct JointDescription {
+    std::string_view name;  // unique in the world
+    Joint joint;
+};
+// A joint between two bodies, or the world and one. Throws PreconditionError for a name that is
+// taken, a body that is none, a frame that is not valid, limits the wrong way round, or a negative
+// friction, detent or latch.
+Entity add_joint(World& world, const JointDescription& description);
+// The joint whose frames meet at `frame_ws` as the two bodies stand now; kind and all numbers as in
+// `joint`.
+Joint joint_at(const World& world, Joint joint, const Pose& frame_ws);
+
 struct PlayerDescription {
     std::string_view name;  // unique in the world
     PlayerBody body;
@@ -104,7 +122,8 @@ struct PlayerEntities {
 // A player and his two hands. Errors as add_body.
 PlayerEntities add_player(World& world, const PlayerDescription& description);
 
-// Removes the entity from every column; a player's hands go with him. False for a stale handle.
+// Removes the entity from every column; a player's hands go with him, and a body's joints with it.
+// False for a stale handle.
 bool destroy(World& world, Entity entity);
 
 // Null where no entity has the id.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "game/crowd_scene.hpp"
+#include "game/playground.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
 
@@ -26,6 +28,13 @@ void add_spawns(const Structure& structure, Scene& scene) {
         Pose origin = spawn.pose;
         origin.position -= origin.rotation * Vec3(0.0, k_eye_height_m, 0.0);
         scene.spawns.push_back({spawn.name, origin});
+    }
+}
+
+// The parts lie in one frame: any of their bodies carries the rails.
+void add_rails(const Structure& structure, Entity body, Scene& scene) {
+    for (const HandrailSpan& rail : structure.rails) {
+        scene.rails.push_back({body, rail.start, rail.end});
     }
 }
 
@@ -87,6 +96,7 @@ Scene make_station_scene() {
     scene.lamps = station.lamps;
     scene.spawns.push_back({"rail", session_origin(station_script())});
     add_spawns(station, scene);
+    add_rails(station, scene.visuals.front().body, scene);
     return scene;
 }
 
@@ -181,12 +191,28 @@ Scene make_ship_scene() {
     scene.lamps = ship.lamps;
     scene.spawns.push_back({"rail", session_origin(ship_script())});
     add_spawns(ship, scene);
+    add_rails(ship, scene.visuals.front().body, scene);
+    return scene;
+}
+
+// --- crowd
+// -----------------------------------------------------------------------------------------------------------
+
+// Whoever plays goes where the station's session goes.
+Scene make_crowd_scene() {
+    Scene scene = make_station_scene();
+    scene.name = "crowd";
+    scene.description = "the station with a dozen scripted climbers and things that float about";
+    scene.session = SceneSession{{}, scene.name};
+    fill_with_crowd(scene);
     return scene;
 }
 
 }  // namespace
 
-std::vector<std::string_view> built_in_scenes() { return {"station", "ship"}; }
+std::vector<std::string_view> built_in_scenes() {
+    return {"station", "ship", "playground", "crowd"};
+}
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "station") {
@@ -195,16 +221,25 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
     if (name == "ship") {
         return make_ship_scene();
     }
+    if (name == "playground") {
+        return make_playground_scene();
+    }
+    if (name == "crowd") {
+        return make_crowd_scene();
+    }
     return std::nullopt;
 }
 
 std::optional<Recording> make_built_in_session(std::string_view name) {
     const HandTuning tuning;
-    if (name == "station") {
+    if (name == "station" || name == "crowd") {
         return record_session(station_script(), tuning);
     }
     if (name == "ship") {
         return record_session(ship_script(), tuning);
+    }
+    if (name == "playground") {
+        return record_session(playground_script(), tuning);
     }
     return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "game/built_in_scenes.hpp"
+#include "game/climber_session.hpp"
 #include "game/run_command.hpp"
 #include "game/scene.hpp"
 
@@ -18,8 +19,11 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
         ->required();
     run.add_option("--input", options.input, "A recorded session (.csv); default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(CLI::Range(10.0, 1000.0));
-    run.add_option("--players", options.players, "Players, all driven by the session")
+    run.add_option("--players", options.players,
+                   "Players: the first plays the session, the others are scripted climbers")
         ->check(CLI::Range(1, 1000));
+    run.add_flag("--climbers", options.climbers, "The first player is a climber too");
+    run.add_option("--seed", options.seed, "Of the climbers and where they begin");
     run.add_option("--threads", options.threads, "Threads; the result does not depend on them")
         ->check(CLI::Range(1, 256));
     run.add_option("--seconds", options.seconds,
@@ -44,6 +48,15 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
                  "With --out: files only, no pictures and no video");
 }
 
+void add_climb_options(CLI::App& climb, handhold::ClimbOptions& options) {
+    climb.add_option("--scene", options.scene, "As for run")->required();
+    climb.add_option("--spawn", options.spawn, "A spawn of the scene; default: its first");
+    climb.add_option("--seconds", options.seconds, "How long he climbs")
+        ->check(CLI::Range(0.1, 1e5));
+    climb.add_option("--seed", options.seed, "What he decides");
+    climb.add_option("--out", options.out, "The recording (.csv)")->required();
+}
+
 int list_scenes() {
     for (const std::string_view name : handhold::built_in_scenes()) {
         const auto scene = handhold::make_built_in_scene(name);
@@ -62,6 +75,10 @@ int main(int argc, char** argv) {
     CLI::App* const run =
         app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
+    handhold::ClimbOptions climb_options;
+    CLI::App* const climb =
+        app.add_subcommand("climb", "Record a session of a scripted climber who wanders");
+    add_climb_options(*climb, climb_options);
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -74,6 +91,9 @@ int main(int argc, char** argv) {
     }
     if (scenes->parsed()) {
         return list_scenes();
+    }
+    if (climb->parsed()) {
+        return handhold::climb_command(climb_options);
     }
     return handhold::run_command(options);
 }

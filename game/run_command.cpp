@@ -9,6 +9,7 @@
 #include "engine/core/profile.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/built_in_scenes.hpp"
+#include "game/crowd.hpp"
 #include "game/film.hpp"
 #include "game/progress.hpp"
 #include "game/render/image.hpp"
@@ -97,28 +98,30 @@ Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameC
     return Place{{}, "origin"};
 }
 
-// The scene's own players where it has some and no place was asked for; else `count` players: the
-// first at the place, others at the scene's further spawns, going round.
-std::vector<PlayerEntities> add_players(Scene& scene, const Place& place,
-                                        const RunOptions& options) {
-    std::vector<PlayerEntities> players;
-    if (!scene.players.empty() && options.spawn.empty() && options.players == 1) {
-        for (const ScenePlayerStart& start : scene.players) {
-            players.push_back(add_scene_player(scene, start));
+// The scene's own players where it has some and neither place nor number was asked for; else the
+// first at the place, the others spread over the scene.
+Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
+                                                const Place& place, const RunOptions& options) {
+    std::vector<ScenePlayerStart> starts;
+    if (!scene.players.empty() && options.spawn.empty() && options.players == 0) {
+        starts = scene.players;
+    } else {
+        const auto count =
+            static_cast<std::size_t>(options.players > 0 ? options.players : 1 + scene.climbers);
+        for (const Pose& origin_ws :
+             spread_players(scene, caches, place.origin_ws, count, options.seed)) {
+            const std::string name = "player" + std::to_string(starts.size());
+            starts.push_back({free_player_name(scene.world, name), origin_ws, 80.0});
         }
-        return players;
+        if (starts.size() < count) {
+            return FileError{options.scene, "",
+                             "expected room for " + std::to_string(count) +
+                                 " players, found it for " + std::to_string(starts.size())};
+        }
     }
-    for (int i = 0; i < options.players; ++i) {
-        const auto index = static_cast<std::size_t>(i);
-        const Pose& origin = i == 0 || scene.spawns.empty()
-                                 ? place.origin_ws
-                                 : scene.spawns[index % scene.spawns.size()].pose_ws;
-        // Who comes round to a place again floats a little behind those who are there.
-        const std::size_t round = index / std::max<std::size_t>(1, scene.spawns.size());
-        const Vec3 behind = origin.rotation * Vec3(0.0, 0.0, 0.4 * static_cast<double>(round));
-        const Pose start{origin.position + behind, origin.rotation};
-        const std::string name = free_player_name(scene.world, "player" + std::to_string(i));
-        players.push_back(add_scene_player(scene, {name, start, 80.0}));
+    std::vector<PlayerEntities> players;
+    for (const ScenePlayerStart& start : starts) {
+        players.push_back(add_scene_player(scene, start));
     }
     return players;
 }
@@ -153,9 +156,20 @@ class SnapshotTaker {
     std::optional<FileError> error_;
 };
 
-// Puts the saved state in the place of the scene's first one. The players stay who they are.
-std::optional<FileError> resume(const RunOptions& options, const SnapshotAssets& assets,
-                                Scene& scene, std::vector<PlayerEntities>& players) {
+// Puts the saved state, if the run is to begin with one, in the place of the scene's first one. The
+// players stay who they are. Climbers remember their plans themselves: with them nothing is saved.
+std::optional<FileError> resume(const RunOptions& options, const RunSettings& settings,
+                                const SnapshotAssets& assets, Scene& scene,
+                                std::vector<PlayerEntities>& players) {
+    const bool has_climbers = settings.climbers_from < players.size();
+    if (has_climbers && !(options.snapshot.empty() && options.resume.empty())) {
+        return FileError{options.scene, "",
+                         "expected no scripted climbers with --snapshot and --resume, found " +
+                             std::to_string(players.size() - settings.climbers_from)};
+    }
+    if (options.resume.empty()) {
+        return std::nullopt;
+    }
     const World before = scene.world;
     if (std::optional<FileError> error = load_snapshot_file(options.resume, assets, scene.world)) {
         return error;
@@ -209,11 +223,10 @@ std::optional<FileError> write_output(const std::filesystem::path& folder, const
     return write_report_html(folder / "report.html", log, media);
 }
 
-void print_summary(const RunLog& log) {
-    const RunSummary summary = summarize_run(log);
-    std::printf("%s: %zu frames at %g Hz, %.2f s simulated, %.0f frames a second\n",
-                log.scene.c_str(), log.frames.size(), log.hz, summary.duration_s,
-                summary.frames_per_s);
+void print_summary(const RunLog& log, const RunSummary& summary) {
+    std::printf("%s: %llu frames at %g Hz, %.2f s simulated, %.0f frames a second\n",
+                log.scene.c_str(), static_cast<unsigned long long>(summary.frames), log.hz,
+                summary.duration_s, summary.frames_per_s);
     std::printf("grabs: %llu onsets, %llu gripped; path of the origin %.2f m\n",
                 static_cast<unsigned long long>(summary.totals.grab_onsets),
                 static_cast<unsigned long long>(summary.totals.grabs_gripped),
@@ -225,6 +238,24 @@ void print_summary(const RunLog& log) {
         summary.residual_m * 1e3);
     std::printf("frame: median %.1f us, p99 %.1f us\n", summary.frame.median_us,
                 summary.frame.p99_us);
+    if (log.player_names.size() > 1) {
+        std::printf("%zu players, %zu bytes of state each\n", log.player_names.size(),
+                    log.bytes_per_player);
+    }
+}
+
+// Climbers need jets to come back from where nothing is in reach: who has none gets small ones.
+RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
+    RunSettings settings{options.hz, options.seconds, options.threads};
+    settings.climbers_from = options.climbers ? 0 : 1;
+    settings.seed = options.seed;
+    settings.keep_frames = !options.out.empty();
+    constexpr double k_jets_mps2 = 0.5;
+    double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
+    if (players > settings.climbers_from && jets_mps2 == 0.0) {
+        jets_mps2 = k_jets_mps2;
+    }
+    return settings;
 }
 
 struct Film {
@@ -264,7 +295,7 @@ std::vector<FilmShot> finish_film(Film& film) {
 
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
-            SnapshotTaker& snapshots) {
+            SnapshotTaker& snapshots, RunTally& tally) {
     Progress progress("playing " + scene.name);
     const double length_s = session_length_s(recording, settings);
     return run_session(scene, caches, players, recording, settings,
@@ -273,6 +304,7 @@ RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>
                            if (camera != nullptr) {
                                camera->watch(frame);
                            }
+                           tally.add(frame);
                            progress.show(frame.t_s / length_s);
                        });
 }
@@ -302,23 +334,27 @@ int run_command(const RunOptions& options) {
     if (!place) {
         return refuse(place.error());
     }
-    std::vector<PlayerEntities> players = add_players(scene, place.value(), options);
+    Result<std::vector<PlayerEntities>> players =
+        add_players(scene, caches, place.value(), options);
+    if (!players) {
+        return refuse(players.error());
+    }
+    const RunSettings settings = choose_settings(options, scene, players.value().size());
     const SnapshotAssets assets(*scene.shapes, scene.name);
-    if (!options.resume.empty()) {
-        if (const auto error = resume(options, assets, scene, players)) {
-            return refuse(*error);
-        }
+    if (const auto error = resume(options, settings, assets, scene, players.value())) {
+        return refuse(*error);
     }
 
     const Recording* const recording =
         session.value().recording ? &*session.value().recording : nullptr;
-    const RunSettings settings{options.hz, options.seconds, options.threads};
     Film film = open_film(options, scene, session_length_s(recording, settings));
     if (!options.trace.empty()) {
         start_trace();
     }
     SnapshotTaker snapshots(options, assets);
-    RunLog log = play(scene, caches, players, recording, settings, film.camera.get(), snapshots);
+    RunTally tally;
+    RunLog log = play(scene, caches, players.value(), recording, settings, film.camera.get(),
+                      snapshots, tally);
     if (const auto error = snapshots.error()) {
         return refuse(*error);
     }
@@ -336,7 +372,7 @@ int run_command(const RunOptions& options) {
             return refuse(*error);
         }
     }
-    print_summary(log);
+    print_summary(log, tally.finish(log));
     std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
     return 0;
 }

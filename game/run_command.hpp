@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace handhold {
@@ -15,8 +16,10 @@ struct RunOptions {
     double snapshot_at_s = 0.0;  // when it is taken: after the first frame that ends then or later
     std::string resume;  // a snapshot of this scene and these players; empty: from the start
     double hz = 90.0;
-    double seconds = 0.0;  // 0: as long as the session
-    int players = 1;
+    double seconds = 0.0;    // 0: as long as the session
+    int players = 0;         // 0: the scene's own, or one and the scene's climbers
+    std::uint64_t seed = 1;  // of places and climbers
+    bool climbers = false;   // also the first player climbs instead of playing the session
     int threads = 1;
     bool pictures = true;
 };

@@ -52,12 +52,13 @@ struct RunLog {
     std::string spawn;  // name, or "auto: x y z, yaw"
     double hz = 90.0;
     int threads = 1;
+    std::size_t bytes_per_player = 0;  // of state: his and his hands' rows in the world's columns
     std::vector<std::string> player_names;
     std::vector<double> player_mass_kg;
     std::vector<std::string> body_names;
     std::vector<double> body_mass_kg;  // 0: not free
-    std::vector<FrameLog> frames;
-    double wall_s = 0.0;  // stepping only: no logging, no pictures
+    std::vector<FrameLog> frames;      // or the last one alone (RunSettings::keep_frames)
+    double wall_s = 0.0;               // stepping only: no logging, no pictures
     std::uint64_t state_hash = 0;
 };
 

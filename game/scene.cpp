@@ -1,6 +1,7 @@
 #include "game/scene.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -9,14 +10,15 @@
 #include "engine/io/gltf.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/render/level_meshes.hpp"
-#include "game/render/primitives.hpp"
+#include "game/render/mesh_edit.hpp"
+#include "game/scene_shape.hpp"
 
 namespace handhold {
 namespace {
 
-std::shared_ptr<const Mesh> moved_mesh(Mesh mesh, const Pose& pose) {
+std::shared_ptr<const Mesh> placed_mesh(Mesh mesh, const SceneLevel& level) {
     for (Vec3& position : mesh.positions) {
-        position = transform_point(pose, position);
+        position = transform_point(level.pose, position.cwiseProduct(level.scale));
     }
     return std::make_shared<const Mesh>(std::move(mesh));
 }
@@ -46,6 +48,10 @@ class SceneBuilder {
         for (std::size_t i = 0; i < file_.bodies.size(); ++i) {
             place_ = "/bodies/" + std::to_string(i) + "/name";
             add_scene_body(file_.bodies[i]);
+        }
+        for (std::size_t i = 0; i < file_.joints.size(); ++i) {
+            place_ = "/joints/" + std::to_string(i) + "/name";
+            add_scene_joint(file_.joints[i]);
         }
         for (const SceneSpawn& spawn : file_.spawns) {
             scene_.spawns.push_back({spawn.name, file_.world_transform * spawn.pose});
@@ -93,75 +99,131 @@ class SceneBuilder {
         std::vector<Entity> bodies;
         for (std::size_t i = 0; i < loaded->parts.size(); ++i) {
             const Mesh& mesh = loaded->parts[i].mesh;
+            refuse_size(level.file, mesh);
+            if (error_) {
+                return;
+            }
             if (!mesh.triangles.empty()) {
                 const std::string name = stem + "/" + std::to_string(i) + "/" + mesh.name;
                 if (!take_name(name)) {
                     return;
                 }
-                bodies.push_back(add_static_body(scene_, name, moved_mesh(mesh, level.pose),
-                                                 file_.world_transform));
+                bodies.push_back(
+                    add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
         }
         for (Mesh& mesh : make_level_meshes(*loaded)) {
             if (!bodies.empty()) {  // level meshes stand still together: any of its bodies carries
                                     // the picture
                 scene_.visuals.push_back(
-                    {bodies.front(), moved_mesh(std::move(mesh), level.pose), std::nullopt, {}});
+                    {bodies.front(), placed_mesh(std::move(mesh), level), std::nullopt, {}});
             }
         }
     }
 
-    ShapeId add_shape(const SceneShape& shape, std::shared_ptr<const Mesh>& visual) {
-        switch (shape.type) {
-            case SceneShapeType::box:
-                visual = std::make_shared<const Mesh>(make_box(shape.half_m));
-                return scene_.shapes->add_box(shape.half_m);
-            case SceneShapeType::sphere:
-                visual = std::make_shared<const Mesh>(make_sphere(shape.radius_m));
-                return scene_.shapes->add_sphere(shape.radius_m);
-            case SceneShapeType::capsule:
-                visual = std::make_shared<const Mesh>(
-                    make_capsule(-shape.half_height_m * Vec3::UnitY(),
-                                 shape.half_height_m * Vec3::UnitY(), shape.radius_m));
-                return scene_.shapes->add_capsule(shape.radius_m, shape.half_height_m);
-            case SceneShapeType::mesh:
-                break;
+    // All of a file's parts as one mesh: one however many bodies name it, so that they share it.
+    std::shared_ptr<const Mesh> load_mesh(const std::filesystem::path& path) {
+        std::shared_ptr<const Mesh>& mesh = meshes_[path];
+        if (mesh != nullptr) {
+            return mesh;
         }
-        std::optional<GltfLevel> loaded = load(shape.file);
+        const std::optional<GltfLevel> loaded = load(path);
         if (!loaded) {
-            return {};
+            return nullptr;
         }
         Mesh whole;
         for (const LevelPart& part : loaded->parts) {
             append(whole, part.mesh);
             whole.color = part.mesh.color;
         }
+        refuse_size(path, whole);
         if (whole.triangles.empty()) {
-            error_ =
-                FileError{shape.file.string(), "", "expected at least one triangle, found none"};
+            error_ = FileError{path.string(), "", "expected at least one triangle, found none"};
+        }
+        mesh = std::make_shared<const Mesh>(std::move(whole));
+        return mesh;
+    }
+
+    void refuse_size(const std::filesystem::path& path, const Mesh& mesh) {
+        if (mesh.triangles.size() > k_most_triangles) {
+            error_ = FileError{path.string(), "",
+                               "expected at most " + std::to_string(k_most_triangles) +
+                                   " triangles in one mesh, found " +
+                                   std::to_string(mesh.triangles.size())};
+        }
+    }
+
+    ShapeId add_hull(const SceneShape& shape) {
+        if (shape.file.empty()) {
+            return scene_.shapes->add_hull(shape.hull);
+        }
+        const std::shared_ptr<const Mesh> mesh = load_mesh(shape.file);
+        if (error_) {
             return {};
         }
-        visual = std::make_shared<const Mesh>(std::move(whole));
-        return scene_.shapes->add_mesh(visual);
+        std::vector<Vec3> points = mesh->positions;
+        for (Vec3& point : points) {
+            point = point.cwiseProduct(shape.scale);
+        }
+        const std::optional<ConvexHull> hull = make_convex_hull(points);
+        if (!hull || !is_solid(*hull)) {
+            error_ = FileError{shape.file.string(), "",
+                               "expected points that no two planes a millimetre apart hold between "
+                               "them, 10 km wide at most"};
+            return {};
+        }
+        return scene_.shapes->add_hull(*hull);
+    }
+
+    ShapeId add_compound(const SceneShape& shape) {
+        std::vector<CompoundChild> children;
+        for (const SceneShapePart& part : shape.parts) {
+            children.push_back({add_shape(part.shape), part.pose, part.mass_kg});
+        }
+        return error_ ? ShapeId{} : scene_.shapes->add_compound(children);
+    }
+
+    ShapeId add_shape(const SceneShape& shape) {
+        switch (shape.kind) {
+            case ShapeKind::box:
+                return scene_.shapes->add_box(shape.half_m);
+            case ShapeKind::sphere:
+                return scene_.shapes->add_sphere(shape.radius_m);
+            case ShapeKind::capsule:
+                return scene_.shapes->add_capsule(shape.radius_m, shape.half_height_m);
+            case ShapeKind::cylinder:
+                return scene_.shapes->add_cylinder(shape.radius_m, shape.half_height_m);
+            case ShapeKind::hull:
+                return add_hull(shape);
+            case ShapeKind::compound:
+                return add_compound(shape);
+            case ShapeKind::mesh:
+                break;
+        }
+        std::shared_ptr<const Mesh> mesh = load_mesh(shape.file);
+        return error_ ? ShapeId{} : scene_.shapes->add_mesh(std::move(mesh), shape.scale);
     }
 
     void add_scene_body(const SceneBody& body) {
-        std::shared_ptr<const Mesh> visual;
-        const ShapeId shape = add_shape(body.shape, visual);
+        CentredShape shape{add_shape(body.shape), {}};
         if (error_ || !take_name(body.name)) {
             return;
+        }
+        if (body.kind == BodyKind::free) {
+            shape = scene_.shapes->add_centred(shape.shape);
         }
         BodyDescription description;
         description.name = body.name;
         description.body.kind = body.kind;
         description.body.restitution = body.restitution;
-        description.pose_ws = file_.world_transform * body.pose;
-        description.shape = shape;
+        description.body.friction = body.friction;
+        description.pose_ws = file_.world_transform * body.pose * shape.frame;
+        description.shape = shape.shape;
         if (body.kind == BodyKind::free) {
             description.body.mass_kg = body.mass_kg;
             description.body.inertia_kgm2 =
                 body.inertia_kgm2 ? *body.inertia_kgm2
-                                  : solid_inertia(scene_.shapes->at(shape), body.mass_kg);
+                                  : solid_inertia(scene_.shapes->at(shape.shape), body.mass_kg);
             description.velocity = {turned(body.velocity_mps), turned(body.angular_velocity_radps)};
         }
         const Entity entity = add_body(scene_.world, description);
@@ -178,7 +240,29 @@ class SceneBuilder {
         if (body.color) {
             color = *body.color;
         }
-        scene_.visuals.push_back({entity, visual, color, {}});
+        scene_.visuals.push_back(
+            {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), color, {}});
+    }
+
+    void add_scene_joint(const SceneJoint& joint) {
+        if (error_ || !take_name(joint.name)) {
+            return;
+        }
+        const auto entity_of = [this](const std::string& name) {
+            return name.empty() ? k_no_entity
+                                : find_by_id(scene_.world, persistent_id_from_name(name));
+        };
+        Joint made = joint.joint;
+        made.a = entity_of(joint.a);
+        made.b = entity_of(joint.b);
+        made.latch.handle = entity_of(joint.handle);
+        made = joint_at(scene_.world, made, file_.world_transform * joint.pose);
+        const Vec3 end_ws = transform_point(file_.world_transform, joint.end_a);
+        made.frame_a_bs.position =
+            is_null(made.a)
+                ? end_ws
+                : inverse_transform_point(scene_.world.body_pose.at(made.a).pose_ws, end_ws);
+        add_joint(scene_.world, {joint.name, made});
     }
 
     void add_player_start(const ScenePlayer& player) {
@@ -198,6 +282,7 @@ class SceneBuilder {
     Scene& scene_;
     std::string place_;            // of what is being added
     std::set<std::string> names_;  // taken
+    std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
     std::optional<FileError> error_;
 };
 
@@ -206,7 +291,7 @@ SceneFile level_scene(const std::filesystem::path& path) {
     SceneFile file;
     file.name = path.stem().string();
     file.description = "a level by itself";
-    file.levels.push_back({path, {}});
+    file.levels.push_back({path, {}, Vec3::Ones()});
     return file;
 }
 

@@ -32,6 +32,13 @@ struct SceneSpawnPoint {
     Pose pose_ws;  // of the play space: its floor point
 };
 
+// The axis of a straight bar that hands like, in a body's frame: for scripts that climb.
+struct SceneRail {
+    Entity body;
+    Vec3 start_bs = Vec3::Zero();
+    Vec3 end_bs = Vec3::Zero();
+};
+
 // A player before he is in the world.
 struct ScenePlayerStart {
     std::string name;
@@ -50,10 +57,12 @@ struct Scene {
     std::vector<SceneVisual> visuals;
     std::vector<Lamp> lamps;
     Vec3 up_ws = Vec3::UnitY();
+    std::vector<SceneRail> rails;           // may be empty
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // that the scene asks for; may be empty
     std::vector<std::string> body_names;    // by world.body's rows at load
     std::optional<SceneSession> session;    // what shows it
+    int climbers = 0;  // scripted ones beside the first player, where nobody says how many
 };
 
 // A built-in scene's name, a scene file (.json), or any level (.glb, .gltf: every mesh node a

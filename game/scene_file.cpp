@@ -7,17 +7,18 @@
 
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/scene_chain.hpp"
 
 namespace handhold {
 
 namespace {
 
 constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
-constexpr NumberRange k_extent_m = {1e-3, 1e4, false};  // as ShapeLibrary takes them
 constexpr NumberRange k_speed_mps = {-1e5, 1e5, false};
 constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
 constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
 constexpr NumberRange k_inertia_kgm2 = {1e-12, 1e18, false};
+constexpr NumberRange k_friction = {0.0, 10.0, false};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
 // Reads the sections of one document; errors are kept there.
@@ -30,7 +31,6 @@ class SceneReader {
 
   private:
     SceneLevel read_level(const JsonValue& value) const;
-    SceneShape read_shape(const JsonValue& value) const;
     SceneBody read_body(const JsonValue& value);
     static void read_free_body(const JsonValue& value, SceneBody& body);
     static SceneMotion read_motion(const JsonValue& value);
@@ -42,7 +42,8 @@ class SceneReader {
 
     JsonValue root_;
     std::filesystem::path folder_;
-    std::set<std::string> entity_names_;  // bodies and players: they share the persistent ids
+    std::set<std::string> entity_names_;  // bodies, joints, players: they share persistent ids
+    SceneJointNames joint_names_;
     std::set<std::string> spawn_names_;
 };
 
@@ -93,33 +94,8 @@ std::filesystem::path SceneReader::read_path(const JsonValue& value) const {
 }
 
 SceneLevel SceneReader::read_level(const JsonValue& value) const {
-    value.allow_only({"file", "position_m", "rotation_xyzw"});
-    return {read_path(value["file"]), read_pose(value)};
-}
-
-SceneShape SceneReader::read_shape(const JsonValue& value) const {
-    SceneShape shape;
-    const std::string type = value["type"].text();
-    if (type == "box") {
-        value.allow_only({"type", "half_m"});
-        shape.half_m = value["half_m"].vector(k_extent_m);
-    } else if (type == "sphere") {
-        value.allow_only({"type", "radius_m"});
-        shape.type = SceneShapeType::sphere;
-        shape.radius_m = value["radius_m"].number(k_extent_m);
-    } else if (type == "capsule") {
-        value.allow_only({"type", "radius_m", "half_height_m"});
-        shape.type = SceneShapeType::capsule;
-        shape.radius_m = value["radius_m"].number(k_extent_m);
-        shape.half_height_m = value["half_height_m"].number(k_extent_m);
-    } else if (type == "mesh") {
-        value.allow_only({"type", "file"});
-        shape.type = SceneShapeType::mesh;
-        shape.file = read_path(value["file"]);
-    } else {
-        value["type"].refuse("\"box\", \"sphere\", \"capsule\" or \"mesh\"");
-    }
-    return shape;
+    value.allow_only({"file", "position_m", "rotation_xyzw", "scale"});
+    return {read_path(value["file"]), read_pose(value), read_scale(value["scale"])};
 }
 
 SceneMotion SceneReader::read_motion(const JsonValue& value) {
@@ -134,8 +110,8 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
     body.velocity_mps = value["velocity_mps"].vector_or(Vec3::Zero(), k_speed_mps);
     body.angular_velocity_radps =
         value["angular_velocity_radps"].vector_or(Vec3::Zero(), k_turn_rate_radps);
-    if (body.shape.type == SceneShapeType::mesh) {
-        value["shape"]["type"].refuse("\"box\", \"sphere\" or \"capsule\" for a free body");
+    if (body.shape.kind == ShapeKind::mesh) {
+        value["shape"]["type"].refuse("a shape with an inside for a free body");
     }
     if (const JsonValue inertia = value["inertia_kgm2"]; inertia.exists()) {
         body.inertia_kgm2 = inertia.vector(k_inertia_kgm2);
@@ -151,11 +127,11 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
 SceneBody SceneReader::read_body(const JsonValue& value) {
     value.allow_only({"name", "kind", "shape", "position_m", "rotation_xyzw", "mass_kg",
                       "inertia_kgm2", "velocity_mps", "angular_velocity_radps", "motion", "color",
-                      "restitution"});
+                      "restitution", "friction"});
     SceneBody body;
     body.name = read_new_name(value["name"], entity_names_);
     body.kind = read_kind(value["kind"]);
-    body.shape = read_shape(value["shape"]);
+    body.shape = read_scene_shape(value["shape"], folder_);
     body.pose = read_pose(value);
     if (body.kind == BodyKind::free) {
         read_free_body(value, body);
@@ -172,6 +148,8 @@ SceneBody SceneReader::read_body(const JsonValue& value) {
         body.color = read_color(color);
     }
     body.restitution = value["restitution"].number_or(body.restitution, k_unit_interval);
+    body.friction = value["friction"].number_or(body.friction, k_friction);
+    joint_names_.bodies.emplace(body.name, body.kind);
     return body;
 }
 
@@ -213,8 +191,8 @@ SceneSession SceneReader::read_session(const JsonValue& value) const {
 }
 
 SceneFile SceneReader::read() {
-    root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "spawns",
-                      "players", "session", "world_transform", "tuning"});
+    root_.allow_only({"name", "description", "reference_velocity_mps", "levels", "bodies", "joints",
+                      "chains", "spawns", "players", "session", "world_transform", "tuning"});
     SceneFile scene;
     scene.name = root_["name"].text();
     scene.description = root_["description"].text_or({});
@@ -225,6 +203,14 @@ SceneFile SceneReader::read() {
     }
     for (const JsonValue& body : root_["bodies"].optional_items()) {
         scene.bodies.push_back(read_body(body));
+    }
+    for (const JsonValue& joint : root_["joints"].optional_items()) {
+        scene.joints.push_back(read_scene_joint(joint, joint_names_));
+        entity_names_.insert(scene.joints.back().name);
+    }
+    for (const JsonValue& chain : root_["chains"].optional_items()) {
+        const std::string name = read_new_name(chain["name"], entity_names_);
+        read_scene_chain(chain, name, joint_names_, scene);
     }
     for (const JsonValue& spawn : root_["spawns"].optional_items()) {
         scene.spawns.push_back(read_spawn(spawn));

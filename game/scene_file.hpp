@@ -11,6 +11,8 @@
 #include "components/body.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
+#include "game/scene_joint.hpp"
+#include "game/scene_shape.hpp"
 
 // What a scene's JSON says, checked but not built: docs/scene_format.md. World space is written _ws
 // in code; in the file, everything is in the scene's frame, which world_transform puts into the
@@ -21,17 +23,7 @@ namespace handhold {
 struct SceneLevel {
     std::filesystem::path file;  // .glb or .gltf
     Pose pose;                   // of the file's frame in the scene
-};
-
-enum class SceneShapeType : std::uint8_t { box, sphere, capsule, mesh };
-
-// Only the fields of its type are meant.
-struct SceneShape {
-    SceneShapeType type = SceneShapeType::box;
-    Vec3 half_m = Vec3::Constant(0.5);  // box
-    double radius_m = 0.5;              // sphere, capsule
-    double half_height_m = 0.5;         // capsule along the body's y, without its caps
-    std::filesystem::path file;         // mesh: .glb or .gltf, in the body's frame
+    Vec3 scale = Vec3::Ones();   // along the file's axes
 };
 
 // Constant twist of a kinematic body; as Mover.
@@ -45,7 +37,8 @@ struct SceneBody {
     std::string name;  // unique among the bodies: gives the persistent id
     BodyKind kind = BodyKind::fixed;
     SceneShape shape;
-    Pose pose;                         // of the centre of mass, axes principal
+    Pose pose;                         // of the shape's frame; of a free body, save a hull or
+                                       // compound, that is its centre of mass, axes principal
     double mass_kg = 1.0;              // free: > 0; else unused
     std::optional<Vec3> inertia_kgm2;  // free: principal moments, > 0 each, the largest at most the
                                        // sum of the others; absent: that of the solid shape
@@ -55,6 +48,7 @@ struct SceneBody {
     std::optional<std::array<float, 3>>
         color;                 // linear RGB in [0, 1]; absent: the mesh's own, or grey
     double restitution = 0.0;  // [0, 1]; the larger of two bodies' counts
+    double friction = 0.4;     // Coulomb's coefficient; of two bodies the geometric mean
 };
 
 struct SceneSpawn {
@@ -81,6 +75,7 @@ struct SceneFile {
         Vec3::Zero();  // what counts as standing still before anything was gripped
     std::vector<SceneLevel> levels;
     std::vector<SceneBody> bodies;
+    std::vector<SceneJoint> joints;
     std::vector<SceneSpawn> spawns;
     std::vector<ScenePlayer> players;
     std::optional<SceneSession> session;

@@ -5,6 +5,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
+#include "game/crowd.hpp"
 
 namespace handhold {
 namespace {
@@ -50,10 +51,12 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
     return log;
 }
 
-FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
-                   const BodyIndex& bodies, const StageStats& stats) {
+// Into a log that may have been used before: nothing is allocated then.
+void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
+               const BodyIndex& bodies, const StageStats& stats, FrameLog& log) {
     const World& world = scene.world;
-    FrameLog log;
+    log.players.clear();
+    log.bodies.clear();
     log.frame = world.clock.frame;
     log.t_s = world.clock.t_s;
     log.stats = stats;
@@ -69,7 +72,19 @@ FrameLog log_frame(const Scene& scene, const std::vector<PlayerEntities>& player
         log.bodies.push_back({static_cast<std::uint32_t>(row), world.body_pose.at(body).pose_ws,
                               velocity.linear_mps, velocity.angular_radps});
     }
-    return log;
+}
+
+// Of a player and his hands in the columns of the world, with what it takes to find them there.
+std::size_t state_bytes(const World& world, const PlayerEntities& player) {
+    std::size_t bytes = 0;
+    visit_columns(world, [&](const char*, const auto& column) {
+        using Row = typename std::decay_t<decltype(column)>::Row;
+        constexpr std::size_t k_place = sizeof(Entity) + sizeof(std::uint32_t);
+        for (const Entity entity : {player.player, player.hands[0], player.hands[1]}) {
+            bytes += column.contains(entity) ? sizeof(Row) + k_place : 0;
+        }
+    });
+    return bytes;
 }
 
 RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players,
@@ -82,6 +97,7 @@ RunLog begin_log(const Scene& scene, const std::vector<PlayerEntities>& players,
         log.player_names.push_back("player" + std::to_string(i));
         log.player_mass_kg.push_back(scene.world.player.at(players[i].player).mass_kg);
     }
+    log.bytes_per_player = players.empty() ? 0 : state_bytes(scene.world, players.front());
     log.body_names = scene.body_names;
     for (const RigidBody& body : scene.world.body.rows()) {
         log.body_mass_kg.push_back(body.kind == BodyKind::free ? body.mass_kg : 0.0);
@@ -119,21 +135,28 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
 
     RunLog log = begin_log(scene, players, settings);
     // As many as a session of minutes has: what a file claims to last is no reason to take memory.
-    log.frames.reserve(std::min<std::uint64_t>(frames, k_frames_reserved));
+    log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
+                                            : 1);
     const BodyIndex bodies(scene.world);
+    const std::size_t recorded = std::min(players.size(), settings.climbers_from);
+    Crowd climbers(scene, std::span(players).subspan(recorded), settings.seed);
     std::vector<PlayerInput> inputs(players.size());
     StageStats stats;
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
         const double end_s = scene.world.clock.t_s + dt_s;
         const std::span<const TrackingSample> samples =
             playback ? playback->window(end_s) : std::span<const TrackingSample>{};
-        for (std::size_t i = 0; i < players.size(); ++i) {
+        for (std::size_t i = 0; i < recorded; ++i) {
             inputs[i] = {players[i].player, samples, {}};
         }
+        climbers.drive(scene, caches, end_s, std::span(inputs).subspan(recorded));
         const std::int64_t begin_ns = now_ns();
         step_frame(scene.world, caches, scene.tuning, {dt_s, inputs}, stats);
         log.wall_s += 1e-9 * static_cast<double>(now_ns() - begin_ns);
-        log.frames.push_back(log_frame(scene, players, bodies, stats));
+        if (settings.keep_frames || log.frames.empty()) {
+            log.frames.emplace_back();
+        }
+        log_frame(scene, players, bodies, stats, log.frames.back());
         if (observe) {
             observe(scene, log.frames.back());
         }

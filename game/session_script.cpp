@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/hand_pose.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {
@@ -47,35 +48,20 @@ struct HandKey {
     bool holds = false;  // until the next key
 };
 
-Pose hand_pose(HandSide side, const Vec3& palm, const Vec3& away, const Vec3& fingers,
-               const HandTuning& tuning) {
-    Mat3 axes;
-    const Vec3 across = (fingers - away * away.dot(fingers)).normalized();
-    axes.col(1) = away;
-    axes.col(2) = -across;
-    axes.col(0) = axes.col(1).cross(axes.col(2));
-    Pose pose;
-    pose.rotation = Quat(axes).normalized();
-    Vec3 center = tuning.palm_center_m;
-    center.x() *= side == HandSide::right ? 1.0 : -1.0;
-    pose.position = palm - pose.rotation * center;
-    return pose;
-}
-
 // Beside and before the chest, palm down, relative to where the eyes are then.
 HandKey rest_key(const SessionScript& script, HandSide side, double t_s, const HandTuning& tuning) {
     const double outward = side == HandSide::right ? 1.0 : -1.0;
     const Vec3 palm =
         eyes_at(script.body, t_s) + script.play_space * Vec3(0.22 * outward, -0.42, -0.30);
     const Vec3 up = script.play_space * Vec3::UnitY();
-    return {t_s, hand_pose(side, palm, up, script.play_space * -Vec3::UnitZ(), tuning), up, false};
+    return {t_s, hand_on({palm, up, script.play_space * -Vec3::UnitZ()}, side, tuning), up, false};
 }
 
 std::vector<HandKey> keys_of(const SessionScript& script, HandSide side, const HandTuning& tuning) {
     std::vector<HandKey> keys;
     for (const ScriptedHold& hold : script.holds) {
         if (hold.side == side) {
-            const Pose pose = hand_pose(side, hold.palm, hold.away, hold.fingers, tuning);
+            const Pose pose = hand_on({hold.palm, hold.away, hold.fingers}, side, tuning);
             keys.push_back({hold.from_s, pose, hold.away, true});
             keys.push_back({hold.until_s, pose, hold.away, false});
         }
@@ -83,7 +69,7 @@ std::vector<HandKey> keys_of(const SessionScript& script, HandSide side, const H
     for (const ScriptedReach& reach : script.reaches) {
         if (reach.side == side) {
             keys.push_back({reach.t_s,
-                            hand_pose(side, reach.palm, reach.away, reach.fingers, tuning),
+                            hand_on({reach.palm, reach.away, reach.fingers}, side, tuning),
                             reach.away, false});
         }
     }

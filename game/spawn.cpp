@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
-#include "engine/core/hash.hpp"
+#include "game/place_scene.hpp"
 #include "game/playback.hpp"
+#include "game/random.hpp"
 #include "game/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
-#include "systems/physics/place_colliders.hpp"
 
 namespace handhold {
 namespace {
@@ -20,18 +20,6 @@ constexpr std::size_t k_played = 16;           // best candidates that are playe
 constexpr std::size_t k_head_checks = 12;      // along the session
 constexpr double k_head_clearance_m = 0.06;    // beyond the head's own radius
 constexpr double k_palm_gap_m = 0.02;  // of the first grab's palm off the surface it is laid onto
-
-// Reproducible numbers: a counter through a mixer.
-class Random {
-  public:
-    double unit() {
-        state_ += 0x9e3779b97f4a7c15ULL;
-        return static_cast<double>(mix64(state_) >> 11U) * 0x1.0p-53;
-    }
-
-  private:
-    std::uint64_t state_ = 20;
-};
 
 // The session as it would go if every grab gripped something fixed: in play space, relative to
 // where the origin begins.
@@ -186,7 +174,7 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
         return best;
     }
     const Quat upright = rotation_between(Vec3::UnitY(), scene.up_ws);
-    Random random;
+    Random random(20);
     for (int yaw = 0; yaw < k_yaws; ++yaw) {
         const double angle = 6.283185307179586 * yaw / k_yaws;
         const Quat rotation = (upright * rotation_about(Vec3::UnitY(), angle)).normalized();
@@ -212,14 +200,6 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     best.resize(std::min(best.size(), k_played));
     return best;
-}
-
-void place_scene(Scene& scene, FrameCaches& caches) {
-    const World& w = scene.world;
-    place_colliders(
-        {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.head_tracking, w.last_valid, caches.collision, caches.graph},
-        scene.tuning.head);
 }
 
 struct Played {

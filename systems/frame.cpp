@@ -10,9 +10,11 @@
 #include "systems/physics/animate_movers.hpp"
 #include "systems/physics/build_constraints.hpp"
 #include "systems/physics/find_contacts.hpp"
+#include "systems/physics/group_joints.hpp"
 #include "systems/physics/place_colliders.hpp"
 #include "systems/physics/predict_bodies.hpp"
 #include "systems/physics/solve_phases.hpp"
+#include "systems/physics/update_joints.hpp"
 #include "systems/physics/update_velocities.hpp"
 
 namespace handhold {
@@ -62,11 +64,16 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
                       tuning, stats);
     }
     {
+        const StageTimer timer(Stage::group_joints, stats);
+        group_joints({w.joint, w.body, graph}, tuning.phases);
+    }
+    {
         const StageTimer timer(Stage::update_grabs, stats);
         place(w, caches, tuning);
-        update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
-                      w.player_origin, w.body, w.body_pose, w.grab, w.head_ignores},
-                     tuning, stats);
+        update_grabs(
+            {caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
+             w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
+            tuning, stats);
     }
     {
         const StageTimer timer(Stage::locomote_players, stats);
@@ -93,28 +100,31 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     {
         const StageTimer timer(Stage::find_contacts, stats);
         place(w, caches, tuning);
-        find_contacts({w.persistent_id, w.head_tracking, w.hand_owner, w.grab, caches.collision,
-                       w.head_ignores, graph},
+        find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner, w.grab,
+                       caches.collision, w.head_ignores, graph},
                       tuning.contact);
     }
     {
         const StageTimer timer(Stage::build_constraints, stats);
-        build_constraints(
-            {w.persistent_id, w.body, w.body_pose, w.body_velocity, w.player, w.player_origin,
-             w.player_velocity, w.head_tracking, w.hand_owner, w.grab, graph},
-            tuning);
+        build_constraints({input.dt_s, w.persistent_id, w.body, w.body_pose, w.body_velocity,
+                           w.joint, w.joint_state, w.player, w.player_origin, w.player_velocity,
+                           w.head_tracking, w.hand_owner, w.grab, graph},
+                          tuning);
     }
     {
         const StageTimer timer(Stage::solve_phases, stats);
-        solve_phases(
-            {w.persistent_id, caches.collision, graph, w.body_pose, w.player_origin, w.grab},
-            tuning, stats);
+        solve_phases({caches.collision, graph, w.body_pose, w.player_origin, w.grab}, tuning,
+                     stats);
     }
     {
         const StageTimer timer(Stage::update_velocities, stats);
         update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, graph,
                            w.body_velocity, w.player_velocity, w.grab, w.last_valid},
                           tuning, stats);
+    }
+    {
+        const StageTimer timer(Stage::update_joints, stats);
+        update_joints({input.dt_s, graph, w.joint, w.joint_state});
     }
     {
         const StageTimer timer(Stage::publish_pose, stats);

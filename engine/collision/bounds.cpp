@@ -1,5 +1,7 @@
 #include "engine/collision/bounds.hpp"
 
+#include <span>
+
 namespace handhold {
 namespace {
 
@@ -10,22 +12,52 @@ Bounds transformed(const Bounds& bounds, const Pose& pose) {
     return {middle - half, middle + half};
 }
 
+Bounds bounds_of(std::span<const Vec3> points) {
+    Bounds box{points.front(), points.front()};
+    for (const Vec3& point : points) {
+        box = box.joined({point, point});
+    }
+    return box;
+}
+
+Bounds part_box(const PlacedShape& part);
+
+Bounds shape_box(const Shape& shape) {
+    switch (shape.kind) {
+        case ShapeKind::box:
+            return {-shape.half_m, shape.half_m};
+        case ShapeKind::cylinder: {
+            const Vec3 half(shape.radius_m, shape.half_height_m, shape.radius_m);
+            return {-half, half};
+        }
+        case ShapeKind::hull:
+            return bounds_of(std::span<const Vec3>(shape.hull->corners));
+        case ShapeKind::compound: {
+            Bounds box = part_box(shape.parts->front());
+            for (const PlacedShape& part : *shape.parts) {
+                box = box.joined(part_box(part));
+            }
+            return box;
+        }
+        case ShapeKind::mesh: {
+            const Bounds box = bounds_of(std::span<const Vec3>(shape.mesh->positions));
+            return {box.low.cwiseProduct(shape.scale), box.high.cwiseProduct(shape.scale)};
+        }
+        default: {
+            const Vec3 half(shape.radius_m, shape.radius_m + shape.half_height_m, shape.radius_m);
+            return {-half, half};
+        }
+    }
+}
+
+Bounds part_box(const PlacedShape& part) { return transformed(shape_box(part.shape), part.pose); }
+
 }  // namespace
 
-ShapeExtent shape_extent(const Shape& shape) {
-    const double radius_m = bounding_radius(shape);
-    if (shape.kind == ShapeKind::mesh) {
-        Bounds box = bounds_of(shape.mesh->positions.front(), shape.mesh->positions.front());
-        for (const Vec3& position : shape.mesh->positions) {
-            box = box.joined({position, position});
-        }
-        return {box, radius_m};
-    }
-    const Vec3 half =
-        shape.kind == ShapeKind::box
-            ? shape.half_m
-            : Vec3(shape.radius_m, shape.radius_m + shape.half_height_m, shape.radius_m);
-    return {{-half, half}, radius_m};
+ShapeExtent shape_extent(const Shape& shape) { return {shape_box(shape), bounding_radius(shape)}; }
+
+ShapeExtent part_extent(const PlacedShape& part) {
+    return {part_box(part), part.pose.position.norm() + bounding_radius(part.shape)};
 }
 
 Bounds way_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {

@@ -24,12 +24,19 @@ inline Bounds bounds_of(const Vec3& from, const Vec3& to) {
     return {from.cwiseMin(to), from.cwiseMax(to)};
 }
 
+// True where two boxes have a point in common.
+inline bool meet(const Bounds& a, const Bounds& b) {
+    return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 // What bounds need of a shape, found once: a mesh's takes a walk over its vertices.
 struct ShapeExtent {
     Bounds box;             // in the shape's frame
     double radius_m = 0.0;  // about its origin
 };
 ShapeExtent shape_extent(const Shape& shape);
+// In the frame, and about the origin, of what it is a part of.
+ShapeExtent part_extent(const PlacedShape& part);
 
 // Covers every point of the shape on the way from one pose to another.
 Bounds way_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);

@@ -2,12 +2,15 @@
 
 #include <optional>
 
-#include "engine/collision/bullet_convex.hpp"
+#include "engine/collision/bullet_separation.hpp"
 
 // When a moving convex shape first touches a resting one.
+// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative
+// advancement).
 namespace handhold {
 
-// The way of a relative to b, in near space; position along a line, rotation along the shorter arc.
+// The way of a relative to b, in near space; its place goes along a line, its rotation along the
+// shorter arc.
 class RelativeMotion {
   public:
     RelativeMotion(const Pose& from_ns, const Pose& to_ns);
@@ -34,9 +37,9 @@ struct Impact {
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
 };
 
-// First fraction of the way at which a is within a micrometre of b, or nullopt where it is not
-// before `limit`. A start in touch is an impact at 0.
-std::optional<Impact> time_of_impact(const ConvexShape& a, const RelativeMotion& motion,
+// First fraction of the way at which a, a part of what moves, is within a micrometre of b, or
+// nullopt where it is not before `limit`. A start in touch is an impact at 0.
+std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
                                      const Convex& b, double limit);
 
 }  // namespace handhold

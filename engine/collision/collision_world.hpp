@@ -64,12 +64,12 @@ struct SurfacePoint {
     Vec3 point_ws = Vec3::Zero();
     Vec3 normal_ws = Vec3::UnitY();  // unit, from the surface point towards the query point
                                      // (outward where they meet)
-    double distance_m = 0.0;         // 0 inside of a box, sphere or capsule; point_ws is on the
-                                     // surface there too
+    double distance_m = 0.0;         // 0 inside of a solid; point_ws is on the surface there too
 };
 
 // A cache over proxies, not state: a new one that is given the same proxies answers the same, bit
-// for bit. Not thread-safe: one thread at a time.
+// for bit. The const queries may run on any number of threads at the same time; nothing else beside
+// them or itself.
 class CollisionWorld {
   public:
     // Builds the acceleration structure of every mesh. `shapes` must outlive the world and not
@@ -87,17 +87,22 @@ class CollisionWorld {
     // Replaces the pairs that make no contacts; sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
-    // Contacts between all pairs with at least one free collider, made afresh: nothing of an
-    // earlier call is used. Replaces `contacts`; sorted by (id_a, id_b, feature).
+    // Contacts between all pairs with at least one free collider. Nothing of an earlier call shows:
+    // what did not move since the last call has, bit for bit, the contacts it would have in a new
+    // world. Replaces `contacts`; sorted by (id_a, id_b, feature). The
+    // bodies are shared out over the threads of parallel_for: the contacts do not depend on how
+    // many.
     //
     // A pair that moved less than limits.sweep_m against each other is met at to_ws. Else a's way,
     // relative to b, is swept from from_ws to to_ws, and the contacts are those at the place of
-    // first touch. A touch that leaves a no deeper at the end than a tenth of sweep_m, or of the
-    // thinner body's least half extent, is no stop: what slides along a floor still meets the wall.
+    // first touch of any of their parts. A touch that leaves a no deeper at the end than a tenth of
+    // sweep_m, or of the thinner body's least half extent, is no stop: what slides along a floor
+    // still meets the wall.
     //
     // Walls have no inside: where a's centre went through a mesh between from_ws and to_ws
     // (relative to b), the normals face the side it came from and depth is measured to that side.
-    // Elsewhere they face a's centre. Winding never matters.
+    // Elsewhere they face a's centre. Winding never matters. Of a compound each part has its own
+    // centre.
     //
     // Separations are exact where the bodies are apart, and along the least way out where they
     // overlap. Of many points with one normal only the corners of their outline, at most 8, and the

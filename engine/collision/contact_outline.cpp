@@ -53,9 +53,11 @@ const NearContact& next_corner(std::span<const NearContact> group, const NearCon
     return *best;
 }
 
-// Leaves out the flattest corners until 8 are left.
+// Leaves out the flattest corners until 8 are left; of equal ones the first, so that of a rim's
+// every other one goes.
 void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
     constexpr std::size_t k_most = 8;
+    constexpr double k_equal_m = 1e-9;
     while (outline.size() - first > k_most) {
         const std::size_t count = outline.size() - first;
         std::size_t flattest = 0;
@@ -64,7 +66,7 @@ void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
             const double height =
                 std::abs(height_over_line(outline[first + (i + count - 1) % count],
                                           outline[first + (i + 1) % count], outline[first + i]));
-            if (height < least) {
+            if (height < least - k_equal_m) {
                 least = height;
                 flattest = i;
             }

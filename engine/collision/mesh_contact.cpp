@@ -14,11 +14,6 @@ constexpr double k_rise_sine = 1e-6;  // the most that a kept normal may be bent
 constexpr double k_face_sine = 1e-6;  // normals nearer to a face's than this are the face's
 
 bool touches(const NearTriangle& triangle, const Vec3& point) {
-    const Vec3 reach = Vec3::Constant(k_touch_m);
-    if (((point - triangle.low_ns + reach).array() < 0.0).any() ||
-        ((triangle.high_ns - point + reach).array() < 0.0).any()) {
-        return false;
-    }
     return (closest_on_triangle(point, triangle.corners_ns) - point).norm() <= k_touch_m;
 }
 
@@ -88,22 +83,8 @@ void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle
 
 }  // namespace
 
-bool make_near_triangle(const Corners& corners_ns, NearTriangle& triangle) {
-    const Vec3 area = area_vector(corners_ns);
-    const double length = area.norm();
-    if (!(length > 0.0)) {
-        return false;
-    }
-    triangle.corners_ns = corners_ns;
-    triangle.normal = area / length;
-    triangle.low_ns = corners_ns[0].cwiseMin(corners_ns[1]).cwiseMin(corners_ns[2]);
-    triangle.high_ns = corners_ns[0].cwiseMax(corners_ns[1]).cwiseMax(corners_ns[2]);
-    return true;
-}
-
-bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point,
-                    const Vec3& normal) {
-    return std::none_of(triangles.begin(), triangles.end(), [&](const NearTriangle& triangle) {
+bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec3& normal) {
+    return !triangles.any_at(point, k_touch_m, [&](const NearTriangle& triangle) {
         return touches(triangle, point) && rises_above(triangle, point, normal);
     });
 }
@@ -115,9 +96,9 @@ void add_mesh_contacts(const MeshContactIo& io) {
     // of the step's front without ever touching it. Only a centre that went through the surface is
     // on its wrong side.
     const bool crossed =
-        std::any_of(io.triangles.begin(), io.triangles.end(),
+        std::any_of(io.triangles.all().begin(), io.triangles.all().end(),
                     [&](const NearTriangle& triangle) { return goes_through(triangle, from, to); });
-    for (const NearTriangle& triangle : io.triangles) {
+    for (const NearTriangle& triangle : io.triangles.all()) {
         if (crossed && changes_side(triangle, from, to)) {
             const Convex b = io.triangle.place(triangle.corners_ns, triangle.normal);
             add_face_manifold(io.a, b, outward_normal(triangle, from), io.margin_m, io.scratch,

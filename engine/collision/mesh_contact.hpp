@@ -1,38 +1,25 @@
 #pragma once
 
-#include <array>
-#include <span>
 #include <vector>
 
-#include "engine/collision/bullet_convex.hpp"
+#include "engine/collision/bullet_manifold.hpp"
+#include "engine/collision/near_triangles.hpp"
 
 // What a triangle mesh needs beyond convex shapes: which side is outside, and which normals its
 // surface really has.
 namespace handhold {
 
-// A triangle near a body, in near space: b's axes about a's place.
-struct NearTriangle {
-    Corners corners_ns;
-    Vec3 normal = Vec3::UnitY();  // unit; either side: winding is mixed in real levels
-    Vec3 low_ns = Vec3::Zero();   // bounds
-    Vec3 high_ns = Vec3::Zero();
-};
-
-// False, and nothing written, for a triangle without area: it has no normal, and its edges are its
-// neighbours'.
-bool make_near_triangle(const Corners& corners_ns, NearTriangle& triangle);
-
 // True where the triangles' surface nowhere rises above the plane through `point` (on the surface)
 // across `normal`: only then can something touch it there along that normal. False marks an
 // internal edge's bent normal.
-bool in_normal_cone(std::span<const NearTriangle> triangles, const Vec3& point, const Vec3& normal);
+bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec3& normal);
 
 struct MeshContactIo {
     const Convex& a;
     double core_reach_m = 0.0;  // from a's centre to its core's corners
     Vec3 centre_from_ns;  // a's centre at its last valid pose, relative to the mesh: marks the
                           // outside
-    std::span<const NearTriangle>
+    const NearTriangles&
         triangles;  // all within margin_m of a, and of the way from centre_from_ns to a's centre
     double margin_m = 0.0;
     TriangleShape& triangle;             // memory

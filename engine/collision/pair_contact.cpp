@@ -9,16 +9,18 @@
 namespace handhold {
 namespace {
 
-// b as one convex core, in near space.
-Convex place_b(const PairIo& io) { return io.b->at({-io.to_bs.position, Quat::Identity()}); }
+// A part of b, in near space.
+Convex place_b(const PairIo& io, const ConvexPart& part) {
+    return part.at({-io.to_bs.position, Quat::Identity()});
+}
 
 // What may be sunk by the end of the way without a stop on it: contacts at the end push that back
 // whole. Small against both bodies, and enough that a body that slides over a floor is not stopped
 // by the floor before it gets to the wall.
-double graze_m(const PairIo& io) {
-    double least = std::min(io.limits.sweep_m, io.a.thinnest_half_m());
-    if (io.b != nullptr) {
-        least = std::min(least, io.b->thinnest_half_m());
+double graze_m(const PairIo& io, const ConvexPart& a, const ConvexPart* b) {
+    double least = std::min(io.limits.sweep_m, a.shape().thinnest_half_m());
+    if (b != nullptr) {
+        least = std::min(least, b->shape().thinnest_half_m());
     }
     return 0.1 * least;
 }
@@ -28,20 +30,28 @@ bool stops(const Impact& impact, const RelativeMotion& motion, const Vec3& norma
     return -velocity * (1.0 - impact.fraction) > graze;
 }
 
-std::optional<Impact> first_impact_on_mesh(const PairIo& io, const RelativeMotion& motion) {
-    const double graze = graze_m(io);
+void keep_first(const std::optional<Impact>& impact, std::optional<Impact>& first) {
+    if (impact && (!first || impact->fraction < first->fraction)) {
+        first = impact;
+    }
+}
+
+std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a,
+                                           const NearTriangles& triangles,
+                                           const RelativeMotion& motion, double limit) {
+    const double graze = graze_m(io, a, nullptr);
+    const Vec3 from = a.placed(motion.at(0.0)).position;
     std::optional<Impact> first;
-    for (const NearTriangle& triangle : io.triangles) {
+    for (const NearTriangle& triangle : triangles.all()) {
         const Convex b = io.scratch.triangle.place(triangle.corners_ns, triangle.normal);
-        auto impact = time_of_impact(io.a, motion, b, first ? first->fraction : 1.0);
+        auto impact = time_of_impact(a, motion, b, first ? first->fraction : limit);
         if (!impact || (first && impact->fraction >= first->fraction)) {
             continue;
         }
         // An internal edge's bent normal would stop what only slides over it: there the face
         // decides.
-        if (!in_normal_cone(io.triangles, impact->point_b_ns, impact->normal)) {
-            const bool in_front =
-                (motion.from_ns() - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0;
+        if (!in_normal_cone(triangles, impact->point_b_ns, impact->normal)) {
+            const bool in_front = (from - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0;
             impact->normal = in_front ? triangle.normal : Vec3(-triangle.normal);
         }
         if (stops(*impact, motion, impact->normal, graze)) {
@@ -51,29 +61,63 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const RelativeMotio
     return first;
 }
 
+// How far a body's parts reach from its place.
+double reach_m(std::span<const ConvexPart> parts) {
+    double most = 0.0;
+    for (const ConvexPart& part : parts) {
+        most = std::max(most, part.extent().radius_m);
+    }
+    return most;
+}
+
+// Of all parts of both: where one is stopped, the whole is.
 std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motion) {
-    const double displacement_m =
-        motion.move().norm() + motion.turn_rad().norm() * io.a.bounding_radius_m();
+    const double displacement_m = motion.move().norm() + motion.turn_rad().norm() * reach_m(io.a);
     if (displacement_m <= io.limits.sweep_m) {
         return std::nullopt;
     }
-    if (io.b == nullptr) {
-        return first_impact_on_mesh(io, motion);
+    std::optional<Impact> first;
+    for (std::size_t i = 0; i < io.a.size(); ++i) {
+        const ConvexPart& a = io.a[i];
+        if (io.b.empty()) {
+            const double limit = first ? first->fraction : 1.0;
+            keep_first(first_impact_on_mesh(io, a, io.triangles[i], motion, limit), first);
+        }
+        for (const ConvexPart& b : io.b) {
+            const double limit = first ? first->fraction : 1.0;
+            const auto impact = time_of_impact(a, motion, place_b(io, b), limit);
+            if (impact && stops(*impact, motion, impact->normal, graze_m(io, a, &b))) {
+                keep_first(impact, first);
+            }
+        }
     }
-    const auto impact = time_of_impact(io.a, motion, place_b(io), 1.0);
-    return impact && stops(*impact, motion, impact->normal, graze_m(io)) ? impact : std::nullopt;
+    return first;
 }
 
-void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Vec3& from_ns) {
-    const Convex a = io.a.at(pose_ns);
+// Two parts whose spheres are farther apart than the margin make no contacts.
+bool are_far(const ConvexPart& a, const Convex& placed_a, const ConvexPart& b,
+             const Convex& placed_b, double margin_m) {
+    const double reach = a.shape().bounding_radius_m() + b.shape().bounding_radius_m() + margin_m;
+    return (placed_a.centre_ns() - placed_b.centre_ns()).norm() > reach;
+}
+
+void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns) {
     PairScratch& scratch = io.scratch;
-    if (io.b == nullptr) {
-        add_mesh_contacts({a, io.a.core_reach_m(), from_ns, io.triangles, io.limits.margin_m,
-                           scratch.triangle, scratch.clip, scratch.contacts});
-        return;
+    const double margin_m = io.limits.margin_m;
+    for (std::size_t i = 0; i < io.a.size(); ++i) {
+        const Convex a = io.a[i].at(pose_ns);
+        if (io.b.empty()) {
+            add_mesh_contacts({a, io.a[i].shape().core_reach_m(), io.a[i].placed(from_ns).position,
+                               io.triangles[i], margin_m, scratch.triangle, scratch.clip,
+                               scratch.contacts});
+        }
+        for (const ConvexPart& part : io.b) {
+            const Convex b = place_b(io, part);
+            if (!are_far(io.a[i], a, part, b, margin_m)) {
+                add_manifold(a, b, separate(a, b), margin_m, scratch.clip, scratch.contacts);
+            }
+        }
     }
-    const Convex b = place_b(io);
-    add_manifold(a, b, separate(a, b), io.limits.margin_m, scratch.clip, scratch.contacts);
 }
 
 }  // namespace
@@ -86,7 +130,7 @@ void find_pair_contacts(const PairIo& io) {
     const Pose pose_ns = impact ? motion.at(impact->fraction) : to_ns;
 
     io.scratch.contacts.clear();
-    add_contacts_at(io, pose_ns, from_ns.position);
+    add_contacts_at(io, pose_ns, from_ns);
     if (impact && io.scratch.contacts.empty()) {
         io.scratch.contacts.push_back(
             {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0});

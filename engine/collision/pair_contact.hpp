@@ -13,19 +13,19 @@ namespace handhold {
 struct PairScratch {
     TriangleShape triangle;
     ClipScratch clip;
-    std::vector<NearTriangle> triangles;
+    std::vector<NearTriangles> triangles;
     std::vector<NearContact> contacts;
     std::vector<NearContact> spare;
 };
 
 struct PairIo {
-    const ConvexShape& a;
-    const ConvexShape* b;  // null: a mesh
-    Pose from_bs;          // a's last valid pose in b's frame as b was then
-    Pose to_bs;            // a's present pose in b's present frame
-    // For a mesh b: all triangles that come within the margin of a on its way, about
-    // to_bs.position. Empty otherwise.
-    std::span<const NearTriangle> triangles;
+    std::span<const ConvexPart> a;
+    std::span<const ConvexPart> b;  // empty: a mesh
+    Pose from_bs;                   // a's last valid pose in b's frame as b was then
+    Pose to_bs;                     // a's present pose in b's present frame
+    // For a mesh b, for each part of a: all triangles that come within the margin of it on its way,
+    // about to_bs.position. Not looked at otherwise.
+    std::span<const NearTriangles> triangles;
     const ContactLimits& limits;
     std::vector<ContactPoint>& contacts;  // appended; ids are left 0
     PairScratch& scratch;                 // `triangles` above may be its own

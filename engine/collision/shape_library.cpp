@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "engine/collision/mass_properties.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold {
@@ -15,19 +17,80 @@ constexpr double k_max_size_m = 1e4;
 // Written so that NaN is outside too.
 bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_size_m; }
 
-// A capsule is a cylinder and the two halves of a sphere. Each half's own moment about its centre
-// of mass, 83/320 m r^2, and its offset h + 3/8 r add up to the closed form below.
-Vec3 capsule_inertia(double radius_m, double half_height_m, double mass_kg) {
-    const double r2 = radius_m * radius_m;
-    const double h = half_height_m;
-    // Volumes over 2 pi r^2: the common factor cancels in the shares.
-    const double sphere_share = (2.0 / 3.0 * radius_m) / (2.0 / 3.0 * radius_m + h);
-    const double sphere_kg = mass_kg * sphere_share;
-    const double cylinder_kg = mass_kg - sphere_kg;
-    const double along = cylinder_kg * r2 / 2.0 + sphere_kg * 0.4 * r2;
-    const double across = cylinder_kg * (r2 / 4.0 + h * h / 3.0) +
-                          sphere_kg * (0.4 * r2 + h * h + 0.75 * h * radius_m);
-    return {across, along, across};
+constexpr double k_min_scale = 1e-3;
+constexpr double k_max_scale = 1e3;
+
+bool is_scale(double factor) { return factor >= k_min_scale && factor <= k_max_scale; }
+
+// The far end of a part from the compound's origin.
+double farthest_m(const PlacedShape& part) {
+    const Vec3& centre = part.pose.position;
+    const Shape& shape = part.shape;
+    switch (shape.kind) {
+        case ShapeKind::box: {
+            const Vec3 local = part.pose.rotation.conjugate() * centre;
+            return (local.cwiseAbs() + shape.half_m).norm();
+        }
+        case ShapeKind::hull: {
+            double most = 0.0;
+            for (const Vec3& corner : shape.hull->corners) {
+                most = std::max(most, transform_point(part.pose, corner).norm());
+            }
+            return most;
+        }
+        case ShapeKind::capsule: {
+            const Vec3 half = part.pose.rotation * (shape.half_height_m * Vec3::UnitY());
+            return std::max((centre + half).norm(), (centre - half).norm()) + shape.radius_m;
+        }
+        default:
+            return centre.norm() + bounding_radius(shape);
+    }
+}
+
+double extent_along(const ConvexHull& hull, const Vec3& direction) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Vec3& corner : hull.corners) {
+        low = std::min(low, direction.dot(corner));
+        high = std::max(high, direction.dot(corner));
+    }
+    return high - low;
+}
+
+// A polyhedron is thinnest across one of its faces or across two of its edges (Houle and Toussaint,
+// Computing the Width of a Set, 1988).
+double hull_width(const ConvexHull& hull) {
+    std::vector<Vec3> edges;
+    double least = std::numeric_limits<double>::infinity();
+    for (const HullFace& face : hull.faces) {
+        least = std::min(least, extent_along(hull, face.normal));
+        for (std::size_t i = 0; i < face.loop.size(); ++i) {
+            const std::uint32_t from = face.loop[i];
+            const std::uint32_t to = face.loop[(i + 1) % face.loop.size()];
+            if (from < to) {  // each edge has two faces
+                edges.push_back((hull.corners[to] - hull.corners[from]).normalized());
+            }
+        }
+    }
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Vec3 across = edges[i].cross(edges[j]);
+            if (across.norm() > 1e-6) {
+                least = std::min(least, extent_along(hull, across.normalized()));
+            }
+        }
+    }
+    return least;
+}
+
+// True where the shape's frame is the one that principal_frame would choose, to what rounding and a
+// file's digits leave.
+bool is_centred(const MassProperties& properties, double reach_m) {
+    constexpr double k_rounding = 1e-6;
+    const Mat3& inertia = properties.inertia_per_kg_m2;
+    const Mat3 diagonal = inertia.diagonal().asDiagonal();
+    return properties.centre_m.norm() <= k_rounding * reach_m &&
+           (inertia - diagonal).cwiseAbs().maxCoeff() <= k_rounding * inertia.trace();
 }
 
 }  // namespace
@@ -66,8 +129,56 @@ ShapeId ShapeLibrary::add_capsule(double radius_m, double half_height_m) {
     return add(std::move(shape));
 }
 
-ShapeId ShapeLibrary::add_mesh(std::shared_ptr<const Mesh> mesh) {
+ShapeId ShapeLibrary::add_cylinder(double radius_m, double half_height_m) {
+    HH_CHECK(is_size(radius_m), "radius outside of [1e-3, 1e4] m", radius_m);
+    HH_CHECK(is_size(half_height_m), "half height outside of [1e-3, 1e4] m", half_height_m);
+    Shape shape;
+    shape.kind = ShapeKind::cylinder;
+    shape.radius_m = radius_m;
+    shape.half_height_m = half_height_m;
+    return add(std::move(shape));
+}
+
+ShapeId ShapeLibrary::add_hull(std::span<const Vec3> points) {
+    const std::optional<ConvexHull> hull = make_convex_hull(points);
+    HH_CHECK(hull.has_value(), "points without a volume, of how many", points.size());
+    return add_hull(*hull);
+}
+
+ShapeId ShapeLibrary::add_hull(const ConvexHull& hull) {
+    HH_CHECK(is_solid(hull), "hull's width outside of [1e-3, 1e4] m", hull_width(hull));
+    Shape shape;
+    shape.kind = ShapeKind::hull;
+    shape.hull = std::make_shared<const ConvexHull>(hull);
+    return add(std::move(shape));
+}
+
+ShapeId ShapeLibrary::add_compound(std::span<const CompoundChild> children) {
+    HH_CHECK(!children.empty() && children.size() <= k_most_parts, "a compound has 1 to 64 parts",
+             children.size());
+    std::vector<PlacedShape> parts;
+    for (const CompoundChild& child : children) {
+        const ShapeKind kind = at(child.shape).kind;
+        HH_CHECK(kind != ShapeKind::mesh && kind != ShapeKind::compound,
+                 "a part of a compound must be convex, shape", child.shape.index);
+        HH_CHECK(is_valid(child.pose), "a part's pose is not valid, part", parts.size());
+        HH_CHECK(child.mass_kg >= 0.0 && (child.mass_kg > 0.0) == (children[0].mass_kg > 0.0),
+                 "masses of parts must be all 0 or all above", child.mass_kg);
+        parts.push_back({at(child.shape), child.pose, child.mass_kg});
+    }
+    Shape shape;
+    shape.kind = ShapeKind::compound;
+    shape.parts = std::make_shared<const std::vector<PlacedShape>>(std::move(parts));
+    return add(std::move(shape));
+}
+
+ShapeId ShapeLibrary::add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& scale) {
     HH_CHECK(mesh != nullptr && !mesh->triangles.empty(), "a mesh without triangles", 0);
+    HH_CHECK(mesh->triangles.size() <= k_most_triangles, "more than 2^21 triangles",
+             mesh->triangles.size());
+    for (const double factor : scale) {
+        HH_CHECK(is_scale(factor), "a scale outside of [1e-3, 1e3]", factor);
+    }
     for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
         HH_CHECK(is_finite(mesh->positions[i]), "a position is not finite", i);
     }
@@ -79,7 +190,28 @@ ShapeId ShapeLibrary::add_mesh(std::shared_ptr<const Mesh> mesh) {
     Shape shape;
     shape.kind = ShapeKind::mesh;
     shape.mesh = std::move(mesh);
+    shape.scale = scale;
     return add(std::move(shape));
+}
+
+CentredShape ShapeLibrary::add_centred(ShapeId id) {
+    const MassProperties properties = mass_properties(at(id));
+    if (is_centred(properties, bounding_radius(at(id)))) {
+        return {id, {}};
+    }
+    const Pose frame = principal_frame(properties);
+    const Pose to_frame = inverse(frame);
+    Shape shape = at(id);
+    if (shape.kind == ShapeKind::hull) {
+        shape.hull = std::make_shared<const ConvexHull>(moved_hull(*shape.hull, to_frame));
+    } else {
+        std::vector<PlacedShape> parts = *shape.parts;
+        for (PlacedShape& part : parts) {
+            part.pose = to_frame * part.pose;
+        }
+        shape.parts = std::make_shared<const std::vector<PlacedShape>>(std::move(parts));
+    }
+    return {add(std::move(shape)), frame};
 }
 
 const Shape& ShapeLibrary::at(ShapeId id) const {
@@ -87,7 +219,18 @@ const Shape& ShapeLibrary::at(ShapeId id) const {
     return shapes_[id.index];
 }
 
+bool is_solid(const ConvexHull& hull) {
+    Vec3 low = hull.corners.front();
+    Vec3 high = low;
+    for (const Vec3& corner : hull.corners) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+    }
+    return is_size(hull_width(hull)) && is_size((high - low).maxCoeff());
+}
+
 double bounding_radius(const Shape& shape) {
+    double radius_m = 0.0;
     switch (shape.kind) {
         case ShapeKind::box:
             return shape.half_m.norm();
@@ -95,23 +238,44 @@ double bounding_radius(const Shape& shape) {
             return shape.radius_m;
         case ShapeKind::capsule:
             return shape.radius_m + shape.half_height_m;
+        case ShapeKind::cylinder:
+            return Vec3(shape.radius_m, shape.half_height_m, 0.0).norm();
+        case ShapeKind::hull:
+            for (const Vec3& corner : shape.hull->corners) {
+                radius_m = std::max(radius_m, corner.norm());
+            }
+            return radius_m;
+        case ShapeKind::compound:
+            for (const PlacedShape& part : *shape.parts) {
+                radius_m = std::max(radius_m, farthest_m(part));
+            }
+            return radius_m;
         case ShapeKind::mesh:
             break;
     }
-    double squared = 0.0;
     for (const Vec3& position : shape.mesh->positions) {
-        squared = std::max(squared, position.squaredNorm());
+        radius_m = std::max(radius_m, position.cwiseProduct(shape.scale).norm());
     }
-    return std::sqrt(squared);
+    return radius_m;
 }
 
 double thinnest_half_extent(const Shape& shape) {
+    double least_m = std::numeric_limits<double>::infinity();
     switch (shape.kind) {
         case ShapeKind::box:
             return shape.half_m.minCoeff();
         case ShapeKind::sphere:
         case ShapeKind::capsule:
             return shape.radius_m;
+        case ShapeKind::cylinder:
+            return std::min(shape.radius_m, shape.half_height_m);
+        case ShapeKind::hull:
+            return 0.5 * hull_width(*shape.hull);
+        case ShapeKind::compound:
+            for (const PlacedShape& part : *shape.parts) {
+                least_m = std::min(least_m, thinnest_half_extent(part.shape));
+            }
+            return least_m;
         case ShapeKind::mesh:
             break;
     }
@@ -119,19 +283,11 @@ double thinnest_half_extent(const Shape& shape) {
 }
 
 Vec3 solid_inertia(const Shape& shape, double mass_kg) {
-    switch (shape.kind) {
-        case ShapeKind::box: {
-            const Vec3 squared = shape.half_m.cwiseAbs2();
-            return mass_kg / 3.0 * (Vec3::Constant(squared.sum()) - squared);
-        }
-        case ShapeKind::sphere:
-            return Vec3::Constant(0.4 * mass_kg * shape.radius_m * shape.radius_m);
-        case ShapeKind::capsule:
-            return capsule_inertia(shape.radius_m, shape.half_height_m, mass_kg);
-        case ShapeKind::mesh:
-            break;
-    }
-    fail_precondition(__func__, "a mesh has no inside", "mesh");
+    const MassProperties properties = mass_properties(shape);
+    HH_CHECK(is_centred(properties, bounding_radius(shape)),
+             "the shape's frame must be at its centre of mass, along principal axes: add_centred",
+             properties.centre_m.norm());
+    return mass_kg * properties.inertia_per_kg_m2.diagonal();
 }
 
 }  // namespace handhold

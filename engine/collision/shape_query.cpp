@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <tuple>
 #include <utility>
 
 namespace handhold {
@@ -17,22 +19,35 @@ struct Ray {
     Vec3 at(double fraction) const { return from + fraction * way; }
 };
 
-struct FirstHit {
-    double fraction = std::numeric_limits<double>::infinity();
-    Vec3 normal = Vec3::UnitY();
+// Where the line through a ray goes into a convex shape and where it leaves it, of what is offered.
+struct Passage {
+    double enter = std::numeric_limits<double>::infinity();  // fractions of the ray
+    double leave = -std::numeric_limits<double>::infinity();
+    Vec3 enter_normal = Vec3::UnitY();
+    Vec3 leave_normal = Vec3::UnitY();
 
-    void offer(double candidate, const Vec3& unit_normal) {
-        if (candidate >= 0.0 && candidate <= 1.0 && candidate < fraction) {
-            fraction = candidate;
-            normal = unit_normal;
+    bool any() const { return enter <= leave; }
+    void offer(double fraction, const Vec3& unit_normal) {
+        if (fraction < enter) {
+            enter = fraction;
+            enter_normal = unit_normal;
+        }
+        if (fraction > leave) {
+            leave = fraction;
+            leave_normal = unit_normal;
         }
     }
-    std::optional<LocalRayHit> result() const {
-        return fraction <= 1.0 ? std::optional(LocalRayHit{fraction, normal}) : std::nullopt;
+    std::optional<LocalRayHit> first() const {
+        if (enter >= 0.0 && enter <= 1.0) {
+            return LocalRayHit{enter, enter_normal};
+        }
+        return enter < 0.0 && leave >= 0.0 && leave <= 1.0
+                   ? std::optional(LocalRayHit{leave, leave_normal})
+                   : std::nullopt;
     }
 };
 
-void offer_box(const Ray& ray, const Vec3& half, FirstHit& hit) {
+void offer_box(const Ray& ray, const Vec3& half, Passage& passage) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (ray.way[axis] == 0.0) {
             continue;
@@ -42,7 +57,7 @@ void offer_box(const Ray& ray, const Vec3& half, FirstHit& hit) {
             Vec3 beyond = ray.at(fraction).cwiseAbs() - half;
             beyond[axis] = 0.0;
             if (beyond.maxCoeff() <= k_edge * half.maxCoeff()) {
-                hit.offer(fraction, side * Vec3::Unit(axis));
+                passage.offer(fraction, side * Vec3::Unit(axis));
             }
         }
     }
@@ -61,7 +76,7 @@ std::optional<std::pair<double, double>> roots(double a, double b, double c) {
 }
 
 // `cap`: 0 for a whole sphere, +1 or -1 for the half of it beyond the end of a capsule's axis.
-void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap, FirstHit& hit) {
+void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap, Passage& passage) {
     const Vec3 offset = ray.from - centre;
     const auto both =
         roots(ray.way.squaredNorm(), offset.dot(ray.way), offset.squaredNorm() - radius * radius);
@@ -71,12 +86,12 @@ void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap,
     for (const double fraction : {both->first, both->second}) {
         const Vec3 outward = ray.at(fraction) - centre;
         if (outward.y() * cap >= 0.0) {
-            hit.offer(fraction, outward.normalized());
+            passage.offer(fraction, outward.normalized());
         }
     }
 }
 
-void offer_cylinder(const Ray& ray, double radius, double half_height, FirstHit& hit) {
+void offer_barrel(const Ray& ray, double radius, double half_height, Passage& passage) {
     const Vec3 flat(1.0, 0.0, 1.0);
     const Vec3 way = ray.way.cwiseProduct(flat);
     const Vec3 from = ray.from.cwiseProduct(flat);
@@ -87,9 +102,112 @@ void offer_cylinder(const Ray& ray, double radius, double half_height, FirstHit&
     for (const double fraction : {both->first, both->second}) {
         const Vec3 point = ray.at(fraction);
         if (std::abs(point.y()) <= half_height) {
-            hit.offer(fraction, point.cwiseProduct(flat).normalized());
+            passage.offer(fraction, point.cwiseProduct(flat).normalized());
         }
     }
+}
+
+void offer_caps(const Ray& ray, double radius, double half_height, Passage& passage) {
+    if (ray.way.y() == 0.0) {
+        return;
+    }
+    for (const double side : {-1.0, 1.0}) {
+        const double fraction = (side * half_height - ray.from.y()) / ray.way.y();
+        const Vec3 point = ray.at(fraction);
+        if (std::hypot(point.x(), point.z()) <= radius * (1.0 + k_edge)) {
+            passage.offer(fraction, side * Vec3::UnitY());
+        }
+    }
+}
+
+// What of the line is behind all planes.
+Passage pass_hull(const Ray& ray, const ConvexHull& hull) {
+    Passage inside;
+    std::swap(inside.enter, inside.leave);
+    for (const HullFace& face : hull.faces) {
+        const double height = face.normal.dot(ray.from) - face.offset_m;
+        const double rise = face.normal.dot(ray.way);
+        if (rise == 0.0) {
+            if (height > k_edge) {
+                return {};
+            }
+        } else if (const double fraction = -height / rise; rise < 0.0 && fraction > inside.enter) {
+            inside.enter = fraction;
+            inside.enter_normal = face.normal;
+        } else if (rise > 0.0 && fraction < inside.leave) {
+            inside.leave = fraction;
+            inside.leave_normal = face.normal;
+        }
+    }
+    return inside.any() ? inside : Passage{};
+}
+
+// Of a convex shape.
+Passage pass(const Shape& shape, const Ray& ray) {
+    Passage passage;
+    switch (shape.kind) {
+        case ShapeKind::box:
+            offer_box(ray, shape.half_m, passage);
+            break;
+        case ShapeKind::sphere:
+            offer_sphere(ray, Vec3::Zero(), shape.radius_m, 0.0, passage);
+            break;
+        case ShapeKind::capsule: {
+            const Vec3 end = shape.half_height_m * Vec3::UnitY();
+            offer_barrel(ray, shape.radius_m, shape.half_height_m, passage);
+            offer_sphere(ray, end, shape.radius_m, 1.0, passage);
+            offer_sphere(ray, -end, shape.radius_m, -1.0, passage);
+            break;
+        }
+        case ShapeKind::cylinder:
+            offer_barrel(ray, shape.radius_m, shape.half_height_m, passage);
+            offer_caps(ray, shape.radius_m, shape.half_height_m, passage);
+            break;
+        case ShapeKind::hull:
+            return pass_hull(ray, *shape.hull);
+        case ShapeKind::compound:
+        case ShapeKind::mesh:
+            break;
+    }
+    return passage;
+}
+
+Passage pass(const PlacedShape& part, const Ray& ray) {
+    const Quat back = part.pose.rotation.conjugate();
+    Passage passage =
+        pass(part.shape, {inverse_transform_point(part.pose, ray.from), back * ray.way});
+    passage.enter_normal = part.pose.rotation * passage.enter_normal;
+    passage.leave_normal = part.pose.rotation * passage.leave_normal;
+    return passage;
+}
+
+// First surface of the whole that the parts make together: what lies inside of another part is
+// none. From inside, the way goes on as long as some part holds it.
+std::optional<LocalRayHit> cast_on_parts(std::span<const PlacedShape> parts, const Ray& ray) {
+    constexpr double k_seam = 1e-12;  // parts that are placed to meet do, but for rounding
+    std::optional<LocalRayHit> first;
+    std::optional<LocalRayHit> out;
+    double inside_until = 0.0;
+    for (bool longer = true; longer;) {
+        longer = false;
+        for (const PlacedShape& part : parts) {
+            const Passage passage = pass(part, ray);
+            const double begins = passage.enter;
+            if (begins >= 0.0 && begins <= 1.0 && (!first || begins < first->fraction)) {
+                first = LocalRayHit{begins, passage.enter_normal};
+            }
+            const bool goes_on = out ? begins <= inside_until + k_seam : begins < 0.0;
+            if (goes_on && passage.leave > inside_until) {
+                inside_until = passage.leave;
+                out = LocalRayHit{passage.leave, passage.leave_normal};
+                longer = true;
+            }
+        }
+    }
+    if (out) {
+        return inside_until <= 1.0 ? out : std::nullopt;
+    }
+    return first;
 }
 
 LocalSurfacePoint closest_on_box(const Vec3& half, const Vec3& point) {
@@ -107,35 +225,7 @@ LocalSurfacePoint closest_on_box(const Vec3& half, const Vec3& point) {
     return {surface, side * Vec3::Unit(axis), 0.0};
 }
 
-}  // namespace
-
-std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to) {
-    const Ray ray{from, to - from};
-    FirstHit hit;
-    switch (shape.kind) {
-        case ShapeKind::box:
-            offer_box(ray, shape.half_m, hit);
-            break;
-        case ShapeKind::sphere:
-            offer_sphere(ray, Vec3::Zero(), shape.radius_m, 0.0, hit);
-            break;
-        case ShapeKind::capsule: {
-            const Vec3 end = shape.half_height_m * Vec3::UnitY();
-            offer_cylinder(ray, shape.radius_m, shape.half_height_m, hit);
-            offer_sphere(ray, end, shape.radius_m, 1.0, hit);
-            offer_sphere(ray, -end, shape.radius_m, -1.0, hit);
-            break;
-        }
-        case ShapeKind::mesh:
-            break;
-    }
-    return hit.result();
-}
-
-LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
-    if (shape.kind == ShapeKind::box) {
-        return closest_on_box(shape.half_m, point);
-    }
+LocalSurfacePoint closest_on_round(const Shape& shape, const Vec3& point) {
     const Vec3 axis_point(0.0, std::clamp(point.y(), -shape.half_height_m, shape.half_height_m),
                           0.0);
     const Vec3 offset = point - axis_point;
@@ -144,6 +234,116 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
     const Vec3 outward = distance > 0.0 ? Vec3(offset / distance) : Vec3(Vec3::UnitX());
     return {axis_point + shape.radius_m * outward, outward,
             std::max(0.0, distance - shape.radius_m)};
+}
+
+LocalSurfacePoint closest_on_cylinder(double radius, double half_height, const Vec3& point) {
+    const Vec3 flat(point.x(), 0.0, point.z());
+    const double from_axis = flat.norm();
+    const Vec3 outward = from_axis > 0.0 ? Vec3(flat / from_axis) : Vec3(Vec3::UnitX());
+    const double side = point.y() < 0.0 ? -1.0 : 1.0;
+    const double beyond_barrel = from_axis - radius;
+    const double beyond_cap = std::abs(point.y()) - half_height;
+    if (beyond_barrel <= 0.0 && beyond_cap <= 0.0) {
+        if (beyond_barrel > beyond_cap) {
+            return {radius * outward + point.y() * Vec3::UnitY(), outward, 0.0};
+        }
+        return {flat + side * half_height * Vec3::UnitY(), side * Vec3::UnitY(), 0.0};
+    }
+    const Vec3 surface = std::min(from_axis, radius) * outward +
+                         std::clamp(point.y(), -half_height, half_height) * Vec3::UnitY();
+    const Vec3 way = point - surface;
+    return {surface, way.normalized(), way.norm()};
+}
+
+LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
+    const HullFace* nearest = &hull.faces.front();
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const HullFace& face : hull.faces) {
+        if (const double height = face.normal.dot(point) - face.offset_m; height > highest) {
+            highest = height;
+            nearest = &face;
+        }
+    }
+    if (highest <= 0.0) {
+        return {point - highest * nearest->normal, nearest->normal, 0.0};
+    }
+    Vec3 best = hull.corners.front();
+    for (const HullFace& face : hull.faces) {
+        if (face.normal.dot(point) < face.offset_m) {
+            continue;  // what looks away has nothing nearer than what looks here
+        }
+        for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
+            const Vec3 candidate =
+                closest_on_triangle(point, {hull.corners[face.loop[0]], hull.corners[face.loop[i]],
+                                            hull.corners[face.loop[i + 1]]});
+            if ((candidate - point).squaredNorm() < (best - point).squaredNorm()) {
+                best = candidate;
+            }
+        }
+    }
+    const Vec3 way = point - best;
+    const double distance = way.norm();
+    return {best, distance > 0.0 ? Vec3(way / distance) : nearest->normal, distance};
+}
+
+LocalSurfacePoint closest_on_part(const PlacedShape& part, const Vec3& point) {
+    LocalSurfacePoint near =
+        closest_on_shape(part.shape, inverse_transform_point(part.pose, point));
+    near.point = transform_point(part.pose, near.point);
+    near.normal = part.pose.rotation * near.normal;
+    return near;
+}
+
+// True where the point is inside of a part, and not just on its surface.
+bool is_inside(const PlacedShape& part, const Vec3& point) {
+    constexpr double k_on_surface_m = 1e-9;
+    const LocalSurfacePoint near = closest_on_part(part, point);
+    return near.distance_m == 0.0 && (near.point - point).norm() > k_on_surface_m;
+}
+
+// Of the parts that hold the point, if any does, the one with the shortest way out that does not
+// end inside of another.
+LocalSurfacePoint closest_on_parts(std::span<const PlacedShape> parts, const Vec3& point) {
+    using Rank = std::tuple<bool, bool, double>;  // the least is taken
+    constexpr double k_far = std::numeric_limits<double>::infinity();
+    Rank least(true, true, k_far);
+    LocalSurfacePoint best;
+    for (const PlacedShape& part : parts) {
+        const LocalSurfacePoint near = closest_on_part(part, point);
+        const bool outside = near.distance_m > 0.0;
+        const bool hidden =
+            !outside && std::any_of(parts.begin(), parts.end(), [&](const PlacedShape& other) {
+                return &other != &part && is_inside(other, near.point);
+            });
+        if (const Rank rank(outside, hidden, (near.point - point).norm()); rank < least) {
+            least = rank;
+            best = near;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to) {
+    const Ray ray{from, to - from};
+    return shape.kind == ShapeKind::compound ? cast_on_parts(*shape.parts, ray)
+                                             : pass(shape, ray).first();
+}
+
+LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
+    switch (shape.kind) {
+        case ShapeKind::box:
+            return closest_on_box(shape.half_m, point);
+        case ShapeKind::cylinder:
+            return closest_on_cylinder(shape.radius_m, shape.half_height_m, point);
+        case ShapeKind::hull:
+            return closest_on_hull(*shape.hull, point);
+        case ShapeKind::compound:
+            return closest_on_parts(*shape.parts, point);
+        default:
+            return closest_on_round(shape, point);
+    }
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {

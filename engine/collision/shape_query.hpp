@@ -12,8 +12,8 @@ struct LocalRayHit {
     double fraction = 0.0;        // of the way from `from` to `to`, in [0, 1]
     Vec3 normal = Vec3::UnitY();  // unit, of the surface, on either side
 };
-// First point of the surface on the way; from inside, the point where the ray leaves. Not for
-// meshes.
+// First point of the surface on the way; from inside, the point where the ray leaves. Of a compound
+// the surface of the whole: what lies inside of another part is none. Not for meshes.
 // Closed forms, because Bullet sees no surface from inside, and its casts on round shapes stop 1.3
 // mm off (measured: btSubsimplexConvexCast).
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
@@ -23,7 +23,8 @@ struct LocalSurfacePoint {
                                   // or on the surface
     double distance_m = 0.0;      // 0 inside
 };
-// Not for meshes.
+// Inside of a compound whose parts overlap, the nearest point of one part's surface that is inside
+// of no other; there may be a nearer one along the seam. Not for meshes.
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point);
 // A triangle has no inside; for a point on it the normal is the triangle's own.
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point);

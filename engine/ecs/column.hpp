@@ -21,6 +21,8 @@ class Column {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no rows to refer to");
 
   public:
+    using Row = T;
+
     // The new row. Throws PreconditionError for a null entity, for one that has a row already, and
     // for one whose slot still has the row of a destroyed predecessor: whoever destroys an entity
     // removes its rows.

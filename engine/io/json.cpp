@@ -207,6 +207,7 @@ JsonValue::JsonValue(Document* document, const Json* node, std::string pointer)
     : document_(document), node_(node), pointer_(std::move(pointer)) {}
 
 bool JsonValue::is_object() const { return exists() && node_->is_object(); }
+bool JsonValue::is_array() const { return exists() && node_->is_array(); }
 bool JsonValue::is_text() const { return exists() && node_->is_string(); }
 
 void JsonValue::refuse(const std::string& expected) const {

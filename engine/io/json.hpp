@@ -38,6 +38,7 @@ class JsonValue {
   public:
     bool exists() const { return node_ != nullptr; }
     bool is_object() const;
+    bool is_array() const;
     bool is_text() const;
 
     // The member of an object; a value that does not exist where there is none.

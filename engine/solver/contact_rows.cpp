@@ -1,6 +1,7 @@
 #include "engine/solver/contact_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/check.hpp"
 
@@ -20,6 +21,7 @@ RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph
     block.point_a_bs = contact.point_a_bs + graph.bodies[a].collider_offset_bs;
     block.point_b_bs = contact.point_b_bs + graph.bodies[b].collider_offset_bs;
     block.normal_b_bs = contact.normal_b_bs;
+    block.friction = std::sqrt(graph.bodies[a].friction * graph.bodies[b].friction);
     block.restitution = std::max(graph.bodies[a].restitution, graph.bodies[b].restitution);
     return block;
 }
@@ -27,7 +29,7 @@ RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph
 }  // namespace
 
 void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGraph& graph) {
-    std::erase_if(graph.blocks, [](const RowBlock& block) { return !is_hand(block); });
+    std::erase_if(graph.blocks, [](const RowBlock& block) { return is_contact(block); });
     for (const ContactPoint& contact : contacts) {
         graph.blocks.push_back(contact_block(contact, graph));
     }

@@ -59,6 +59,8 @@ void DenseSystem::assemble(std::span<const SolverBody> bodies,
     lambda_.assign(size_, 0.0);
     values_.resize(size_);
     active_.assign(size_, 1);
+    held_.assign(size_, 0);
+    held_lambda_.assign(size_, 0.0);
     for (std::size_t i = 0; i < size_; ++i) {
         const Response response = response_of(rows[i], bodies, inverse_inertia_ws);
         for (std::size_t j = 0; j <= i; ++j) {
@@ -72,28 +74,38 @@ void DenseSystem::assemble(std::span<const SolverBody> bodies,
 void DenseSystem::factorise() {
     active_rows_.clear();
     for (std::uint32_t i = 0; i < size_; ++i) {
-        if (active_[i] != 0 && matrix_[i * size_ + i] > 0.0) {
+        if (active_[i] != 0 && held_[i] == 0 && matrix_[i * size_ + i] > 0.0) {
             active_rows_.push_back(i);
         }
     }
     const std::size_t count = active_rows_.size();
     factor_.resize(count * count);
+    first_.resize(count);
+    undivided_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t row = active_rows_[i];
+        const double* const entries = &matrix_[row * size_];
         double* const line = &factor_[i * count];
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = matrix_[row * size_ + active_rows_[j]] + (i == j ? alpha_[row] : 0.0);
-            const double* const other = &factor_[j * count];
-            for (std::size_t k = 0; k < j; ++k) {
-                sum -= line[k] * other[k] * factor_[k * count + k];
-            }
-            if (i == j) {
-                line[j] = sum > k_smallest_pivot * matrix_[row * size_ + row] ? sum : 0.0;
-            } else {
-                const double pivot = other[j];
-                line[j] = pivot > 0.0 ? sum / pivot : 0.0;
-            }
+        std::uint32_t first = 0;
+        while (first < i && entries[active_rows_[first]] == 0.0) {
+            ++first;
         }
+        first_[i] = first;
+        double pivot = entries[row] + alpha_[row];
+        for (std::size_t j = first; j < i; ++j) {
+            double sum = entries[active_rows_[j]];
+            const double* const other = &factor_[j * count];
+            for (std::size_t k = std::max(first, first_[j]); k < j; ++k) {
+                sum -= undivided_[k] * other[k];
+            }
+            undivided_[j] = sum;
+        }
+        for (std::size_t j = first; j < i; ++j) {
+            const double other_pivot = factor_[j * count + j];
+            line[j] = other_pivot > 0.0 ? undivided_[j] / other_pivot : 0.0;
+            pivot -= undivided_[j] * line[j];
+        }
+        line[i] = pivot > k_smallest_pivot * entries[row] ? pivot : 0.0;
     }
 }
 
@@ -102,7 +114,7 @@ void DenseSystem::substitute(std::span<const double> values) {
     work_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         double sum = -values[active_rows_[i]];
-        for (std::size_t k = 0; k < i; ++k) {
+        for (std::size_t k = first_[i]; k < i; ++k) {
             sum -= factor_[i * count + k] * work_[k];
         }
         work_[i] = sum;
@@ -111,8 +123,8 @@ void DenseSystem::substitute(std::span<const double> values) {
         const double pivot = factor_[i * count + i];
         work_[i] = pivot > 0.0 ? work_[i] / pivot : 0.0;
     }
-    for (std::size_t i = count; i-- > 0;) {
-        for (std::size_t k = i + 1; k < count; ++k) {
+    for (std::size_t k = count; k-- > 0;) {
+        for (std::size_t i = first_[k]; i < k; ++i) {
             work_[i] -= factor_[k * count + i] * work_[k];
         }
     }
@@ -122,33 +134,67 @@ void DenseSystem::substitute(std::span<const double> values) {
     }
 }
 
+void DenseSystem::hold(std::size_t row, double lambda) {
+    held_[row] = 1;
+    held_lambda_[row] = lambda;
+}
+
+void DenseSystem::release(std::size_t row) {
+    held_[row] = 0;
+    held_lambda_[row] = 0.0;
+}
+
+double DenseSystem::remainder(std::size_t row, double value) const {
+    for (std::size_t j = 0; j < size_; ++j) {
+        value += matrix_[row * size_ + j] * lambda_[j];
+    }
+    return value;
+}
+
 // A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
 // it.
 bool DenseSystem::is_wrong(const Row& row, std::size_t index) const {
     constexpr double k_overlap = 1e-10;
-    if (!row.unilateral) {
+    if (!row.unilateral || held_[index] != 0) {
         return false;
     }
     if (active_[index] != 0) {
         return lambda_[index] < 0.0;
     }
-    double after = row.value_m;
+    return remainder(index, row.value_m) < -k_overlap;
+}
+
+// What the held rows do to the others, and their own multipliers.
+void DenseSystem::apply_held() {
     for (std::size_t j = 0; j < size_; ++j) {
-        after += matrix_[index * size_ + j] * lambda_[j];
+        if (held_[j] == 0 || held_lambda_[j] == 0.0) {
+            continue;
+        }
+        for (std::size_t i = 0; i < size_; ++i) {
+            values_[i] += matrix_[i * size_ + j] * held_lambda_[j];
+        }
     }
-    return after < -k_overlap;
 }
 
 std::span<const double> DenseSystem::solve(std::span<const Row> rows) {
     for (std::size_t i = 0; i < size_; ++i) {
         values_[i] = rows[i].value_m;
-        active_[i] = !rows[i].unilateral || rows[i].value_m < 0.0 ? 1 : 0;
     }
+    apply_held();
+    for (std::size_t i = 0; i < size_; ++i) {
+        active_[i] = !rows[i].unilateral || values_[i] < 0.0 ? 1 : 0;
+    }
+    const auto solve_active = [this] {
+        factorise();
+        substitute(values_);
+        for (std::size_t i = 0; i < size_; ++i) {
+            lambda_[i] = held_[i] != 0 ? held_lambda_[i] : lambda_[i];
+        }
+    };
     std::size_t fewest = size_ + 1;
     int blocks_left = k_block_changes;
     for (int change = 0; change < k_active_set_changes; ++change) {
-        factorise();
-        substitute(values_);
+        solve_active();
         wrong_rows_.clear();
         for (std::uint32_t i = 0; i < size_; ++i) {
             if (is_wrong(rows[i], i)) {
@@ -171,8 +217,7 @@ std::span<const double> DenseSystem::solve(std::span<const Row> rows) {
         }
     }
     // No agreement: take the last set without its pulling rows.
-    factorise();
-    substitute(values_);
+    solve_active();
     for (std::size_t i = 0; i < size_; ++i) {
         if (rows[i].unilateral && lambda_[i] < 0.0) {
             lambda_[i] = 0.0;

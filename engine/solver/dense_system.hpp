@@ -7,8 +7,8 @@
 #include "engine/solver/rows.hpp"
 
 // The normal equations of one island's rows, (J W J^T + diag(alpha)) lambda = -value, factorised
-// densely, with unilateral rows by an active set. Plain loops over doubles in a fixed order: equal
-// bits on every compiler.
+// within their envelope (each row from its first entry on), with unilateral rows by an active set.
+// Plain loops over doubles in a fixed order: equal bits on every compiler.
 namespace handhold {
 
 class DenseSystem {
@@ -28,21 +28,33 @@ class DenseSystem {
     std::span<const double> solve(std::span<const Row> rows);
     // The same factor and active set against other values: for refinement.
     std::span<const double> solve_again(std::span<const double> values);
-    bool is_active(std::size_t row) const { return active_[row] != 0; }
+    bool is_active(std::size_t row) const { return active_[row] != 0 && held_[row] == 0; }
+    // The row's multiplier is given, not solved for, from the next solve until the next assemble or
+    // release: a friction that slides.
+    void hold(std::size_t row, double lambda);
+    void release(std::size_t row);
+    // What is left of a row's value after the last solve: value + J W J^T lambda.
+    double remainder(std::size_t row, double value) const;
 
   private:
     void factorise();
     void substitute(std::span<const double> values);
+    void apply_held();
     bool is_wrong(const Row& row, std::size_t index) const;
 
     std::size_t size_ = 0;
     std::vector<double> matrix_;  // row-major, symmetric, both halves
     std::vector<double> alpha_;
-    std::vector<double> factor_;  // L of the active rows, unit diagonal left out; D on the diagonal
+    // Of the active rows: L without its unit diagonal, D on the diagonal; nothing left of first_.
+    std::vector<double> factor_;
+    std::vector<std::uint32_t> first_;
+    std::vector<double> undivided_;  // the row of L D that is being made
     std::vector<double> lambda_;
     std::vector<double> values_;
     std::vector<double> work_;
     std::vector<std::uint8_t> active_;
+    std::vector<std::uint8_t> held_;
+    std::vector<double> held_lambda_;
     std::vector<std::uint32_t> active_rows_;
     std::vector<std::uint32_t> wrong_rows_;
 };

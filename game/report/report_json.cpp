@@ -92,6 +92,7 @@ std::string format_report_json(const RunLog& log) {
     report["grabs"] = {{"onsets", summary.totals.grab_onsets},
                        {"gripped", summary.totals.grabs_gripped}};
     report["path_m"] = summary.players.empty() ? 0.0 : summary.players.front().path_m;
+    report["bytes_per_player"] = log.bytes_per_player;
     report["players"] = list_players(summary);
     report["state_hash"] = format_hash(log.state_hash);
     constexpr int k_indent = 2;

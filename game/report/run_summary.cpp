@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 #include "engine/core/check.hpp"
 
@@ -70,56 +70,17 @@ void add_hand_errors(HandErrorFigures& worst, const FrameLog& frame, const Playe
     }
 }
 
-void summarize_players(const RunLog& log, RunSummary& summary) {
-    HH_CHECK(log.player_mass_kg.size() == log.player_names.size(), "a mass for each player",
-             log.player_mass_kg.size());
-    for (std::size_t i = 0; i < log.player_names.size(); ++i) {
-        summary.players.push_back({log.player_names[i], log.player_mass_kg[i]});
-    }
-    std::vector<std::optional<Vec3>> last_ws(log.player_names.size());
-    for (const FrameLog& frame : log.frames) {
-        for (const PlayerLog& player : frame.players) {
-            HH_CHECK(player.player < last_ws.size(), "no player of this index", player.player);
-            std::optional<Vec3>& last = last_ws[player.player];
-            PlayerFigures& figures = summary.players[player.player];
-            figures.path_m += last ? (player.origin_ws - *last).norm() : 0.0;
-            last = player.origin_ws;
-            keep_worst(figures.push_back_m, player.push_back_m);
-            add_hand_errors(summary.hand_error, frame, player);
-        }
-    }
-    for (const PlayerFigures& player : summary.players) {
-        keep_worst(summary.push_back_m, player.push_back_m);
-    }
-}
+// Class i holds times from k_first_us * 1.01^i on; the first also what is shorter.
+constexpr double k_first_us = 0.01;
+constexpr double k_class_width = 1.01;
+constexpr std::size_t k_classes = 2400;  // up to minutes
 
-// One kind of momentum over the run.
-struct MomentumSum {
-    double error = 0.0;  // of all frames' totals
-    double given = 0.0;  // by all receivers in all frames
-
-    void add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
-             std::array<Vec3, MomentumLedger::receiver_count>& sum) {
-        Vec3 total = Vec3::Zero();
-        for (std::size_t i = 0; i < frame.size(); ++i) {
-            sum[i] += frame[i];
-            total += frame[i];
-            given += frame[i].norm();
-        }
-        error += total.norm();
+std::size_t class_of(double time_us) {
+    if (!(time_us > k_first_us)) {
+        return 0;
     }
-    double residual() const { return given == 0.0 ? 0.0 : error / given; }
-};
-
-void summarize_momentum(const RunLog& log, MomentumFigures& figures) {
-    MomentumSum linear;
-    MomentumSum angular;
-    for (const FrameLog& frame : log.frames) {
-        linear.add(frame.stats.ledger.linear_kgmps, figures.sum.linear_kgmps);
-        angular.add(frame.stats.ledger.angular_kgm2ps, figures.sum.angular_kgm2ps);
-    }
-    figures.linear_residual = linear.residual();
-    figures.angular_residual = angular.residual();
+    const double at = std::log(time_us / k_first_us) / std::log(k_class_width);
+    return std::min(static_cast<std::size_t>(at), k_classes - 1);
 }
 
 }  // namespace
@@ -135,18 +96,112 @@ TimeFigures summarize_times(std::vector<double> times_us) {
             std::accumulate(times_us.begin(), times_us.end(), 0.0)};
 }
 
-RunSummary summarize_run(const RunLog& log) {
-    RunSummary summary;
-    summarize_stage_times(log, summary);
-    summarize_players(log, summary);
-    summarize_momentum(log, summary.momentum);
-    for (const FrameLog& frame : log.frames) {
-        add_counters(summary.totals, frame.stats);
-        keep_worst(summary.residual_m, frame.stats.residual_m);
+void RunTally::Histogram::add(double time_us) {
+    ++counts[class_of(time_us)];
+    figures.max_us = std::max(figures.max_us, time_us);
+    figures.total_us += time_us;
+}
+
+TimeFigures RunTally::Histogram::finish(std::uint64_t total) const {
+    TimeFigures out = figures;
+    constexpr std::uint64_t k_hundred = 100;
+    std::uint64_t seen = 0;
+    bool median_known = false;
+    for (std::size_t i = 0; i < counts.size() && seen < total; ++i) {
+        seen += counts[i];
+        // The middle of the class: half a per cent from all that is in it.
+        const double time_us = k_first_us * std::pow(k_class_width, static_cast<double>(i) + 0.5);
+        if (!median_known && k_hundred * seen >= 50 * total) {
+            out.median_us = time_us;
+            median_known = true;
+        }
+        if (k_hundred * seen >= 99 * total) {
+            out.p99_us = time_us;
+            break;
+        }
     }
-    const auto frames = static_cast<double>(log.frames.size());
+    return out;
+}
+
+void RunTally::MomentumTally::add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
+                                  std::array<Vec3, MomentumLedger::receiver_count>& sum) {
+    Vec3 total = Vec3::Zero();
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+        sum[i] += frame[i];
+        total += frame[i];
+        given += frame[i].norm();
+    }
+    error += total.norm();
+}
+
+RunTally::RunTally() {
+    frame_.counts.assign(k_classes, 0);
+    stages_.fill(frame_);
+}
+
+void RunTally::add(const FrameLog& frame) {
+    add_all_but_times(frame);
+    double whole_us = 0.0;
+    for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
+        stages_[stage].add(frame.stats.stage_us[stage]);
+        whole_us += frame.stats.stage_us[stage];
+    }
+    frame_.add(whole_us);
+}
+
+void RunTally::add_all_but_times(const FrameLog& frame) {
+    ++sum_.frames;
+    add_counters(sum_.totals, frame.stats);
+    keep_worst(sum_.residual_m, frame.stats.residual_m);
+    linear_.add(frame.stats.ledger.linear_kgmps, sum_.momentum.sum.linear_kgmps);
+    angular_.add(frame.stats.ledger.angular_kgm2ps, sum_.momentum.sum.angular_kgm2ps);
+    for (const PlayerLog& player : frame.players) {
+        players_.resize(std::max<std::size_t>(players_.size(), player.player + 1));
+        PlayerTally& tally = players_[player.player];
+        tally.figures.path_m += tally.last_ws ? (player.origin_ws - *tally.last_ws).norm() : 0.0;
+        tally.last_ws = player.origin_ws;
+        keep_worst(tally.figures.push_back_m, player.push_back_m);
+        add_hand_errors(sum_.hand_error, frame, player);
+    }
+}
+
+RunSummary RunTally::finish(const RunLog& log) const {
+    RunSummary summary = finish_all_but_times(log);
+    for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
+        summary.stages[stage] = stages_[stage].finish(sum_.frames);
+    }
+    summary.frame = frame_.finish(sum_.frames);
+    return summary;
+}
+
+RunSummary RunTally::finish_all_but_times(const RunLog& log) const {
+    HH_CHECK(log.player_mass_kg.size() == log.player_names.size(), "a mass for each player",
+             log.player_mass_kg.size());
+    HH_CHECK(players_.size() <= log.player_names.size(), "no player of this index",
+             players_.size() - 1);
+    RunSummary summary = sum_;
+    for (std::size_t i = 0; i < log.player_names.size(); ++i) {
+        PlayerFigures figures = i < players_.size() ? players_[i].figures : PlayerFigures{};
+        figures.name = log.player_names[i];
+        figures.mass_kg = log.player_mass_kg[i];
+        keep_worst(summary.push_back_m, figures.push_back_m);
+        summary.players.push_back(std::move(figures));
+    }
+    summary.momentum.linear_residual = linear_.residual();
+    summary.momentum.angular_residual = angular_.residual();
+    const auto frames = static_cast<double>(summary.frames);
     summary.duration_s = frames / log.hz;
     summary.frames_per_s = log.wall_s > 0.0 ? frames / log.wall_s : 0.0;
+    return summary;
+}
+
+RunSummary summarize_run(const RunLog& log) {
+    RunTally tally;
+    for (const FrameLog& frame : log.frames) {
+        tally.add_all_but_times(frame);
+    }
+    RunSummary summary = tally.finish_all_but_times(log);
+    summarize_stage_times(log, summary);
     return summary;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,8 @@ struct MomentumFigures {
 // What is worst is NaN where one of its values is: a run that broke does not look good.
 struct RunSummary {
     std::array<TimeFigures, static_cast<std::size_t>(Stage::count)> stages;
-    TimeFigures frame;          // sum of the stages of a frame
+    TimeFigures frame;  // sum of the stages of a frame
+    std::uint64_t frames = 0;
     double duration_s = 0.0;    // simulated
     double frames_per_s = 0.0;  // as fast as it went; 0 where no time was measured
     StageStats totals;          // counters and fallbacks only
@@ -63,6 +65,49 @@ struct RunSummary {
 
 // Preconditions: indices of players lie in RunLog::player_names, and player_mass_kg is as long.
 RunSummary summarize_run(const RunLog& log);
+
+// Sums up a run frame by frame, where the frames are not kept: memory does not grow with the run.
+// Its figures are those of summarize_run, but for percentiles of times, which are within 1 %.
+class RunTally {
+  public:
+    RunTally();
+    void add(const FrameLog& frame);
+    // `log` for all but its frames. Preconditions as summarize_run.
+    RunSummary finish(const RunLog& log) const;
+
+  private:
+    friend RunSummary summarize_run(const RunLog& log);
+
+    // Counts of times in classes that are 1 % wide.
+    struct Histogram {
+        std::vector<std::uint64_t> counts;
+        TimeFigures figures;  // largest and sum
+        void add(double time_us);
+        TimeFigures finish(std::uint64_t total) const;
+    };
+    struct PlayerTally {
+        PlayerFigures figures;
+        std::optional<Vec3> last_ws;
+    };
+    // One kind of momentum.
+    struct MomentumTally {
+        double error = 0.0;  // of all frames' totals
+        double given = 0.0;  // by all receivers in all frames
+        void add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
+                 std::array<Vec3, MomentumLedger::receiver_count>& sum);
+        double residual() const { return given == 0.0 ? 0.0 : error / given; }
+    };
+
+    void add_all_but_times(const FrameLog& frame);
+    RunSummary finish_all_but_times(const RunLog& log) const;
+
+    RunSummary sum_;
+    std::vector<PlayerTally> players_;
+    MomentumTally linear_;
+    MomentumTally angular_;
+    std::array<Histogram, static_cast<std::size_t>(Stage::count)> stages_;
+    Histogram frame_;
+};
 
 // "0x0123456789abcdef"
 std::string format_hash(std::uint64_t hash);

@@ -225,9 +225,13 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
                   stats);
 }
 
-// Input of a player whom nothing is known of in this frame: no samples, no commands.
-const PlayerInput& input_of(const ReadTrackingIo& io, Entity player) {
+// No samples and no commands for a player whom nothing is known of in this frame. Inputs mostly
+// come in the order of the players: the expected place is looked at first.
+const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t expected) {
     static const PlayerInput k_silence{};
+    if (expected < io.inputs.size() && io.inputs[expected].player == player) {
+        return io.inputs[expected];
+    }
     const auto found =
         std::find_if(io.inputs.begin(), io.inputs.end(),
                      [player](const PlayerInput& input) { return input.player == player; });
@@ -264,11 +268,12 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
     const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
                                        default_controller_to_hand(HandSide::right, tuning.hand)};
     for (std::size_t row = 0; row < io.head.size(); ++row) {
-        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row]), io, tuning.tracking,
-                  stats);
+        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row], row), io,
+                  tuning.tracking, stats);
     }
     for (std::size_t row = 0; row < io.commands.size(); ++row) {
-        io.commands.rows()[row] = finite_commands(input_of(io, io.commands.owners()[row]).commands);
+        io.commands.rows()[row] =
+            finite_commands(input_of(io, io.commands.owners()[row], row).commands);
     }
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const Entity entity = io.owner.owners()[row];
@@ -277,7 +282,7 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
         const HandRows rows{io.hand.at(entity), io.history.at(entity),
                             own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)],
                             owner.side};
-        read_hand(rows, input_of(io, owner.player), io, tuning.tracking, stats);
+        read_hand(rows, input_of(io, owner.player, row / k_hand_count), io, tuning.tracking, stats);
     }
 }
 

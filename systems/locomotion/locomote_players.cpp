@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "components/hand_rows.hpp"
+
 namespace handhold {
 namespace {
 
@@ -29,15 +31,22 @@ bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     return a.grab->since_s != b.grab->since_s ? a.grab->since_s < b.grab->since_s : a.side < b.side;
 }
 
-Grips grips_of(const LocomotePlayersIo& io, Entity player) {
+// `expected_row` of the hands: where the player's would be if all hands were made in the order of
+// the players.
+Grips grips_of(const LocomotePlayersIo& io, Entity player, std::size_t expected_row) {
     Grips found;
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+    const std::size_t first = find_hand_row(io.owner, player, expected_row);
+    if (first == io.owner.size()) {
+        return found;
+    }
+    const std::size_t second = find_hand_row(io.owner, player, first + 1);
+    for (const std::size_t row : {std::min(first, second), std::max(first, second)}) {
         const Entity entity = io.owner.owners()[row];
         const Grab& grab = io.grab.at(entity);
         const bool holds = grab.phase == GrabPhase::holding || grab.phase == GrabPhase::releasing;
-        const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player == player && holds && found.count < k_hand_count) {
-            found.grips[found.count++] = {&grab, &io.hand.at(entity), owner.side};
+        const bool once = first != second || row != first || found.count == 0;
+        if (holds && once) {
+            found.grips[found.count++] = {&grab, &io.hand.at(entity), io.owner.rows()[row].side};
         }
     }
     if (found.count == 2 && comes_first(found.grips[1], found.grips[0])) {
@@ -115,7 +124,7 @@ void locomote_players(const LocomotePlayersIo& io, const LocomotionTuning& tunin
         PlayerOrigin& origin = io.origin.rows()[row];
         const PlayerCommands& commands = io.commands.at(player);
         const HeadTracking& head = io.head.at(player);
-        const Grips grips = grips_of(io, player);
+        const Grips grips = grips_of(io, player, k_hand_count * row);
         update_reference(io, grips, io.reference.at(player));
 
         const Vec3 pivot_ps =

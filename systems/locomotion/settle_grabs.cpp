@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "components/hand_rows.hpp"
+
 namespace handhold {
 namespace {
 
@@ -27,13 +29,18 @@ double fraction_of(const SettleGrabsIo& io, double t_s) {
 
 // The row of the same player's other hand, or the column's size.
 std::size_t other_hand(const SettleGrabsIo& io, std::size_t row) {
-    const HandOwner& own = io.owner.at(io.grab.owners()[row]);
-    for (std::size_t other = 0; other < io.grab.size(); ++other) {
-        if (other != row && io.owner.at(io.grab.owners()[other]).player == own.player) {
-            return other;
-        }
+    const std::size_t own = io.owner.find_row(io.grab.owners()[row]);
+    const Entity player = io.owner.rows()[own].player;
+    // The left hand's row comes before the right one's.
+    const std::size_t beside =
+        io.owner.rows()[own].side == HandSide::left ? own + 1 : own + io.owner.size() - 1;
+    std::size_t other = find_hand_row(io.owner, player, beside);
+    if (other == own) {
+        other = find_hand_row(io.owner, player, own + 1);
     }
-    return io.grab.size();
+    const std::size_t found =
+        other == own ? Column<Grab>::k_npos : io.grab.find_row(io.owner.owners()[other]);
+    return found == Column<Grab>::k_npos ? io.grab.size() : found;
 }
 
 // The player's origin at an instant: from a hand that already holds on to something fixed, exact;

@@ -92,6 +92,8 @@ void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTrack
     const Pose& body_ws = io.body_pose.at(surface->body).pose_ws;
     grab = {};
     grab.kind = grip_kind(io.body.at(surface->body), tuning.phases);
+    grab.jointed =
+        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(surface->body));
     grab.phase = GrabPhase::fresh;
     grab.body = surface->body;
     grab.since_s = hand.edge_t_s;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/body.hpp"
+#include "components/frame_graph.hpp"
 #include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
@@ -19,6 +20,7 @@ struct UpdateGrabsIo {
     const Column<PlayerOrigin>& origin;         // in: at the start of the frame
     const Column<RigidBody>& body;              // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
+    const JointGroups& joint_groups;            // in
     Column<Grab>& grab;                         // in/out
     Column<HeadIgnores>& head_ignores;          // in/out: held bodies are added
 };

@@ -1,6 +1,8 @@
 #include "systems/physics/build_constraints.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "components/play_space.hpp"
 #include "engine/solver/contact_rows.hpp"
@@ -15,6 +17,7 @@ SolverBody player_body(const BuildConstraintsIo& io, Entity player, const HeadTu
     out.velocity_mps = io.player_velocity.at(player).linear_mps;
     out.mass_kg = io.player.at(player).mass_kg;
     out.restitution = tuning.restitution;
+    out.friction = tuning.friction;
     out.collider_offset_bs = head_center_ps(io.head.at(player), tuning);
     return out;
 }
@@ -25,6 +28,7 @@ SolverBody rigid_body(const BuildConstraintsIo& io, Entity entity, const PhaseTu
     out.pose_ws = io.body_pose.at(entity).pose_ws;
     out.velocity_mps = io.body_velocity.at(entity).linear_mps;
     out.restitution = body.restitution;
+    out.friction = body.friction;
     out.spin_radps = io.body_velocity.at(entity).angular_radps;
     if (body.kind == BodyKind::free) {
         out.role = body.mass_kg >= tuning.heavy_body_kg ? BodyRole::heavy : BodyRole::free;
@@ -49,7 +53,8 @@ void add_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
 
 RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand_id) {
     RowBlock block;
-    block.kind = grab.kind == GripKind::held ? RowKind::hand_weld : RowKind::hand_point;
+    const bool welded = grab.kind == GripKind::held && !grab.jointed;
+    block.kind = welded ? RowKind::hand_weld : RowKind::hand_point;
     block.key = hand_id;
     block.point_a_bs = grab.target_ps.position;
     block.point_b_bs = grab.anchor_bs.position;
@@ -78,17 +83,123 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
                                     io.persistent_id.at(hand).value);
         block.a = static_cast<std::uint32_t>(a);
         block.b = static_cast<std::uint32_t>(b);
+        block.source = static_cast<std::uint32_t>(row);
         frame.graph.blocks.push_back(block);
-        if (grab.kind == GripKind::held) {
+        frame.phase[b].held = grab.kind == GripKind::held;
+        if (grab.kind == GripKind::held && !grab.jointed) {
             // 1/kappa: 0 for what is light, 1 where momentum is exchanged exactly. The heaviest
             // thing held counts.
             const double share =
                 smooth_step(frame.graph.bodies[b].mass_kg, tuning.kappa_light_kg,
                             std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
             frame.phase[a].forward_share = std::max(frame.phase[a].forward_share, share);
-            frame.phase[b].held = true;
-        } else {
+        } else if (grab.kind == GripKind::surface) {
             frame.phase[a].grips_surface = true;
+        }
+    }
+}
+
+// The world as a body, last by its id; made by the first joint that hangs on it.
+std::size_t world_body(FrameGraph& frame) {
+    constexpr std::uint64_t k_world_id = std::numeric_limits<std::uint64_t>::max();
+    std::vector<SolverBody>& bodies = frame.graph.bodies;
+    if (bodies.empty() || bodies.back().id != k_world_id) {
+        bodies.emplace_back().id = k_world_id;
+        frame.phase.emplace_back();
+    }
+    return bodies.size() - 1;
+}
+
+RowKind row_kind(JointKind kind) {
+    switch (kind) {
+        case JointKind::ball:
+            return RowKind::ball;
+        case JointKind::hinge:
+            return RowKind::hinge;
+        case JointKind::slider:
+            return RowKind::slider;
+        case JointKind::fixed:
+            return RowKind::fixed;
+        case JointKind::distance:
+            break;
+    }
+    return RowKind::distance;
+}
+
+// A detent pulls towards the nearest multiple of its spacing, no faster than it would get there in
+// this time.
+constexpr double k_detent_s = 0.05;
+
+JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
+    JointRows rows;
+    rows.limited = joint.limited || joint.kind == JointKind::distance;
+    rows.lower = joint.lower;
+    rows.upper = joint.upper;
+    rows.previous = state.coordinate;
+    rows.friction_impulse = joint.friction * dt_s;
+    if (joint.detent_spacing > 0.0) {
+        const double rest =
+            joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
+        rows.drive_speed = (rest - state.coordinate) / std::max(k_detent_s, dt_s);
+        rows.drive_impulse = joint.detent_strength * dt_s;
+    }
+    if (state.latched) {
+        rows.limited = true;
+        rows.lower = joint.latch.at;
+        rows.upper = joint.latch.at;
+    }
+    return rows;
+}
+
+void add_joints(const BuildConstraintsIo& io) {
+    ConstraintGraph& graph = io.frame.graph;
+    const auto body_index = [&](Entity entity) {
+        const PersistentId* const id = io.persistent_id.find(entity);
+        return id != nullptr ? find_body(graph, id->value) : graph.bodies.size();
+    };
+    const auto is_movable = [&](std::size_t index) {
+        return graph.bodies[index].role != BodyRole::fixed;
+    };
+    for (std::size_t row = 0; row < io.joint.size(); ++row) {
+        const Joint& joint = io.joint.rows()[row];
+        const Entity entity = io.joint.owners()[row];
+        const std::size_t b = body_index(joint.b);
+        const std::size_t a = is_null(joint.a) ? world_body(io.frame) : body_index(joint.a);
+        if (a >= graph.bodies.size() || b >= graph.bodies.size() ||
+            !(is_movable(a) || is_movable(b))) {
+            continue;
+        }
+        RowBlock block;
+        block.kind = row_kind(joint.kind);
+        block.key = io.persistent_id.at(entity).value;
+        block.source = static_cast<std::uint32_t>(row);
+        block.a = static_cast<std::uint32_t>(a);
+        block.b = static_cast<std::uint32_t>(b);
+        block.point_a_bs = joint.frame_a_bs.position;
+        block.point_b_bs = joint.frame_b_bs.position;
+        block.rotation_a_bs = joint.frame_a_bs.rotation;
+        block.rotation_b_bs = joint.frame_b_bs.rotation;
+        block.joint = joint_rows(joint, io.joint_state.at(entity), io.dt_s);
+        graph.blocks.push_back(block);
+    }
+}
+
+// What hangs on joints with something held is held too.
+void spread_held(const BuildConstraintsIo& io) {
+    const JointGroups& groups = io.frame.joint_groups;
+    if (groups.of_body.empty()) {
+        return;
+    }
+    for (const Grab& grab : io.grab.rows()) {
+        const std::size_t held = io.body.find_row(grab.body);
+        if (grab.kind != GripKind::held || held == io.body.k_npos) {
+            continue;
+        }
+        for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
+            const std::size_t row = io.body.find_row(io.frame.entities[i]);
+            if (row != io.body.k_npos && groups.share_group(row, held)) {
+                io.frame.phase[i].held = true;
+            }
         }
     }
 }
@@ -99,6 +210,8 @@ void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning) {
     io.frame.graph.blocks.clear();
     add_bodies(io, tuning);
     add_hands(io, tuning.phases);
+    add_joints(io);
+    spread_held(io);
     replace_contact_rows(io.frame.contacts, io.frame.graph);
 }
 

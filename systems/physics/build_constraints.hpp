@@ -3,6 +3,7 @@
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
+#include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
@@ -11,10 +12,13 @@
 namespace handhold {
 
 struct BuildConstraintsIo {
+    double dt_s = 0.0;                              // in
     const Column<PersistentId>& persistent_id;      // in
     const Column<RigidBody>& body;                  // in
     const Column<BodyPose>& body_pose;              // in: predicted
     const Column<BodyVelocity>& body_velocity;      // in
+    const Column<Joint>& joint;                     // in
+    const Column<JointState>& joint_state;          // in
     const Column<PlayerBody>& player;               // in
     const Column<PlayerOrigin>& origin;             // in: predicted
     const Column<PlayerVelocity>& player_velocity;  // in
@@ -25,7 +29,7 @@ struct BuildConstraintsIo {
 };
 
 // Stage 5. The frame as the solver sees it: one solver body a collider, hand rows for what is
-// gripped, contact rows, islands.
+// gripped, rows of joints, contact rows, islands. A joint whose body has no collider holds nothing.
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

@@ -5,11 +5,17 @@
 namespace handhold {
 namespace {
 
+// Held, or tied by joints to what is held.
 bool is_held_by(const FindContactsIo& io, Entity player, Entity body) {
+    const std::size_t body_row = io.body.find_row(body);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];
-        if (grab.kind == GripKind::held && grab.body == body &&
-            io.owner.at(io.grab.owners()[row]).player == player) {
+        if (grab.kind != GripKind::held || io.owner.at(io.grab.owners()[row]).player != player) {
+            continue;
+        }
+        const std::size_t held_row = io.body.find_row(grab.body);
+        if (held_row != io.body.k_npos && body_row != io.body.k_npos &&
+            io.frame.joint_groups.share_group(body_row, held_row)) {
             return true;
         }
     }
@@ -24,21 +30,45 @@ bool touches(const std::vector<ContactPoint>& contacts, const IgnoredPair& pair)
     });
 }
 
-// Drops what is apart; what stays is listed in frame.ignored.
+// Adds the pairs of a head with a body and with all that joints tie to it.
+void ignore_group(const FindContactsIo& io, std::uint64_t player_id, Entity body) {
+    const JointGroups& groups = io.frame.joint_groups;
+    if (groups.of_body.empty()) {
+        io.frame.ignored.push_back(pair_of(player_id, io.persistent_id.at(body).value));
+        return;
+    }
+    const std::size_t row = io.body.find_row(body);
+    for (std::size_t other = 0; other < io.body.size(); ++other) {
+        if (groups.share_group(row, other)) {
+            const Entity entity = io.body.owners()[other];
+            io.frame.ignored.push_back(pair_of(player_id, io.persistent_id.at(entity).value));
+        }
+    }
+}
+
+bool touches_group(const FindContactsIo& io, std::uint64_t player_id, Entity body) {
+    const std::size_t before = io.frame.ignored.size();
+    ignore_group(io, player_id, body);
+    bool touched = false;
+    for (std::size_t i = before; i < io.frame.ignored.size() && !touched; ++i) {
+        touched = touches(io.frame.contacts, io.frame.ignored[i]);
+    }
+    io.frame.ignored.resize(before);
+    return touched;
+}
+
+// Drops what is apart; what stays is added to frame.ignored.
 void update_ignores(const FindContactsIo& io) {
-    io.frame.ignored.clear();
     for (std::size_t row = 0; row < io.head_ignores.size(); ++row) {
         const Entity player = io.head_ignores.owners()[row];
         const std::uint64_t player_id = io.persistent_id.at(player).value;
         for (Entity& body : io.head_ignores.rows()[row].bodies) {
-            const PersistentId* const id = io.persistent_id.find(body);
-            if (id == nullptr) {
+            if (!io.body.contains(body)) {
                 body = k_no_entity;
                 continue;
             }
-            const IgnoredPair pair = pair_of(player_id, id->value);
-            if (is_held_by(io, player, body) || touches(io.frame.contacts, pair)) {
-                io.frame.ignored.push_back(pair);
+            if (is_held_by(io, player, body) || touches_group(io, player_id, body)) {
+                ignore_group(io, player_id, body);
             } else {
                 body = k_no_entity;
             }
@@ -47,10 +77,24 @@ void update_ignores(const FindContactsIo& io) {
     std::sort(io.frame.ignored.begin(), io.frame.ignored.end());
 }
 
+// Bodies that a joint ties together do not touch, unless it says so.
+void ignore_jointed(const FindContactsIo& io) {
+    io.frame.ignored.clear();
+    for (const Joint& joint : io.joint.rows()) {
+        const PersistentId* const a = io.persistent_id.find(joint.a);
+        const PersistentId* const b = io.persistent_id.find(joint.b);
+        if (!joint.collides && a != nullptr && b != nullptr) {
+            io.frame.ignored.push_back(pair_of(a->value, b->value));
+        }
+    }
+    std::sort(io.frame.ignored.begin(), io.frame.ignored.end());
+}
+
 }  // namespace
 
 void find_contacts(const FindContactsIo& io, const ContactTuning& tuning) {
-    io.collision.set_ignored_pairs({});
+    ignore_jointed(io);
+    io.collision.set_ignored_pairs(io.frame.ignored);
     io.collision.find_contacts({tuning.margin_m, tuning.sweep_m}, io.frame.contacts);
     update_ignores(io);
     io.collision.set_ignored_pairs(io.frame.ignored);

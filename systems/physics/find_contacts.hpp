@@ -1,7 +1,9 @@
 #pragma once
 
+#include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
+#include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
@@ -13,6 +15,8 @@ namespace handhold {
 
 struct FindContactsIo {
     const Column<PersistentId>& persistent_id;  // in
+    const Column<RigidBody>& body;              // in
+    const Column<Joint>& joint;                 // in
     const Column<HeadTracking>& head;           // in: a head that was never tracked touches nothing
     const Column<HandOwner>& owner;             // in
     const Column<Grab>& grab;                   // in

@@ -42,15 +42,15 @@ double worst_error(const Solve& s, const Island& island, BlockFilter filter) {
     double worst = 0.0;
     for (const std::uint32_t i : s.graph().blocks_of(island)) {
         const RowBlock& block = s.graph().blocks[i];
-        if (filter == BlockFilter::all || is_hand(block) == (filter == BlockFilter::hands)) {
+        if (passes(filter, block)) {
             worst = std::max(worst, block_error_m(s.graph().bodies, block));
         }
     }
     return worst;
 }
 
-// True where the island has two players, or holds on to or presses against something that the
-// forward phase cannot move.
+// True where the island has two players, or holds on to, hangs on or presses against something that
+// the forward phase cannot move.
 bool may_push(const Solve& s, const Island& island) {
     const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
         return s.graph().bodies[i].role == BodyRole::player;
@@ -64,8 +64,8 @@ bool may_push(const Solve& s, const Island& island) {
     };
     return players > 1 || std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
                const RowBlock& block = s.graph().blocks[i];
-               const bool active =
-                   is_hand(block) || contact_separation_m(s.graph().bodies, block) < k_touching_m;
+               const bool active = !is_contact(block) ||
+                                   contact_separation_m(s.graph().bodies, block) < k_touching_m;
                return active && (is_unmoved(block.a) || is_unmoved(block.b));
            });
 }
@@ -100,7 +100,7 @@ double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase
     // Without hands only his own collider moves him.
     const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = s.graph().blocks[i];
-        return !is_hand(block) && (block.a == index || block.b == index);
+        return is_contact(block) && (block.a == index || block.b == index);
     });
     return touches ? 1.0 : 0.0;
 }
@@ -129,9 +129,9 @@ NewtonSettings settings_of(const Solve& s, Phase phase) {
 BlockFilter filter_of(Phase phase) {
     switch (phase) {
         case Phase::reach:
-            return BlockFilter::hands;
+            return BlockFilter::without_contacts;
         case Phase::contradiction:
-            return BlockFilter::contacts;
+            return BlockFilter::without_hands;
         default:
             return BlockFilter::all;
     }
@@ -185,10 +185,10 @@ bool move_proxies(const Solve& s) {
     bool moved = false;
     for (std::size_t i = 0; i < s.graph().bodies.size(); ++i) {
         const SolverBody& body = s.graph().bodies[i];
-        ColliderProxy& proxy = s.io.frame.proxies[i];
         if (body.role == BodyRole::fixed) {
             continue;
         }
+        ColliderProxy& proxy = s.io.frame.proxies[i];
         const Pose now = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
         const double turn = 2.0 * (now.rotation.conjugate() * proxy.to_ws.rotation).vec().norm();
         if ((now.position - proxy.to_ws.position).norm() + turn * 0.5 > k_moved_m) {
@@ -261,7 +261,7 @@ void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
 void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
     solve_islands(s, Phase::reach, [&](const Island& island) {
-        return worst_error(s, island, BlockFilter::hands) > 0.0;
+        return worst_error(s, island, BlockFilter::without_contacts) > 0.0;
     });
     for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
@@ -273,7 +273,7 @@ void forward(const Solve& s) {
     HH_DETAIL_ZONE("forward");
     solve_rounds(s, Phase::forward, [&](const Island& island) {
         return has_role(s, island, BodyRole::free) &&
-               worst_error(s, island, BlockFilter::contacts) > s.tuning.solver.tolerance_m;
+               worst_error(s, island, BlockFilter::without_hands) > s.tuning.solver.tolerance_m;
     });
 }
 
@@ -314,7 +314,7 @@ void backward(const Solve& s) {
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return worst_error(s, island, BlockFilter::contacts) > k_violated_m;
+        return worst_error(s, island, BlockFilter::without_hands) > k_violated_m;
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {
@@ -334,37 +334,44 @@ void contradiction(const Solve& s) {
 void write_poses(const Solve& s) {
     for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
         const SolverBody& body = s.graph().bodies[i];
+        if (body.role == BodyRole::fixed) {
+            continue;
+        }
         const Entity entity = s.io.frame.entities[i];
         if (body.role == BodyRole::player) {
             s.io.origin.at(entity).pose_ws.position = body.pose_ws.position;
             s.phase_of(i).push_back_m =
                 (body.pose_ws.position - s.phase_of(i).reached_ws.position).norm();
-        } else if (body.role != BodyRole::fixed) {
+        } else {
             s.io.body_pose.at(entity).pose_ws = body.pose_ws;
         }
     }
 }
 
+void write_hand_error(const Solve& s, const RowBlock& block) {
+    RowBlock point = block;
+    point.kind = RowKind::hand_point;
+    const double error = block_error_m(s.graph().bodies, point);
+    s.stats.hand_error_m = std::max(s.stats.hand_error_m, error);
+    s.io.grab.rows()[block.source].error_m = error;
+}
+
 void write_errors(const Solve& s) {
-    for (std::size_t row = 0; row < s.io.grab.size(); ++row) {
-        s.io.grab.rows()[row].error_m = 0.0;
+    for (Grab& grab : s.io.grab.rows()) {
+        grab.error_m = 0.0;
     }
     for (const RowBlock& block : s.graph().blocks) {
-        if (!is_hand(block)) {
+        if (is_hand(block)) {
+            write_hand_error(s, block);
+        } else if (is_joint(block)) {
+            const JointError error = joint_error(s.graph().bodies, block);
+            s.stats.joint_error_m = std::max(s.stats.joint_error_m, error.point_m);
+            s.stats.joint_error_rad = std::max(s.stats.joint_error_rad, error.angle_rad);
+        } else {
             const double overlap = block_error_m(s.graph().bodies, block);
             s.stats.residual_m = std::max(s.stats.residual_m, overlap);
             if (overlap > k_new_overlap_m) {
                 s.stats.count(Fallback::contacts_unresolved);
-            }
-            continue;
-        }
-        RowBlock point = block;
-        point.kind = RowKind::hand_point;
-        const double error = block_error_m(s.graph().bodies, point);
-        s.stats.hand_error_m = std::max(s.stats.hand_error_m, error);
-        for (std::size_t row = 0; row < s.io.grab.size(); ++row) {
-            if (s.io.persistent_id.at(s.io.grab.owners()[row]).value == block.key) {
-                s.io.grab.rows()[row].error_m = error;
             }
         }
     }

@@ -12,18 +12,18 @@
 namespace handhold {
 
 struct SolvePhasesIo {
-    const Column<PersistentId>& persistent_id;  // in
-    CollisionWorld& collision;                  // in/out: proxies follow the phases
-    FrameGraph& frame;                          // in/out
-    Column<BodyPose>& body_pose;                // out: free bodies
-    Column<PlayerOrigin>& origin;               // out
-    Column<Grab>& grab;                         // out: error
+    CollisionWorld& collision;     // in/out: proxies follow the phases
+    FrameGraph& frame;             // in/out
+    Column<BodyPose>& body_pose;   // out: free bodies
+    Column<PlayerOrigin>& origin;  // out
+    Column<Grab>& grab;            // out: error
 };
 
 // Stages 6 to 8: the player as designer's physics sees him (talk rows 4, 7). Each phase is a Newton
 // solve of every island:
 //
-// - reach: hand rows only, the world as the hands want it. A player who holds on to something fixed
+// - reach: hands and joints, the world as the hands want it. A player who holds on to something
+// fixed
 //   is moved; one who holds a light object is not, he is infinitely heavy.
 // - forward: contacts too, the player infinitely heavy. What is free gives way to what is not. Only
 //   islands with a free object.

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/core/parallel.hpp"
+#include "engine/solver/velocities.hpp"
 
 namespace handhold {
 namespace {
@@ -11,15 +12,15 @@ namespace {
 constexpr double k_valid_overlap_m =
     1e-4;  // colliders deeper in something are not where the next sweep may begin
 
-bool has_hand(const ConstraintGraph& graph, const Island& island) {
+bool has_hand_or_joint(const ConstraintGraph& graph, const Island& island) {
     return std::ranges::any_of(graph.blocks_of(island),
-                               [&](std::uint32_t i) { return is_hand(graph.blocks[i]); });
+                               [&](std::uint32_t i) { return !is_contact(graph.blocks[i]); });
 }
 
 // Momentum is exchanged by the masses of the phase that moved the island: true ones where it was
-// pushed or holds on to something fixed.
+// pushed, holds on to something fixed or hangs on joints.
 void set_masses(FrameGraph& frame, const Island& island) {
-    const bool reached = has_hand(frame.graph, island);
+    const bool reached = has_hand_or_joint(frame.graph, island);
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
         SolverBody& body = frame.graph.bodies[i];
         const FrameGraph::PhaseBody& info = frame.phase[i];
@@ -80,9 +81,9 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
     for (const RowBlock& block : graph.blocks) {
         const SolverBody& a = graph.bodies[block.a];
         const SolverBody& b = graph.bodies[block.b];
-        // Both sides at one point, as the rows have it: b's point for hands, a's for contacts.
-        const Vec3 point_ws = is_hand(block) ? transform_point(b.pose_ws, block.point_b_bs)
-                                             : transform_point(a.pose_ws, block.point_a_bs);
+        // Both sides at one point, as the rows have it: a's point for contacts, else b's.
+        const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
+                                                : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.couple_ws_nms, ledger);
         book_impulse(b, point_ws, -block.impulse_ws_ns, -block.couple_ws_nms, ledger);
     }
@@ -193,7 +194,7 @@ void find_overlaps(FrameGraph& frame) {
         }
     };
     for (const RowBlock& block : graph.blocks) {
-        if (!is_hand(block)) {
+        if (is_contact(block)) {
             const double depth_m = block_error_m(graph.bodies, block);
             note(block.a, block.b, depth_m);
             note(block.b, block.a, depth_m);
@@ -204,7 +205,7 @@ void find_overlaps(FrameGraph& frame) {
 void write_last_valid(const UpdateVelocitiesIo& io) {
     FrameGraph& frame = io.frame;
     find_overlaps(frame);
-    for (std::uint32_t i = 0; i < frame.graph.bodies.size(); ++i) {
+    for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
         LastValidPose* const valid = io.last_valid.find(frame.entities[i]);
         if (valid == nullptr) {
             continue;

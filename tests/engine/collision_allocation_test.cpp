@@ -13,8 +13,20 @@ using test::Random;
 
 TEST(CollisionWorld, WarmWorldAllocatesNothing) {
     ShapeLibrary shapes;
-    const std::array<ShapeId, 3> kinds = {shapes.add_box({0.1, 0.05, 0.2}), shapes.add_sphere(0.12),
-                                          shapes.add_capsule(0.06, 0.15)};
+    const ShapeId ball = shapes.add_sphere(0.12);
+    const std::vector<CompoundChild> pair = {{ball, at({-0.1, 0.0, 0.0}), 0.0},
+                                             {ball, at({0.1, 0.0, 0.0}), 0.0}};
+    Random corner(1);
+    std::vector<Vec3> corners(30);
+    for (Vec3& point : corners) {
+        point = corner.vector(0.15);
+    }
+    const std::array<ShapeId, 6> kinds = {shapes.add_box({0.1, 0.05, 0.2}),
+                                          ball,
+                                          shapes.add_capsule(0.06, 0.15),
+                                          shapes.add_cylinder(0.1, 0.08),
+                                          shapes.add_centred(shapes.add_hull(corners)).shape,
+                                          shapes.add_compound(pair)};
     const ShapeId level = shapes.add_mesh(test::make_wavy_ball(1.2, 24, 40));
     CollisionWorld world(shapes);
     std::vector<ColliderProxy> proxies;
@@ -33,7 +45,7 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
             const Vec3 start = 1.05 * random.direction();
             const Vec3 velocity = random.vector(0.02);
             const Quat rotation = random.rotation();
-            proxies.push_back({id, kinds[id % 3], at(start + (round % 10) * velocity, rotation),
+            proxies.push_back({id, kinds[id % 6], at(start + (round % 10) * velocity, rotation),
                                at(start + (round % 10 + 1) * velocity, rotation), true});
         }
         world.set_proxies(proxies);

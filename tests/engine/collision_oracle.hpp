@@ -13,8 +13,15 @@ struct Core {
     double radius_m = 0.0;
     Pose pose;
     Vec3 half_m = Vec3::Zero();  // box
+    double barrel_m = 0.0;       // radius of a cylinder about the line between its two corners
 
     Vec3 support(const Vec3& direction) const {
+        if (barrel_m > 0.0) {
+            const Vec3 along = (corners[1] - corners[0]).normalized();
+            const Vec3 out = direction - direction.dot(along) * along;
+            const Vec3 end = direction.dot(along) < 0.0 ? corners[0] : corners[1];
+            return out.norm() > 1e-9 ? Vec3(end + barrel_m * out.normalized()) : end;
+        }
         return *std::max_element(corners.begin(), corners.end(), [&](const Vec3& a, const Vec3& b) {
             return a.dot(direction) < b.dot(direction);
         });
@@ -22,7 +29,8 @@ struct Core {
 };
 
 inline Core make_core(const Shape& shape, const Pose& pose) {
-    Core core{{}, {}, shape.kind == ShapeKind::box ? 0.0 : shape.radius_m, pose, shape.half_m};
+    const bool grown = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
+    Core core{{}, {}, grown ? shape.radius_m : 0.0, pose, shape.half_m, 0.0};
     if (shape.kind == ShapeKind::box) {
         for (unsigned i = 0; i < 8; ++i) {
             const Vec3 side((i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0,
@@ -34,7 +42,17 @@ inline Core make_core(const Shape& shape, const Pose& pose) {
                 }
             }
         }
+    } else if (shape.kind == ShapeKind::hull) {
+        for (const Vec3& corner : shape.hull->corners) {
+            core.corners.push_back(transform_point(pose, corner));
+        }
+        for (const HullFace& face : shape.hull->faces) {
+            for (std::size_t i = 0; i < face.loop.size(); ++i) {
+                core.edges.emplace_back(face.loop[i], face.loop[(i + 1) % face.loop.size()]);
+            }
+        }
     } else {
+        core.barrel_m = shape.kind == ShapeKind::cylinder ? shape.radius_m : 0.0;
         const Vec3 end = shape.half_height_m * Vec3::UnitY();
         core.corners = {transform_point(pose, -end), transform_point(pose, end)};
         core.edges = {{0, 1}};
@@ -43,7 +61,7 @@ inline Core make_core(const Shape& shape, const Pose& pose) {
 }
 
 inline Core make_triangle_core(const Corners& c) {
-    return {{c[0], c[1], c[2]}, {{0, 1}, {1, 2}, {2, 0}}, 0.0, {}, Vec3::Zero()};
+    return {{c[0], c[1], c[2]}, {{0, 1}, {1, 2}, {2, 0}}, 0.0, {}, Vec3::Zero(), 0.0};
 }
 
 // How far apart a's and b's planes across `direction` (from b towards a) are, radii included.

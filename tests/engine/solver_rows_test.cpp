@@ -213,7 +213,7 @@ TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
         EXPECT_EQ(rows.size(), expected);
         for (const Row& row : rows) {
             EXPECT_EQ(row.unilateral, kind == RowKind::contact);
-            EXPECT_EQ(row.hand, kind != RowKind::contact);
+            EXPECT_EQ(row.group, kind == RowKind::contact ? RowGroup::contact : RowGroup::hand);
             EXPECT_EQ(row.block, 7U);
             EXPECT_EQ(row.a, 1U);
             EXPECT_EQ(row.b, 0U);

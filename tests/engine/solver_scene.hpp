@@ -8,6 +8,7 @@
 #include "engine/solver/islands.hpp"
 #include "engine/solver/newton.hpp"
 #include "engine/solver/rows.hpp"
+#include "engine/solver/velocities.hpp"
 
 // What the solver's tests share: bodies with the masses that they really have, rows, and a graph
 // that is solved island by island.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/text_file.hpp"
+#include "game/climber_session.hpp"
 
 namespace handhold {
 namespace {
@@ -98,6 +99,66 @@ TEST_F(RunCommand, NamesThatPlayersHandsWouldTakeAreRefusedAndInventedOnesMakeWa
     EXPECT_EQ(run(options), 0) << err_;
 }
 
+TEST_F(RunCommand, SeveralPlayersAreAllInTheFilesAndTheFirstPlaysTheSession) {
+    const auto first_rows = [this](int players) {
+        RunOptions options;
+        options.scene = "station";
+        options.seconds = 1.0;
+        options.players = players;
+        options.pictures = false;
+        options.out = (folder_ / "out").string();
+        EXPECT_EQ(run(options), 0) << err_;
+        const std::string csv = read_file(folder_ / "out" / "frames.csv").value();
+        EXPECT_EQ(lines_of(csv), 1 + 90 * static_cast<std::size_t>(players));
+        const auto report =
+            nlohmann::json::parse(read_file(folder_ / "out" / "report.json").value());
+        EXPECT_EQ(report["players"].size(), static_cast<std::size_t>(players));
+        EXPECT_GT(report["bytes_per_player"], 1000);
+        return report["players"][0]["path_m"].get<double>();
+    };
+    // The others climb elsewhere: what the first does is his session, as when he is alone.
+    EXPECT_EQ(first_rows(3), first_rows(1));
+}
+
+TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
+    RunOptions options;
+    options.scene = "ship";
+    options.seconds = 1.0;
+    options.players = 2;
+    options.climbers = true;
+    ASSERT_EQ(run(options), 0) << err_;
+    EXPECT_NE(out_.find("90 frames at 90 Hz, 1.00 s simulated"), std::string::npos) << out_;
+    EXPECT_NE(out_.find("2 players, "), std::string::npos) << out_;
+}
+
+TEST_F(RunCommand, RefusesMorePlayersThanThereIsRoomFor) {
+    RunOptions options;
+    options.scene = write("void.json", R"({"name": "void"})");
+    options.players = 2;
+    options.seconds = 0.1;
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("expected room for 2 players, found it for 1"), std::string::npos) << err_;
+}
+
+TEST_F(RunCommand, PlaysWhatTheClimbCommandRecorded) {
+    ClimbOptions climb;
+    climb.scene = "station";
+    climb.seconds = 3.0;
+    climb.out = (folder_ / "climb.csv").string();
+    testing::internal::CaptureStdout();
+    ASSERT_EQ(climb_command(climb), 0);
+    testing::internal::GetCapturedStdout();
+    RunOptions options;
+    options.scene = "station";
+    options.input = climb.out;
+    EXPECT_EQ(run(options), 0) << err_;
+    EXPECT_EQ(out_.find("grabs: 0 onsets"), std::string::npos) << out_;
+    climb.spawn = "nowhere";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(climb_command(climb), 2);
+    EXPECT_EQ(lines_of(testing::internal::GetCapturedStderr()), 1U);
+}
+
 TEST_F(RunCommand, BadFilesEndWithStatusTwoAndOneLine) {
     std::vector<RunOptions> wrong(5);
     wrong[0].scene = "no_such_scene";
@@ -127,10 +188,13 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
 
 class ResumedRun : public RunCommand {
   protected:
+    // The ship's session next to a wall.
     ResumedRun() {
-        options_.scene = "ship";
+        options_.scene = write("wall.json", R"({"name": "wall", "session": "ship", "bodies": [
+            {"name": "wall", "kind": "static", "shape": {"type": "box", "half_m": [0.1, 2, 4]},
+             "position_m": [-0.6, 1, 0]}],
+            "spawns": [{"name": "a"}], "players": [{"name": "one", "spawn": "a"}]})");
         options_.seconds = 2.0;
-        options_.players = 2;
         snapshot_ = (folder_ / "half.snapshot").string();
     }
     std::string hash() { return out_.substr(out_.rfind("state_hash")); }
@@ -148,7 +212,7 @@ TEST_F(ResumedRun, EndsWithTheSameHash) {
     options_.resume = snapshot_;
     ASSERT_EQ(run(options_), 0) << err_;
     EXPECT_EQ(hash(), expected);
-    EXPECT_NE(out_.find("ship: 90 frames"), std::string::npos) << out_;  // the second half only
+    EXPECT_NE(out_.find("wall: 90 frames"), std::string::npos) << out_;  // the second half only
 }
 
 TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
@@ -158,17 +222,27 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     ASSERT_EQ(run(options_), 0) << err_;
     options_.snapshot.clear();
     options_.resume = snapshot_;
-    options_.players = 3;
+    options_.players = 1;  // somebody else
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
         << err_;
-    options_.players = 2;
     options_.scene = "station";
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: byte 24"), std::string::npos) << err_;
     options_.resume = (folder_ / "absent").string();
     EXPECT_EQ(run(options_), 2);
     EXPECT_EQ(lines_of(err_), 1U) << err_;
+}
+
+// What climbers plan is not in the world.
+TEST_F(ResumedRun, ClimbersAreRefused) {
+    options_.scene = "station";
+    options_.seconds = 0.2;
+    options_.players = 2;
+    options_.snapshot = snapshot_;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("expected no scripted climbers with --snapshot"), std::string::npos)
+        << err_;
 }
 
 TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {

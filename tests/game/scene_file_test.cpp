@@ -39,7 +39,7 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     ASSERT_EQ(scene.bodies.size(), 4U);
     const SceneBody& crate = scene.bodies[0];
     EXPECT_EQ(crate.kind, BodyKind::free);
-    EXPECT_EQ(crate.shape.type, SceneShapeType::box);
+    EXPECT_EQ(crate.shape.kind, ShapeKind::box);
     EXPECT_EQ(crate.shape.half_m, Vec3(0.3, 0.2, 0.4));
     EXPECT_EQ(crate.mass_kg, 50.0);
     EXPECT_EQ(crate.inertia_kgm2, Vec3(3.4, 4.2, 2.2));
@@ -52,7 +52,7 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     EXPECT_EQ(shuttle.shape.file, std::filesystem::path("scenes/assets/shuttle.glb"));
     EXPECT_EQ(shuttle.motion.velocity_mps, Vec3(0.0, 0.0, -20.0));
     EXPECT_TRUE(shuttle.motion.turns_with_body);
-    EXPECT_EQ(scene.bodies[2].shape.type, SceneShapeType::capsule);
+    EXPECT_EQ(scene.bodies[2].shape.kind, ShapeKind::capsule);
     EXPECT_EQ(scene.bodies[2].kind, BodyKind::fixed);
     EXPECT_EQ(scene.bodies[3].shape.radius_m, 0.1);
 

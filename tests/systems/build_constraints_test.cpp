@@ -29,6 +29,8 @@ struct Building {
     Column<RigidBody> body;
     Column<BodyPose> body_pose;
     Column<BodyVelocity> body_velocity;
+    Column<Joint> joint;
+    Column<JointState> joint_state;
     Column<PlayerBody> player;
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> player_velocity;
@@ -87,8 +89,8 @@ struct Building {
         return grip;
     }
     void run() {
-        build_constraints({persistent_id, body, body_pose, body_velocity, player, origin,
-                           player_velocity, head, owner, grab, frame},
+        build_constraints({1.0 / 90.0, persistent_id, body, body_pose, body_velocity, joint,
+                           joint_state, player, origin, player_velocity, head, owner, grab, frame},
                           tuning);
     }
     std::uint32_t index_of_body(Entity entity) const {

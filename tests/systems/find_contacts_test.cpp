@@ -29,6 +29,8 @@ struct Contacts {
     ShapeId rock_shape = shapes.add_sphere(k_rock_radius_m);
     ShapeId wall_shape = shapes.add_box(Vec3(1.0, 1.0, 0.1));
     Column<PersistentId> persistent_id;
+    Column<RigidBody> body;
+    Column<Joint> joint;
     Column<HeadTracking> head;
     Column<HandOwner> owner;
     Column<Grab> grab;
@@ -41,6 +43,9 @@ struct Contacts {
                                                              k_wall}) {
         for (const Entity entity : order) {
             persistent_id.add(entity, {id_of(entity)});
+            if (entity == k_rock || entity == k_wall) {
+                body.add(entity, {entity == k_rock ? BodyKind::free : BodyKind::fixed});
+            }
             if (entity == k_left || entity == k_right) {
                 owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
                 grab.add(entity);
@@ -67,15 +72,16 @@ struct Contacts {
     void place_wall(double gap_m) {
         place(k_wall, wall_shape, Vec3(0.0, 0.0, -(k_head_radius_m + 0.1 + gap_m)), false);
     }
-    void hold(Entity hand, Entity body) {
+    void hold(Entity hand, Entity held) {
         grab.at(hand).kind = GripKind::held;
-        grab.at(hand).body = body;
-        head_ignores.at(k_player).bodies[0] = body;
+        grab.at(hand).body = held;
+        head_ignores.at(k_player).bodies[0] = held;
     }
     void run() {
         collision.set_proxies(proxies);
-        find_contacts({persistent_id, head, owner, grab, collision, head_ignores, frame},
-                      ContactTuning{});
+        find_contacts(
+            {persistent_id, body, joint, head, owner, grab, collision, head_ignores, frame},
+            ContactTuning{});
     }
     std::size_t count_between(Entity x, Entity y) const {
         return static_cast<std::size_t>(
@@ -83,8 +89,8 @@ struct Contacts {
                 return std::minmax(contact.id_a, contact.id_b) == std::minmax(id_of(x), id_of(y));
             }));
     }
-    bool ignores(Entity body) const {
-        return std::ranges::count(head_ignores.at(k_player).bodies, body) > 0;
+    bool ignores(Entity who) const {
+        return std::ranges::count(head_ignores.at(k_player).bodies, who) > 0;
     }
 };
 

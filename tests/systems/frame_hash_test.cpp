@@ -39,7 +39,11 @@ World full_world() {
     World world;
     const Entity ship = add_body(world, rock("ship", 1));
     world.mover.add(ship, {Pose{}, Vec3::UnitX(), Vec3::UnitY(), true});
-    add_body(world, rock("rock", 2));
+    const Entity other = add_body(world, rock("rock", 2));
+    Joint joint;
+    joint.a = ship;
+    joint.b = other;
+    add_joint(world, {"joint", joint});
     const PlayerEntities made = add_player(world, player());
     world.controller_to_hand.add(made.hands[0]);
     return world;

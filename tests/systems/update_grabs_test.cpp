@@ -36,6 +36,7 @@ struct Grabs {
     Column<PlayerOrigin> origin;
     Column<RigidBody> body;
     Column<BodyPose> body_pose;
+    JointGroups joint_groups;
     Column<Grab> grab;
     Column<HeadIgnores> head_ignores;
     Tuning tuning;
@@ -88,9 +89,9 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs(
-            {collision, persistent_id, owner, hand, origin, body, body_pose, grab, head_ignores},
-            tuning, stats);
+        update_grabs({collision, persistent_id, owner, hand, origin, body, body_pose, joint_groups,
+                      grab, head_ignores},
+                     tuning, stats);
     }
 };
 

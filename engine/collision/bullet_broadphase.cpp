@@ -1,0 +1,107 @@
+#include "engine/collision/bullet_broadphase.hpp"
+
+#include <algorithm>
+
+#include "engine/collision/bullet_vector.hpp"
+
+namespace handhold {
+namespace {
+
+btDbvtVolume to_volume(const Bounds& bounds) {
+    return btDbvtVolume::FromMM(to_bullet(bounds.low), to_bullet(bounds.high));
+}
+
+// Overlaps nothing and widens no node above it.
+btDbvtVolume empty_volume() { return to_volume({Vec3::Constant(1e30), Vec3::Constant(-1e30)}); }
+
+bool same_pose(const Pose& a, const Pose& b) {
+    return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
+    return a.id == b.id && a.shape == b.shape && a.free == b.free &&
+           same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
+}
+
+}  // namespace
+
+void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
+    if (!is_valid(body.proxy.from_ws) || !is_valid(body.proxy.to_ws)) {
+        park(body);
+        return;
+    }
+    body.bounds_ws = way_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
+    btDbvtVolume volume = to_volume(body.bounds_ws);
+    if (body.leaf == nullptr && !parked_.empty()) {
+        body.leaf = parked_.back();
+        parked_.pop_back();
+    }
+    if (body.leaf == nullptr) {
+        body.leaf = tree_.insert(volume, nullptr);
+    } else {
+        tree_.update(body.leaf, volume);
+    }
+}
+
+void Broadphase::park(BroadphaseBody& body) {
+    if (body.leaf != nullptr) {
+        btDbvtVolume volume = empty_volume();
+        tree_.update(body.leaf, volume);
+        parked_.push_back(body.leaf);
+        body.leaf = nullptr;
+    }
+}
+
+void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
+                             std::span<const ShapeExtent> extents) {
+    next_bodies_.clear();
+    next_bodies_.reserve(std::max(proxies.size(), bodies_.capacity()));
+    parked_.reserve(parked_.size() + bodies_.size());
+    std::size_t old = 0;
+    for (const ColliderProxy& proxy : proxies) {
+        for (; old < bodies_.size() && bodies_[old].proxy.id < proxy.id; ++old) {
+            park(bodies_[old]);
+        }
+        BroadphaseBody body;
+        if (old < bodies_.size() && bodies_[old].proxy.id == proxy.id) {
+            body = bodies_[old++];
+        }
+        const bool changed = !same_proxy(body.proxy, proxy);  // a new body's id is still 0
+        body.proxy = proxy;
+        if (changed) {
+            place(body, extents[proxy.shape.index]);
+        }
+        next_bodies_.push_back(body);
+    }
+    for (; old < bodies_.size(); ++old) {
+        park(bodies_[old]);
+    }
+    bodies_.swap(next_bodies_);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_[i].leaf != nullptr) {
+            bodies_[i].leaf->dataAsInt = static_cast<int>(i);
+        }
+    }
+}
+
+// The tree's shape, and so the order in which it answers, depends on its history: sorting takes
+// that out again.
+std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScratch& scratch) const {
+    struct Collector final : btDbvt::ICollide {
+        explicit Collector(std::vector<std::size_t>& list) : found(list) {}
+        void Process(const btDbvtNode* leaf) override {
+            found.push_back(static_cast<std::size_t>(leaf->dataAsInt));
+        }
+        std::vector<std::size_t>& found;
+    };
+    constexpr int k_stack = 256;
+    scratch.found.clear();
+    scratch.found.reserve(bodies_.size());
+    scratch.stack.reserve(k_stack);
+    Collector collector(scratch.found);
+    tree_.collideTVNoStackAlloc(tree_.m_root, to_volume(box), scratch.stack, collector);
+    std::sort(scratch.found.begin(), scratch.found.end());
+    return scratch.found;
+}
+
+}  // namespace handhold

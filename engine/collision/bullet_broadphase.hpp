@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
+#include "engine/collision/bounds.hpp"
+#include "engine/collision/collision_world.hpp"
+
+// Which colliders may meet a box, by Bullet's tree over moving bounds (btDbvt).
+namespace handhold {
+
+struct BroadphaseBody {
+    ColliderProxy proxy;
+    Bounds bounds_ws;            // of the whole way from from_ws to to_ws
+    btDbvtNode* leaf = nullptr;  // null: left out, its pose is not valid
+};
+
+// Memory of one thread's search; its content means nothing between calls.
+struct BroadphaseScratch {
+    std::vector<std::size_t> found;
+    btAlignedObjectArray<const btDbvtNode*> stack;
+};
+
+class Broadphase {
+  public:
+    // Replaces all bodies: `extents` by shape. Proxies are sorted by id. What did not change costs
+    // nothing but the comparison.
+    void set_proxies(std::span<const ColliderProxy> proxies, std::span<const ShapeExtent> extents);
+
+    std::span<const BroadphaseBody> bodies() const { return bodies_; }  // sorted by id
+    // Numbers of the bodies that may meet the box, rising; good until the scratch is used again.
+    // Any threads may ask at the same time, each with a scratch of its own.
+    std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
+
+  private:
+    void place(BroadphaseBody& body, const ShapeExtent& extent);
+    void park(BroadphaseBody& body);
+
+    std::vector<BroadphaseBody> bodies_;
+    std::vector<BroadphaseBody> next_bodies_;  // the list under construction: the two swap
+    btDbvt tree_;
+    // Leaves without a body, kept in the tree: Bullet frees a removed leaf's memory.
+    std::vector<btDbvtNode*> parked_;
+};
+
+}  // namespace handhold

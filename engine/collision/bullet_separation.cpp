@@ -1,0 +1,155 @@
+// Bullet's GJK and EPA run on the cores, without margins: so they are exact to rounding on boxes
+// and triangles, and a radius adds exactly. Around them stands what Bullet lacks: a certificate of
+// its answer, and a normal where cores meet without a volume.
+#include "engine/collision/bullet_separation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+
+namespace handhold {
+namespace {
+
+constexpr double k_face_gain_m = 1e-9;
+
+// Cores that meet in a plane or a line have no least way out: any across both is as good, and this
+// one is always the same.
+Vec3 any_way_out(const Convex& a, const Convex& b) {
+    if (b.corners_ns != nullptr) {
+        const Vec3 normal = b.face_normal(0);
+        return (a.centre_ns() - (*b.corners_ns)[0]).dot(normal) >= 0.0 ? normal : Vec3(-normal);
+    }
+    const auto axis = [](const Convex& convex) -> Vec3 {
+        if (convex.faces != nullptr) {
+            return Vec3::Zero();
+        }
+        const auto [from, to] = convex.side_line(Vec3::Zero());
+        return to - from;
+    };
+    const Vec3 axis_a = axis(a);
+    const Vec3 axis_b = axis(b);
+    const Vec3 across = axis_a.cross(axis_b);
+    if (across.norm() > 1e-5 * axis_a.norm() * axis_b.norm()) {
+        return across.normalized();
+    }
+    const Vec3 longer = axis_a.norm() > axis_b.norm() ? axis_a : axis_b;
+    return longer.norm() > 0.0 ? Vec3(longer.unitOrthogonal()) : Vec3(Vec3::UnitY());
+}
+
+// A normal from two points that nearly meet is noise beside a face's own.
+void snap_to_faces(const Convex& convex, double side, CoreSeparation& result) {
+    if (convex.faces == nullptr) {
+        return;
+    }
+    const Vec3 normal = side * convex.face_normal(convex.facing(side * result.normal));
+    const double noise = 1e-6 + 1e-15 / std::max(std::abs(result.separation_m), 1e-13);
+    if (normal.dot(result.normal) > 0.0 && normal.cross(result.normal).norm() < noise) {
+        result.normal = normal;
+    }
+}
+
+// EPA gives a wrong depth and way out where its first simplex is flat (two cubes in line: 0.7 mm
+// across an edge instead of 1 mm out of a face). The ways through faces are tried beside it.
+// `side`: the normal's direction against the faces', +1 for b's.
+void try_faces(const Convex& a, const Convex& b, double side, CoreSeparation& best) {
+    const Convex& owner = side > 0.0 ? b : a;
+    const int count = owner.faces != nullptr ? owner.faces->m_faces.size() : 0;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 normal = side * owner.face_normal(i);
+        const Vec3 point_a = a.support(-normal);
+        const Vec3 point_b = b.support(normal);
+        const double separation = normal.dot(point_a - point_b);
+        if (separation > best.separation_m + k_face_gain_m) {
+            best = {normal, separation, point_a, point_b, true};
+            (side > 0.0 ? best.point_b_ns : best.point_a_ns) =
+                side > 0.0 ? Vec3(point_a - separation * normal)
+                           : Vec3(point_b + separation * normal);
+        }
+    }
+}
+
+double depth_along(const Convex& a, const Convex& b, const Vec3& normal) {
+    return normal.dot(a.support(-normal) - b.support(normal));
+}
+
+enum class Search { apart, way_out };
+
+bool run(Search search, const Convex& a, const Convex& b, const btVector3& guess,
+         CoreSeparation& result) {
+    btGjkEpaSolver2::sResults found;
+    const bool any =
+        search == Search::apart
+            ? btGjkEpaSolver2::Distance(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found)
+            : btGjkEpaSolver2::Penetration(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found,
+                                           false);
+    if (any) {
+        // Bullet leaves the normal in a's frame.
+        result.normal = from_bullet(a.pose_ns.getBasis() * found.normal).normalized();
+        result.separation_m = found.distance;
+        result.point_a_ns = from_bullet(found.witnesses[0]);
+        result.point_b_ns = from_bullet(found.witnesses[1]);
+        snap_to_faces(a, -1.0, result);
+        snap_to_faces(b, 1.0, result);
+    }
+    return any;
+}
+
+// A start for a search that stopped early: another octant each time.
+btVector3 other_guess(int attempt) {
+    return {(attempt & 1) != 0 ? 0.9 : -0.8, (attempt & 2) != 0 ? 0.7 : -1.0,
+            (attempt & 4) != 0 ? 1.0 : -0.6};
+}
+
+// An answer is whole where no point of the cores lies between the planes across its normal. That
+// Bullet stops early was measured in 1 of 5000 pairs, up to 30 cm off: it then starts again
+// elsewhere, and the best of all answers counts. False where the cores meet, or have no volume.
+bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess,
+                CoreSeparation& best) {
+    constexpr int k_attempts = 8;
+    bool any = false;
+    for (int attempt = 0; attempt < k_attempts; ++attempt) {
+        CoreSeparation result;
+        if (run(search, a, b, guess, result)) {
+            const double along_m = depth_along(a, b, result.normal);
+            // Two points that nearly meet leave noise in the normal.
+            const double noise_m = 1e-9 + 1e-14 / std::max(std::abs(result.separation_m), 1e-13);
+            if (std::abs(along_m - result.separation_m) < noise_m) {
+                best = result;
+                return true;
+            }
+            result.separation_m = along_m;
+            if (!any || along_m > best.separation_m) {
+                best = result;
+            }
+            any = true;
+        } else if (search == Search::apart && !any) {
+            return false;
+        }
+        guess = other_guess(attempt);
+    }
+    return any;
+}
+
+}  // namespace
+
+CoreSeparation separate(const Convex& a, const Convex& b) {
+    const Vec3 fallback = any_way_out(a, b);
+    const btVector3 guess =
+        -(to_bullet(fallback) * a.pose_ns.getBasis());  // where EPA has no volume: its answer
+    CoreSeparation result;
+    if (find_whole(Search::apart, a, b, guess, result) && result.separation_m > 0.0) {
+        return result;
+    }
+    if (!find_whole(Search::way_out, a, b, guess, result)) {
+        result.normal = fallback;
+        result.separation_m = depth_along(a, b, fallback);
+        result.point_a_ns = result.point_b_ns = a.support(-fallback);
+    }
+    result.overlap = true;
+    try_faces(a, b, 1.0, result);
+    try_faces(a, b, -1.0, result);
+    return result;
+}
+
+}  // namespace handhold

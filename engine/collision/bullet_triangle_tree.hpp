@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+
+#include <BulletCollision/BroadphaseCollision/btQuantizedBvh.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+
+#include "engine/collision/bounds.hpp"
+#include "engine/collision/closest_point.hpp"
+#include "engine/collision/shape_query.hpp"
+
+class btBvhTriangleMeshShape;
+
+// The triangles of a mesh, found by box or ray through Bullet's quantised tree. Bullet builds the
+// tree; its walks count their steps in a global, so that two threads could not take one at a time:
+// the walk here writes nothing.
+namespace handhold {
+
+// The tree of one mesh at its own scale. Refers to the mesh and holds no copy of it.
+class TriangleTree {
+  public:
+    explicit TriangleTree(const Mesh& mesh);
+    ~TriangleTree();
+    TriangleTree(const TriangleTree&) = delete;
+    TriangleTree& operator=(const TriangleTree&) = delete;
+
+    // A box as the tree's nodes have it.
+    struct NodeBox {
+        std::array<unsigned short, 3> low;
+        std::array<unsigned short, 3> high;
+    };
+
+    // visit(triangle's number) for at least every triangle whose bounds meet the box and whose
+    // nodes' boxes `enters(box)` all let through; always in the same order, neighbours together.
+    template <typename Enters, typename Visit>
+    void walk(const Bounds& box, const Enters& enters, const Visit& visit) const {
+        const int count = nodes_->isLeafNode() ? 1 : nodes_->getEscapeIndex();
+        const NodeBox wanted = node_box(box);
+        for (int i = 0; i < count;) {
+            const btQuantizedBvhNode& node = nodes_[i];
+            const bool inside = meets(node, wanted) && enters(bounds_of_node(node));
+            const bool leaf = node.isLeafNode();
+            if (inside && leaf) {
+                visit(static_cast<std::size_t>(node.getTriangleIndex()));
+            }
+            i += inside || leaf ? 1 : node.getEscapeIndex();
+        }
+    }
+    const Mesh& mesh() const { return mesh_; }
+
+  private:
+    NodeBox node_box(const Bounds& box) const;
+    Bounds bounds_of_node(const btQuantizedBvhNode& node) const {
+        const auto at = [&](const unsigned short* grid) -> Vec3 {
+            return low_ + Vec3(grid[0], grid[1], grid[2]).cwiseProduct(step_);
+        };
+        return {at(node.m_quantizedAabbMin), at(node.m_quantizedAabbMax)};
+    }
+    static bool meets(const btQuantizedBvhNode& node, const NodeBox& box) {
+        bool overlap = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            overlap = overlap && node.m_quantizedAabbMin[axis] <= box.high[axis] &&
+                      node.m_quantizedAabbMax[axis] >= box.low[axis];
+        }
+        return overlap;
+    }
+
+    const Mesh& mesh_;
+    btTriangleIndexVertexArray parts_;
+    std::unique_ptr<btBvhTriangleMeshShape> shape_;
+    const btQuantizedBvh* tree_ = nullptr;       // shape_'s
+    const btQuantizedBvhNode* nodes_ = nullptr;  // tree_'s
+    Vec3 low_;                                   // of the grid that the nodes' boxes are on
+    Vec3 step_;
+};
+
+// A tree's triangles stretched along the mesh's axes: many bodies share one tree. Nothing is
+// scaled but what a query finds.
+class ScaledTriangles {
+  public:
+    // Scale factors > 0.
+    ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale);
+
+    // visit(corners) for at least every triangle whose bounds meet the box.
+    template <typename Visit>
+    void visit_box(const Bounds& box, const Visit& visit) const {
+        tree_->walk(
+            unscaled(box), [](const Bounds&) { return true; },
+            [&](std::size_t triangle) { visit(corners(triangle)); });
+    }
+    // First triangle on the way, from either side.
+    std::optional<LocalRayHit> cast_ray(const Vec3& from, const Vec3& to) const;
+    // Nearest point within max_distance_m.
+    std::optional<LocalSurfacePoint> closest_point(const Vec3& point, double max_distance_m) const;
+
+  private:
+    Bounds unscaled(const Bounds& box) const {
+        return {box.low.cwiseProduct(inverse_scale_), box.high.cwiseProduct(inverse_scale_)};
+    }
+    Corners corners(std::size_t triangle) const {
+        const auto& [a, b, c] = tree_->mesh().triangles[triangle];
+        const std::vector<Vec3>& positions = tree_->mesh().positions;
+        return {positions[a].cwiseProduct(scale_), positions[b].cwiseProduct(scale_),
+                positions[c].cwiseProduct(scale_)};
+    }
+
+    std::shared_ptr<const TriangleTree> tree_;
+    Vec3 scale_;
+    Vec3 inverse_scale_;
+};
+
+}  // namespace handhold

@@ -1,0 +1,131 @@
+// Rays, spheres and points against all colliders. Nothing of the world is written: each thread has
+// its own scratch.
+#include <algorithm>
+#include <limits>
+
+#include "engine/collision/bullet_sweep.hpp"
+#include "engine/collision/bullet_world.hpp"
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+// What a query needs and keeps nothing in. One a thread, and not one a call, so that a query
+// allocates nothing once its thread is warm.
+struct QueryScratch {
+    BroadphaseScratch near;
+    ConvexPart sphere{Shape{}, Pose{}};  // of cast_sphere
+    TriangleShape triangle;
+};
+
+QueryScratch& query_scratch() {
+    thread_local QueryScratch scratch;
+    return scratch;
+}
+
+bool contains(std::span<const std::uint64_t> ids, std::uint64_t id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+// visit(proxy) for the bodies that may meet the box, by rising id.
+template <typename Visit>
+void visit_bodies(const Broadphase& broadphase, const Bounds& box,
+                  std::span<const std::uint64_t> skip, const Visit& visit) {
+    for (const std::size_t index : broadphase.find(box, query_scratch().near)) {
+        const ColliderProxy& proxy = broadphase.bodies()[index].proxy;
+        if (!contains(skip, proxy.id)) {
+            visit(proxy);
+        }
+    }
+}
+
+}  // namespace
+
+std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& to_ws,
+                                               std::span<const std::uint64_t> skip) const {
+    const Vec3 way_ws = to_ws - from_ws;
+    double fraction = std::numeric_limits<double>::infinity();
+    std::optional<RayHit> best;
+    const auto cast = [&](const ColliderProxy& proxy) {
+        const std::optional<ScaledTriangles>& triangles = impl_->cache[proxy.shape.index].triangles;
+        const Vec3 from = inverse_transform_point(proxy.to_ws, from_ws);
+        const Vec3 to = inverse_transform_point(proxy.to_ws, to_ws);
+        const auto offer = [&](const std::optional<LocalRayHit>& hit) {
+            if (hit && hit->fraction < fraction) {
+                fraction = hit->fraction;
+                const double side = hit->normal.dot(to - from) <= 0.0 ? 1.0 : -1.0;
+                best =
+                    RayHit{proxy.id, from_ws + fraction * way_ws,
+                           proxy.to_ws.rotation * (side * hit->normal), fraction * way_ws.norm()};
+            }
+        };
+        offer(triangles ? triangles->cast_ray(from, to)
+                        : cast_ray_on_shape(impl_->shapes.at(proxy.shape), from, to));
+    };
+    visit_bodies(impl_->broadphase, bounds_of(from_ws, to_ws), skip, cast);
+    return best;
+}
+
+std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& from_ws,
+                                                  const Vec3& to_ws,
+                                                  std::span<const std::uint64_t> skip) const {
+    HH_CHECK(radius_m > 0.0, "radius_m must be positive", radius_m);
+    QueryScratch& scratch = query_scratch();
+    scratch.sphere.set_sphere_radius(radius_m);
+    const double reach_m = radius_m + k_rounding_m;
+    double fraction = 1.0;
+    std::optional<RayHit> best;
+    const auto cast = [&](const ColliderProxy& proxy) {
+        const CollisionShape& shape = impl_->cache[proxy.shape.index];
+        const Vec3 from =
+            inverse_transform_point(proxy.to_ws, from_ws);  // near space lies about it here
+        const Vec3 way = inverse_transform_point(proxy.to_ws, to_ws) - from;
+        const RelativeMotion motion({}, {way, Quat::Identity()});
+        const auto offer = [&](const Convex& b) {
+            const auto hit = time_of_impact(scratch.sphere, motion, b, fraction);
+            if (hit && (!best || hit->fraction < fraction)) {
+                fraction = hit->fraction;
+                best = RayHit{proxy.id, transform_point(proxy.to_ws, from + hit->point_b_ns),
+                              proxy.to_ws.rotation * hit->normal, fraction * way.norm()};
+            }
+        };
+        for (const ConvexPart& part : shape.parts) {
+            offer(part.at({-from, Quat::Identity()}));
+        }
+        if (!shape.triangles) {
+            return;
+        }
+        const Bounds box = bounds_of(from, from + way).grown(reach_m);
+        shape.triangles->visit_box(box, [&](const Corners& corners) {
+            const Corners near{corners[0] - from, corners[1] - from, corners[2] - from};
+            if (const Vec3 area = area_vector(near); !area.isZero(0.0)) {
+                offer(scratch.triangle.place(near, area / area.norm()));
+            }
+        });
+    };
+    visit_bodies(impl_->broadphase, bounds_of(from_ws, to_ws).grown(reach_m), skip, cast);
+    return best;
+}
+
+std::optional<SurfacePoint> CollisionWorld::closest_point(
+    const Vec3& point_ws, double max_distance_m, std::span<const std::uint64_t> skip) const {
+    double reach_m = max_distance_m;
+    std::optional<SurfacePoint> best;
+    const auto find = [&](const ColliderProxy& proxy) {
+        const std::optional<ScaledTriangles>& triangles = impl_->cache[proxy.shape.index].triangles;
+        const Vec3 point = inverse_transform_point(proxy.to_ws, point_ws);
+        const std::optional<LocalSurfacePoint> near =
+            triangles ? triangles->closest_point(point, reach_m)
+                      : closest_on_shape(impl_->shapes.at(proxy.shape), point);
+        if (near && (best ? near->distance_m < reach_m : near->distance_m <= reach_m)) {
+            reach_m = near->distance_m;
+            best = SurfacePoint{proxy.id, transform_point(proxy.to_ws, near->point),
+                                proxy.to_ws.rotation * near->normal, near->distance_m};
+        }
+    };
+    visit_bodies(impl_->broadphase, bounds_of(point_ws, point_ws).grown(max_distance_m), skip,
+                 find);
+    return best;
+}
+
+}  // namespace handhold

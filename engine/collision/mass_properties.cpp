@@ -1,0 +1,188 @@
+// Sources: the tetrahedra of a polyhedron: Blow and Binstock, How to Find the Inertia Tensor, 2004;
+// principal axes: Jacobi's rotations, 1846, in plain arithmetic, because Eigen's closed form calls
+// the C library's trigonometry, and poses of bodies are state.
+#include "engine/collision/mass_properties.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+// Second moments of mass become moments of inertia: I = tr(C) 1 - C.
+Mat3 inertia_of_covariance(const Mat3& covariance) {
+    return covariance.trace() * Mat3::Identity() - covariance;
+}
+
+// What a mass of 1 kg at `offset` adds (Steiner).
+Mat3 offset_inertia(const Vec3& offset) {
+    return inertia_of_covariance(offset * offset.transpose());
+}
+
+constexpr double k_pi = 3.14159265358979323846;
+
+MassProperties of_box(const Vec3& half) {
+    const Vec3 squared = half.cwiseAbs2();
+    const Vec3 moments = (Vec3::Constant(squared.sum()) - squared) / 3.0;
+    return {8.0 * half.prod(), Vec3::Zero(), moments.asDiagonal()};
+}
+
+MassProperties of_sphere(double radius) {
+    return {4.0 / 3.0 * k_pi * radius * radius * radius, Vec3::Zero(),
+            0.4 * radius * radius * Mat3::Identity()};
+}
+
+MassProperties of_cylinder(double radius, double half_height) {
+    const double along = radius * radius / 2.0;
+    const double across = radius * radius / 4.0 + half_height * half_height / 3.0;
+    return {2.0 * k_pi * radius * radius * half_height, Vec3::Zero(),
+            Vec3(across, along, across).asDiagonal()};
+}
+
+// A capsule is a cylinder and the two halves of a sphere. Each half's own moment about its centre
+// of mass, 83/320 m r^2, and its offset h + 3/8 r add up to the closed form below.
+MassProperties of_capsule(double radius, double half_height) {
+    const double r2 = radius * radius;
+    const double h = half_height;
+    // Volumes over 2 pi r^2: the common factor cancels in the shares.
+    const double sphere_share = (2.0 / 3.0 * radius) / (2.0 / 3.0 * radius + h);
+    const double cylinder_share = 1.0 - sphere_share;
+    const double along = cylinder_share * r2 / 2.0 + sphere_share * 0.4 * r2;
+    const double across = cylinder_share * (r2 / 4.0 + h * h / 3.0) +
+                          sphere_share * (0.4 * r2 + h * h + 0.75 * h * radius);
+    return {2.0 * k_pi * r2 * (h + 2.0 / 3.0 * radius), Vec3::Zero(),
+            Vec3(across, along, across).asDiagonal()};
+}
+
+// The tetrahedra from a point inside to the faces' triangles. Of one with edges u, v, w from that
+// point: volume det / 6, and the integral of x x^T is det / 120 times the sum of the edges'
+// products and that of the product of their sum.
+MassProperties of_hull(const ConvexHull& hull) {
+    Vec3 inside = Vec3::Zero();
+    for (const Vec3& corner : hull.corners) {
+        inside += corner / static_cast<double>(hull.corners.size());
+    }
+    double volume = 0.0;
+    Vec3 first = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+    for (const HullFace& face : hull.faces) {
+        const Vec3 u = hull.corners[face.loop[0]] - inside;
+        for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
+            const Vec3 v = hull.corners[face.loop[i]] - inside;
+            const Vec3 w = hull.corners[face.loop[i + 1]] - inside;
+            const double determinant = u.dot(v.cross(w));
+            const Vec3 sum = u + v + w;
+            volume += determinant / 6.0;
+            first += determinant / 24.0 * sum;
+            second +=
+                determinant / 120.0 *
+                (u * u.transpose() + v * v.transpose() + w * w.transpose() + sum * sum.transpose());
+        }
+    }
+    const Vec3 offset = first / volume;
+    const Mat3 covariance = second / volume - offset * offset.transpose();
+    return {volume, inside + offset, inertia_of_covariance(covariance)};
+}
+
+MassProperties of_compound(const std::vector<PlacedShape>& parts) {
+    MassProperties whole;
+    double mass = 0.0;
+    Mat3 inertia = Mat3::Zero();  // about the shape's origin
+    for (const PlacedShape& part : parts) {
+        const MassProperties own = mass_properties(part.shape);
+        const double share = part.mass_kg > 0.0 ? part.mass_kg : own.volume_m3;
+        const Mat3 turn = part.pose.rotation.toRotationMatrix();
+        const Vec3 centre = transform_point(part.pose, own.centre_m);
+        whole.volume_m3 += own.volume_m3;
+        whole.centre_m += share * centre;
+        inertia +=
+            share * (turn * own.inertia_per_kg_m2 * turn.transpose() + offset_inertia(centre));
+        mass += share;
+    }
+    whole.centre_m /= mass;
+    whole.inertia_per_kg_m2 = inertia / mass - offset_inertia(whole.centre_m);
+    return whole;
+}
+
+// Turns columns p and q of `axes` so that the matrix, seen along them, has no entry (p, q).
+void rotate_away(Eigen::Index p, Eigen::Index q, Mat3& matrix, Mat3& axes) {
+    const double theta = (matrix(q, q) - matrix(p, p)) / (2.0 * matrix(p, q));
+    const double tangent =
+        std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+    const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
+    Mat3 turn = Mat3::Identity();
+    turn(p, p) = turn(q, q) = cosine;
+    turn(p, q) = tangent * cosine;
+    turn(q, p) = -tangent * cosine;
+    matrix = turn.transpose() * matrix * turn;
+    axes = axes * turn;
+}
+
+// Columns: eigenvectors of a symmetric matrix, in no order.
+Mat3 eigenvectors(Mat3 matrix) {
+    constexpr int k_rounds = 12;  // each squares what is left: 5 were ever needed
+    constexpr double k_rounding = 1e-15;
+    constexpr std::array<std::array<Eigen::Index, 2>, 3> k_pairs = {{{0, 1}, {0, 2}, {1, 2}}};
+    Mat3 axes = Mat3::Identity();
+    const double scale = matrix.cwiseAbs().maxCoeff();
+    for (int round = 0; round < k_rounds; ++round) {
+        for (const auto& [p, q] : k_pairs) {
+            if (std::abs(matrix(p, q)) > k_rounding * scale) {
+                rotate_away(p, q, matrix, axes);
+            }
+        }
+    }
+    return axes;
+}
+
+// The axes in the order and with the signs that turn the least: the entry of the largest size
+// decides first.
+Mat3 nearest_to_identity(const Mat3& axes) {
+    Mat3 left = axes.cwiseAbs();
+    Mat3 result = Mat3::Identity();
+    for (int i = 0; i < 3; ++i) {
+        Eigen::Index row = 0;
+        Eigen::Index column = 0;
+        left.maxCoeff(&row, &column);
+        result.col(row) = axes(row, column) < 0.0 ? Vec3(-axes.col(column)) : axes.col(column);
+        left.row(row).setConstant(-1.0);
+        left.col(column).setConstant(-1.0);
+    }
+    if (result.determinant() < 0.0) {
+        Eigen::Index least = 0;
+        result.diagonal().minCoeff(&least);
+        result.col(least) = -result.col(least);
+    }
+    return result;
+}
+
+}  // namespace
+
+MassProperties mass_properties(const Shape& shape) {
+    switch (shape.kind) {
+        case ShapeKind::box:
+            return of_box(shape.half_m);
+        case ShapeKind::sphere:
+            return of_sphere(shape.radius_m);
+        case ShapeKind::capsule:
+            return of_capsule(shape.radius_m, shape.half_height_m);
+        case ShapeKind::cylinder:
+            return of_cylinder(shape.radius_m, shape.half_height_m);
+        case ShapeKind::hull:
+            return of_hull(*shape.hull);
+        case ShapeKind::compound:
+            return of_compound(*shape.parts);
+        case ShapeKind::mesh:
+            break;
+    }
+    fail_precondition(__func__, "a mesh has no inside", "mesh");
+}
+
+Pose principal_frame(const MassProperties& properties) {
+    const Mat3 axes = nearest_to_identity(eigenvectors(properties.inertia_per_kg_m2));
+    return {properties.centre_m, Quat(axes).normalized()};
+}
+
+}  // namespace handhold

@@ -1,0 +1,129 @@
+#include "engine/solver/island_system.hpp"
+
+#include <algorithm>
+
+namespace handhold {
+
+bool passes(BlockFilter filter, const RowBlock& block) {
+    switch (filter) {
+        case BlockFilter::without_contacts:
+            return !is_contact(block);
+        case BlockFilter::without_hands:
+            return !is_hand(block);
+        case BlockFilter::all:
+            break;
+    }
+    return true;
+}
+
+bool takes_part(const IslandView& island, const RowBlock& block) {
+    return passes(island.filter, block) &&
+           (island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0);
+}
+
+// Only contacts can contradict each other into huge steps; hands on long levers may need them.
+bool has_contact(std::span<const Row> rows) {
+    return std::ranges::any_of(rows, [](const Row& row) { return row.group == RowGroup::contact; });
+}
+
+double longest_move(const SolveScratch& scratch) {
+    double longest = 0.0;
+    for (const Vec3& move : scratch.moves_m) {
+        longest = std::max(longest, move.norm());
+    }
+    return longest;
+}
+
+void clear_stiffness(const IslandView& island, SolveScratch& scratch) {
+    scratch.stiffness.assign(island.island_bodies.size(), Mat3::Zero());
+}
+
+void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
+    scratch.inverse_inertia_ws.resize(island.island_bodies.size());
+    for (const std::uint32_t index : island.island_bodies) {
+        const SolverBody& body = island.bodies[index];
+        Mat3& inverse = scratch.inverse_inertia_ws[body.slot];
+        if (body.inverse_inertia_bs.squaredNorm() == 0.0) {
+            inverse.setZero();
+            continue;
+        }
+        inverse = inverse_inertia_ws(body);
+        const Mat3& stiffness = scratch.stiffness[body.slot];
+        if (!stiffness.isZero(0.0)) {
+            const Mat3 stiffened = inverse.inverse() + stiffness;
+            inverse = stiffened.inverse();
+        }
+    }
+}
+
+namespace {
+
+constexpr double k_limit_softness = 1e-8;
+constexpr double k_joint_softness = 1e-10;
+
+double softness_of(const Row& row, const Softness& softness) {
+    switch (row.group) {
+        case RowGroup::hand:
+            return softness.hand;
+        case RowGroup::contact:
+            return softness.contact;
+        case RowGroup::limit:
+            return row.unilateral ? k_limit_softness : k_joint_softness;
+        case RowGroup::joint:
+            break;
+    }
+    return k_joint_softness;
+}
+
+}  // namespace
+
+void regularise(std::span<const Row> rows, const Softness& softness, double factor,
+                DenseSystem& system) {
+    double inverse_sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < system.size();) {
+        const std::size_t width = rows[i].width;
+        double sum = 0.0;
+        for (std::size_t end = i + width; i < end; ++i) {
+            sum += system.diagonal(i);
+        }
+        if (sum > 0.0) {
+            const double size = static_cast<double>(width);
+            inverse_sum += size * size / sum;
+            count += size;
+        }
+    }
+    const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;
+    for (std::size_t i = 0; i < system.size(); ++i) {
+        const double size = rows[i].group == RowGroup::hand ? mean : system.diagonal(i);
+        system.alpha()[i] = factor * softness_of(rows[i], softness) * size;
+    }
+}
+
+double gather_moves(const IslandView& island, std::span<const double> lambda,
+                    SolveScratch& scratch) {
+    scratch.moves_m.assign(island.island_bodies.size(), Vec3::Zero());
+    scratch.turns_rad.assign(island.island_bodies.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        const SolverBody& a = island.bodies[row.a];
+        const SolverBody& b = island.bodies[row.b];
+        if (a.inverse_mass > 0.0) {
+            scratch.moves_m[a.slot] += (a.inverse_mass * lambda[i]) * row.linear_a;
+            scratch.turns_rad[a.slot] += lambda[i] * row.angular_a;
+        }
+        if (b.inverse_mass > 0.0) {
+            scratch.moves_m[b.slot] -= (b.inverse_mass * lambda[i]) * row.linear_a;
+            scratch.turns_rad[b.slot] += lambda[i] * row.angular_b;
+        }
+    }
+    double largest = 0.0;
+    for (std::size_t slot = 0; slot < scratch.turns_rad.size(); ++slot) {
+        const Vec3 turn = scratch.inverse_inertia_ws[slot] * scratch.turns_rad[slot];
+        scratch.turns_rad[slot] = turn;
+        largest = std::max(largest, turn.norm());
+    }
+    return largest;
+}
+
+}  // namespace handhold

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/solver/dense_system.hpp"
+#include "engine/solver/rows.hpp"
+
+// One island as linear equations: what the solve of positions and that of velocities share.
+namespace handhold {
+
+// Kept between solves so that a warm one allocates nothing. One for each island that is solved at
+// the same time.
+struct SolveScratch {
+    std::vector<Row> rows;
+    std::vector<Mat3> inverse_inertia_ws;  // by slot
+    std::vector<Mat3> stiffness;           // by slot
+    std::vector<Vec3> moves_m;             // by slot
+    std::vector<Vec3> turns_rad;
+    std::vector<double> values;
+    std::vector<double> lambda;
+    std::vector<double> approach_mps;  // by row: normal velocity before the solve
+    struct Friction {
+        std::size_t row = 0;     // first of its rows in `rows`
+        std::size_t width = 1;   // how many: their multipliers' length is bounded
+        double limit = 0.0;      // N s or N m s, where `normal` is none
+        std::size_t normal = 0;  // row whose multiplier times `coefficient` is the limit
+        double coefficient = 0.0;
+        bool slides = false;
+    };
+    std::vector<Friction> frictions;
+    DenseSystem system;
+};
+
+enum class BlockFilter : std::uint8_t { all, without_contacts, without_hands };
+bool passes(BlockFilter filter, const RowBlock& block);
+
+// An island's part of the graph. Blocks between two bodies with zero inverse mass are passed over.
+struct IslandView {
+    BlockFilter filter = BlockFilter::all;
+    std::span<SolverBody> bodies;  // of the whole graph
+    std::span<RowBlock> blocks;
+    std::span<const std::uint32_t> island_bodies;
+    std::span<const std::uint32_t> island_blocks;
+};
+
+// True where the filter lets the block pass and something in it can move.
+bool takes_part(const IslandView& island, const RowBlock& block);
+bool has_contact(std::span<const Row> rows);
+
+// No geometric stiffness, for all of the island's bodies.
+void clear_stiffness(const IslandView& island, SolveScratch& scratch);
+// Inverse inertia of all bodies at their present poses, with the stiffness.
+void prepare_inertia(const IslandView& island, SolveScratch& scratch);
+
+inline constexpr double k_contact_softness = 1e-7;
+// How much a row may give way, relative to the system's diagonal; joints and limits hardly do.
+struct Softness {
+    double hand = 1e-6;
+    double contact = k_contact_softness;
+};
+// Times that a solve whose answer is too large to be meant softens its rows.
+inline constexpr int k_softening_retries = 3;
+// The farthest that rows of contacts may move a body, in what they lack: a lever of 1 m.
+inline constexpr double k_largest_move = 10.0;
+
+// Hands by the harmonic mean of the diagonal, so that what one holds weighs as much as the other's;
+// all else by its own entry. Times `factor`.
+void regularise(std::span<const Row> rows, const Softness& softness, double factor,
+                DenseSystem& system);
+
+// W J^T lambda by slot; returns the largest turn in radians.
+double gather_moves(const IslandView& island, std::span<const double> lambda,
+                    SolveScratch& scratch);
+// Of the moves gathered, metres.
+double longest_move(const SolveScratch& scratch);
+
+}  // namespace handhold

@@ -1,0 +1,236 @@
+// Sources: Coulomb's cone by fixed point over who sticks and who slides, as in Moreau's contact
+// dynamics (1988); restitution after Newton.
+#include "engine/solver/velocities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace handhold {
+namespace {
+
+double row_velocity(const IslandView& island, const Row& row) {
+    const SolverBody& a = island.bodies[row.a];
+    const SolverBody& b = island.bodies[row.b];
+    return row.linear_a.dot(a.velocity_mps - b.velocity_mps) + row.angular_a.dot(a.spin_radps) +
+           row.angular_b.dot(b.spin_radps);
+}
+
+// Only what has one free coordinate can be pulled to a speed.
+bool has_drive(const RowBlock& block) {
+    return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
+           block.joint.drive_impulse > 0.0;
+}
+
+// What may slide against a bounded impulse, and what pulls a joint to a speed.
+void collect_frictions(const IslandView& island, const RowBlock& block, std::uint32_t index,
+                       SolveScratch& scratch) {
+    const std::size_t normal = scratch.rows.size() - 1;  // a contact's only row
+    const auto add = [&](double limit, double coefficient) {
+        const std::size_t row = scratch.rows.size();
+        const std::size_t width = append_sliding_rows(island.bodies, block, index, scratch.rows);
+        if (width > 0) {
+            scratch.frictions.push_back({row, width, limit, normal, coefficient, false});
+        }
+    };
+    if (is_contact(block) && block.friction > 0.0) {
+        add(0.0, block.friction);
+    }
+    if (is_joint(block) && block.joint.friction_impulse > 0.0) {
+        add(block.joint.friction_impulse, 0.0);
+    }
+    if (has_drive(block)) {
+        add(block.joint.drive_impulse, 0.0);
+    }
+}
+
+void collect_velocity_rows(const IslandView& island, const VelocitySettings& settings,
+                           SolveScratch& scratch) {
+    scratch.rows.clear();
+    scratch.frictions.clear();
+    scratch.approach_mps.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        RowBlock& block = island.blocks[index];
+        block.impulse_ws_ns.setZero();
+        block.couple_ws_nms.setZero();
+        block.joint.lock_impulse = 0.0;
+        const bool counts =
+            !is_contact(block) || contact_separation_m(island.bodies, block) < settings.touch_m;
+        if (!counts || !takes_part(island, block)) {
+            continue;
+        }
+        append_rows(island.bodies, block, index, scratch.rows, settings.touch_m);
+        for (std::size_t i = scratch.approach_mps.size(); i < scratch.rows.size(); ++i) {
+            const double speed = row_velocity(island, scratch.rows[i]);
+            const bool bounces = is_contact(block) && speed < -settings.restitution_speed_mps;
+            scratch.approach_mps.push_back(bounces ? block.restitution * speed : 0.0);
+        }
+        collect_frictions(island, block, index, scratch);
+        scratch.approach_mps.resize(scratch.rows.size(), 0.0);
+        if (has_drive(block)) {
+            scratch.approach_mps.back() = -block.joint.drive_speed;
+        }
+    }
+}
+
+// What each row's velocity lacks.
+void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        Row& row = scratch.rows[i];
+        const RowBlock& block = island.blocks[row.block];
+        double speed = row_velocity(island, row) + scratch.approach_mps[i];
+        if (row.group == RowGroup::hand) {
+            speed += row.linear_a.dot(block.drive_velocity_ws_mps);
+            if (row.linear_a.isZero(0.0)) {
+                speed += row.angular_a.dot(block.drive_spin_ws_radps);
+            }
+        }
+        row.value_m = speed;  // metres a second here
+    }
+}
+
+// Coulomb's law for one friction after a solve: what takes more than its limit slides, against its
+// motion, by the limit; what slides and is pushed along its motion sticks again. True where that
+// changes the next solve.
+bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScratch& scratch,
+                        SolveScratch::Friction& friction) {
+    const double limit = friction.coefficient > 0.0
+                             ? friction.coefficient * std::max(0.0, lambda[friction.normal])
+                             : friction.limit;
+    Vec3 push = Vec3::Zero();
+    Vec3 slip = Vec3::Zero();
+    for (std::size_t i = 0; i < friction.width; ++i) {
+        const std::size_t row = friction.row + i;
+        push[static_cast<Eigen::Index>(i)] = lambda[row];
+        slip[static_cast<Eigen::Index>(i)] =
+            scratch.system.remainder(row, scratch.rows[row].value_m);
+    }
+    const double tolerance = 1e-9 * limit + 1e-15;
+    if (!friction.slides && push.norm() <= limit + tolerance) {
+        return false;
+    }
+    if (friction.slides && may_stick && push.dot(slip) > 0.0 && limit > 0.0) {
+        friction.slides = false;
+        for (std::size_t i = 0; i < friction.width; ++i) {
+            scratch.system.release(friction.row + i);
+        }
+        return true;
+    }
+    Vec3 wanted = friction.slides ? Vec3(-slip) : push;
+    wanted = wanted.norm() > 1e-12 ? Vec3(wanted * (limit / wanted.norm())) : push;
+    const bool changes = !friction.slides || (wanted - push).norm() > tolerance;
+    friction.slides = true;
+    for (std::size_t i = 0; i < friction.width; ++i) {
+        scratch.system.hold(friction.row + i, wanted[static_cast<Eigen::Index>(i)]);
+    }
+    return changes;
+}
+
+// Multipliers of all rows, by fixed point over who sticks and who slides.
+std::span<const double> solve_with_friction(SolveScratch& scratch) {
+    constexpr int k_passes = 16;
+    constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
+    std::span<const double> lambda = scratch.system.solve(scratch.rows);
+    for (int pass = 0; pass < k_passes && !scratch.frictions.empty(); ++pass) {
+        bool changes = false;
+        for (SolveScratch::Friction& friction : scratch.frictions) {
+            changes |= apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
+        }
+        if (!changes) {
+            break;
+        }
+        lambda = scratch.system.solve(scratch.rows);
+    }
+    return lambda;
+}
+
+void apply_impulses(const IslandView& island, std::span<const double> lambda,
+                    SolveScratch& scratch) {
+    gather_moves(island, lambda, scratch);
+    for (const std::uint32_t index : island.island_bodies) {
+        SolverBody& body = island.bodies[index];
+        if (body.inverse_mass > 0.0) {
+            body.velocity_mps += scratch.moves_m[body.slot];
+            body.spin_radps += scratch.turns_rad[body.slot];
+        }
+    }
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        RowBlock& block = island.blocks[row.block];
+        block.impulse_ws_ns += lambda[i] * row.linear_a;
+        if (row.linear_a.isZero(0.0)) {
+            block.couple_ws_nms += lambda[i] * row.angular_a;
+        }
+        if (row.group == RowGroup::limit && !row.unilateral) {
+            // In the coordinate's own unit: angular rows are scaled by their lever.
+            const bool angle = row.linear_a.isZero(0.0);
+            block.joint.lock_impulse += std::abs(lambda[i]) * (angle ? k_angle_m : 1.0);
+        }
+    }
+}
+
+// Of the rows that act.
+double worst_speed(std::span<const Row> rows, const DenseSystem& system) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].value_m)) : worst;
+    }
+    return worst;
+}
+
+// Takes the error of regularisation down, by a factor that long levers make small, until the rows
+// are met or cannot be: more would only press contradicting rows against each other.
+void refine_velocities(const IslandView& island, SolveScratch& scratch) {
+    constexpr double k_speed_tolerance_mps = 1e-10;
+    constexpr int k_refinements = 8;
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < k_refinements; ++i) {
+        evaluate_velocity_rows(island, scratch);
+        const double worst = worst_speed(scratch.rows, scratch.system);
+        if (worst < k_speed_tolerance_mps || worst > 0.5 * previous) {
+            return;
+        }
+        previous = worst;
+        scratch.values.clear();
+        for (const Row& row : scratch.rows) {
+            scratch.values.push_back(row.value_m);
+        }
+        apply_impulses(island, scratch.system.solve_again(scratch.values), scratch);
+    }
+}
+
+}  // namespace
+
+void solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                      SolveScratch& scratch) {
+    constexpr double k_hand_softness = 1e-6;
+    collect_velocity_rows(island, settings, scratch);
+    evaluate_velocity_rows(island, scratch);
+    clear_stiffness(island, scratch);
+    prepare_inertia(island, scratch);
+    scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
+    double lacking = 0.0;
+    for (const Row& row : scratch.rows) {
+        lacking = std::max(lacking, std::abs(row.value_m));
+    }
+    // Contacts that contradict each other (a jam) are met by no velocity; hard ones would try with
+    // huge ones. Nobody may gain more than the rows lack.
+    Softness softness{k_hand_softness, k_contact_softness};
+    for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
+        regularise(scratch.rows, softness, 1.0, scratch.system);
+        const std::span<const double> lambda = solve_with_friction(scratch);
+        gather_moves(island, lambda, scratch);
+        scratch.lambda.assign(lambda.begin(), lambda.end());
+        if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
+            break;
+        }
+        softness.hand *= 100.0;
+        softness.contact *= 100.0;
+    }
+    apply_impulses(island, scratch.lambda, scratch);
+    if (softness.contact == k_contact_softness) {
+        refine_velocities(island, scratch);
+    }
+}
+
+}  // namespace handhold

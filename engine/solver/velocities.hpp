@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/solver/island_system.hpp"
+
+// The one velocity solve.
+namespace handhold {
+
+struct VelocitySettings {
+    double touch_m = 1e-4;               // contacts closer than this count
+    double restitution_speed_mps = 0.2;  // slower impacts do not bounce
+};
+// One solve over the same rows: hands move as they are driven, joints keep, contacts
+// v_n >= -e v_n(before), and what slides is held back by at most its friction. Writes velocities,
+// impulses and what held locked joints.
+void solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                      SolveScratch& scratch);
+
+}  // namespace handhold

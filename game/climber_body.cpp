@@ -1,0 +1,319 @@
+// Reaches are minimum-jerk movements (Flash and Hogan 1985): 10 u^3 - 15 u^4 + 6 u^5 of the way.
+#include "game/climber_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/play_space.hpp"
+#include "game/render/primitives.hpp"
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_eye_height_m = 1.6;
+constexpr double k_acceleration_mps2 = 2.5;
+constexpr double k_braking_mps2 = 5.0;        // of someone who catches himself
+constexpr double k_hurry_per_s = 8.0;         // how fast wanted becomes actual speed
+constexpr double k_stretch_rate_per_s = 4.0;  // an arm slows down before it is straight
+constexpr double k_turn_radps = 1.2;          // of the chest
+constexpr double k_lift_m = 0.06;             // of a hand off the surface on its way
+constexpr double k_rest_s = 0.5;
+constexpr double k_tremor_m = 0.0005;  // amplitude: a millimetre from side to side
+
+double sine(double angle_rad) {
+    double s = 0.0;
+    double c = 1.0;
+    sin_cos(angle_rad, s, c);
+    return s;
+}
+
+double outward(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
+
+Quat chest(const ClimberState& state) { return rotation_about(Vec3::UnitY(), state.chest_yaw_rad); }
+
+// A person on his feet is never quite still.
+Vec3 eyes_at(double t_s, double phase_rad) {
+    return {0.02 * sine(0.4 * t_s + phase_rad), k_eye_height_m + 0.01 * sine(0.5 * t_s),
+            0.02 * sine(0.3 * t_s + 2.0 * phase_rad)};
+}
+
+// Beside and before the chest, palm down, fingers ahead.
+Pose rest_ps(const ClimberState& state, HandSide side) {
+    const Quat ahead = chest(state);
+    return {state.eyes_ps + ahead * Vec3(0.22 * outward(side), -0.42, -0.30), ahead};
+}
+
+double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)); }
+
+// A movement under way: from where and how fast the hand was, over a bow of the given height, to a
+// target that may move meanwhile.
+Pose on_the_way(const ClimberHand& hand, const Pose& to_ps, const Vec3& bow_ps, double t_s) {
+    const double seconds = std::max(hand.until_s - hand.from_s, 1e-3);
+    const double u = std::clamp((t_s - hand.from_s) / seconds, 0.0, 1.0);
+    Pose pose = interpolate(hand.from_ps, to_ps, minimum_jerk(u));
+    const double left = 1.0 - u;
+    pose.position += (seconds * u * left * left * left) * hand.from_velocity_ps_mps;
+    pose.position += (16.0 * u * u * left * left) * bow_ps;
+    return pose;
+}
+
+void keep_in_reach(const Vec3& shoulder, Vec3& wrist) {
+    const Vec3 arm = wrist - shoulder;
+    const double length = arm.norm();
+    if (length > k_climber_arm_m) {
+        wrist = shoulder + arm * (k_climber_arm_m / length);
+    }
+}
+
+void begin_move(ClimberState& state, ClimberHand& hand, double seconds) {
+    hand.from_ps = hand.wrist_ps;
+    hand.from_velocity_ps_mps = hand.velocity_ps_mps;
+    hand.from_s = state.last.t_s;
+    hand.until_s = state.last.t_s + seconds;
+}
+
+bool pulls(const ClimberHand& hand) {
+    return hand.mode == ClimberHandMode::holding || hand.mode == ClimberHandMode::closing;
+}
+
+// Speeds up and slows down as muscles do, and before an arm is straight.
+void pull_body(double dt_s, ClimberState& state) {
+    Vec3 change = (k_hurry_per_s * dt_s) * (state.wanted_ps_mps - state.velocity_ps_mps);
+    const bool brakes = state.wanted_ps_mps.norm() < state.velocity_ps_mps.norm();
+    const double limit = (brakes ? k_braking_mps2 : k_acceleration_mps2) * dt_s;
+    if (change.norm() > limit) {
+        change *= limit / change.norm();
+    }
+    state.velocity_ps_mps += change;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ClimberHand& hand = state.hands[index_of(side)];
+        const Vec3 arm = hand.wrist_ps.position - shoulder_ps(state, side);
+        const double length = arm.norm();
+        if (!pulls(hand) || length < 1e-3) {
+            continue;
+        }
+        const Vec3 along = arm / length;
+        const double growth_mps = -state.velocity_ps_mps.dot(along);
+        const double most_mps = k_stretch_rate_per_s * std::max(0.0, k_climber_arm_m - length);
+        if (growth_mps > most_mps) {
+            state.velocity_ps_mps += (growth_mps - most_mps) * along;
+        }
+    }
+}
+
+// The chest follows the heading, unless that would draw an arm straight.
+void turn_body(double dt_s, const Quat& play_space, ClimberState& state) {
+    const Vec3 ahead = play_space.conjugate() * state.heading_ws;
+    constexpr double k_steep = 0.4;
+    const bool stretched =
+        std::ranges::any_of(std::array{HandSide::left, HandSide::right}, [&state](HandSide side) {
+            const ClimberHand& hand = state.hands[index_of(side)];
+            return pulls(hand) && (hand.wrist_ps.position - shoulder_ps(state, side)).norm() > 0.6;
+        });
+    if (!stretched && Vec3(ahead.x(), 0.0, ahead.z()).norm() > k_steep) {
+        const Vec3 in_chest = chest(state).conjugate() * ahead;
+        const double off_rad = arc_tangent2(-in_chest.x(), -in_chest.z());
+        state.chest_yaw_rad += std::clamp(off_rad, -k_turn_radps * dt_s, k_turn_radps * dt_s);
+    }
+    // Eyes rather along the floor than at it: necks bend 50 degrees up and down.
+    Vec3 gaze = chest(state).conjugate() * (play_space.conjugate() * state.gaze_ws);
+    gaze.z() = std::min(gaze.z(), -0.3);
+    gaze.y() = std::clamp(gaze.y(), 1.2 * gaze.z(), -1.2 * gaze.z());
+    const Quat wanted = chest(state) * look_along(Vec3::Zero(), gaze, Vec3::UnitY()).rotation;
+    const Pose look = interpolate({Vec3::Zero(), state.look_ps}, {Vec3::Zero(), wanted},
+                                  std::min(1.0, 5.0 * dt_s));
+    state.look_ps = look.rotation;
+}
+
+// The hold as a hand there would be tracked.
+struct HoldPlace {
+    Pose wrist_ps;
+    Vec3 away_ps;
+};
+HoldPlace place_of(const World& world, const ClimberHold& hold, const ClimberMoment& now,
+                   double t_s, const ClimberState& state) {
+    const Pose body_ws = body_at(world, hold.body, now, t_s);
+    const Vec3 own_mps =
+        now.carried ? Vec3(now.support_mps + now.origin_ws.rotation * state.velocity_ps_mps)
+                    : now.origin_mps;
+    Pose origin_ws = now.origin_ws;
+    origin_ws.position += (t_s - now.t_s) * own_mps;
+    const Vec3 away_ws = body_ws.rotation * hold.away_bs;
+    return {inverse(origin_ws) * (body_ws * hold.wrist_bs),
+            origin_ws.rotation.conjugate() * away_ws};
+}
+
+// Who drifts until now moves against what he catches as fast as he came.
+void catch_body(const World& world, const ClimberMoment& now, const ClimberHold& hold,
+                ClimberState& state) {
+    const Vec3 point_ws =
+        transform_point(body_at(world, hold.body, now, now.t_s), hold.wrist_bs.position);
+    state.velocity_ps_mps = now.origin_ws.rotation.conjugate() *
+                            (now.origin_mps - velocity_at(world, hold.body, point_ws));
+}
+
+void move_hand(const World& world, const ClimberMoment& now, double t_s, double dt_s,
+               ClimberState& state, HandSide side) {
+    ClimberHand& hand = state.hands[index_of(side)];
+    const Vec3 before = hand.wrist_ps.position;
+    switch (hand.mode) {
+        case ClimberHandMode::rest:
+        case ClimberHandMode::carrying:
+            hand.wrist_ps = on_the_way(hand, rest_ps(state, side), Vec3::Zero(), t_s);
+            keep_in_reach(shoulder_ps(state, side), hand.wrist_ps.position);
+            break;
+        case ClimberHandMode::reaching: {
+            const HoldPlace place = place_of(world, hand.hold, now, t_s, state);
+            hand.wrist_ps = on_the_way(hand, place.wrist_ps, k_lift_m * place.away_ps, t_s);
+            keep_in_reach(shoulder_ps(state, side), hand.wrist_ps.position);
+            if (t_s >= hand.until_s - 1e-9) {
+                hand.mode = ClimberHandMode::closing;
+                hand.until_s = t_s;
+                if (!now.carried) {
+                    catch_body(world, now, hand.hold, state);
+                }
+            }
+            break;
+        }
+        case ClimberHandMode::closing:
+        case ClimberHandMode::holding:
+            hand.wrist_ps.position -= dt_s * state.velocity_ps_mps;
+            break;
+    }
+    hand.velocity_ps_mps = (hand.wrist_ps.position - before) / dt_s;
+}
+
+}  // namespace
+
+Vec3 shoulder_ps(const ClimberState& state, HandSide side) {
+    return state.eyes_ps + chest(state) * Vec3(0.17 * outward(side), -0.22, 0.06);
+}
+
+double reach_time_s(double distance_m) { return std::clamp(0.25 + 0.7 * distance_m, 0.3, 0.8); }
+
+Vec3 velocity_at(const World& world, Entity body, const Vec3& point_ws) {
+    const BodyVelocity* const velocity = world.body_velocity.find(body);
+    if (velocity == nullptr) {
+        return Vec3::Zero();
+    }
+    const Vec3 arm = point_ws - world.body_pose.at(body).pose_ws.position;
+    return velocity->linear_mps + velocity->angular_radps.cross(arm);
+}
+
+Pose body_at(const World& world, Entity body, const ClimberMoment& now, double t_s) {
+    const BodyPose* const pose = world.body_pose.find(body);
+    if (pose == nullptr) {
+        return {};
+    }
+    const BodyVelocity& velocity = world.body_velocity.at(body);
+    const double dt_s = t_s - now.t_s;
+    return {pose->pose_ws.position + dt_s * velocity.linear_mps,
+            (rotation_from_vector(dt_s * velocity.angular_radps) * pose->pose_ws.rotation)
+                .normalized()};
+}
+
+ClimberMoment sense(const Scene& scene, const ClimberTask& task, const ClimberState& state) {
+    const World& world = scene.world;
+    const Entity player = task.player.player;
+    ClimberMoment now;
+    now.t_s = world.clock.t_s;
+    now.origin_ws = world.player_origin.at(player).pose_ws;
+    now.origin_mps = world.player_velocity.at(player).linear_mps;
+    const HeadTracking& head = world.head_tracking.at(player);
+    now.head_ws = transform_point(now.origin_ws, head.state == TrackingState::never
+                                                     ? state.eyes_ps
+                                                     : head_center_ps(head, scene.tuning.head));
+    const ClimberHold* support = &state.home;
+    for (const ClimberHand& hand : state.hands) {
+        if (hand.mode == ClimberHandMode::holding) {
+            support = &hand.hold;
+            now.carried = true;
+        }
+    }
+    const Vec3 point_ws =
+        transform_point(body_at(world, support->body, now, now.t_s), support->wrist_bs.position);
+    now.support_mps = is_null(support->body) ? world.reference_velocity_mps
+                                             : velocity_at(world, support->body, point_ws);
+    now.relative_mps = now.origin_mps - now.support_mps;
+    return now;
+}
+
+void place_body(ClimberState& state) {
+    state.eyes_ps = eyes_at(state.last.t_s, state.tremor_phase_rad);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        ClimberHand& hand = state.hands[index_of(side)];
+        hand.wrist_ps = rest_ps(state, side);
+        hand.from_ps = hand.wrist_ps;
+        hand.from_s = hand.until_s = state.last.t_s;
+    }
+}
+
+void begin_reach(const ClimberHold& hold, double seconds, ClimberState& state, HandSide side) {
+    ClimberHand& hand = state.hands[index_of(side)];
+    begin_move(state, hand, seconds);
+    hand.mode = ClimberHandMode::reaching;
+    hand.hold = hold;
+}
+
+void begin_rest(ClimberState& state, HandSide side) {
+    begin_move(state, state.hands[index_of(side)], k_rest_s);
+}
+
+void let_go(ClimberState& state, HandSide side) {
+    begin_rest(state, side);
+    state.hands[index_of(side)].mode = ClimberHandMode::rest;
+}
+
+double next_sample_time(const ClimberTask& task, ClimberState& state) {
+    const double regular_s = static_cast<double>(state.next_sample) / task.sample_hz;
+    double t_s = regular_s;
+    constexpr double k_apart_s = 1e-4;  // nearer events wait for the regular sample
+    for (const ClimberHand& hand : state.hands) {
+        if (hand.mode == ClimberHandMode::reaching && hand.until_s > state.last.t_s + k_apart_s &&
+            hand.until_s < t_s - k_apart_s) {
+            t_s = hand.until_s;
+        }
+    }
+    state.next_sample += t_s == regular_s ? 1U : 0U;
+    return t_s;
+}
+
+void move_body(const Scene& scene, const ClimberMoment& now, double t_s, ClimberState& state) {
+    const double dt_s = t_s - state.last.t_s;
+    state.eyes_ps = eyes_at(t_s, state.tremor_phase_rad);
+    turn_body(dt_s, now.origin_ws.rotation, state);
+    if (std::any_of(state.hands.begin(), state.hands.end(), pulls)) {
+        pull_body(dt_s, state);
+    } else {
+        state.velocity_ps_mps = now.origin_ws.rotation.conjugate() * now.relative_mps;
+    }
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        move_hand(scene.world, now, t_s, dt_s, state, side);
+    }
+}
+
+TrackingSample sample_body(const Scene& scene, const ClimberTask& task, double t_s,
+                           const ClimberState& state) {
+    constexpr double k_tremor_radps = 56.0;  // 9 Hz
+    TrackingSample sample;
+    sample.t_s = t_s;
+    sample.head_ps = {state.eyes_ps, state.look_ps};
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ClimberHand& hand = state.hands[index_of(side)];
+        const double phase = state.tremor_phase_rad + outward(side) + k_tremor_radps * t_s;
+        Pose wrist_ps = hand.wrist_ps;
+        wrist_ps.position +=
+            k_tremor_m * Vec3(sine(phase), sine(1.13 * phase + 1.0), sine(0.91 * phase + 2.0));
+        const ControllerToHand* const own =
+            scene.world.controller_to_hand.find(task.player.hands[index_of(side)]);
+        const Pose joint = own != nullptr ? own->hand_in_controller
+                                          : default_controller_to_hand(side, scene.tuning.hand);
+        sample.controllers[index_of(side)] = {
+            wrist_ps * inverse(joint),
+            hand.mode != ClimberHandMode::rest && hand.mode != ClimberHandMode::reaching};
+    }
+    return sample;
+}
+
+}  // namespace handhold

@@ -1,0 +1,104 @@
+#include "game/climber_session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/core/check.hpp"
+#include "game/place_scene.hpp"
+#include "systems/frame.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_hz = 90.0;
+
+RecordedSample recorded(const TrackingSample& sample) {
+    RecordedSample out;
+    out.t_s = sample.t_s;
+    out.head = sample.head_ps;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const ControllerSample& controller = sample.controllers[side];
+        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
+                           controller.grab ? 1.0 : 0.0};
+    }
+    return out;
+}
+
+ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
+    ClimberTask task;
+    task.player = player;
+    task.waypoints = plan.waypoints;
+    task.cruise_mps = plan.cruise_mps;
+    task.may_leap = plan.may_leap;
+    task.takes_things = false;
+    task.single_hand = plan.single_hand;
+    return task;
+}
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "%s\n", error.message().c_str());
+    return 2;
+}
+
+}  // namespace
+
+Recording record_climb(Scene& scene, const ClimbPlan& plan) {
+    HH_CHECK(scene.world.clock.frame == 0, "the scene has been played", plan.seconds);
+    // A recording has no sticks: what the jets do could not be played again.
+    scene.tuning.locomotion.thruster_mps2 = 0.0;
+    const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
+    const ClimberTask task = task_of(plan, player);
+    ClimberState state = begin_climber(scene, task, plan.seed);
+    FrameCaches caches(*scene.shapes);
+    std::vector<TrackingSample> samples;
+    StageStats stats;
+    Recording recording;
+    double end_s = plan.seconds;
+    while (scene.world.clock.t_s < end_s) {
+        place_scene(scene, caches);
+        climb({scene, caches.collision}, task, scene.world.clock.t_s + 1.0 / k_hz, state, samples);
+        for (const TrackingSample& sample : samples) {
+            if (recording.samples.empty() || sample.t_s > recording.samples.back().t_s) {
+                recording.samples.push_back(recorded(sample));
+            }
+        }
+        const PlayerInput input{player.player, samples, {}};
+        step_frame(scene.world, caches, scene.tuning, {1.0 / k_hz, {&input, 1}}, stats);
+        if (!has_arrived(task, state)) {
+            continue;
+        }
+        end_s = std::min(end_s, state.waypoint_since_s + plan.linger_s);
+    }
+    return recording;
+}
+
+int climb_command(const ClimbOptions& options) {
+    Result<Scene> loaded = load_scene(options.scene);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    Scene& scene = loaded.value();
+    ClimbPlan plan;
+    plan.seconds = options.seconds;
+    plan.seed = options.seed;
+    bool found = options.spawn.empty() && scene.spawns.empty();
+    for (const SceneSpawnPoint& spawn : scene.spawns) {
+        if (!found && (options.spawn.empty() || spawn.name == options.spawn)) {
+            plan.origin_ws = spawn.pose_ws;
+            found = true;
+        }
+    }
+    if (!found) {
+        return refuse({options.scene, "/spawns",
+                       "expected a spawn \"" + options.spawn + "\", found none of that name"});
+    }
+    const Recording recording = record_climb(scene, plan);
+    if (const auto error = save_recording(options.out, recording)) {
+        return refuse(*error);
+    }
+    std::printf("%s: %zu samples over %.2f s\n", options.out.c_str(), recording.samples.size(),
+                recording.samples.back().t_s);
+    return 0;
+}
+
+}  // namespace handhold

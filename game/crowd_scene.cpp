@@ -1,0 +1,82 @@
+#include "game/crowd_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "game/crowd.hpp"
+#include "game/random.hpp"
+#include "game/render/primitives.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_climbers = 12;
+constexpr std::size_t k_things = 24;
+constexpr std::uint64_t k_seed = 7;
+constexpr double k_jets_mps2 = 0.5;
+constexpr double k_session_room_m = 3.0;  // about the first spawn, where the session begins
+
+struct Thing {
+    const char* name;
+    double mass_kg;
+    Vec3 half_m;  // a box; a ball of x() where y() is zero
+    Color color;
+};
+constexpr std::size_t k_kinds = 4;
+
+std::array<Thing, k_kinds> kinds() {
+    return {{{"crate", 8.0, Vec3(0.12, 0.09, 0.10), {0.55F, 0.40F, 0.16F}},
+             {"ball", 1.5, Vec3(0.09, 0.0, 0.0), {0.70F, 0.12F, 0.08F}},
+             {"bag", 20.0, Vec3(0.20, 0.13, 0.13), {0.62F, 0.60F, 0.55F}},
+             {"can", 0.6, Vec3(0.05, 0.08, 0.05), {0.10F, 0.32F, 0.55F}}}};
+}
+
+void add_thing(Scene& scene, const Thing& thing, const std::string& name, const Pose& pose_ws,
+               const BodyVelocity& velocity) {
+    const bool ball = thing.half_m.y() == 0.0;
+    BodyDescription body;
+    body.name = name;
+    body.shape =
+        ball ? scene.shapes->add_sphere(thing.half_m.x()) : scene.shapes->add_box(thing.half_m);
+    body.body = {BodyKind::free, thing.mass_kg,
+                 solid_inertia(scene.shapes->at(body.shape), thing.mass_kg), 0.3};
+    body.pose_ws = pose_ws;
+    body.velocity = velocity;
+    const Entity entity = add_body(scene.world, body);
+    scene.body_names.push_back(name);
+    Mesh mesh = ball ? make_sphere(thing.half_m.x()) : make_box(thing.half_m);
+    scene.visuals.push_back(
+        {entity, std::make_shared<const Mesh>(std::move(mesh)), thing.color, {}});
+}
+
+}  // namespace
+
+void fill_with_crowd(Scene& scene) {
+    scene.climbers = k_climbers;
+    scene.tuning.locomotion.thruster_mps2 =
+        std::max(scene.tuning.locomotion.thruster_mps2, k_jets_mps2);
+    const Pose first_ws = scene.spawns.front().pose_ws;
+    std::vector<Pose> places;
+    {
+        FrameCaches caches(*scene.shapes);
+        places = spread_players(scene, caches, first_ws, 4 * k_things, k_seed);
+    }
+    Random random(k_seed);
+    std::size_t made = 0;
+    for (const Pose& place : places) {
+        const Vec3 center_ws = head_over(place);
+        const Vec3 drift = 0.05 * random.direction();
+        const Vec3 spin = 0.3 * random.direction();
+        if (made == k_things || (center_ws - head_over(first_ws)).norm() < k_session_room_m) {
+            continue;
+        }
+        const Thing thing = kinds()[made % k_kinds];
+        add_thing(scene, thing, std::string(thing.name) + std::to_string(made),
+                  {center_ws, place.rotation}, {drift, spin});
+        ++made;
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,171 @@
+#include "game/playground.hpp"
+
+#include <utility>
+
+#include "engine/core/check.hpp"
+#include "game/assets.hpp"
+
+namespace handhold {
+namespace {
+
+const Vec3 k_rail(0.0, 0.98, 0.16);  // along x
+constexpr double k_eyes_y_m = 1.48;
+constexpr double k_eyes_z_m = 0.62;
+constexpr double k_crawl_mps = 0.55;
+
+Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
+
+// The left hand keeps to the rail while the right one is at work.
+void stay(double from_s, double until_s, double x_m, SessionScript& script) {
+    script.holds.push_back({HandSide::left, from_s, until_s, k_rail + Vec3(x_m, 0.0, 0.02),
+                            Vec3::UnitZ(), Vec3::UnitY()});
+}
+
+// From one thing to the next, hand over hand along the rail.
+void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script) {
+    const double until_s = from_s + (to_x_m - from_x_m) / k_crawl_mps;
+    const Vec3 along = Vec3::UnitX();
+    script.body.push_back({from_s, eyes_before(from_x_m), Vec3::Zero()});
+    script.body.push_back({from_s + 0.4, eyes_before(from_x_m + 0.2), k_crawl_mps * along});
+    script.body.push_back({until_s - 0.4, eyes_before(to_x_m - 0.2), k_crawl_mps * along});
+    script.body.push_back({until_s, eyes_before(to_x_m), Vec3::Zero()});
+    ScriptedCrawl hands;
+    hands.bar_start = k_rail;
+    hands.along = along;
+    hands.away = Vec3::UnitZ();
+    hands.fingers = Vec3::UnitY();
+    hands.from_s = from_s;
+    hands.until_s = until_s;
+    add_crawl(hands, script);
+}
+
+// What the right hand takes hold of, and then does with it.
+struct Work {
+    SessionScript& script;
+    double from_s;
+    Vec3 palm;
+    Vec3 away;
+    Vec3 fingers;
+
+    void hold(double until_s) const {
+        script.holds.push_back({HandSide::right, from_s, until_s, palm, away, fingers});
+    }
+    void move(double t_s, const Vec3& by) const {
+        script.reaches.push_back({HandSide::right, t_s, palm + by, away, fingers});
+    }
+    // As a part of something that turns about `pivot`.
+    void turn(double t_s, const Vec3& pivot, const Vec3& axis, double angle_rad) const {
+        const Quat turned = rotation_about(axis, angle_rad);
+        script.reaches.push_back({HandSide::right, t_s, pivot + turned * (palm - pivot),
+                                  turned * away, turned * fingers});
+    }
+};
+
+void work_lever(double t_s, SessionScript& script) {
+    const Work lever{script, t_s, Vec3(-3.4, 1.674, 0.13), Vec3::UnitY(), -Vec3::UnitZ()};
+    const Vec3 pivot(-3.4, 1.36, 0.13);
+    lever.hold(t_s + 2.4);
+    lever.turn(t_s + 0.3, pivot, Vec3::UnitX(), 0.0);
+    lever.turn(t_s + 1.1, pivot, Vec3::UnitX(), 1.0);
+    lever.turn(t_s + 1.4, pivot, Vec3::UnitX(), 1.0);
+    lever.turn(t_s + 2.2, pivot, Vec3::UnitX(), 0.2);
+}
+
+void work_drawer(double t_s, SessionScript& script) {
+    const Work drawer{script, t_s, Vec3(-1.75, 1.5, 0.414), Vec3::UnitZ(), Vec3::UnitY()};
+    drawer.hold(t_s + 2.6);
+    drawer.move(t_s + 0.3, Vec3::Zero());
+    drawer.move(t_s + 1.2, Vec3(0.0, 0.0, 0.20));
+    drawer.move(t_s + 1.6, Vec3(0.0, 0.0, 0.20));
+    drawer.move(t_s + 2.4, Vec3(0.0, 0.0, 0.06));
+}
+
+// The handle is turned down, the door follows it, and the handle comes back.
+void work_door(double t_s, SessionScript& script) {
+    const Work handle{script, t_s, Vec3(-0.06, 1.5, 0.345), Vec3::UnitZ(), -Vec3::UnitY()};
+    const Vec3 pivot(0.02, 1.5, 0.345);
+    const Vec3 hinge(-0.485, 1.5, 0.272);
+    handle.hold(t_s + 3.4);
+    handle.turn(t_s + 0.3, pivot, Vec3::UnitZ(), 0.0);
+    // About +z the handle's free end, on its -x side, goes down.
+    handle.turn(t_s + 0.9, pivot, Vec3::UnitZ(), 0.7);
+    const Quat down = rotation_about(Vec3::UnitZ(), 0.7);
+    const Vec3 palm = pivot + down * (handle.palm - pivot);
+    for (int i = 1; i <= 4; ++i) {
+        const Quat open = rotation_about(Vec3::UnitY(), -0.3 * i);
+        script.reaches.push_back({HandSide::right, t_s + 0.9 + 0.5 * i,
+                                  hinge + open * (palm - hinge), open * down * handle.away,
+                                  open * down * handle.fingers});
+    }
+}
+
+void work_valve(double t_s, SessionScript& script) {
+    const Vec3 hub(1.3, 1.5, 0.23);
+    const Work rim{script, t_s, hub + Vec3(0.17, 0.0, 0.018), Vec3::UnitZ(), -Vec3::UnitX()};
+    rim.hold(t_s + 2.6);
+    for (int i = 0; i <= 6; ++i) {
+        rim.turn(t_s + 0.3 + 0.35 * i, hub, Vec3::UnitZ(), 0.3 * i);
+    }
+}
+
+void work_cable(double t_s, SessionScript& script) {
+    const Work link{script, t_s, Vec3(2.75, 1.25, 0.317), Vec3::UnitZ(), Vec3::UnitX()};
+    link.hold(t_s + 3.4);
+    link.move(t_s + 0.3, Vec3::Zero());
+    link.move(t_s + 1.1, Vec3(0.25, 0.15, 0.05));
+    link.move(t_s + 1.9, Vec3(-0.30, 0.20, 0.0));
+    link.move(t_s + 2.6, Vec3(0.20, 0.25, 0.05));
+    link.move(t_s + 3.3, Vec3(0.0, 0.10, 0.0));
+}
+
+// The rock is wider than the gap: shoved at it, it pushes whoever shoves.
+void work_rock(double t_s, SessionScript& script) {
+    const Work rock{script, t_s, Vec3(3.42, 1.62, 0.505), Vec3::UnitZ(), Vec3::UnitY()};
+    rock.hold(t_s + 3.6);
+    rock.move(t_s + 0.4, Vec3::Zero());
+    rock.move(t_s + 1.2, Vec3(0.33, -0.12, 0.12));
+    rock.move(t_s + 2.0, Vec3(0.33, -0.12, -0.12));
+    rock.move(t_s + 2.6, Vec3(0.33, -0.12, -0.12));
+    rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
+}
+
+}  // namespace
+
+Scene make_playground_scene() {
+    Result<SceneFile> file = parse_scene_file(game_asset("playground.json"), "playground.json");
+    HH_CHECK(static_cast<bool>(file), "the playground's description is broken", 0);
+    Result<Scene> scene = build_scene(file.value(), "playground.json");
+    HH_CHECK(static_cast<bool>(scene), "the playground's description is broken", 0);
+    scene.value().lamps = {{Vec3(-3.0, 2.5, 1.6), {2.6F, 2.5F, 2.4F}, 5.0},
+                           {Vec3(0.0, 2.5, 1.6), {2.6F, 2.5F, 2.4F}, 5.0},
+                           {Vec3(3.0, 2.5, 1.6), {2.6F, 2.5F, 2.4F}, 5.0}};
+    return std::move(scene.value());
+}
+
+SessionScript playground_script() {
+    SessionScript script;
+    script.duration_s = 36.0;
+    const double before_s = 0.8;
+    script.body.push_back({0.0, eyes_before(-3.4), Vec3::Zero()});
+    stay(0.4, 4.4, -3.65, script);
+    work_lever(before_s + 0.4, script);
+    crawl(4.6, -3.4, -1.75, script);
+    stay(7.7, 11.3, -2.0, script);
+    work_drawer(8.2, script);
+    crawl(11.4, -1.75, -0.2, script);
+    stay(14.3, 18.6, -0.5, script);
+    work_door(14.8, script);
+    crawl(18.8, -0.2, 1.3, script);
+    stay(21.6, 25.0, 1.0, script);
+    work_valve(22.0, script);
+    crawl(25.2, 1.3, 2.45, script);
+    stay(27.4, 31.2, 2.2, script);
+    work_cable(27.7, script);
+    crawl(31.3, 2.45, 3.45, script);
+    stay(33.2, 34.4, 3.2, script);
+    work_rock(33.5, script);
+    script.duration_s = 38.0;
+    return script;
+}
+
+}  // namespace handhold

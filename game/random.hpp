@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/hash.hpp"
+#include "engine/math/math.hpp"
+
+namespace handhold {
+
+// Chance that is the same on every machine: a counter through a mixer (SplitMix64). The
+// distributions of <random> differ between libraries. Copying it copies where it stands.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed = 0) : state_(seed) {}
+
+    std::uint64_t bits() {
+        state_ += 0x9e3779b97f4a7c15ULL;
+        return mix64(state_);
+    }
+    // [0, 1)
+    double unit() { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
+    // [low, high)
+    double between(double low, double high) { return low + (high - low) * unit(); }
+    bool chance(double probability) { return unit() < probability; }
+    // Each component in [-1, 1).
+    Vec3 cube() {
+        const double x = between(-1.0, 1.0);
+        const double y = between(-1.0, 1.0);
+        const double z = between(-1.0, 1.0);
+        return {x, y, z};
+    }
+    // Unit, every direction alike.
+    Vec3 direction() {
+        for (;;) {
+            const Vec3 v = cube();
+            const double length = v.norm();
+            constexpr double k_too_short = 1e-3;
+            if (length > k_too_short && length <= 1.0) {
+                return v / length;
+            }
+        }
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+}  // namespace handhold

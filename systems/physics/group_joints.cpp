@@ -1,0 +1,59 @@
+#include "systems/physics/group_joints.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace handhold {
+namespace {
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t row) {
+    while (parent[row] != row) {
+        parent[row] = parent[parent[row]];
+        row = parent[row];
+    }
+    return row;
+}
+
+bool is_light(const RigidBody& body, const PhaseTuning& tuning) {
+    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg;
+}
+
+}  // namespace
+
+void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
+    JointGroups& groups = io.frame.joint_groups;
+    groups.of_body.clear();
+    groups.anchored.clear();
+    if (io.joint.empty()) {
+        return;
+    }
+    groups.of_body.resize(io.body.size());
+    groups.anchored.assign(io.body.size(), 0);
+    std::iota(groups.of_body.begin(), groups.of_body.end(), 0U);
+    const auto light_row = [&](Entity entity) {
+        const std::size_t row = io.body.find_row(entity);
+        return row != io.body.k_npos && is_light(io.body.rows()[row], tuning) ? row
+                                                                              : io.body.k_npos;
+    };
+    for (const Joint& joint : io.joint.rows()) {
+        const std::size_t a = light_row(joint.a);
+        const std::size_t b = light_row(joint.b);
+        if (a != io.body.k_npos && b != io.body.k_npos) {
+            const std::uint32_t root_a = find_root(groups.of_body, static_cast<std::uint32_t>(a));
+            const std::uint32_t root_b = find_root(groups.of_body, static_cast<std::uint32_t>(b));
+            groups.of_body[std::max(root_a, root_b)] = std::min(root_a, root_b);
+        }
+    }
+    for (std::uint32_t row = 0; row < groups.of_body.size(); ++row) {
+        groups.of_body[row] = find_root(groups.of_body, row);
+    }
+    for (const Joint& joint : io.joint.rows()) {
+        const std::size_t a = light_row(joint.a);
+        const std::size_t b = light_row(joint.b);
+        if ((a == io.body.k_npos) != (b == io.body.k_npos)) {
+            groups.anchored[groups.of_body[std::min(a, b)]] = 1;  // k_npos is the larger
+        }
+    }
+}
+
+}  // namespace handhold

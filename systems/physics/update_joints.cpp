@@ -1,0 +1,49 @@
+#include "systems/physics/update_joints.hpp"
+
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+bool handle_is_turned(const UpdateJointsIo& io, const JointLatch& latch) {
+    const JointState* const handle = io.state.find(latch.handle);
+    return handle != nullptr && std::abs(handle->coordinate) >= latch.handle_at;
+}
+
+bool stays_latched(const UpdateJointsIo& io, const JointLatch& latch, double lock_impulse) {
+    const bool torn = latch.strength > 0.0 && lock_impulse > latch.strength * io.dt_s;
+    return !torn && !handle_is_turned(io, latch);
+}
+
+// Only what comes nearer, or rests, is caught: what was just pulled out is not.
+bool catches(const UpdateJointsIo& io, const JointLatch& latch, const JointState& state) {
+    const double away = state.coordinate - latch.at;
+    return std::abs(away) <= latch.catch_range && away * state.speed <= 0.0 &&
+           !handle_is_turned(io, latch);
+}
+
+}  // namespace
+
+void update_joints(const UpdateJointsIo& io) {
+    const ConstraintGraph& graph = io.frame.graph;
+    for (const RowBlock& block : graph.blocks) {
+        if (is_joint(block)) {
+            JointState& state = io.state.at(io.joint.owners()[block.source]);
+            state.coordinate = joint_coordinate(graph.bodies, block);
+            state.speed = joint_speed(graph.bodies, block);
+        }
+    }
+    // Latches look at other joints' coordinates: after all of them are known.
+    for (const RowBlock& block : graph.blocks) {
+        const JointLatch* const latch =
+            is_joint(block) ? &io.joint.rows()[block.source].latch : nullptr;
+        if (latch == nullptr || latch->catch_range <= 0.0) {
+            continue;
+        }
+        JointState& state = io.state.at(io.joint.owners()[block.source]);
+        state.latched = state.latched ? stays_latched(io, *latch, block.joint.lock_impulse)
+                                      : catches(io, *latch, state);
+    }
+}
+
+}  // namespace handhold

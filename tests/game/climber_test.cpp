@@ -1,0 +1,214 @@
+// The scripted climber: that he moves as a person can, gets where he is sent, and finds back.
+#include "game/climber.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "game/built_in_scenes.hpp"
+#include "game/climber_body.hpp"
+#include "game/climber_session.hpp"
+#include "game/crowd.hpp"
+#include "game/session_run.hpp"
+#include "systems/input/read_tracking.hpp"
+#include "tests/game/climber_scene.hpp"
+
+namespace handhold {
+namespace {
+
+Vec3 spawn_head(const Scene& scene) { return head_over(scene.spawns.front().pose_ws); }
+
+// The limits are those that climber.hpp promises.
+TEST(Climber, MovesHeadAndHandsAsAPersonCan) {
+    for (const std::uint64_t seed : {1ULL, 2ULL, 3ULL}) {
+        Scene scene = *make_built_in_scene("station");
+        Solo solo(scene, spawn_head(scene), seed);
+        Vec3 head_before = spawn_head(scene);
+        double sample_before_s = -1.0;
+        std::size_t pushed = 0;
+        constexpr int k_frames = 2700;
+        for (int frame = 0; frame < k_frames; ++frame) {
+            solo.step();
+            ASSERT_GE(solo.state.last.t_s, sample_before_s);
+            sample_before_s = solo.state.last.t_s;
+            if (frame > 0) {
+                ASSERT_LE((solo.head_ws() - head_before).norm() * 90.0, 3.0);
+            }
+            head_before = solo.head_ws();
+            pushed += solo.render().push_back_m > 1e-3 ? 1U : 0U;
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                const Pose wrist_ps = solo.state.last.controllers[index_of(side)].controller_ps *
+                                      default_controller_to_hand(side, scene.tuning.hand);
+                ASSERT_LE((wrist_ps.position - shoulder_ps(solo.state, side)).norm(), 0.75);
+                const ClimberHand& hand = solo.state.hands[index_of(side)];
+                ASSERT_LE(hand.velocity_ps_mps.norm(), 5.0);
+                if (hand.mode == ClimberHandMode::reaching) {
+                    ASSERT_GE(hand.until_s - hand.from_s, 0.3 - 1e-9);
+                    ASSERT_LE(hand.until_s - hand.from_s, 0.8 + 1e-9);
+                }
+            }
+        }
+        EXPECT_LE(pushed, k_frames / 50U) << "his head is in the walls, seed " << seed;
+        EXPECT_GE(solo.onsets, 10U);
+        EXPECT_EQ(solo.gripped, solo.onsets) << "seed " << seed;
+    }
+}
+
+TEST(Climber, UsesBothHandsInTurn) {
+    Scene scene = make_tunnel(6.0);
+    Solo solo(scene, Vec3(-0.3, 0.2, 5.0), 4);
+    std::array<int, k_hand_count> onsets{};
+    std::array<bool, k_hand_count> before{};
+    for (int frame = 0; frame < 2700; ++frame) {
+        solo.step();
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            onsets[side] += solo.grips(side) && !before[side] ? 1 : 0;
+            before[side] = solo.grips(side);
+        }
+    }
+    EXPECT_GE(onsets[0], 8);
+    EXPECT_GE(onsets[1], 8);
+    EXPECT_LE(std::abs(onsets[0] - onsets[1]), 6);
+}
+
+TEST(Climber, GoesByItsWaypointsAndStaysAtTheLast) {
+    Scene scene = make_tunnel(6.0);
+    ClimberTask task;
+    task.waypoints = {{k_no_entity, Vec3(-0.35, 0.2, 0.0)},
+                      {k_no_entity, Vec3(-0.35, 0.2, -4.5)},
+                      {k_no_entity, Vec3(-0.35, 0.2, -2.0)}};
+    Solo solo(scene, Vec3(-0.35, 0.2, 4.0), 1, task);
+    std::vector<bool> passed(task.waypoints.size());
+    while (solo.now_s() < 60.0 && !has_arrived(solo.task, solo.state)) {
+        solo.step();
+        for (std::size_t i = 0; i < passed.size(); ++i) {
+            const bool near = (solo.head_ws() - task.waypoints[i].point_bs).norm() < 0.35;
+            passed[i] = passed[i] || (near && (i == 0 || passed[i - 1]));
+        }
+    }
+    ASSERT_TRUE(has_arrived(solo.task, solo.state));
+    EXPECT_TRUE(std::ranges::all_of(passed, [](bool done) { return done; }));
+    for (int frame = 0; frame < 450; ++frame) {
+        solo.step();
+        EXPECT_LE((solo.head_ws() - task.waypoints.back().point_bs).norm(), 0.7);
+    }
+}
+
+TEST(Climber, TurnsRoundAtDeadEnds) {
+    Scene scene = make_tunnel(4.0);
+    Solo solo(scene, Vec3(-0.3, 0.2, 0.0), 3);
+    double low_m = 0.0;
+    double high_m = 0.0;
+    int turns = 0;
+    int last_end = 0;
+    while (solo.now_s() < 120.0) {
+        solo.step();
+        const double z = solo.head_ws().z();
+        low_m = std::min(low_m, z);
+        high_m = std::max(high_m, z);
+        const int end = z > 1.5 ? 1 : z < -1.5 ? -1 : 0;
+        turns += end != 0 && end != last_end ? 1 : 0;
+        last_end = end != 0 ? end : last_end;
+    }
+    EXPECT_LE(low_m, -2.5);
+    EXPECT_GE(high_m, 2.5);
+    EXPECT_GE(turns, 3);
+}
+
+TEST(Climber, ComesBackFromFarOutside) {
+    Scene scene = make_tunnel(3.0);
+    scene.tuning.locomotion.thruster_mps2 = 0.5;
+    Solo solo(scene, Vec3(15.0, 0.0, 0.0), 1);
+    scene.world.player_velocity.at(solo.task.player.player).linear_mps = Vec3(1.0, 0.3, 0.0);
+    while (solo.now_s() < 60.0 && !solo.grips(0) && !solo.grips(1)) {
+        solo.step();
+    }
+    EXPECT_TRUE(solo.grips(0) || solo.grips(1)) << solo.head_ws().transpose();
+}
+
+TEST(Climber, WaitsWhereThereIsNothingAtAll) {
+    Scene scene = make_void();
+    Solo solo(scene, Vec3(0.0, 1.6, 0.0), 1);
+    for (int frame = 0; frame < 900; ++frame) {
+        solo.step();
+        ASSERT_TRUE(solo.head_ws().allFinite());
+    }
+    EXPECT_EQ(solo.onsets, 0U);
+    EXPECT_LE((solo.head_ws() - Vec3(0.0, 1.6, 0.0)).norm(), 0.2);
+}
+
+// A block that flies past the tunnel's place at 20 m/s and turns: he climbs on it as on a wall.
+TEST(Climber, ClimbsWhatMovesAndTurns) {
+    Scene scene = make_void();
+    const Entity block = add_block(scene, "block", Vec3(0.5, 0.5, 3.0), Vec3(-1.0, 1.6, 0.0));
+    const Vec3 velocity(0.0, 0.0, -20.0);
+    const Vec3 spin(0.0, 0.0, 0.05);
+    scene.world.body.at(block).kind = BodyKind::kinematic;
+    scene.world.body_velocity.at(block) = {velocity, spin};
+    scene.world.mover.add(block, {scene.world.body_pose.at(block).pose_ws, velocity, spin, false});
+    scene.world.reference_velocity_mps = velocity;
+    scene.tuning.locomotion.thruster_mps2 = 0.5;
+    Solo solo(scene, Vec3(0.0, 1.6, 1.0), 2);
+    const auto on_block = [&] {
+        return inverse_transform_point(scene.world.body_pose.at(block).pose_ws, solo.head_ws());
+    };
+    solo.step();
+    Vec3 before = on_block();
+    double path_m = 0.0;
+    int gripping = 0;
+    constexpr int k_frames = 2700;
+    for (int frame = 0; frame < k_frames; ++frame) {
+        solo.step();
+        path_m += (on_block() - before).norm();
+        ASSERT_LE((on_block() - before).norm() * 90.0, 3.0);
+        before = on_block();
+        gripping += solo.grips(0) || solo.grips(1) ? 1 : 0;
+    }
+    EXPECT_GE(path_m, 4.0);
+    EXPECT_LE(on_block().norm(), 8.0);
+    EXPECT_GE(gripping, k_frames / 2);
+    EXPECT_GE(solo.gripped * 100, solo.onsets * 95);
+}
+
+TEST(Climber, GripsAtEveryFrameRate) {
+    for (const double hz : {15.0, 30.0, 60.0, 144.0, 500.0}) {
+        Scene scene = *make_built_in_scene("station");
+        Solo solo(scene, spawn_head(scene), 5);
+        while (solo.now_s() < 15.0) {
+            solo.step(1.0 / hz);
+        }
+        EXPECT_GE(solo.onsets, 5U) << hz;
+        EXPECT_EQ(solo.gripped, solo.onsets) << hz;
+    }
+}
+
+TEST(RecordedClimb, PlaysAgainBitForBit) {
+    Scene scene = *make_built_in_scene("station");
+    ClimbPlan plan;
+    plan.origin_ws = scene.spawns.front().pose_ws;
+    plan.seconds = 12.0;
+    const Recording recording = record_climb(scene, plan);
+    Scene again = *make_built_in_scene("station");
+    FrameCaches caches(*again.shapes);
+    const PlayerEntities player = add_scene_player(again, {"player0", plan.origin_ws, 80.0});
+    const double seconds = static_cast<double>(scene.world.clock.frame) / 90.0;
+    const RunLog log = run_session(again, caches, {player}, &recording, {90.0, seconds, 1});
+    EXPECT_EQ(log.state_hash, hash_state(scene.world));
+    EXPECT_EQ(again.world.clock.frame, scene.world.clock.frame);
+}
+
+TEST(RecordedClimb, EndsALittleAfterTheLastWaypoint) {
+    Scene scene = make_tunnel(6.0);
+    ClimbPlan plan;
+    plan.origin_ws.position = Vec3(-0.35, -1.4, 4.0);
+    plan.waypoints = {{k_no_entity, Vec3(-0.35, 0.2, 2.5)}};
+    plan.seconds = 60.0;
+    plan.linger_s = 1.0;
+    const Recording recording = record_climb(scene, plan);
+    EXPECT_LE(recording.samples.back().t_s, 20.0);
+    const Vec3 head_ws = scene.world.render_pose.rows()[0].head_center_ws;
+    EXPECT_LE((head_ws - plan.waypoints[0].point_bs).norm(), 0.6);
+}
+
+}  // namespace
+}  // namespace handhold

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/tracking.hpp"
+#include "game/random.hpp"
+
+namespace handhold {
+
+// A player who means harm: poses that jump and vanish, numbers that are none, samples out of order
+// and of times that make no sense, buttons mashed, sticks that say anything. Seeded.
+class HostilePlayer {
+  public:
+    // far_jump_m: how far devices jump now and then; 0: never farther than a metre or two.
+    HostilePlayer(std::uint64_t seed, double far_jump_m);
+
+    // Input of the frame from start_s to end_s; the samples stay good until the next call.
+    PlayerInput play(Entity player, double start_s, double end_s);
+
+  private:
+    struct Device {
+        Pose at;
+        Vec3 to = Vec3::Zero();
+        bool lost = false;
+        bool grab = false;
+    };
+    void move(Device& device, double reach_m, double dt_s);
+    Pose shown(const Device& device);
+    double broken_number();
+
+    Random random_;
+    double far_jump_m_;
+    Device head_;
+    std::array<Device, k_hand_count> hands_;
+    std::vector<TrackingSample> samples_;
+};
+
+}  // namespace handhold

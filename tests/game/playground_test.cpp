@@ -1,0 +1,75 @@
+// The playground's session does with every contraption what it is there for.
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "game/built_in_scenes.hpp"
+#include "game/session_run.hpp"
+
+namespace handhold {
+namespace {
+
+struct Span {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+class Playground : public ::testing::Test {
+  public:
+    Playground() {
+        scene.emplace(*make_built_in_scene("playground"));
+        const PlayerEntities player =
+            add_scene_player(*scene, {"player", scene->spawns.front().pose_ws, 80.0});
+        FrameCaches caches(*scene->shapes);
+        const Recording recording = *make_built_in_session("playground");
+        log = run_session(*scene, caches, {player}, &recording, {},
+                          [this](const Scene&, const FrameLog& frame) { watch(frame); });
+    }
+
+    Entity find(const std::string& name) const {
+        return find_by_id(scene->world, persistent_id_from_name(name));
+    }
+    Span span_of(const std::string& joint) { return spans[find(joint)]; }
+
+    std::optional<Scene> scene;
+    RunLog log;
+    double worst_joint_m = 0.0;
+    double worst_joint_rad = 0.0;
+    double push_back_m = 0.0;
+
+  private:
+    void watch(const FrameLog& frame) {
+        const World& world = scene->world;
+        for (std::size_t row = 0; row < world.joint.size(); ++row) {
+            Span& span = spans[world.joint.owners()[row]];
+            span.low = std::min(span.low, world.joint_state.rows()[row].coordinate);
+            span.high = std::max(span.high, world.joint_state.rows()[row].coordinate);
+        }
+        worst_joint_m = std::max(worst_joint_m, frame.stats.joint_error_m);
+        worst_joint_rad = std::max(worst_joint_rad, frame.stats.joint_error_rad);
+        push_back_m = std::max(push_back_m, world.render_pose.rows()[0].push_back_m);
+    }
+
+    struct BySlot {
+        bool operator()(Entity x, Entity y) const { return x.slot < y.slot; }
+    };
+    std::map<Entity, Span, BySlot> spans;
+};
+
+TEST_F(Playground, SessionWorksEveryContraptionAndJointsHold) {
+    EXPECT_GT(span_of("lever_hinge").high, 0.8);
+    EXPECT_GT(span_of("drawer_slide_1").high, 0.15);
+    EXPECT_GT(span_of("pivot").high, 0.5);
+    EXPECT_LT(span_of("door_hinge").low, -0.8);
+    EXPECT_GT(span_of("valve_hinge").high, 1.5);
+    EXPECT_GT(span_of("cable/joint/20").high, 0.02);
+    EXPECT_GT(push_back_m, 1e-3) << "the rock did not push";
+    EXPECT_LE(worst_joint_m, 1e-6);
+    EXPECT_LE(worst_joint_rad, 1e-5);
+    EXPECT_EQ(scene->world.joint.size(), 48U);
+}
+
+}  // namespace
+}  // namespace handhold

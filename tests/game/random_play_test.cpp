@@ -1,0 +1,151 @@
+// Players who mean harm among climbers who do not, in whole scenes, at frames of 1 to 100 ms.
+// A long run: HANDHOLD_RANDOM_PLAY_FRAMES (of each scene), HANDHOLD_RANDOM_PLAY_SEED.
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "game/built_in_scenes.hpp"
+#include "game/crowd.hpp"
+#include "game/place_scene.hpp"
+#include "tests/game/finite_world.hpp"
+#include "tests/game/hostile_player.hpp"
+
+namespace handhold {
+namespace {
+
+std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
+    const char* const text = std::getenv(name);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+constexpr double k_shortest_frame_s = 0.001;
+
+struct PlayCase {
+    const char* scene;
+    std::size_t hostile;
+    std::size_t climbers;
+    std::uint64_t frames;
+    // How far devices jump now and then; 0: never farther than a metre or two. Not on what turns:
+    // who holds on to a ship with a hand that is kilometres away swings round with it.
+    double far_jump_m;
+};
+
+class HostilePlay : public testing::TestWithParam<PlayCase> {};
+
+// What moves at all, at most, against the scene's own velocity.
+double fastest_player_mps(const World& world) {
+    double fastest = 0.0;
+    for (const PlayerVelocity& velocity : world.player_velocity.rows()) {
+        fastest = std::max(fastest, (velocity.linear_mps - world.reference_velocity_mps).norm());
+    }
+    return fastest;
+}
+// A thing in a hand is as fast as the hand that jumps with it: only what flies by itself counts.
+double fastest_loose_mps(const World& world) {
+    double fastest = 0.0;
+    for (std::size_t row = 0; row < world.body.size(); ++row) {
+        const Entity body = world.body.owners()[row];
+        const bool held = std::ranges::any_of(
+            world.grab.rows(), [body](const Grab& grab) { return grab.body == body; });
+        if (world.body.rows()[row].kind == BodyKind::free && !held) {
+            const Vec3& velocity = world.body_velocity.at(body).linear_mps;
+            fastest = std::max(fastest, (velocity - world.reference_velocity_mps).norm());
+        }
+    }
+    return fastest;
+}
+
+// The scene, those in it, and what was seen.
+struct Playground {
+    const PlayCase& play;
+    Scene scene;
+    FrameCaches caches;
+    std::vector<PlayerEntities> players;
+    double fastest_player = 0.0;
+    double fastest_loose = 0.0;
+    std::uint64_t grabs = 0;
+
+    Playground(const PlayCase& in, std::uint64_t seed)
+        : play(in), scene(*make_built_in_scene(in.scene)), caches(*scene.shapes) {
+        scene.tuning.locomotion.thruster_mps2 = 0.5;
+        const Pose& first_ws = scene.spawns.front().pose_ws;
+        for (const Pose& origin_ws :
+             spread_players(scene, caches, first_ws, in.hostile + in.climbers, seed)) {
+            const std::string name = "player" + std::to_string(players.size());
+            players.push_back(add_scene_player(scene, {name, origin_ws, 80.0}));
+        }
+    }
+    bool is_lost(std::size_t player) {
+        const Entity entity = players[player].player;
+        const std::uint64_t himself = scene.world.persistent_id.at(entity).value;
+        const Vec3 head_ws = scene.world.render_pose.at(entity).head_center_ws;
+        constexpr double k_near_m = 30.0;
+        return !caches.collision.closest_point(head_ws, k_near_m, {&himself, 1});
+    }
+    void watch(const StageStats& stats) {
+        grabs += stats.grabs_gripped;
+        fastest_player = std::max(fastest_player, fastest_player_mps(scene.world));
+        fastest_loose = std::max(fastest_loose, fastest_loose_mps(scene.world));
+        ASSERT_TRUE(is_finite_world(scene.world)) << "frame " << scene.world.clock.frame;
+        if (scene.world.clock.frame % 500 != 0) {
+            return;
+        }
+        place_scene(scene, caches);
+        // Who means harm may be wherever his headset says he is.
+        for (std::size_t i = play.hostile; i < players.size(); ++i) {
+            ASSERT_FALSE(is_lost(i)) << "player " << i << ", frame " << scene.world.clock.frame;
+        }
+    }
+};
+
+TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
+    const PlayCase& play = GetParam();
+    const std::uint64_t seed = number_from_environment("HANDHOLD_RANDOM_PLAY_SEED", 1);
+    const std::uint64_t frames =
+        number_from_environment("HANDHOLD_RANDOM_PLAY_FRAMES", play.frames);
+    Playground stage(play, seed);
+    World& world = stage.scene.world;
+    std::vector<HostilePlayer> hostile;
+    for (std::size_t i = 0; i < play.hostile; ++i) {
+        hostile.emplace_back(seed + i, play.far_jump_m);
+    }
+    Crowd crowd(stage.scene, std::span(stage.players).subspan(play.hostile), seed);
+    std::vector<PlayerInput> inputs(stage.players.size());
+    Random random(seed);
+    StageStats stats;
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        // Mostly frames as they are, now and then anything between 1 and 100 ms.
+        const double long_s = k_shortest_frame_s + 0.099 * random.unit() * random.unit();
+        const double dt_s = random.chance(0.2) ? long_s : 1.0 / 90.0;
+        const double start_s = world.clock.t_s;
+        for (std::size_t i = 0; i < play.hostile; ++i) {
+            inputs[i] = hostile[i].play(stage.players[i].player, start_s, start_s + dt_s);
+        }
+        crowd.drive(stage.scene, stage.caches, start_s + dt_s,
+                    std::span(inputs).subspan(play.hostile));
+        step_frame(world, stage.caches, stage.scene.tuning, {dt_s, inputs}, stats);
+        ASSERT_NO_FATAL_FAILURE(stage.watch(stats));
+    }
+    std::printf(
+        "%s: %llu frames, %zu hostile, %zu climbers, %llu grips; fastest player %.2f m/s, "
+        "loose thing %.2f m/s\n",
+        play.scene, static_cast<unsigned long long>(frames), play.hostile, play.climbers,
+        static_cast<unsigned long long>(stage.grabs), stage.fastest_player, stage.fastest_loose);
+    EXPECT_GT(stage.grabs, frames / 100);
+    // Twice what letting go allows: what two of them may give each other on top.
+    EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning.locomotion.release_speed_max_mps);
+    // What is let go is clamped, but a thing that is torn out of a hand keeps the hand's speed: at
+    // most a jump of two metres in the shortest frame.
+    EXPECT_LE(stage.fastest_loose, 2.0 / k_shortest_frame_s);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
+                         testing::Values(PlayCase{"crowd", 3, 4, 1000, 0.0},
+                                         PlayCase{"station", 4, 4, 9000, 5000.0},
+                                         PlayCase{"ship", 2, 3, 10000, 0.0}),
+                         [](const auto& test) { return std::string(test.param.scene); });
+
+}  // namespace
+}  // namespace handhold
