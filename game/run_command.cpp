@@ -110,7 +110,8 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
             static_cast<std::size_t>(options.players > 0 ? options.players : 1 + scene.climbers);
         for (const Pose& origin_ws :
              spread_players(scene, caches, place.origin_ws, count, options.seed)) {
-            starts.push_back({"player" + std::to_string(starts.size()), origin_ws, 80.0});
+            const std::string name = "player" + std::to_string(starts.size());
+            starts.push_back({free_player_name(scene.world, name), origin_ws, 80.0});
         }
         if (starts.size() < count) {
             return FileError{options.scene, "",
@@ -156,9 +157,20 @@ class SnapshotTaker {
     std::optional<FileError> error_;
 };
 
-// Puts the saved state in the place of the scene's first one. The players stay who they are.
-std::optional<FileError> resume(const RunOptions& options, const SnapshotAssets& assets,
-                                Scene& scene, std::vector<PlayerEntities>& players) {
+// Puts the saved state, if the run is to begin with one, in the place of the scene's first one. The
+// players stay who they are. Climbers remember their plans themselves: with them nothing is saved.
+std::optional<FileError> resume(const RunOptions& options, const RunSettings& settings,
+                                const SnapshotAssets& assets, Scene& scene,
+                                std::vector<PlayerEntities>& players) {
+    const bool has_climbers = settings.climbers_from < players.size();
+    if (has_climbers && !(options.snapshot.empty() && options.resume.empty())) {
+        return FileError{options.scene, "",
+                         "expected no scripted climbers with --snapshot and --resume, found " +
+                             std::to_string(players.size() - settings.climbers_from)};
+    }
+    if (options.resume.empty()) {
+        return std::nullopt;
+    }
     const World before = scene.world;
     if (std::optional<FileError> error = load_snapshot_file(options.resume, assets, scene.world)) {
         return error;
@@ -337,7 +349,6 @@ int run_command(const RunOptions& options) {
 
     const Recording* const recording =
         session.value().recording ? &*session.value().recording : nullptr;
-    const RunSettings settings = choose_settings(options, scene, players.value().size());
     Film film = open_film(options, scene, session_length_s(recording, settings));
     if (!options.trace.empty()) {
         start_trace();

@@ -255,6 +255,9 @@ class SceneBuilder {
     }
 
     void add_scene_joint(const SceneJoint& joint) {
+        if (error_ || !take_name(joint.name)) {
+            return;
+        }
         const auto entity_of = [this](const std::string& name) {
             return name.empty() ? k_no_entity
                                 : find_by_id(scene_.world, persistent_id_from_name(name));

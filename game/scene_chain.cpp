@@ -50,8 +50,9 @@ void read_scene_chain(const JsonValue& value, const std::string& name, SceneJoin
     joint.joint.friction = value["friction_nm"].number_or(0.0, k_friction_nm);
     std::string before = read_body_name(value["a"], names);
     const std::string last = read_body_name(value["b"], names);
-    if (link.shape.half_height_m < 1e-3) {
-        value["to_m"].refuse("a place so far from \"from_m\" that links are longer than thick");
+    if (link.shape.half_height_m < 1e-3 || link.shape.half_height_m > 1e4) {
+        value["to_m"].refuse(
+            "a place so far from \"from_m\" that links are longer than thick, and up to 2e4 m");
         return;
     }
     link.pose.rotation = rotation_between(Vec3::UnitY(), way.normalized());

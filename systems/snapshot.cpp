@@ -81,40 +81,7 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
     return std::nullopt;
 }
 
-std::uint64_t hash_of(const ShapeLibrary& shapes, std::string_view scene) {
-    HashStream stream;
-    stream.add(hash_text(scene));
-    const auto add = [&stream](const Vec3& v) {
-        for (int axis = 0; axis < 3; ++axis) {
-            stream.add(v[axis]);
-        }
-    };
-    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-        const Shape& shape = shapes.at({i});
-        stream.add(static_cast<std::uint64_t>(shape.kind));
-        add(shape.half_m);
-        stream.add(shape.radius_m);
-        stream.add(shape.half_height_m);
-        if (shape.mesh == nullptr) {
-            continue;
-        }
-        stream.add(std::uint64_t{shape.mesh->positions.size()});
-        for (const Vec3& position : shape.mesh->positions) {
-            add(position);
-        }
-        for (const auto& triangle : shape.mesh->triangles) {
-            for (const std::uint32_t corner : triangle) {
-                stream.add(std::uint64_t{corner});
-            }
-        }
-    }
-    return stream.value();
-}
-
 }  // namespace
-
-SnapshotAssets::SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene)
-    : shapes_(&shapes), hash_(hash_of(shapes, scene)) {}
 
 void save_snapshot(const World& world, const SnapshotAssets& assets,
                    std::vector<std::byte>& bytes) {

@@ -29,7 +29,7 @@ class SnapshotAssets {
 
   private:
     const ShapeLibrary* shapes_;
-    std::uint64_t hash_;
+    std::uint64_t hash_ = 0;
 };
 
 // Between two frames only. Every bit of the columns, the clock and the pool of entities: free

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 namespace handhold {
@@ -22,6 +23,7 @@ class BreachFinder {
         check_ids();
         if (!breach_) {  // from here on everybody can be named
             check_bodies();
+            check_joints();
             check_players();
             check_hands();
             check_colliders();
@@ -77,8 +79,10 @@ class BreachFinder {
             breach_ = WorldBreach{"persistent_id[" + text_of(*twice) + "]",
                                   "expected ids that nothing else has"};
         }
-        if (!breach_ && !ids.empty() && ids.front().value == 0) {
-            breach_ = WorldBreach{"persistent_id", "expected ids above 0"};
+        constexpr std::uint64_t k_the_world = std::numeric_limits<std::uint64_t>::max();
+        if (!breach_ && !ids.empty() &&
+            (ids.front().value == 0 || ids.back().value == k_the_world)) {
+            breach_ = WorldBreach{"persistent_id", "expected ids above 0 and below 2^64 - 1"};
         }
     }
 
@@ -93,11 +97,26 @@ class BreachFinder {
             check(!w_.player.contains(owner), "body", owner, "", "no player in the same place");
             check(body.restitution >= 0.0 && body.restitution <= 1.0, "body", owner, ".restitution",
                   "a number in [0, 1]");
+            check(body.friction >= 0.0, "body", owner, ".friction", "a number not below 0");
             if (body.kind == BodyKind::free) {
                 check(body.mass_kg > 0.0, "body", owner, ".mass_kg", "a mass above 0");
                 check(body.inertia_kgm2.minCoeff() > 0.0, "body", owner, ".inertia_kgm2",
                       "moments above 0");
             }
+        }
+    }
+
+    void check_joints() {
+        require_both("joint", w_.joint, "joint_state", w_.joint_state);
+        for (std::size_t row = 0; row < w_.joint.size(); ++row) {
+            const Entity owner = w_.joint.owners()[row];
+            const Joint& joint = w_.joint.rows()[row];
+            const JointLatch& latch = joint.latch;
+            check(joint.lower <= joint.upper, "joint", owner, ".lower", "a limit not above upper");
+            check(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 &&
+                      joint.detent_strength >= 0.0 && latch.catch_range >= 0.0 &&
+                      latch.strength >= 0.0,
+                  "joint", owner, "", "friction, detents and latches not below 0");
         }
     }
 

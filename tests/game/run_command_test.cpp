@@ -188,10 +188,13 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
 
 class ResumedRun : public RunCommand {
   protected:
+    // The ship's session next to a wall.
     ResumedRun() {
-        options_.scene = "ship";
+        options_.scene = write("wall.json", R"({"name": "wall", "session": "ship", "bodies": [
+            {"name": "wall", "kind": "static", "shape": {"type": "box", "half_m": [0.1, 2, 4]},
+             "position_m": [-0.6, 1, 0]}],
+            "spawns": [{"name": "a"}], "players": [{"name": "one", "spawn": "a"}]})");
         options_.seconds = 2.0;
-        options_.players = 2;
         snapshot_ = (folder_ / "half.snapshot").string();
     }
     std::string hash() { return out_.substr(out_.rfind("state_hash")); }
@@ -209,7 +212,7 @@ TEST_F(ResumedRun, EndsWithTheSameHash) {
     options_.resume = snapshot_;
     ASSERT_EQ(run(options_), 0) << err_;
     EXPECT_EQ(hash(), expected);
-    EXPECT_NE(out_.find("ship: 90 frames"), std::string::npos) << out_;  // the second half only
+    EXPECT_NE(out_.find("wall: 90 frames"), std::string::npos) << out_;  // the second half only
 }
 
 TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
@@ -219,17 +222,27 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     ASSERT_EQ(run(options_), 0) << err_;
     options_.snapshot.clear();
     options_.resume = snapshot_;
-    options_.players = 3;
+    options_.players = 1;  // somebody else
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
         << err_;
-    options_.players = 2;
     options_.scene = "station";
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: byte 24"), std::string::npos) << err_;
     options_.resume = (folder_ / "absent").string();
     EXPECT_EQ(run(options_), 2);
     EXPECT_EQ(lines_of(err_), 1U) << err_;
+}
+
+// What climbers plan is not in the world.
+TEST_F(ResumedRun, ClimbersAreRefused) {
+    options_.scene = "station";
+    options_.seconds = 0.2;
+    options_.players = 2;
+    options_.snapshot = snapshot_;
+    EXPECT_EQ(run(options_), 2);
+    EXPECT_NE(err_.find("expected no scripted climbers with --snapshot"), std::string::npos)
+        << err_;
 }
 
 TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {

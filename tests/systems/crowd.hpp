@@ -35,6 +35,7 @@ class Crowd {
         for (const auto& make : makers) {
             make();
         }
+        make_joints();
         drop_caches();
     }
 
@@ -126,6 +127,22 @@ class Crowd {
             world.mover.add(rotor,
                             {{Vec3(-4.2, 1.2, 1.2), Quat::Identity()}, Vec3::Zero(), spin, false});
         });
+    }
+
+    // A flail: two pebbles on ropes of joints, one of them on the world. Joints come after what
+    // they tie, in whatever order that was made.
+    void make_joints() {
+        const auto tie = [this](const char* name, JointKind kind, const char* a, const char* b,
+                                const Vec3& at) {
+            Joint joint;
+            joint.kind = kind;
+            joint.a = a == nullptr ? k_no_entity : find_by_id(world, persistent_id_from_name(a));
+            joint.b = find_by_id(world, persistent_id_from_name(b));
+            joint.friction = 0.01;
+            add_joint(world, {name, joint_at(world, joint, {at, Quat::Identity()})});
+        };
+        tie("shackle", JointKind::ball, nullptr, "pebble20", Vec3(-3.64, 1.24, 1.4));
+        tie("hinge", JointKind::hinge, "pebble20", "pebble21", Vec3(-3.56, 1.14, 1.4));
     }
 
     void make_players(std::vector<std::function<void()>>& makers) {

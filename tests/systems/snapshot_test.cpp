@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -209,6 +212,48 @@ TEST_F(RefusedSnapshot, OfAnotherSceneOrOtherShapes) {
     EXPECT_FALSE(restore_snapshot(bytes_, assets_, world));
 }
 
+// Every number of every kind of shape tells libraries apart.
+TEST(SnapshotAssets, EachShapesContentCounts) {
+    const auto mesh = [](double x) {
+        Mesh triangle;
+        triangle.positions = {Vec3::Zero(), Vec3(x, 0.0, 0.0), Vec3::UnitY()};
+        triangle.triangles = {{0, 1, 2}};
+        return std::make_shared<const Mesh>(triangle);
+    };
+    const auto corners = [](double x) {
+        return std::vector<Vec3>{Vec3::Zero(), Vec3(x, 0.0, 0.0), Vec3::UnitY(), Vec3::UnitZ()};
+    };
+    const std::function<void(ShapeLibrary&)> makers[] = {
+        [](ShapeLibrary&) {},
+        [](ShapeLibrary& s) { s.add_sphere(0.1); },
+        [](ShapeLibrary& s) { s.add_sphere(0.2); },
+        [](ShapeLibrary& s) { s.add_box(Vec3(0.1, 0.2, 0.3)); },
+        [](ShapeLibrary& s) { s.add_box(Vec3(0.3, 0.2, 0.1)); },
+        [](ShapeLibrary& s) { s.add_capsule(0.1, 0.2); },
+        [](ShapeLibrary& s) { s.add_cylinder(0.1, 0.2); },
+        [&](ShapeLibrary& s) { s.add_hull(corners(1.0)); },
+        [&](ShapeLibrary& s) { s.add_hull(corners(1.5)); },
+        [&](ShapeLibrary& s) { s.add_mesh(mesh(1.0)); },
+        [&](ShapeLibrary& s) { s.add_mesh(mesh(1.5)); },
+        [&](ShapeLibrary& s) { s.add_mesh(mesh(1.0), Vec3(1.0, 2.0, 1.0)); },
+        [](ShapeLibrary& s) {
+            const CompoundChild child{s.add_sphere(0.1), {Vec3::UnitX(), Quat::Identity()}};
+            s.add_compound({&child, 1});
+        },
+        [](ShapeLibrary& s) {
+            const CompoundChild child{s.add_sphere(0.1), {Vec3::UnitY(), Quat::Identity()}};
+            s.add_compound({&child, 1});
+        },
+    };
+    std::set<std::uint64_t> hashes;
+    for (const auto& make : makers) {
+        ShapeLibrary shapes;
+        make(shapes);
+        EXPECT_TRUE(hashes.insert(SnapshotAssets(shapes).hash()).second);
+        EXPECT_FALSE(hashes.insert(SnapshotAssets(shapes).hash()).second);  // twice the same
+    }
+}
+
 TEST_F(RefusedSnapshot, OfAnotherSchemaNamesTheFirstFieldThatDiffers) {
     SnapshotBytes other(bytes_);
     other.replace_in_schema("grab.error_m f64", "grab.error_q f64");
@@ -299,6 +344,7 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world("ids that nothing else has",
                 [](World& w) { w.persistent_id.rows()[1] = w.persistent_id.rows()[2]; });
     break_world("ids above 0", [](World& w) { w.persistent_id.rows()[1].value = 0; });
+    break_world("below 2^64 - 1", [](World& w) { w.persistent_id.rows()[1].value = ~0ULL; });
     break_world(".player: expected a player",
                 [&](World& w) { w.hand_owner.rows()[0].player = by_name(w, "rock"); });
     break_world(".side: expected one hand a side",
@@ -306,6 +352,11 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world(".mass_kg", [&](World& w) { w.body.at(by_name(w, "rock")).mass_kg = 0.0; });
     break_world(".inertia_kgm2",
                 [&](World& w) { w.body.at(by_name(w, "rock")).inertia_kgm2.y() = -1.0; });
+    break_world("expected a row in joint_state beside it",
+                [&](World& w) { w.joint_state.remove(by_name(w, "hinge")); });
+    break_world(".lower", [](World& w) { w.joint.rows()[0].lower = 1.0; });
+    break_world("not below 0", [](World& w) { w.joint.rows()[1].latch.strength = -1.0; });
+    break_world(".friction", [](World& w) { w.body.rows()[1].friction = -0.1; });
     break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
     break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });
     break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
