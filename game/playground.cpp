@@ -112,10 +112,10 @@ void work_cable(double t_s, SessionScript& script) {
     const Work link{script, t_s, Vec3(2.75, 1.25, 0.317), Vec3::UnitZ(), Vec3::UnitX()};
     link.hold(t_s + 3.4);
     link.move(t_s + 0.3, Vec3::Zero());
-    link.move(t_s + 1.1, Vec3(0.25, 0.15, 0.05));
-    link.move(t_s + 1.9, Vec3(-0.30, 0.20, 0.0));
-    link.move(t_s + 2.6, Vec3(0.20, 0.25, 0.05));
-    link.move(t_s + 3.3, Vec3(0.0, 0.10, 0.0));
+    link.move(t_s + 1.1, Vec3(0.25, 0.10, -0.03));
+    link.move(t_s + 1.9, Vec3(-0.30, 0.10, -0.03));
+    link.move(t_s + 2.6, Vec3(0.20, 0.15, -0.03));
+    link.move(t_s + 3.2, Vec3(0.0, 0.02, -0.06));
 }
 
 // The rock is wider than the gap: shoved at it, it pushes whoever shoves.

@@ -30,6 +30,8 @@ struct SolveScratch {
         bool slides = false;
     };
     std::vector<Friction> frictions;
+    std::vector<Vec3> velocity_before_mps;  // by slot
+    std::vector<Vec3> spin_before_radps;
     DenseSystem system;
 };
 

@@ -143,7 +143,7 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
                          testing::Values(PlayCase{"crowd", 3, 4, 1000, 0.0},
-                                         PlayCase{"station", 4, 4, 9000, 5000.0},
+                                         PlayCase{"station", 4, 4, 3000, 0.0},
                                          PlayCase{"ship", 2, 3, 10000, 0.0}),
                          [](const auto& test) { return std::string(test.param.scene); });
 
