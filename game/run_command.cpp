@@ -120,8 +120,7 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
         }
     }
     std::vector<PlayerEntities> players;
-    for (ScenePlayerStart& start : starts) {
-        start.name = scene.players.empty() ? free_player_name(scene.world, start.name) : start.name;
+    for (const ScenePlayerStart& start : starts) {
         players.push_back(add_scene_player(scene, start));
     }
     return players;
@@ -341,10 +340,9 @@ int run_command(const RunOptions& options) {
         return refuse(players.error());
     }
     const SnapshotAssets assets(*scene.shapes, scene.name);
-    if (!options.resume.empty()) {
-        if (const auto error = resume(options, assets, scene, players.value())) {
-            return refuse(*error);
-        }
+    const RunSettings settings = choose_settings(options, scene, players.value().size());
+    if (const auto error = resume(options, settings, assets, scene, players.value())) {
+        return refuse(*error);
     }
 
     const Recording* const recording =

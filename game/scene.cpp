@@ -51,9 +51,7 @@ class SceneBuilder {
         }
         for (std::size_t i = 0; i < file_.joints.size() && !error_; ++i) {
             place_ = "/joints/" + std::to_string(i) + "/name";
-            if (take_name(file_.joints[i].name)) {
-                add_scene_joint(file_.joints[i]);
-            }
+            add_scene_joint(file_.joints[i]);
         }
         for (Lamp lamp : file_.lamps) {
             lamp.position_ws = transform_point(file_.world_transform, lamp.position_ws);

@@ -126,22 +126,54 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     return changes;
 }
 
+// The largest impulse of a contact that rubs, or of friction, N s.
+double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) {
+    double largest = 0.0;
+    for (const SolveScratch::Friction& friction : scratch.frictions) {
+        for (std::size_t i = 0; i < friction.width; ++i) {
+            largest = std::max(largest, std::abs(lambda[friction.row + i]));
+        }
+        if (friction.coefficient > 0.0) {
+            largest = std::max(largest, std::abs(lambda[friction.normal]));
+        }
+    }
+    return largest;
+}
+
 // Multipliers of all rows, by fixed point over who sticks and who slides.
 std::span<const double> solve_with_friction(SolveScratch& scratch) {
     constexpr int k_passes = 16;
     constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
+    constexpr double k_wedge = 10.0;      // times what pressed while all stuck
     std::span<const double> lambda = scratch.system.solve(scratch.rows);
-    for (int pass = 0; pass < k_passes && !scratch.frictions.empty(); ++pass) {
+    if (scratch.frictions.empty()) {
+        return lambda;
+    }
+    const double pressed = pressure_of(lambda, scratch);
+    for (int pass = 0; pass < k_passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
             changes |= apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
         }
         if (!changes) {
-            break;
+            return lambda;
         }
         lambda = scratch.system.solve(scratch.rows);
+        if (pressure_of(lambda, scratch) > k_wedge * pressed) {
+            break;
+        }
     }
-    return lambda;
+    if (pressure_of(lambda, scratch) <= k_wedge * pressed) {
+        return lambda;
+    }
+    // A wedge: the harder it is held, the harder it presses. It has no answer; let it slip freely.
+    for (SolveScratch::Friction& friction : scratch.frictions) {
+        friction.slides = true;
+        for (std::size_t i = 0; i < friction.width; ++i) {
+            scratch.system.hold(friction.row + i, 0.0);
+        }
+    }
+    return scratch.system.solve(scratch.rows);
 }
 
 void apply_impulses(const IslandView& island, std::span<const double> lambda,
