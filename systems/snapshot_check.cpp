@@ -13,6 +13,10 @@ namespace {
 // Beyond this adding a frame's length to a time loses it.
 constexpr double k_latest_s = 1e9;
 
+constexpr double k_least_bone_ratio = 0.01;
+
+bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_latest_s; }
+
 // Keeps the first breach; what is asked after it changes nothing.
 class BreachFinder {
   public:
@@ -23,6 +27,7 @@ class BreachFinder {
         check_ids();
         if (!breach_) {  // from here on everybody can be named
             check_bodies();
+            check_movers();
             check_joints();
             check_players();
             check_hands();
@@ -90,7 +95,6 @@ class BreachFinder {
         require_both("body", w_.body, "body_pose", w_.body_pose);
         require_both("body", w_.body, "body_start", w_.body_start);
         require_both("body", w_.body, "body_velocity", w_.body_velocity);
-        require("mover", w_.mover, "body", w_.body);
         for (std::size_t row = 0; row < w_.body.size(); ++row) {
             const Entity owner = w_.body.owners()[row];
             const RigidBody& body = w_.body.rows()[row];
@@ -103,6 +107,28 @@ class BreachFinder {
                 check(body.inertia_kgm2.minCoeff() > 0.0, "body", owner, ".inertia_kgm2",
                       "moments above 0");
             }
+        }
+    }
+
+    void check_movers() {
+        require("mover", w_.mover, "body", w_.body);
+        require("path_mover", w_.path_mover, "body", w_.body);
+        require("leg_mover", w_.leg_mover, "body", w_.body);
+        for (std::size_t row = 0; row < w_.path_mover.size(); ++row) {
+            const PosePath& path = w_.path_mover.rows()[row].path;
+            check(path.count >= 2 && path.count <= k_max_path_keys && is_duration(path.period_s),
+                  "path_mover", w_.path_mover.owners()[row], ".path",
+                  "2 to 16 keys and a period of 1e-3 to 1e9 s");
+        }
+        for (std::size_t row = 0; row < w_.leg_mover.size(); ++row) {
+            const LegMover& mover = w_.leg_mover.rows()[row];
+            const Entity owner = w_.leg_mover.owners()[row];
+            check(is_duration(mover.gait.step_s) && mover.gait.standing > 0.0 &&
+                      mover.gait.standing < 1.0,
+                  "leg_mover", owner, ".gait", "steps of 1e-3 to 1e9 s and a share in (0, 1)");
+            const auto [shorter, longer] = std::minmax(mover.leg.upper_m, mover.leg.lower_m);
+            check(shorter >= k_least_bone_ratio * longer && longer > 0.0, "leg_mover", owner,
+                  ".leg", "bones above 0, none below a hundredth of the other");
         }
     }
 

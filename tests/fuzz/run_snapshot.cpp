@@ -12,7 +12,7 @@ namespace {
 
 using test::SnapshotBytes;
 
-// A player who holds a rock and a wall, a mover, and somebody who is gone.
+// A player who holds a wall and a rock on a hinge, movers, and somebody who is gone.
 struct Base {
     ShapeLibrary shapes;
     World world;

@@ -35,7 +35,7 @@ class Crowd {
         for (const auto& make : makers) {
             make();
         }
-        make_joints();
+        make_ties();
         drop_caches();
     }
 
@@ -117,10 +117,21 @@ class Crowd {
             add("pebble" + std::to_string(i), BodyKind::free, 0.5 + 0.3 * i, pebble,
                 Vec3(-5.0 + 0.17 * (i % 12), 1.14, 0.9 + 0.5 * (i / 12)), Vec3(side, -0.2, 0.0));
         }
+        const RigidBody driven{BodyKind::kinematic, 0.0, Vec3::Zero(), 0.0};
+        makers.emplace_back([=, this] {
+            const Pose stops[] = {{Vec3(4.8, 1.3, 1.2), Quat::Identity()},
+                                  {Vec3(4.8, 1.5, 1.2), rotation_about(Vec3::UnitY(), 0.5)}};
+            const Entity train = add_body(world, {"train", driven, stops[0], {}, crate});
+            world.path_mover.add(train, {make_pose_path(stops, 2.0)});
+        });
+        makers.emplace_back([=, this] {
+            const Pose start{Vec3(4.8, 1.2, 0.8), Quat::Identity()};
+            add_body(world, {"shin", driven, start, {}, pebble});
+        });
         makers.emplace_back([=, this] {
             const Vec3 spin(0.0, 0.7, 0.0);
             const Entity rotor = add_body(world, {"rotor",
-                                                  {BodyKind::kinematic, 0.0, Vec3::Zero(), 0.0},
+                                                  driven,
                                                   {Vec3(-4.2, 1.2, 1.2), Quat::Identity()},
                                                   {Vec3::Zero(), spin},
                                                   crate});
@@ -129,9 +140,9 @@ class Crowd {
         });
     }
 
-    // A flail: two pebbles on ropes of joints, one of them on the world. Joints come after what
-    // they tie, in whatever order that was made.
-    void make_joints() {
+    // What ties bodies together, after them in whatever order they were made: a flail of two
+    // pebbles that hangs on the world, and a leg of the train.
+    void make_ties() {
         const auto tie = [this](const char* name, JointKind kind, const char* a, const char* b,
                                 const Vec3& at) {
             Joint joint;
@@ -141,6 +152,10 @@ class Crowd {
             joint.friction = 0.01;
             add_joint(world, {name, joint_at(world, joint, {at, Quat::Identity()})});
         };
+        LegMover leg;
+        leg.torso = find_by_id(world, persistent_id_from_name("train"));
+        leg.leg.knee_bs = Vec3::UnitZ();
+        world.leg_mover.add(find_by_id(world, persistent_id_from_name("shin")), leg);
         tie("shackle", JointKind::ball, nullptr, "pebble20", Vec3(-3.64, 1.24, 1.4));
         tie("hinge", JointKind::hinge, "pebble20", "pebble21", Vec3(-3.56, 1.14, 1.4));
     }

@@ -352,6 +352,10 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world(".mass_kg", [&](World& w) { w.body.at(by_name(w, "rock")).mass_kg = 0.0; });
     break_world(".inertia_kgm2",
                 [&](World& w) { w.body.at(by_name(w, "rock")).inertia_kgm2.y() = -1.0; });
+    break_world("path_mover[", [](World& w) { w.path_mover.rows()[0].path.count = 17; });
+    break_world("path_mover[", [](World& w) { w.path_mover.rows()[0].path.period_s = 0.0; });
+    break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].gait.standing = 1.0; });
+    break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].leg.upper_m = 1e-6; });
     break_world("expected a row in joint_state beside it",
                 [&](World& w) { w.joint_state.remove(by_name(w, "hinge")); });
     break_world(".lower", [](World& w) { w.joint.rows()[0].lower = 1.0; });
