@@ -35,6 +35,7 @@ enum class SupportFollow : std::int32_t { off = 0, yaw = 1, full = 2 };
 struct LocomotionTuning {
     double release_speed_max_mps = 6.0;
     double object_speed_max_mps = 12.0;
+    double object_spin_max_radps = 200.0;
     double drift_drag_per_s = 0.02;
     double brake_drag_per_s = 3.0;
     double smooth_turn_radps = 1.5;
@@ -119,6 +120,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "velocity");
     see("locomotion.object_speed_max_mps", t.locomotion.object_speed_max_mps, "m/s", 0.0, 1e6,
         "a thrown object leaves at most this fast, against the reference velocity");
+    see("locomotion.object_spin_max_radps", t.locomotion.object_spin_max_radps, "rad/s", 0.0, 1e3,
+        "nothing that moves freely spins faster");
     see("locomotion.drift_drag_per_s", t.locomotion.drift_drag_per_s, "1/s", 0.0, 100.0,
         "drag of a drifting player, against the reference velocity");
     see("locomotion.brake_drag_per_s", t.locomotion.brake_drag_per_s, "1/s", 0.0, 100.0,

@@ -30,8 +30,6 @@ struct SolveScratch {
         bool slides = false;
     };
     std::vector<Friction> frictions;
-    std::vector<Vec3> velocity_before_mps;  // by slot
-    std::vector<Vec3> spin_before_radps;
     DenseSystem system;
 };
 

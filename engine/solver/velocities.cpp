@@ -237,73 +237,6 @@ void refine_velocities(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
-// True where something other than the bodies' own motion may do work on the island.
-bool is_driven(const IslandView& island) {
-    return std::ranges::any_of(island.island_blocks, [&](std::uint32_t index) {
-        const RowBlock& block = island.blocks[index];
-        const auto moves = [&](std::uint32_t i) {
-            const SolverBody& body = island.bodies[i];
-            return !(body.inverse_mass > 0.0) &&
-                   !(body.velocity_mps.isZero(0.0) && body.spin_radps.isZero(0.0));
-        };
-        return is_hand(block) || has_drive(block) || moves(block.a) || moves(block.b);
-    });
-}
-
-void keep_velocities(const IslandView& island, SolveScratch& scratch) {
-    scratch.velocity_before_mps.resize(island.island_bodies.size());
-    scratch.spin_before_radps.resize(island.island_bodies.size());
-    for (const std::uint32_t index : island.island_bodies) {
-        const SolverBody& body = island.bodies[index];
-        scratch.velocity_before_mps[body.slot] = body.velocity_mps;
-        scratch.spin_before_radps[body.slot] = body.spin_radps;
-    }
-}
-
-// Joints, contacts and friction make no energy. Where rows contradict each other their compromise
-// may: then as much of the change is kept as leaves the energy what it was. From E(s) =
-// E + s b + s^2 c for a share s of the change.
-void bound_energy(const IslandView& island, SolveScratch& scratch) {
-    double b = 0.0;
-    double c = 0.0;
-    for (const std::uint32_t index : island.island_bodies) {
-        const SolverBody& body = island.bodies[index];
-        if (!(body.inverse_mass > 0.0)) {
-            continue;
-        }
-        const Vec3& before = scratch.velocity_before_mps[body.slot];
-        const Vec3 gain = body.velocity_mps - before;
-        b += before.dot(gain) / body.inverse_mass;
-        c += 0.5 * gain.squaredNorm() / body.inverse_mass;
-        const Quat to_body = body.pose_ws.rotation.conjugate();
-        const Vec3 spin = to_body * scratch.spin_before_radps[body.slot];
-        const Vec3 turn_gain =
-            to_body * Vec3(body.spin_radps - scratch.spin_before_radps[body.slot]);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (body.inverse_inertia_bs[axis] > 0.0) {
-                b += spin[axis] * turn_gain[axis] / body.inverse_inertia_bs[axis];
-                c += 0.5 * turn_gain[axis] * turn_gain[axis] / body.inverse_inertia_bs[axis];
-            }
-        }
-    }
-    constexpr double k_rounding = 1e-9;
-    if (b + c <= k_rounding * c) {
-        return;
-    }
-    const double share = std::clamp(-b / c, 0.0, 1.0);
-    for (const std::uint32_t index : island.island_bodies) {
-        SolverBody& body = island.bodies[index];
-        const Vec3& before = scratch.velocity_before_mps[body.slot];
-        const Vec3& spin_before = scratch.spin_before_radps[body.slot];
-        body.velocity_mps = before + share * (body.velocity_mps - before);
-        body.spin_radps = spin_before + share * (body.spin_radps - spin_before);
-    }
-    for (const std::uint32_t index : island.island_blocks) {
-        island.blocks[index].impulse_ws_ns *= share;
-        island.blocks[index].couple_ws_nms *= share;
-    }
-}
-
 }  // namespace
 
 void solve_velocities(const IslandView& island, const VelocitySettings& settings,
@@ -311,7 +244,6 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
     constexpr double k_hand_softness = 1e-6;
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);
-    keep_velocities(island, scratch);
     clear_stiffness(island, scratch);
     prepare_inertia(island, scratch);
     scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
@@ -333,18 +265,9 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
         softness.hand *= 100.0;
         softness.contact *= 100.0;
     }
-    const double longest = longest_move(scratch);
-    if (has_contact(scratch.rows) && longest > k_largest_move * lacking) {
-        for (double& lambda : scratch.lambda) {
-            lambda *= k_largest_move * lacking / longest;
-        }
-    }
     apply_impulses(island, scratch.lambda, scratch);
     if (softness.contact == k_contact_softness) {
         refine_velocities(island, scratch);
-    }
-    if (has_contact(scratch.rows) && !is_driven(island)) {
-        bound_energy(island, scratch);
     }
 }
 

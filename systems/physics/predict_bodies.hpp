@@ -18,7 +18,7 @@ struct PredictBodiesIo {
 };
 
 // Stage 3. Free bodies and players go where their velocities carry them. Rotation keeps the angular
-// momentum, not the spin: a long thing tumbles as it should (midpoint rule).
+// momentum and the energy, not the spin: a long thing tumbles as it should.
 void predict_bodies(const PredictBodiesIo& io);
 
 }  // namespace handhold

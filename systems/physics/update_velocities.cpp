@@ -100,14 +100,22 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
     return true;
 }
 
-void write_velocities(const UpdateVelocitiesIo& io) {
+// What rows give and take may be far out of proportion for something thin.
+Vec3 clamp_spin(const SolverBody& body, double limit_radps) {
+    const double spin = body.spin_radps.norm();
+    const bool clamps = body.role == BodyRole::free && spin > limit_radps;
+    return clamps ? Vec3(body.spin_radps * (limit_radps / spin)) : body.spin_radps;
+}
+
+void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning) {
     for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
         const SolverBody& body = io.frame.graph.bodies[i];
         const Entity entity = io.frame.entities[i];
         if (body.role == BodyRole::player) {
             io.player_velocity.at(entity).linear_mps = body.velocity_mps;
         } else if (body.role != BodyRole::fixed) {
-            io.body_velocity.at(entity) = {body.velocity_mps, body.spin_radps};
+            io.body_velocity.at(entity) = {body.velocity_mps,
+                                           clamp_spin(body, tuning.object_spin_max_radps)};
         }
     }
 }
@@ -262,7 +270,7 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     }
     solve_islands(io.frame, tuning.contact);
     book_impulses(io.frame.graph, stats.ledger);
-    write_velocities(io);
+    write_velocities(io, tuning.locomotion);
     clamp_handled_bodies(io, tuning.locomotion);
     finish_releases(io, tuning.locomotion, stats);
     clamp_players(io, tuning.locomotion, stats);

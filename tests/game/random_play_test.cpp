@@ -136,14 +136,12 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     EXPECT_GT(stage.grabs, frames / 100);
     // Twice what letting go allows: what two of them may give each other on top.
     EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning.locomotion.release_speed_max_mps);
-    // What is let go is clamped, but a thing that is torn out of a hand keeps the hand's speed: at
-    // most a jump of two metres in the shortest frame.
-    EXPECT_LE(stage.fastest_loose, 2.0 / k_shortest_frame_s);
+    EXPECT_LE(stage.fastest_loose, 2.0 * stage.scene.tuning.locomotion.object_speed_max_mps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
                          testing::Values(PlayCase{"crowd", 3, 4, 1000, 0.0},
-                                         PlayCase{"station", 4, 4, 3000, 0.0},
+                                         PlayCase{"station", 4, 4, 9000, 5000.0},
                                          PlayCase{"ship", 2, 3, 10000, 0.0}),
                          [](const auto& test) { return std::string(test.param.scene); });
 

@@ -1,0 +1,56 @@
+#include "engine/solver/free_rotation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+// Axes from the smallest moment to the largest.
+std::array<int, 3> axes_by_moment(const Vec3& inertia_kgm2) {
+    std::array<int, 3> axes = {0, 1, 2};
+    std::ranges::stable_sort(axes, {}, [&](int axis) { return inertia_kgm2[axis]; });
+    return axes;
+}
+
+// Turns the body about one of its own axes; the momentum stays in the world, so it turns back in
+// the body.
+void turn_about_axis(int axis, double angle_rad, Quat& rotation, Vec3& momentum_bs) {
+    const Quat turn = rotation_about(Vec3::Unit(axis), angle_rad);
+    rotation = rotation * turn;
+    momentum_bs = turn.conjugate() * momentum_bs;
+}
+
+int steps_for(double spin_radps, double dt_s) {
+    constexpr double k_largest_turn_rad = 0.25;
+    constexpr double k_most_steps = 256.0;
+    return static_cast<int>(
+        std::clamp(std::ceil(spin_radps * dt_s / k_largest_turn_rad), 1.0, k_most_steps));
+}
+
+}  // namespace
+
+void advance_rotation(const Vec3& inertia_kgm2, double dt_s, Quat& rotation, Vec3& spin_radps) {
+    const auto [least, middle, most] = axes_by_moment(inertia_kgm2);
+    Vec3 momentum_bs = inertia_kgm2.cwiseProduct(rotation.conjugate() * spin_radps);
+    const Vec3 momentum_ws = rotation * momentum_bs;
+    // Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
+    const double shared = 1.0 / inertia_kgm2[middle];
+    const double of_least = 1.0 / inertia_kgm2[least] - shared;
+    const double of_most = 1.0 / inertia_kgm2[most] - shared;
+    const bool is_exact = of_least == 0.0 || of_most == 0.0;
+    const int steps = is_exact ? 1 : steps_for(spin_radps.norm(), dt_s);
+    const double step_s = dt_s / steps;
+    for (int i = 0; i < steps; ++i) {
+        turn_about_axis(least, 0.5 * step_s * of_least * momentum_bs[least], rotation, momentum_bs);
+        turn_about_axis(most, step_s * of_most * momentum_bs[most], rotation, momentum_bs);
+        turn_about_axis(least, 0.5 * step_s * of_least * momentum_bs[least], rotation, momentum_bs);
+    }
+    rotation = (rotation_from_vector(dt_s * shared * momentum_ws) * rotation).normalized();
+    // From the momentum in the world, which is what it was: no rounding adds up.
+    momentum_bs = rotation.conjugate() * momentum_ws;
+    spin_radps = rotation * Vec3(momentum_bs.cwiseQuotient(inertia_kgm2));
+}
+
+}  // namespace handhold
