@@ -110,6 +110,7 @@ std::string make_tiles(const RunLog& log, const RunSummary& summary) {
                          format_figure(static_cast<double>(totals.grab_onsets)),
                      "found something to hold") +
            make_tile("Contact overlap", mm(summary.residual_m), "worst at the end of a frame") +
+           make_tile("Joint error", mm(summary.joint_error_m), "worst at the end of a frame") +
            make_tile("Hand error, free", mm(summary.hand_error.one_hand_free_m),
                      "worst; one hand, nothing touched. Two hands: " +
                          mm(summary.hand_error.two_hands_m)) +

@@ -84,6 +84,8 @@ std::string format_report_json(const RunLog& log) {
     report["frame_us"] = to_json(summary.frame);
     report["counters"] = list_counters(summary.totals);
     report["residual_mm"] = summary.residual_m * k_mm_per_m;
+    report["joint_error"] = {{"mm", summary.joint_error_m * k_mm_per_m},
+                             {"rad", summary.joint_error_rad}};
     report["hand_error_mm"] = {{"one_hand_free", summary.hand_error.one_hand_free_m * k_mm_per_m},
                                {"two_hands", summary.hand_error.two_hands_m * k_mm_per_m},
                                {"any", summary.hand_error.any_m * k_mm_per_m}};

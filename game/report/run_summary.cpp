@@ -50,17 +50,18 @@ void add_counters(StageStats& totals, const StageStats& frame) {
     totals.newton_iterations += frame.newton_iterations;
 }
 
-void add_hand_errors(HandErrorFigures& worst, const FrameLog& frame, const PlayerLog& player) {
+// A hand that lets go still holds to the end of that frame: it grips where it did in this frame or
+// in the one before.
+void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
+                     std::array<bool, k_hand_count>& gripped_before, HandErrorFigures& worst) {
     std::size_t gripping = 0;
     double error_m = 0.0;
-    for (const HandLog& hand : player.hands) {
-        if (hand.grip != 0) {
-            ++gripping;
-            keep_worst(error_m, hand.error_m);
-        }
-    }
-    if (gripping == 0) {
-        return;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const HandLog& hand = player.hands[side];
+        const bool grips = hand.grip != 0;
+        gripping += grips || gripped_before[side] ? 1U : 0U;
+        keep_worst(error_m, grips ? hand.error_m : 0.0);
+        gripped_before[side] = grips;
     }
     keep_worst(worst.any_m, error_m);
     if (gripping == k_hand_count) {
@@ -153,6 +154,8 @@ void RunTally::add_all_but_times(const FrameLog& frame) {
     ++sum_.frames;
     add_counters(sum_.totals, frame.stats);
     keep_worst(sum_.residual_m, frame.stats.residual_m);
+    keep_worst(sum_.joint_error_m, frame.stats.joint_error_m);
+    keep_worst(sum_.joint_error_rad, frame.stats.joint_error_rad);
     linear_.add(frame.stats.ledger.linear_kgmps, sum_.momentum.sum.linear_kgmps);
     angular_.add(frame.stats.ledger.angular_kgm2ps, sum_.momentum.sum.angular_kgm2ps);
     for (const PlayerLog& player : frame.players) {
@@ -161,7 +164,7 @@ void RunTally::add_all_but_times(const FrameLog& frame) {
         tally.figures.path_m += tally.last_ws ? (player.origin_ws - *tally.last_ws).norm() : 0.0;
         tally.last_ws = player.origin_ws;
         keep_worst(tally.figures.push_back_m, player.push_back_m);
-        add_hand_errors(sum_.hand_error, frame, player);
+        add_hand_errors(frame, player, tally.gripped_before, sum_.hand_error);
     }
 }
 

@@ -27,7 +27,7 @@ TimeFigures summarize_times(std::vector<double> times_us);
 // are tracked.
 struct HandErrorFigures {
     double one_hand_free_m =
-        0.0;                   // exactly one hand grips; in that frame no contacts, no push-back
+        0.0;  // exactly one hand grips, to the frame's end; no contacts, no push-back in it
     double two_hands_m = 0.0;  // both grip
     double any_m = 0.0;        // a hand grips
 };
@@ -53,10 +53,12 @@ struct RunSummary {
     std::array<TimeFigures, static_cast<std::size_t>(Stage::count)> stages;
     TimeFigures frame;  // sum of the stages of a frame
     std::uint64_t frames = 0;
-    double duration_s = 0.0;    // simulated
-    double frames_per_s = 0.0;  // as fast as it went; 0 where no time was measured
-    StageStats totals;          // counters and fallbacks only
-    double residual_m = 0.0;    // worst contact overlap
+    double duration_s = 0.0;       // simulated
+    double frames_per_s = 0.0;     // as fast as it went; 0 where no time was measured
+    StageStats totals;             // counters and fallbacks only
+    double residual_m = 0.0;       // worst contact overlap
+    double joint_error_m = 0.0;    // worst joint, points and limits of sliders
+    double joint_error_rad = 0.0;  // the same of directions and angles
     HandErrorFigures hand_error;
     double push_back_m = 0.0;  // worst of a frame and player
     MomentumFigures momentum;
@@ -88,6 +90,7 @@ class RunTally {
     struct PlayerTally {
         PlayerFigures figures;
         std::optional<Vec3> last_ws;
+        std::array<bool, k_hand_count> gripped_before{};
     };
     // One kind of momentum.
     struct MomentumTally {

@@ -97,7 +97,8 @@ TEST(ReportJson, SplitsHandErrorByWhatElseHolds) {
     const Json& error = report["hand_error_mm"];
     EXPECT_EQ(error["one_hand_free"],
               1000.0 / 1024);  // not the larger ones with contacts, or pushed
-    EXPECT_EQ(error["two_hands"], 1000.0 / 64);
+    // Of the frame in which the right hand lets go: it held to that frame's end.
+    EXPECT_EQ(error["two_hands"], 1000.0 / 32);
     EXPECT_EQ(error["any"], 1000.0 / 4);
 }
 
@@ -111,8 +112,12 @@ TEST(ReportJson, WorstOfAFrameIsKept) {
     RunLog log = make_gripping_run();
     log.frames[1].stats.residual_m = 1.0 / 512;
     log.frames[2].stats.residual_m = 1.0 / 2048;
+    log.frames[0].stats.joint_error_m = 1.0 / 1024;
+    log.frames[3].stats.joint_error_rad = 1.0 / 4096;
     const Json report = report_of(log);
     EXPECT_EQ(report["residual_mm"], 1000.0 / 512);
+    EXPECT_EQ(report["joint_error"]["mm"], 1000.0 / 1024);
+    EXPECT_EQ(report["joint_error"]["rad"], 1.0 / 4096);
     EXPECT_EQ(report["push_back_mm"], 125.0);
     EXPECT_EQ(report["players"][0]["push_back_mm"], 125.0);
     EXPECT_EQ(report["players"][1]["push_back_mm"], 0.0);
