@@ -84,7 +84,7 @@ Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     return sum;
 }
 
-// From the multipliers of the last step, for every point held on a point.
+// From the multipliers of the last step, for every point held on, or away from, a point.
 void gather_stiffness(const IslandView& island, std::span<const double> lambda,
                       SolveScratch& scratch) {
     clear_stiffness(island, scratch);
@@ -96,13 +96,15 @@ void gather_stiffness(const IslandView& island, std::span<const double> lambda,
                 positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
         }
     };
-    for (std::size_t i = 0; i + 2 < scratch.rows.size(); ++i) {
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
         const Row& row = scratch.rows[i];
-        if (row.width != 3 || row.linear_a != Vec3::UnitX()) {
+        const RowBlock& block = island.blocks[row.block];
+        const bool is_point = row.width == 3 && row.linear_a == Vec3::UnitX();
+        if (!is_point && block.kind != RowKind::distance) {
             continue;
         }
-        const Vec3 force(lambda[i], lambda[i + 1], lambda[i + 2]);
-        const RowBlock& block = island.blocks[row.block];
+        const Vec3 force = is_point ? Vec3(lambda[i], lambda[i + 1], lambda[i + 2])
+                                    : Vec3(lambda[i] * row.linear_a);
         add(row.a, force, block.point_a_bs, 1.0);
         add(row.b, force, block.point_b_bs, -1.0);
     }

@@ -36,7 +36,7 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     ASSERT_EQ(scene.levels.size(), 1U);
     EXPECT_EQ(scene.levels[0].file, std::filesystem::path("scenes/assets/module.glb"));
 
-    ASSERT_EQ(scene.bodies.size(), 5U);
+    ASSERT_EQ(scene.bodies.size(), 7U + 12U);
     const SceneBody& crate = scene.bodies[0];
     EXPECT_EQ(crate.kind, BodyKind::free);
     EXPECT_EQ(crate.shape.kind, ShapeKind::box);
@@ -66,6 +66,11 @@ TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
     ASSERT_EQ(lift.motion.path->poses.size(), 3U);
     EXPECT_EQ(lift.motion.path->poses[2].position, Vec3(5.0, 4.0, 0.0));
     EXPECT_EQ(lift.pose.position, Vec3(3.0, 0.0, 0.0));
+    EXPECT_EQ(scene.bodies[5].friction, 0.8);
+    EXPECT_EQ(crate.friction, 0.4);
+    ASSERT_EQ(scene.joints.size(), 3U + 13U);
+    EXPECT_EQ(scene.joints[1].handle, "knob");
+    EXPECT_EQ(scene.joints[3].name, "hose/joint/0");
 
     ASSERT_EQ(scene.spawns.size(), 2U);
     // A yaw of 90 degrees turns left: from -Z to -X.
