@@ -3,7 +3,9 @@
 headers included, are skipped: their marks lie in the build folder. Tests are held to warnings and format only: GoogleTest's macros
 would double the time and add no finding.
 
-usage: tools/check_tidy.py [BUILD_FOLDER] [FILE...]      default: build/release, every source; exit status 0: clean, 1: not
+The compile commands come from build/tidy, which is configured without precompiled headers: clang-tidy cannot read GCC's.
+
+usage: tools/check_tidy.py [FILE...]      default: every source; exit status 0: clean, 1: not
 """
 import hashlib
 import json
@@ -15,6 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "tidy"
 FOLDERS = {"engine", "components", "systems", "game", "tools"}
 
 
@@ -42,12 +45,13 @@ def fingerprint(entry: dict) -> str:
     return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
-def tidy(build: Path, entry: dict) -> str:
+def tidy(entry: dict) -> str:
     """The findings in one source and its headers; empty where it is clean."""
-    mark = build / "tidy" / fingerprint(entry)
+    mark = BUILD / "clean" / fingerprint(entry)
     if mark.exists():
         return ""
-    run = subprocess.run(["clang-tidy", "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", str(build), entry["file"]], capture_output=True, text=True)
+    run = subprocess.run(["clang-tidy", "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", str(BUILD), entry["file"]],
+                         capture_output=True, text=True)
     if run.returncode == 0:
         mark.touch()
         return ""
@@ -55,14 +59,15 @@ def tidy(build: Path, entry: dict) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    build = (Path(arguments[0]) if arguments else ROOT / "build" / "release").resolve()
-    (build / "tidy").mkdir(parents=True, exist_ok=True)
-    entries = sources_of(build, {Path(name).resolve() for name in arguments[1:]})
+    subprocess.run(["cmake", "--preset", "release", "-B", str(BUILD), "-DHANDHOLD_PRECOMPILE=OFF", "-DHANDHOLD_BUILD_TESTS=OFF"],
+                   cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
+    (BUILD / "clean").mkdir(exist_ok=True)
+    entries = sources_of(BUILD, {Path(name).resolve() for name in arguments})
     if not entries:
-        print(f"check_tidy: no source of ours in {build}/compile_commands.json", file=sys.stderr)
+        print(f"check_tidy: no source of ours in {BUILD}/compile_commands.json", file=sys.stderr)
         return 1
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        findings = [found for found in workers.map(lambda entry: tidy(build, entry), entries) if found]
+        findings = [found for found in workers.map(tidy, entries) if found]
     print("".join(findings), end="")
     print(f"check_tidy: {len(entries)} sources, {len(findings)} with findings")
     return 1 if findings else 0
