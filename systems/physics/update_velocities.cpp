@@ -167,29 +167,28 @@ void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
 
 // What hands hold or push may be torn out of them in the next frame by a jump of the tracking: it
 // must not fly off as fast as that. Where a held thing is, its hand says.
-void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning) {
+void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
+                          StageStats& stats) {
     const FrameGraph& frame = io.frame;
-    for (const RowBlock& block : frame.graph.blocks) {
-        if (!is_hand(block)) {
+    for (const Island& island : frame.graph.islands) {
+        const std::span<const std::uint32_t> blocks = frame.graph.blocks_of(island);
+        const auto hand = std::ranges::find_if(
+            blocks, [&](std::uint32_t i) { return is_hand(frame.graph.blocks[i]); });
+        if (hand == blocks.end()) {
             continue;
         }
-        const Entity player = frame.entities[block.a];
+        const Entity player = frame.entities[frame.graph.blocks[*hand].a];
         const Vec3& reference = io.reference.at(player).linear_mps;
-        const auto of_block = [&](const Island& island) {
-            return std::ranges::binary_search(frame.graph.bodies_of(island), block.a);
-        };
-        const auto island = std::ranges::find_if(frame.graph.islands, of_block);
-        if (island == frame.graph.islands.end()) {
-            continue;
-        }
-        const double driven = driven_speed(frame, *island, reference);
-        for (const std::uint32_t i : frame.graph.bodies_of(*island)) {
+        const double driven = driven_speed(frame, island, reference);
+        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {
                 continue;
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
-            clamp_speed(reference, std::max({tuning.object_speed_max_mps, before, driven}),
-                        io.body_velocity.at(frame.entities[i]).linear_mps);
+            const double limit = std::max({tuning.object_speed_max_mps, before, driven});
+            if (clamp_speed(reference, limit, io.body_velocity.at(frame.entities[i]).linear_mps)) {
+                stats.count(Fallback::release_speed_clamped);
+            }
         }
     }
 }
@@ -271,7 +270,7 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     solve_islands(io.frame, tuning.contact);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io, tuning.locomotion);
-    clamp_handled_bodies(io, tuning.locomotion);
+    clamp_handled_bodies(io, tuning.locomotion, stats);
     finish_releases(io, tuning.locomotion, stats);
     clamp_players(io, tuning.locomotion, stats);
     write_last_valid(io);
