@@ -120,6 +120,7 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
         }
     }
     std::vector<PlayerEntities> players;
+    players.reserve(starts.size());
     for (const ScenePlayerStart& start : starts) {
         players.push_back(add_scene_player(scene, start));
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "engine/collision/bullet_separation.hpp"
@@ -35,6 +36,7 @@ struct Impact {
     double fraction = 0.0;           // of the way, in [0, 1]
     Vec3 normal = Vec3::UnitY();     // unit, from b towards a
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
+    std::uint32_t part = 0;          // of a; whoever asks about several writes it
 };
 
 // First fraction of the way at which a, a part of what moves, is within a micrometre of b, or

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/math/math.hpp"
@@ -13,6 +14,7 @@ struct NearContact {
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
     Vec3 normal_ns = Vec3::UnitY();  // unit, from b towards a
     double separation_m = 0.0;       // normal . (point_a - point_b)
+    std::uint32_t part = 0;          // of a, where it has several
 };
 
 // Sorts contacts by place, merges equal ones, and leaves of each group of (nearly) equal normal

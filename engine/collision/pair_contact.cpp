@@ -81,12 +81,17 @@ std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motio
         const ConvexPart& a = io.a[i];
         if (io.b.empty()) {
             const double limit = first ? first->fraction : 1.0;
-            keep_first(first_impact_on_mesh(io, a, io.triangles[i], motion, limit), first);
+            auto impact = first_impact_on_mesh(io, a, io.triangles[i], motion, limit);
+            if (impact) {
+                impact->part = static_cast<std::uint32_t>(i);
+                keep_first(impact, first);
+            }
         }
         for (const ConvexPart& b : io.b) {
             const double limit = first ? first->fraction : 1.0;
-            const auto impact = time_of_impact(a, motion, place_b(io, b), limit);
+            auto impact = time_of_impact(a, motion, place_b(io, b), limit);
             if (impact && stops(*impact, motion, impact->normal, graze_m(io, a, &b))) {
+                impact->part = static_cast<std::uint32_t>(i);
                 keep_first(impact, first);
             }
         }
@@ -105,6 +110,7 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
     PairScratch& scratch = io.scratch;
     const double margin_m = io.limits.margin_m;
     for (std::size_t i = 0; i < io.a.size(); ++i) {
+        const std::size_t before = scratch.contacts.size();
         const Convex a = io.a[i].at(pose_ns);
         if (io.b.empty()) {
             add_mesh_contacts({a, io.a[i].shape().core_reach_m(), io.a[i].placed(from_ns).position,
@@ -116,6 +122,38 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
             if (!are_far(io.a[i], a, part, b, margin_m)) {
                 add_manifold(a, b, separate(a, b), margin_m, scratch.clip, scratch.contacts);
             }
+        }
+        for (std::size_t added = before; added < scratch.contacts.size(); ++added) {
+            scratch.contacts[added].part = static_cast<std::uint32_t>(i);
+        }
+    }
+}
+
+// Where a turns on after the touch, as a ball that rolls does, other points of it than those that
+// touched come to lie deepest: of each plane of contact, met at `touch`, the deepest at the end.
+void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
+    std::vector<NearContact>& contacts = io.scratch.contacts;
+    const auto depth_at_end = [&](const NearContact& contact) {
+        const Vec3 point_a_bs = inverse_transform_point(touch_ns, contact.point_a_ns);
+        return contact.normal_ns.dot(transform_point(to_ns, point_a_bs) - contact.point_b_ns);
+    };
+    constexpr double k_deeper_m = 1e-6;
+    constexpr double k_same_normal = 0.9999;
+    const std::size_t met = contacts.size();
+    for (std::size_t i = 0; i < met; ++i) {
+        const NearContact plane = contacts[i];
+        const Convex a = io.a[plane.part].at(to_ns);
+        const Vec3 deepest = a.support(-plane.normal_ns) - a.radius_m * plane.normal_ns;
+        const double separation_m = plane.normal_ns.dot(deepest - plane.point_b_ns);
+        const bool is_known = std::ranges::any_of(contacts, [&](const NearContact& other) {
+            return other.normal_ns.dot(plane.normal_ns) > k_same_normal &&
+                   depth_at_end(other) < separation_m + k_deeper_m;
+        });
+        if (!is_known) {
+            const Vec3 at_touch =
+                transform_point(touch_ns, inverse_transform_point(to_ns, deepest));
+            contacts.push_back({at_touch, deepest - separation_m * plane.normal_ns, plane.normal_ns,
+                                separation_m, plane.part});
         }
     }
 }
@@ -133,9 +171,12 @@ void find_pair_contacts(const PairIo& io) {
     add_contacts_at(io, pose_ns, from_ns);
     if (impact && io.scratch.contacts.empty()) {
         io.scratch.contacts.push_back(
-            {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0});
+            {impact->point_b_ns, impact->point_b_ns, impact->normal, 0.0, impact->part});
     }
     reduce_contacts(io.scratch.contacts, io.scratch.spare);
+    if (impact) {
+        add_deepest_at_end(io, pose_ns, to_ns);
+    }
 
     std::uint32_t feature = 0;
     for (const NearContact& near : io.scratch.contacts) {

@@ -192,12 +192,12 @@ void spread_held(const BuildConstraintsIo& io) {
     }
     for (const Grab& grab : io.grab.rows()) {
         const std::size_t held = io.body.find_row(grab.body);
-        if (grab.kind != GripKind::held || held == io.body.k_npos) {
+        if (grab.kind != GripKind::held || held == Column<RigidBody>::k_npos) {
             continue;
         }
         for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
             const std::size_t row = io.body.find_row(io.frame.entities[i]);
-            if (row != io.body.k_npos && groups.share_group(row, held)) {
+            if (row != Column<RigidBody>::k_npos && groups.share_group(row, held)) {
                 io.frame.phase[i].held = true;
             }
         }

@@ -14,7 +14,7 @@ bool is_held_by(const FindContactsIo& io, Entity player, Entity body) {
             continue;
         }
         const std::size_t held_row = io.body.find_row(grab.body);
-        if (held_row != io.body.k_npos && body_row != io.body.k_npos &&
+        if (held_row != Column<RigidBody>::k_npos && body_row != Column<RigidBody>::k_npos &&
             io.frame.joint_groups.share_group(body_row, held_row)) {
             return true;
         }

@@ -32,13 +32,14 @@ void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
     std::iota(groups.of_body.begin(), groups.of_body.end(), 0U);
     const auto light_row = [&](Entity entity) {
         const std::size_t row = io.body.find_row(entity);
-        return row != io.body.k_npos && is_light(io.body.rows()[row], tuning) ? row
-                                                                              : io.body.k_npos;
+        return row != Column<RigidBody>::k_npos && is_light(io.body.rows()[row], tuning)
+                   ? row
+                   : Column<RigidBody>::k_npos;
     };
     for (const Joint& joint : io.joint.rows()) {
         const std::size_t a = light_row(joint.a);
         const std::size_t b = light_row(joint.b);
-        if (a != io.body.k_npos && b != io.body.k_npos) {
+        if (a != Column<RigidBody>::k_npos && b != Column<RigidBody>::k_npos) {
             const std::uint32_t root_a = find_root(groups.of_body, static_cast<std::uint32_t>(a));
             const std::uint32_t root_b = find_root(groups.of_body, static_cast<std::uint32_t>(b));
             groups.of_body[std::max(root_a, root_b)] = std::min(root_a, root_b);
@@ -50,7 +51,7 @@ void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
     for (const Joint& joint : io.joint.rows()) {
         const std::size_t a = light_row(joint.a);
         const std::size_t b = light_row(joint.b);
-        if ((a == io.body.k_npos) != (b == io.body.k_npos)) {
+        if ((a == Column<RigidBody>::k_npos) != (b == Column<RigidBody>::k_npos)) {
             groups.anchored[groups.of_body[std::min(a, b)]] = 1;  // k_npos is the larger
         }
     }
