@@ -64,6 +64,8 @@ const char* name_of(Fallback reason) {
             return "contacts_unresolved";
         case Fallback::release_speed_clamped:
             return "release_speed_clamped";
+        case Fallback::object_speed_clamped:
+            return "object_speed_clamped";
         case Fallback::head_ignores_full:
             return "head_ignores_full";
         case Fallback::count:

@@ -43,6 +43,7 @@ enum class Fallback : std::uint8_t {
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame
     release_speed_clamped,
+    object_speed_clamped,
     head_ignores_full,
     count
 };

@@ -115,7 +115,7 @@ void work_cable(double t_s, SessionScript& script) {
     link.move(t_s + 1.1, Vec3(0.25, 0.10, -0.03));
     link.move(t_s + 1.9, Vec3(-0.30, 0.10, -0.03));
     link.move(t_s + 2.6, Vec3(0.20, 0.15, -0.03));
-    link.move(t_s + 3.2, Vec3(0.0, 0.02, -0.06));
+    link.move(t_s + 3.2, Vec3(0.05, 0.05, -0.03));
 }
 
 // The rock is wider than the gap: shoved at it, it pushes whoever shoves.

@@ -93,8 +93,12 @@ void read_limits(const JsonValue& value, const Units& units, Joint& joint) {
     joint.limited = true;
     joint.lower = units.number(ends[0]);
     joint.upper = units.number(ends[1]);
-    if (joint.lower > joint.upper || (joint.kind == JointKind::distance && joint.lower < 0.0)) {
+    if (joint.lower > joint.upper) {
         limits.refuse("two numbers, the lower first");
+    } else if (joint.kind == JointKind::distance && (joint.lower < 0.0 || joint.upper == 0.0)) {
+        limits.refuse("distances, the upper one above 0");
+    } else if (joint.kind != JointKind::distance && (joint.lower > 0.0 || joint.upper < 0.0)) {
+        limits.refuse("limits with 0 between them: where the bodies stand");
     }
 }
 
@@ -110,6 +114,7 @@ void read_latch(const JsonValue& value, const Units& units, const SceneJointName
     latch.catch_range = units.positive(value[catch_range]);
     latch.strength = value[strength].number_or(0.0, k_force);
     if (!value["handle"].exists()) {
+        value.allow_only({std::string_view(at), catch_range, strength});
         return;
     }
     out.handle = value["handle"].text();

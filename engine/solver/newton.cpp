@@ -194,15 +194,14 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         if (result.iterations > 0) {
             adapt(result.residual_m, previous, worst_overlap_of(scratch.rows), previous_overlap,
                   softness);
-            if (result.residual_m > k_stiffness_from_m) {
-                gather_stiffness(island, scratch.lambda, scratch);
-            } else {
+            if (result.residual_m <= k_stiffness_from_m) {
                 clear_stiffness(island, scratch);
             }
         }
         previous = result.residual_m;
         previous_overlap = worst_overlap_of(scratch.rows);
         const double length = step(island, softness, result.residual_m, scratch);
+        gather_stiffness(island, scratch.lambda, scratch);  // while these are the rows of lambda
         ++result.iterations;
         if (length < settings.step_tolerance_m) {
             collect_rows(island, scratch.rows);

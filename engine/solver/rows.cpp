@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace handhold {
 namespace {
@@ -117,7 +118,6 @@ void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& bloc
 }
 
 // True where the coordinate is an angle.
-bool turns(RowKind kind) { return kind == RowKind::hinge || kind == RowKind::ball; }
 
 // The rate of the joint's coordinate as a row, per unit of the coordinate.
 void set_rate(std::span<const SolverBody> bodies, const RowBlock& block, Row& row) {
@@ -160,7 +160,11 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     }
     const double lever = turns(block.kind) ? k_angle_m : 1.0;
     const double coordinate = joint_coordinate(bodies, block);
-    const double above = lever * (coordinate - joint.lower);
+    // A cone's angle and a distance are never below 0: there no row may stop what swings through.
+    const bool has_lower =
+        joint.lower > 0.0 || block.kind == RowKind::hinge || block.kind == RowKind::slider;
+    const double above =
+        has_lower ? lever * (coordinate - joint.lower) : std::numeric_limits<double>::infinity();
     const double below = lever * (joint.upper - coordinate);
     const bool locked = joint.lower == joint.upper;
     if (!locked && above >= reach_m && below >= reach_m) {
@@ -191,6 +195,8 @@ double limit_excess(std::span<const SolverBody> bodies, const RowBlock& block) {
 }
 
 }  // namespace
+
+bool turns(RowKind kind) { return kind == RowKind::hinge || kind == RowKind::ball; }
 
 void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                  std::uint32_t block_index, std::vector<Row>& rows, double reach_m) {

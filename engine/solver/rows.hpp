@@ -60,11 +60,13 @@ struct JointRows {
     double previous =
         0.0;  // hinge: of all angles whole turns apart the one nearest to this is meant
     // Velocity only: rows that give way. Friction about (ball: all axes) or along the free
-    // coordinate, at most this impulse, N s or N m s; and a pull to a speed, by at most that
-    // impulse.
+    // coordinate, at most this impulse, N s or N m s; a pull towards a coordinate, as fast as gets
+    // there in a time, by at most that impulse; and what a lock takes before it gives way, 0: all.
     double friction_impulse = 0.0;
-    double drive_speed = 0.0;  // m/s or rad/s
+    double drive_to = 0.0;  // m or rad
+    double drive_s = 0.0;   // > 0 where it is driven
     double drive_impulse = 0.0;
+    double lock_limit_impulse = 0.0;
 
     double lock_impulse = 0.0;  // out of solve_velocities: what held a locked coordinate
 };
@@ -124,6 +126,9 @@ struct Row {
     // turned. 0: belongs to an earlier row.
     std::uint8_t width = 1;
 };
+
+// True where a joint's coordinate is an angle.
+bool turns(RowKind kind);
 
 // Appends the block's rows at the bodies' present poses. Limits farther away than reach_m (angles
 // at their lever) are left out.

@@ -36,6 +36,12 @@ void collect_frictions(const IslandView& island, const RowBlock& block, std::uin
     if (is_contact(block) && block.friction > 0.0) {
         add(0.0, block.friction);
     }
+    if (block.joint.lock_limit_impulse > 0.0 && block.joint.lower == block.joint.upper) {
+        // The lock is the last of the joint's rows; angular rows are scaled by their lever.
+        const double lever = turns(block.kind) ? k_angle_m : 1.0;
+        scratch.frictions.push_back(
+            {normal, 1, block.joint.lock_limit_impulse / lever, normal, 0.0, false});
+    }
     if (is_joint(block) && block.joint.friction_impulse > 0.0) {
         add(block.joint.friction_impulse, 0.0);
     }
@@ -68,7 +74,9 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         collect_frictions(island, block, index, scratch);
         scratch.approach_mps.resize(scratch.rows.size(), 0.0);
         if (has_drive(block)) {
-            scratch.approach_mps.back() = -block.joint.drive_speed;
+            scratch.approach_mps.back() =
+                (joint_coordinate(island.bodies, block) - block.joint.drive_to) /
+                block.joint.drive_s;
         }
     }
 }
@@ -118,6 +126,9 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     }
     Vec3 wanted = friction.slides ? Vec3(-slip) : push;
     wanted = wanted.norm() > 1e-12 ? Vec3(wanted * (limit / wanted.norm())) : push;
+    if (friction.slides && !may_stick && push.dot(slip) > 0.0) {
+        wanted = 0.5 * push;  // between too much and too little: never along the slip for long
+    }
     const bool changes = !friction.slides || (wanted - push).norm() > tolerance;
     friction.slides = true;
     for (std::size_t i = 0; i < friction.width; ++i) {
@@ -126,13 +137,10 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     return changes;
 }
 
-// The largest impulse of a contact that rubs, or of friction, N s.
+// The largest impulse that presses a contact that rubs, N s.
 double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) {
     double largest = 0.0;
     for (const SolveScratch::Friction& friction : scratch.frictions) {
-        for (std::size_t i = 0; i < friction.width; ++i) {
-            largest = std::max(largest, std::abs(lambda[friction.row + i]));
-        }
         if (friction.coefficient > 0.0) {
             largest = std::max(largest, std::abs(lambda[friction.normal]));
         }
@@ -172,8 +180,12 @@ std::span<const double> solve_with_friction(SolveScratch& scratch) {
     if (pressure_of(lambda, scratch) <= k_wedge * pressed) {
         return lambda;
     }
-    // A wedge: the harder it is held, the harder it presses. It has no answer; let it slip freely.
+    // A wedge: the harder it is held, the harder it presses. It has no answer; let contacts slip
+    // freely.
     for (SolveScratch::Friction& friction : scratch.frictions) {
+        if (!(friction.coefficient > 0.0)) {
+            continue;
+        }
         friction.slides = true;
         for (std::size_t i = 0; i < friction.width; ++i) {
             scratch.system.hold(friction.row + i, 0.0);

@@ -87,6 +87,9 @@ const char* meaning_of(Fallback reason) {
             return "Contacts still overlapped at the end of the frame.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
+        case Fallback::object_speed_clamped:
+            return "A thing that hands moved, or that spins, was faster than allowed; it was "
+                   "limited.";
         case Fallback::head_ignores_full:
             return "The head passed through more bodies than it remembers; the oldest was "
                    "forgotten.";

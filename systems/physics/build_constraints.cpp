@@ -135,18 +135,18 @@ JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
-    rows.previous = state.coordinate;
+    rows.previous = state.coordinate + state.speed * dt_s;  // as predicted: it may turn fast
     rows.friction_impulse = joint.friction * dt_s;
     if (joint.detent_spacing > 0.0) {
-        const double rest =
-            joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
-        rows.drive_speed = (rest - state.coordinate) / std::max(k_detent_s, dt_s);
+        rows.drive_to = joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
+        rows.drive_s = std::max(k_detent_s, dt_s);
         rows.drive_impulse = joint.detent_strength * dt_s;
     }
     if (state.latched) {
         rows.limited = true;
         rows.lower = joint.latch.at;
         rows.upper = joint.latch.at;
+        rows.lock_limit_impulse = joint.latch.strength * dt_s;
     }
     return rows;
 }

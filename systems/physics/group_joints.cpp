@@ -51,7 +51,8 @@ void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning) {
     for (const Joint& joint : io.joint.rows()) {
         const std::size_t a = light_row(joint.a);
         const std::size_t b = light_row(joint.b);
-        if ((a == Column<RigidBody>::k_npos) != (b == Column<RigidBody>::k_npos)) {
+        const bool may_be_slack = joint.kind == JointKind::distance && joint.lower < joint.upper;
+        if (!may_be_slack && (a == Column<RigidBody>::k_npos) != (b == Column<RigidBody>::k_npos)) {
             groups.anchored[groups.of_body[std::min(a, b)]] = 1;  // k_npos is the larger
         }
     }

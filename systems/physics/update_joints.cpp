@@ -10,15 +10,20 @@ bool handle_is_turned(const UpdateJointsIo& io, const JointLatch& latch) {
     return handle != nullptr && std::abs(handle->coordinate) >= latch.handle_at;
 }
 
+// The lock takes no more than its strength: where it took all of it, it gave way.
 bool stays_latched(const UpdateJointsIo& io, const JointLatch& latch, double lock_impulse) {
-    const bool torn = latch.strength > 0.0 && lock_impulse > latch.strength * io.dt_s;
+    constexpr double k_all = 1.0 - 1e-9;
+    const bool torn = latch.strength > 0.0 && lock_impulse >= k_all * latch.strength * io.dt_s;
     return !torn && !handle_is_turned(io, latch);
 }
 
 // Only what comes nearer, or rests, is caught: what was just pulled out is not.
 bool catches(const UpdateJointsIo& io, const JointLatch& latch, const JointState& state) {
+    constexpr double k_still = 1e-6;  // m or rad
     const double away = state.coordinate - latch.at;
-    return std::abs(away) <= latch.catch_range && away * state.speed <= 0.0 &&
+    const bool comes_nearer = std::abs(away) > k_still && away * state.speed < 0.0;
+    const bool rests = std::abs(state.speed) * io.dt_s < k_still;
+    return std::abs(away) <= latch.catch_range && (comes_nearer || rests) &&
            !handle_is_turned(io, latch);
 }
 

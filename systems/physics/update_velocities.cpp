@@ -101,13 +101,17 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
 }
 
 // What rows give and take may be far out of proportion for something thin.
-Vec3 clamp_spin(const SolverBody& body, double limit_radps) {
+Vec3 clamp_spin(const SolverBody& body, double limit_radps, StageStats& stats) {
     const double spin = body.spin_radps.norm();
-    const bool clamps = body.role == BodyRole::free && spin > limit_radps;
-    return clamps ? Vec3(body.spin_radps * (limit_radps / spin)) : body.spin_radps;
+    if (body.role != BodyRole::free || spin <= limit_radps) {
+        return body.spin_radps;
+    }
+    stats.count(Fallback::object_speed_clamped);
+    return body.spin_radps * (limit_radps / spin);
 }
 
-void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning) {
+void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
+                      StageStats& stats) {
     for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
         const SolverBody& body = io.frame.graph.bodies[i];
         const Entity entity = io.frame.entities[i];
@@ -115,7 +119,7 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
             io.player_velocity.at(entity).linear_mps = body.velocity_mps;
         } else if (body.role != BodyRole::fixed) {
             io.body_velocity.at(entity) = {body.velocity_mps,
-                                           clamp_spin(body, tuning.object_spin_max_radps)};
+                                           clamp_spin(body, tuning.object_spin_max_radps, stats)};
         }
     }
 }
@@ -187,7 +191,7 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             const double limit = std::max({tuning.object_speed_max_mps, before, driven});
             if (clamp_speed(reference, limit, io.body_velocity.at(frame.entities[i]).linear_mps)) {
-                stats.count(Fallback::release_speed_clamped);
+                stats.count(Fallback::object_speed_clamped);
             }
         }
     }
@@ -203,7 +207,9 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
             continue;
         }
         bool clamped = false;
-        if (grab.kind == GripKind::held) {
+        if (grab.jointed) {
+            // What it hangs on may be a ship: clamp_handled_bodies knows how fast that is.
+        } else if (grab.kind == GripKind::held) {
             clamped = clamp_speed(reference, tuning.object_speed_max_mps,
                                   io.body_velocity.at(grab.body).linear_mps);
         } else {
@@ -269,7 +275,7 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     }
     solve_islands(io.frame, tuning.contact);
     book_impulses(io.frame.graph, stats.ledger);
-    write_velocities(io, tuning.locomotion);
+    write_velocities(io, tuning.locomotion, stats);
     clamp_handled_bodies(io, tuning.locomotion, stats);
     finish_releases(io, tuning.locomotion, stats);
     clamp_players(io, tuning.locomotion, stats);

@@ -248,11 +248,42 @@ TEST(Friction, DriveReachesItsSpeedWithinItsImpulse) {
         test::SolverScene scene;
         scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 4.0, Vec3::Constant(0.4))};
         RowBlock slider = test::row_block(RowKind::slider, 0, 1);
-        slider.joint.drive_speed = 0.5;
+        slider.joint.drive_to = 0.05;
+        slider.joint.drive_s = 0.1;
         slider.joint.drive_impulse = impulse;
         scene.graph.blocks.push_back(slider);
         scene.solve_velocities();
         EXPECT_NEAR(scene.body(1).velocity_mps.x(), std::min(0.5, impulse / 4.0), 1e-7);
+    }
+}
+
+TEST(JointRows, LockOfAStrengthTakesNoMoreThanThat) {
+    for (const double strength : {0.25, 0.75, 1.5}) {
+        test::SolverScene scene;
+        scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
+        scene.body(1).spin_radps = Vec3(2.0, 0.0, 0.0);
+        RowBlock hinge = test::row_block(RowKind::hinge, 0, 1);
+        hinge.joint.limited = true;
+        hinge.joint.lock_limit_impulse = strength;
+        scene.graph.blocks.push_back(hinge);
+        scene.solve_velocities();
+        EXPECT_NEAR(scene.block(0).joint.lock_impulse, std::min(strength, 1.0), 1e-6);
+        EXPECT_NEAR(scene.body(1).spin_radps.x(), std::max(0.0, 2.0 - strength / 0.5), 1e-6);
+    }
+}
+
+// A body that swings through the middle of its cone is not stopped there.
+TEST(JointRows, ConeHoldsNothingInItsMiddle) {
+    test::SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
+    RowBlock ball = test::row_block(RowKind::ball, 0, 1);
+    ball.joint.limited = true;
+    ball.joint.upper = 0.8;
+    scene.graph.blocks.push_back(ball);
+    for (const Vec3& axis : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitY())}) {
+        scene.body(1).spin_radps = 0.05 * axis;
+        scene.solve_velocities();
+        EXPECT_NEAR((scene.body(1).spin_radps - 0.05 * axis).norm(), 0.0, 1e-9);
     }
 }
 

@@ -339,6 +339,12 @@ TEST(Door, StrongEnoughAForceTearsTheLatchOpen) {
                                                    -0.05 * Vec3::UnitY()};
         c.run(0.02);
         EXPECT_EQ(c.state().latched, strength_nm > torque);
+        // What the latch could not take goes on turning the door.
+        c.run(0.5);
+        EXPECT_EQ(c.state().latched, strength_nm > torque);
+        const double slowed = strength_nm / torque;
+        const double turned = slowed < 1.0 ? 0.5 * 0.05 * (1.0 - slowed) : 0.0;
+        EXPECT_NEAR(std::abs(c.state().coordinate), turned, 0.1 * turned + 1e-6);
     }
 }
 
