@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,7 +29,9 @@ Json ball(const char* name, const char* kind, const Json& position) {
     return body;
 }
 
-Json scene_with(const Json& joints, const Json& chains = Json::array()) {
+using List = std::vector<Json>;
+
+Json scene_with(const List& joints, const List& chains = {}) {
     return {{"name", "joints"},
             {"bodies",
              {ball("wall", "static", {0, 0, 0}), ball("post", "static", {0, 0, 9}),
@@ -121,7 +124,7 @@ TEST(SceneJoint, BodiesStandAtTimeZeroAsTheJointsWantThem) {
 }
 
 TEST(SceneChain, MakesLinksAndTheirBalls) {
-    const Result<SceneFile> file = parse(scene_with(Json::array(), Json::array({chain()})));
+    const Result<SceneFile> file = parse(scene_with({}, {chain()}));
     ASSERT_TRUE(file.ok()) << file.error().message();
     const SceneFile& scene = file.value();
     ASSERT_EQ(scene.bodies.size(), 4U + 10U);
@@ -136,7 +139,7 @@ TEST(SceneChain, MakesLinksAndTheirBalls) {
     Json hanging = chain();
     hanging.erase("a");
     hanging.erase("b");
-    const Result<SceneFile> loose = parse(scene_with(Json::array(), Json::array({hanging})));
+    const Result<SceneFile> loose = parse(scene_with({}, {hanging}));
     ASSERT_TRUE(loose.ok());
     EXPECT_EQ(loose.value().joints.size(), 10U);
     EXPECT_EQ(loose.value().joints[0].a, "");
@@ -145,8 +148,8 @@ TEST(SceneChain, MakesLinksAndTheirBalls) {
 struct BadJoint {
     const char* what;
     const char* place;
-    Json joints;
-    Json chains = Json::array();
+    List joints;
+    List chains = {};
 };
 void PrintTo(const BadJoint& joint, std::ostream* stream) { *stream << joint.what; }
 
@@ -208,14 +211,14 @@ const BadJoint k_bad_joints[] = {
      "/joints/1/latch/handle_deg",
      {hinge(), with(slider(), "/latch", {{"catch_m", 0.01}, {"handle_deg", 3}})}},
     {"rope that rubs", "/joints/0/friction_n", {with(rope(), "/friction_n", 1)}},
-    {"chain of nothing", "/chains/0/links", Json::array(), {with(chain(), "/links", 0)}},
-    {"chain of too much", "/chains/0/links", Json::array(), {with(chain(), "/links", 1000000000)}},
-    {"chain on nobody", "/chains/0/a", Json::array(), {with(chain(), "/a", "nobody")}},
-    {"links thicker than long", "/chains/0/to_m", Json::array(), {with(chain(), "/radius_m", 0.2)}},
-    {"chain of no length", "/chains/0/to_m", Json::array(), {with(chain(), "/to_m", {0, 0, 0})}},
-    {"chain of no mass", "/chains/0/mass_kg", Json::array(), {with(chain(), "/mass_kg", 0)}},
-    {"two chains of one name", "/chains/1/name", Json::array(), {chain(), chain()}},
-    {"unknown key of a chain", "/chains/0/stiff", Json::array(), {with(chain(), "/stiff", 1)}},
+    {"chain of nothing", "/chains/0/links", {}, {with(chain(), "/links", 0)}},
+    {"chain of too much", "/chains/0/links", {}, {with(chain(), "/links", 1000000000)}},
+    {"chain on nobody", "/chains/0/a", {}, {with(chain(), "/a", "nobody")}},
+    {"links thicker than long", "/chains/0/to_m", {}, {with(chain(), "/radius_m", 0.2)}},
+    {"chain of no length", "/chains/0/to_m", {}, {with(chain(), "/to_m", {0, 0, 0})}},
+    {"chain of no mass", "/chains/0/mass_kg", {}, {with(chain(), "/mass_kg", 0)}},
+    {"two chains of one name", "/chains/1/name", {}, {chain(), chain()}},
+    {"unknown key of a chain", "/chains/0/stiff", {}, {with(chain(), "/stiff", 1)}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Files, MalformedJoint, ::testing::ValuesIn(k_bad_joints));
