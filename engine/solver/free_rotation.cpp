@@ -32,6 +32,10 @@ int steps_for(double spin_radps, double dt_s) {
 }  // namespace
 
 void advance_rotation(const Vec3& inertia_kgm2, double dt_s, Quat& rotation, Vec3& spin_radps) {
+    constexpr double k_fastest_radps = 1e6;
+    if (!(spin_radps.squaredNorm() < k_fastest_radps * k_fastest_radps)) {
+        return;
+    }
     const auto [least, middle, most] = axes_by_moment(inertia_kgm2);
     Vec3 momentum_bs = inertia_kgm2.cwiseProduct(rotation.conjugate() * spin_radps);
     const Vec3 momentum_ws = rotation * momentum_bs;

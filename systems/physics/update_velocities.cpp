@@ -207,14 +207,13 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
             continue;
         }
         bool clamped = false;
-        if (grab.jointed) {
-            // What it hangs on may be a ship: clamp_handled_bodies knows how fast that is.
-        } else if (grab.kind == GripKind::held) {
-            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
-                                  io.body_velocity.at(grab.body).linear_mps);
-        } else {
+        if (grab.kind == GripKind::surface) {
             clamped = clamp_speed(reference, tuning.release_speed_max_mps,
                                   io.player_velocity.at(player).linear_mps);
+        } else if (!grab.jointed) {
+            // What hangs on joints may hang on a ship: clamp_handled_bodies knows how fast that is.
+            clamped = clamp_speed(reference, tuning.object_speed_max_mps,
+                                  io.body_velocity.at(grab.body).linear_mps);
         }
         if (clamped) {
             stats.count(Fallback::release_speed_clamped);

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "engine/io/text_file.hpp"
 #include "game/climber_session.hpp"
@@ -17,7 +18,10 @@ namespace {
 
 class RunCommand : public testing::Test {
   protected:
-    RunCommand() : folder_(std::filesystem::path(testing::TempDir()) / "handhold_run_command") {
+    // A folder of its own: tests run side by side.
+    RunCommand()
+        : folder_(std::filesystem::path(testing::TempDir()) /
+                  ("handhold_run_command_" + std::to_string(getpid()))) {
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

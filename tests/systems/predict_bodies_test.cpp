@@ -170,6 +170,17 @@ TEST(PredictBodies, FastTumbleOfALongThingKeepsItsEnergy) {
     }
 }
 
+// A damaged state may claim anything: the pose stays a pose.
+TEST(PredictBodies, SpinBeyondAllMeasureLeavesThePoseAlone) {
+    for (const double spin : {1e6, 1e200, 1.7e308}) {
+        Prediction scene;
+        scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), {},
+                       {Vec3::Zero(), Vec3(spin, 0.0, spin)});
+        scene.run(0.1);
+        EXPECT_EQ(scene.pose().rotation.coeffs(), Quat::Identity().coeffs());
+    }
+}
+
 TEST(PredictBodies, OrderOfBodiesDoesNotMatter) {
     Random random(7);
     const Pose one = random.pose();
