@@ -7,6 +7,7 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/solver/islands.hpp"
 #include "engine/solver/newton.hpp"
+#include "engine/solver/velocities.hpp"
 
 namespace handhold {
 
@@ -53,6 +54,7 @@ struct FrameGraph {
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
+    std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
     std::vector<double> overlap_m;  // by body
     std::vector<std::uint32_t> overlaps_with;

@@ -62,6 +62,10 @@ const char* name_of(Fallback reason) {
             return "contacts_contradict";
         case Fallback::contacts_unresolved:
             return "contacts_unresolved";
+        case Fallback::friction_wedged:
+            return "friction_wedged";
+        case Fallback::friction_undecided:
+            return "friction_undecided";
         case Fallback::release_speed_clamped:
             return "release_speed_clamped";
         case Fallback::object_speed_clamped:

@@ -14,15 +14,6 @@ btDbvtVolume to_volume(const Bounds& bounds) {
 // Overlaps nothing and widens no node above it.
 btDbvtVolume empty_volume() { return to_volume({Vec3::Constant(1e30), Vec3::Constant(-1e30)}); }
 
-bool same_pose(const Pose& a, const Pose& b) {
-    return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
-}
-
-bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
-    return a.id == b.id && a.shape == b.shape && a.free == b.free &&
-           same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
-}
-
 }  // namespace
 
 void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {

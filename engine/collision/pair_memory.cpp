@@ -4,19 +4,6 @@
 #include <tuple>
 
 namespace handhold {
-namespace {
-
-bool same_pose(const Pose& a, const Pose& b) {
-    return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
-}
-
-bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
-    return a.id == b.id && a.shape == b.shape && a.free == b.free &&
-           same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
-}
-
-}  // namespace
-
 void PairMemory::Pass::clear() {
     colliders.clear();
     pairs.clear();

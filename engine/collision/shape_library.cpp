@@ -83,24 +83,22 @@ ShapeId ShapeLibrary::add_sphere(double radius_m) {
     return add(std::move(shape));
 }
 
-ShapeId ShapeLibrary::add_capsule(double radius_m, double half_height_m) {
+ShapeId ShapeLibrary::add_round(ShapeKind kind, double radius_m, double half_height_m) {
     HH_CHECK(is_size(radius_m), "radius outside of [1e-3, 1e4] m", radius_m);
     HH_CHECK(is_size(half_height_m), "half height outside of [1e-3, 1e4] m", half_height_m);
     Shape shape;
-    shape.kind = ShapeKind::capsule;
+    shape.kind = kind;
     shape.radius_m = radius_m;
     shape.half_height_m = half_height_m;
     return add(std::move(shape));
 }
 
+ShapeId ShapeLibrary::add_capsule(double radius_m, double half_height_m) {
+    return add_round(ShapeKind::capsule, radius_m, half_height_m);
+}
+
 ShapeId ShapeLibrary::add_cylinder(double radius_m, double half_height_m) {
-    HH_CHECK(is_size(radius_m), "radius outside of [1e-3, 1e4] m", radius_m);
-    HH_CHECK(is_size(half_height_m), "half height outside of [1e-3, 1e4] m", half_height_m);
-    Shape shape;
-    shape.kind = ShapeKind::cylinder;
-    shape.radius_m = radius_m;
-    shape.half_height_m = half_height_m;
-    return add(std::move(shape));
+    return add_round(ShapeKind::cylinder, radius_m, half_height_m);
 }
 
 ShapeId ShapeLibrary::add_hull(std::span<const Vec3> points) {

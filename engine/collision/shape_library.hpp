@@ -82,6 +82,7 @@ class ShapeLibrary {
 
   private:
     ShapeId add(Shape shape);
+    ShapeId add_round(ShapeKind kind, double radius_m, double half_height_m);
     std::vector<Shape> shapes_;
 };
 

@@ -149,10 +149,11 @@ double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) 
 }
 
 // Multipliers of all rows, by fixed point over who sticks and who slides.
-std::span<const double> solve_with_friction(SolveScratch& scratch) {
+std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResult& result) {
     constexpr int k_passes = 16;
     constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
     constexpr double k_wedge = 10.0;      // times what pressed while all stuck
+    result = {};
     for (SolveScratch::Friction& friction : scratch.frictions) {
         friction.slides = false;
         for (std::size_t i = 0; i < friction.width; ++i) {
@@ -164,7 +165,7 @@ std::span<const double> solve_with_friction(SolveScratch& scratch) {
         return lambda;
     }
     const double pressed = pressure_of(lambda, scratch);
-    for (int pass = 0; pass < k_passes; ++pass) {
+    for (int pass = 0; pass < k_passes && !result.wedged; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
             changes |= apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
@@ -173,11 +174,10 @@ std::span<const double> solve_with_friction(SolveScratch& scratch) {
             return lambda;
         }
         lambda = scratch.system.solve(scratch.rows);
-        if (pressure_of(lambda, scratch) > k_wedge * pressed) {
-            break;
-        }
+        result.wedged = pressure_of(lambda, scratch) > k_wedge * pressed;
     }
-    if (pressure_of(lambda, scratch) <= k_wedge * pressed) {
+    if (!result.wedged) {
+        result.undecided = true;
         return lambda;
     }
     // A wedge: the harder it is held, the harder it presses. It has no answer; let contacts slip
@@ -251,8 +251,9 @@ void refine_velocities(const IslandView& island, SolveScratch& scratch) {
 
 }  // namespace
 
-void solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                      SolveScratch& scratch) {
+VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                                SolveScratch& scratch) {
+    VelocityResult result;
     constexpr double k_hand_softness = 1e-6;
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);
@@ -268,7 +269,7 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
     Softness softness{k_hand_softness, k_contact_softness};
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
         regularise(scratch.rows, softness, 1.0, scratch.system);
-        const std::span<const double> lambda = solve_with_friction(scratch);
+        const std::span<const double> lambda = solve_with_friction(scratch, result);
         gather_moves(island, lambda, scratch);
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
@@ -281,6 +282,7 @@ void solve_velocities(const IslandView& island, const VelocitySettings& settings
     if (softness.contact == k_contact_softness) {
         refine_velocities(island, scratch);
     }
+    return result;
 }
 
 }  // namespace handhold

@@ -9,10 +9,15 @@ struct VelocitySettings {
     double touch_m = 1e-4;               // contacts closer than this count
     double restitution_speed_mps = 0.2;  // slower impacts do not bounce
 };
+// What an island's friction had no answer to in one frame.
+struct VelocityResult {
+    bool wedged = false;     // pressed the harder the harder it was held: its contacts slip freely
+    bool undecided = false;  // who sticks and who slides still changed in the last pass
+};
 // One solve over the same rows: hands move as they are driven, joints keep, contacts
 // v_n >= -e v_n(before), and what slides is held back by at most its friction. Writes velocities,
 // impulses and what held locked joints.
-void solve_velocities(const IslandView& island, const VelocitySettings& settings,
-                      SolveScratch& scratch);
+VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
+                                SolveScratch& scratch);
 
 }  // namespace handhold

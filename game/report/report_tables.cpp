@@ -85,6 +85,10 @@ const char* meaning_of(Fallback reason) {
             return "Hands asked for what contacts forbid; the hands' rows were set aside.";
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
+        case Fallback::friction_wedged:
+            return "Contacts wedged something in; their friction was set aside.";
+        case Fallback::friction_undecided:
+            return "What sticks and what slides was not settled; the last answer was taken.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
         case Fallback::object_speed_clamped:

@@ -38,20 +38,29 @@ void set_masses(FrameGraph& frame, const Island& island) {
     }
 }
 
-void solve_islands(FrameGraph& frame, const ContactTuning& tuning) {
+void solve_islands(FrameGraph& frame, const ContactTuning& tuning, StageStats& stats) {
     ConstraintGraph& graph = frame.graph;
     if (frame.island_scratch.size() < graph.islands.size()) {
         frame.island_scratch.resize(graph.islands.size());
     }
+    frame.velocity_results.assign(graph.islands.size(), {});
     auto solve_one = [&](std::size_t i) {
         const Island& island = graph.islands[i];
         set_masses(frame, island);
         const IslandView view{BlockFilter::all, graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        solve_velocities(view, {k_valid_overlap_m, tuning.restitution_speed_mps},
-                         frame.island_scratch[i]);
+        frame.velocity_results[i] = solve_velocities(
+            view, {k_valid_overlap_m, tuning.restitution_speed_mps}, frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);
+    for (const VelocityResult& result : frame.velocity_results) {
+        if (result.wedged) {
+            stats.count(Fallback::friction_wedged);
+        }
+        if (result.undecided) {
+            stats.count(Fallback::friction_undecided);
+        }
+    }
 }
 
 void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec3& linear,
@@ -272,7 +281,7 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     for (std::size_t i = 0; i < io.frame.phase.size(); ++i) {
         io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
     }
-    solve_islands(io.frame, tuning.contact);
+    solve_islands(io.frame, tuning.contact, stats);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io, tuning.locomotion, stats);
     clamp_handled_bodies(io, tuning.locomotion, stats);

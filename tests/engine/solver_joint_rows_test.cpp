@@ -230,14 +230,20 @@ TEST(Friction, NoneLeavesTheMotionAlongTheFloorAlone) {
     EXPECT_LE((scene.body(1).spin_radps - Vec3(1.0, 2.0, 3.0)).norm(), 1e-9);
 }
 
+// A wheel of 0.5 kg m^2 about the x axis of a hinge in something fixed.
+test::SolverScene spinning_wheel(double spin_radps) {
+    test::SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
+    scene.body(1).spin_radps = Vec3(spin_radps, 0.0, 0.0);
+    scene.graph.blocks.push_back(test::row_block(RowKind::hinge, 0, 1));
+    return scene;
+}
+
 TEST(Friction, HingeFrictionTakesItsImpulseAndNoMore) {
     for (const double impulse : {0.01, 0.2, 10.0}) {
-        test::SolverScene scene;
-        scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
-        scene.body(1).spin_radps = Vec3(1.0, 0.0, 0.0);
-        RowBlock hinge = test::row_block(RowKind::hinge, 0, 1);
-        hinge.joint.friction_impulse = impulse;
-        scene.graph.blocks.push_back(hinge);
+        test::SolverScene scene = spinning_wheel(1.0);
+        JointRows& hinge = scene.block(0).joint;
+        hinge.friction_impulse = impulse;
         scene.solve_velocities();
         EXPECT_NEAR(scene.body(1).spin_radps.x(), std::max(0.0, 1.0 - impulse / 0.5), 1e-7);
     }
@@ -259,13 +265,10 @@ TEST(Friction, DriveReachesItsSpeedWithinItsImpulse) {
 
 TEST(JointRows, LockOfAStrengthTakesNoMoreThanThat) {
     for (const double strength : {0.25, 0.75, 1.5}) {
-        test::SolverScene scene;
-        scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
-        scene.body(1).spin_radps = Vec3(2.0, 0.0, 0.0);
-        RowBlock hinge = test::row_block(RowKind::hinge, 0, 1);
-        hinge.joint.limited = true;
-        hinge.joint.lock_limit_impulse = strength;
-        scene.graph.blocks.push_back(hinge);
+        test::SolverScene scene = spinning_wheel(2.0);
+        JointRows& hinge = scene.block(0).joint;
+        hinge.limited = true;
+        hinge.lock_limit_impulse = strength;
         scene.solve_velocities();
         EXPECT_NEAR(scene.block(0).joint.lock_impulse, std::min(strength, 1.0), 1e-6);
         EXPECT_NEAR(scene.body(1).spin_radps.x(), std::max(0.0, 2.0 - strength / 0.5), 1e-6);
@@ -288,12 +291,8 @@ TEST(JointRows, ConeHoldsNothingInItsMiddle) {
 }
 
 TEST(JointRows, LockTellsTheImpulseThatItTook) {
-    test::SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
-    scene.body(1).spin_radps = Vec3(2.0, 0.0, 0.0);
-    RowBlock hinge = test::row_block(RowKind::hinge, 0, 1);
-    hinge.joint.limited = true;
-    scene.graph.blocks.push_back(hinge);
+    test::SolverScene scene = spinning_wheel(2.0);
+    scene.block(0).joint.limited = true;
     scene.solve_velocities();
     EXPECT_NEAR(scene.block(0).joint.lock_impulse, 0.5 * 2.0, 1e-6);
     EXPECT_NEAR(scene.body(1).spin_radps.x(), 0.0, 1e-7);
