@@ -78,7 +78,7 @@ double softness_of(const Row& row, const Softness& softness) {
 }  // namespace
 
 void regularise(std::span<const Row> rows, const Softness& softness, double factor,
-                DenseSystem& system) {
+                RowSystem& system) {
     double inverse_sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < system.size();) {

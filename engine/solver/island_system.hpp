@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/solver/dense_system.hpp"
+#include "engine/solver/row_system.hpp"
 #include "engine/solver/rows.hpp"
 
 // One island as linear equations: what the solve of positions and that of velocities share.
@@ -30,7 +30,7 @@ struct SolveScratch {
         bool slides = false;
     };
     std::vector<Friction> frictions;
-    DenseSystem system;
+    RowSystem system;
 };
 
 enum class BlockFilter : std::uint8_t { all, without_contacts, without_hands };
@@ -68,7 +68,7 @@ inline constexpr double k_largest_move = 10.0;
 // Hands by the harmonic mean of the diagonal, so that what one holds weighs as much as the other's;
 // all else by its own entry. Times `factor`.
 void regularise(std::span<const Row> rows, const Softness& softness, double factor,
-                DenseSystem& system);
+                RowSystem& system);
 
 // W J^T lambda by slot; returns the largest turn in radians.
 double gather_moves(const IslandView& island, std::span<const double> lambda,

@@ -220,7 +220,7 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
 }
 
 // Of the rows that act.
-double worst_speed(std::span<const Row> rows, const DenseSystem& system) {
+double worst_speed(std::span<const Row> rows, const RowSystem& system) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].value_m)) : worst;

@@ -1,0 +1,342 @@
+// Sources: active set: block principal pivoting of Judice and Pires (1994), whose steps of one row,
+// after Murty (1974), end it where changing all wrong rows at once goes round in a circle.
+#include "engine/solver/row_system.hpp"
+
+#include <algorithm>
+
+namespace handhold {
+namespace {
+
+constexpr int k_active_set_changes = 40;  // three or four do nearly always
+constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
+constexpr std::uint32_t k_widest_node = 12;  // four contacts with friction
+// Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
+// tells apart.
+constexpr double k_smallest_pivot = 1e-14;
+
+std::uint32_t slot_of(const SolverBody& body) {
+    return body.inverse_mass > 0.0 ? body.slot : k_no_slot;
+}
+
+}  // namespace
+
+void RowSystem::group_rows(std::span<const SolverBody> bodies, std::size_t slot_count,
+                           std::span<const Row> rows) {
+    nodes_.clear();
+    row_nodes_.clear();
+    node_of_row_.resize(rows.size());
+    turns_.assign(slot_count, 0);
+    body_of_slot_.assign(slot_count, 0);
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        const bool joins = i > 0 && rows[i].a == rows[i - 1].a && rows[i].b == rows[i - 1].b &&
+                           nodes_.back().width < k_widest_node;
+        if (!joins) {
+            Node node{i, 0, {slot_of(bodies[rows[i].a]), slot_of(bodies[rows[i].b])}};
+            for (std::size_t side = 0; side < 2; ++side) {
+                const std::uint32_t body = side == 0 ? rows[i].a : rows[i].b;
+                if (node.slots[side] != k_no_slot) {
+                    turns_[node.slots[side]] = bodies[body].inverse_inertia_bs.isZero(0.0) ? 0 : 1;
+                    body_of_slot_[node.slots[side]] = body;
+                }
+            }
+            nodes_.push_back(node);
+        }
+        ++nodes_.back().width;
+        node_of_row_[i] = static_cast<std::uint32_t>(nodes_.size() - 1);
+    }
+    for (const Node& node : nodes_) {
+        row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width});
+    }
+}
+
+// The plan of this structure: a kept one, or a new one in place of the one used longest ago.
+void RowSystem::choose_plan() {
+    ++uses_;
+    std::size_t oldest = plan_;
+    for (std::size_t i = 0; i < k_plans; ++i) {
+        const std::size_t candidate = (plan_ + i) % k_plans;
+        if (plan_used_[candidate] != 0 && plans_[candidate].fits(row_nodes_, turns_)) {
+            plan_ = candidate;
+            plan_used_[plan_] = uses_;
+            return;
+        }
+        oldest = plan_used_[candidate] < plan_used_[oldest] ? candidate : oldest;
+    }
+    plan_ = oldest;
+    plan_used_[plan_] = uses_;
+    plans_[plan_].build(row_nodes_, turns_);
+}
+
+void RowSystem::write_jacobians(std::span<const SolverBody> bodies,
+                                std::span<const Mat3> inverse_inertia_ws,
+                                std::span<const Row> rows) {
+    jacobians_.resize(12 * rows.size());
+    responses_.resize(12 * rows.size());
+    diagonal_.assign(rows.size(), 0.0);
+    for (std::uint32_t end = 0; end < 2 * nodes_.size(); ++end) {
+        const Node& node = nodes_[end / 2];
+        const std::uint32_t slot = node.slots[end % 2];
+        if (slot == k_no_slot) {
+            continue;
+        }
+        const bool is_a = end % 2 == 0;
+        const double inverse_mass =
+            bodies[is_a ? rows[node.first_row].a : rows[node.first_row].b].inverse_mass;
+        const Mat3& inverse_inertia = inverse_inertia_ws[slot];
+        double* const jacobian = &jacobians_[end_begin(end)];
+        double* const response = &responses_[end_begin(end)];
+        for (std::uint32_t m = 0; m < node.width; ++m) {
+            const Row& row = rows[node.first_row + m];
+            const Vec3 linear = is_a ? row.linear_a : Vec3(-row.linear_a);
+            const Vec3& angular = is_a ? row.angular_a : row.angular_b;
+            const Vec3 move = inverse_mass * linear;
+            const Vec3 turn = inverse_inertia * angular;
+            for (std::uint32_t axis = 0; axis < 3; ++axis) {
+                jacobian[axis * node.width + m] = linear[axis];
+                jacobian[(axis + 3) * node.width + m] = angular[axis];
+                response[axis * node.width + m] = move[axis];
+                response[(axis + 3) * node.width + m] = turn[axis];
+            }
+            diagonal_[node.first_row + m] += linear.dot(move) + angular.dot(turn);
+        }
+    }
+}
+
+void RowSystem::multiply_out() {
+    matrix_.assign(plan().value_count(), 0.0);
+    for (const EliminationPlan::Coupling& coupling : plan().couplings()) {
+        const double* const response = &responses_[end_begin(coupling.column_end)];
+        const double* const jacobian = &jacobians_[end_begin(coupling.row_end)];
+        const std::uint32_t height = nodes_[coupling.column_end / 2].width;
+        const std::uint32_t width = nodes_[coupling.row_end / 2].width;
+        for (std::uint32_t i = 0; i < height; ++i) {
+            double* const out = &matrix_[coupling.target + i * coupling.stride];
+            for (std::uint32_t c = 0; c < 6; ++c) {
+                const double factor = response[c * height + i];
+                for (std::uint32_t j = 0; j < width; ++j) {
+                    out[j] += factor * jacobian[c * width + j];
+                }
+            }
+        }
+    }
+}
+
+// Hubs as unknowns: -J at their rows or columns, -M on their diagonal.
+void RowSystem::write_hubs(std::span<const SolverBody> bodies,
+                           std::span<const Mat3> inverse_inertia_ws) {
+    for (const EliminationPlan::HubCoupling& coupling : plan().hub_couplings()) {
+        const double* const jacobian = &jacobians_[end_begin(coupling.end)];
+        const std::uint32_t width = nodes_[coupling.end / 2].width;
+        const bool turns = turns_[nodes_[coupling.end / 2].slots[coupling.end % 2]] != 0;
+        for (std::uint32_t c = 0; c < (turns ? 6U : 3U); ++c) {
+            for (std::uint32_t j = 0; j < width; ++j) {
+                const std::uint32_t at =
+                    coupling.hub_is_column ? c * coupling.stride + j : j * coupling.stride + c;
+                matrix_[coupling.target + at] = -jacobian[c * width + j];
+            }
+        }
+    }
+    for (const EliminationPlan::Hub& hub : plan().hubs()) {
+        const double mass = 1.0 / bodies[body_of_slot_[hub.slot]].inverse_mass;
+        Mat3 inertia = Mat3::Identity();
+        if (turns_[hub.slot] != 0) {
+            inertia = inverse_inertia_ws[hub.slot].inverse();
+        }
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            matrix_[hub.target + i * hub.stride + i] = -mass;
+            for (std::uint32_t j = i; j < 3; ++j) {
+                matrix_[hub.target + (i + 3) * hub.stride + j + 3] = -inertia(i, j);
+            }
+        }
+    }
+}
+
+void RowSystem::assemble(std::span<const SolverBody> bodies,
+                         std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows) {
+    group_rows(bodies, inverse_inertia_ws.size(), rows);
+    choose_plan();
+    write_jacobians(bodies, inverse_inertia_ws, rows);
+    multiply_out();
+    write_hubs(bodies, inverse_inertia_ws);
+    factor_.resize(plan());
+    smallest_pivots_.assign(plan().scalar_count(), 0.0);
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        const std::uint32_t node = node_of_row_[i];
+        smallest_pivots_[plan().panel_of(node).scalar + i - nodes_[node].first_row] =
+            k_smallest_pivot * diagonal_[i];
+    }
+    alpha_.assign(rows.size(), 0.0);
+    lambda_.assign(rows.size(), 0.0);
+    values_.resize(rows.size());
+    active_.assign(rows.size(), 1);
+    held_.assign(rows.size(), 0);
+    held_lambda_.assign(rows.size(), 0.0);
+    moves_.resize(inverse_inertia_ws.size());
+}
+
+// As if the row were not there: its multiplier is 0.
+void RowSystem::leave_out(std::uint32_t node, std::uint32_t row_in_node) {
+    const std::span<double> values = factor_.values();
+    const EliminationPlan::Panel& panel = plan().panel_of(node);
+    double* const own = &values[panel.begin];
+    for (std::uint32_t i = 0; i < row_in_node; ++i) {
+        own[i * panel.stride + row_in_node] = 0.0;
+    }
+    std::fill_n(own + row_in_node * panel.stride + row_in_node, panel.stride - row_in_node, 0.0);
+    own[row_in_node * panel.stride + row_in_node] = 1.0;
+    for (const EliminationPlan::Appearance& appearance : plan().appearances(node)) {
+        for (std::uint32_t i = 0; i < appearance.rows; ++i) {
+            values[appearance.begin + i * appearance.stride + row_in_node] = 0.0;
+        }
+    }
+}
+
+void RowSystem::factorise() {
+    const std::span<double> values = factor_.values();
+    std::ranges::copy(matrix_, values.begin());
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        const std::uint32_t node = node_of_row_[i];
+        const std::uint32_t m = i - nodes_[node].first_row;
+        if (is_active(i) && diagonal_[i] > 0.0) {
+            const EliminationPlan::Panel& panel = plan().panel_of(node);
+            values[panel.begin + m * panel.stride + m] += alpha_[i];
+        } else {
+            leave_out(node, m);
+        }
+    }
+    factor_.factorise(plan(), smallest_pivots_);
+}
+
+void RowSystem::substitute(std::span<const double> values) {
+    unknowns_.assign(plan().scalar_count(), 0.0);
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        if (is_active(i) && diagonal_[i] > 0.0) {
+            const std::uint32_t node = node_of_row_[i];
+            unknowns_[plan().panel_of(node).scalar + i - nodes_[node].first_row] = -values[i];
+        }
+    }
+    factor_.substitute(plan(), unknowns_);
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        const std::uint32_t node = node_of_row_[i];
+        lambda_[i] = unknowns_[plan().panel_of(node).scalar + i - nodes_[node].first_row];
+    }
+}
+
+void RowSystem::gather_moves(std::span<const double> lambda) {
+    std::ranges::fill(moves_, Twist{});
+    for (std::uint32_t end = 0; end < 2 * nodes_.size(); ++end) {
+        const Node& node = nodes_[end / 2];
+        if (node.slots[end % 2] == k_no_slot) {
+            continue;
+        }
+        Twist& move = moves_[node.slots[end % 2]];
+        const double* const response = &responses_[end_begin(end)];
+        for (std::uint32_t c = 0; c < 6; ++c) {
+            for (std::uint32_t m = 0; m < node.width; ++m) {
+                move[c] += response[c * node.width + m] * lambda[node.first_row + m];
+            }
+        }
+    }
+}
+
+// How far the moves gathered carry a row: J W J^T lambda.
+double RowSystem::row_motion(std::size_t row) const {
+    const std::uint32_t index = node_of_row_[row];
+    const Node& node = nodes_[index];
+    double sum = 0.0;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+        if (node.slots[side] == k_no_slot) {
+            continue;
+        }
+        const Twist& move = moves_[node.slots[side]];
+        const double* const jacobian =
+            &jacobians_[end_begin(2 * index + side) + row - node.first_row];
+        for (std::uint32_t c = 0; c < 6; ++c) {
+            sum += jacobian[c * node.width] * move[c];
+        }
+    }
+    return sum;
+}
+
+void RowSystem::hold(std::size_t row, double lambda) {
+    held_[row] = 1;
+    held_lambda_[row] = lambda;
+}
+
+void RowSystem::release(std::size_t row) {
+    held_[row] = 0;
+    held_lambda_[row] = 0.0;
+}
+
+double RowSystem::remainder(std::size_t row, double value) const { return value + row_motion(row); }
+
+// A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
+// it.
+bool RowSystem::is_wrong(const Row& row, std::size_t index) const {
+    constexpr double k_overlap = 1e-10;
+    if (!row.unilateral || held_[index] != 0) {
+        return false;
+    }
+    if (active_[index] != 0) {
+        return lambda_[index] < 0.0;
+    }
+    return remainder(index, row.value_m) < -k_overlap;
+}
+
+void RowSystem::solve_active() {
+    factorise();
+    substitute(values_);
+    for (std::size_t i = 0; i < size(); ++i) {
+        lambda_[i] = held_[i] != 0 ? held_lambda_[i] : lambda_[i];
+    }
+    gather_moves(lambda_);
+}
+
+std::span<const double> RowSystem::solve(std::span<const Row> rows) {
+    gather_moves(held_lambda_);
+    for (std::size_t i = 0; i < size(); ++i) {
+        values_[i] = rows[i].value_m + row_motion(i);  // what the held rows do to it
+        active_[i] = !rows[i].unilateral || values_[i] < 0.0 ? 1 : 0;
+    }
+    std::size_t fewest = size() + 1;
+    int blocks_left = k_block_changes;
+    for (int change = 0; change < k_active_set_changes; ++change) {
+        solve_active();
+        wrong_rows_.clear();
+        for (std::uint32_t i = 0; i < size(); ++i) {
+            if (is_wrong(rows[i], i)) {
+                wrong_rows_.push_back(i);
+            }
+        }
+        if (wrong_rows_.empty()) {
+            return lambda_;
+        }
+        if (wrong_rows_.size() < fewest) {
+            fewest = wrong_rows_.size();
+            blocks_left = k_block_changes;
+        } else if (blocks_left > 0) {
+            --blocks_left;
+        } else {
+            wrong_rows_.assign(1, wrong_rows_.back());
+        }
+        for (const std::uint32_t i : wrong_rows_) {
+            active_[i] ^= 1U;
+        }
+    }
+    // No agreement: take the last set without its pulling rows.
+    solve_active();
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (rows[i].unilateral && lambda_[i] < 0.0) {
+            lambda_[i] = 0.0;
+        }
+    }
+    gather_moves(lambda_);
+    return lambda_;
+}
+
+std::span<const double> RowSystem::solve_again(std::span<const double> values) {
+    substitute(values);
+    return lambda_;
+}
+
+}  // namespace handhold
