@@ -1,6 +1,7 @@
 #include "engine/solver/island_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace handhold {
 
@@ -100,30 +101,18 @@ void regularise(std::span<const Row> rows, const Softness& softness, double fact
     }
 }
 
-double gather_moves(const IslandView& island, std::span<const double> lambda,
-                    SolveScratch& scratch) {
-    scratch.moves_m.assign(island.island_bodies.size(), Vec3::Zero());
-    scratch.turns_rad.assign(island.island_bodies.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        const Row& row = scratch.rows[i];
-        const SolverBody& a = island.bodies[row.a];
-        const SolverBody& b = island.bodies[row.b];
-        if (a.inverse_mass > 0.0) {
-            scratch.moves_m[a.slot] += (a.inverse_mass * lambda[i]) * row.linear_a;
-            scratch.turns_rad[a.slot] += lambda[i] * row.angular_a;
-        }
-        if (b.inverse_mass > 0.0) {
-            scratch.moves_m[b.slot] -= (b.inverse_mass * lambda[i]) * row.linear_a;
-            scratch.turns_rad[b.slot] += lambda[i] * row.angular_b;
-        }
-    }
+double gather_moves(SolveScratch& scratch) {
+    const std::span<const RowSystem::Twist> moves = scratch.system.moves();
+    scratch.moves_m.resize(moves.size());
+    scratch.turns_rad.resize(moves.size());
     double largest = 0.0;
-    for (std::size_t slot = 0; slot < scratch.turns_rad.size(); ++slot) {
-        const Vec3 turn = scratch.inverse_inertia_ws[slot] * scratch.turns_rad[slot];
-        scratch.turns_rad[slot] = turn;
-        largest = std::max(largest, turn.norm());
+    for (std::size_t slot = 0; slot < moves.size(); ++slot) {
+        const RowSystem::Twist& move = moves[slot];
+        scratch.moves_m[slot] = Vec3(move[0], move[1], move[2]);
+        scratch.turns_rad[slot] = Vec3(move[3], move[4], move[5]);
+        largest = std::max(largest, scratch.turns_rad[slot].squaredNorm());
     }
-    return largest;
+    return std::sqrt(largest);
 }
 
 }  // namespace handhold

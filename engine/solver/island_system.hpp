@@ -14,6 +14,7 @@ namespace handhold {
 // the same time.
 struct SolveScratch {
     std::vector<Row> rows;
+    std::vector<Row> previous_rows;        // of the step before; lambda belongs to them
     std::vector<Mat3> inverse_inertia_ws;  // by slot
     std::vector<Mat3> stiffness;           // by slot
     std::vector<Vec3> moves_m;             // by slot
@@ -70,9 +71,8 @@ inline constexpr double k_largest_move = 10.0;
 void regularise(std::span<const Row> rows, const Softness& softness, double factor,
                 RowSystem& system);
 
-// W J^T lambda by slot; returns the largest turn in radians.
-double gather_moves(const IslandView& island, std::span<const double> lambda,
-                    SolveScratch& scratch);
+// W J^T lambda of the system's last solve by slot; returns the largest turn in radians.
+double gather_moves(SolveScratch& scratch);
 // Of the moves gathered, metres.
 double longest_move(const SolveScratch& scratch);
 

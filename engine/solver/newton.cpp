@@ -19,16 +19,29 @@ constexpr double k_stiffness_from_m = 1e-4;  // residual above which geometric s
 constexpr double k_largest_turn_rad = 1.0;   // of a step
 constexpr double k_smallest_scale = 0.3;     // below: regularise more instead of scaling further
 
-// Rows of the blocks that a step can matter to: hands, joints, and contacts and limits not farther
-// apart than twice the worst error. What a step overlaps all the same is near in the next one.
-void collect_rows(const IslandView& island, std::vector<Row>& rows) {
+bool may_be_apart(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
+
+// Contacts and limits farther apart than this matter to no step: twice the worst error. Nothing is
+// apart where there are only points and frames that are held together.
+double reach_of(const IslandView& island) {
+    if (std::ranges::none_of(island.island_blocks, [&](std::uint32_t index) {
+            return may_be_apart(island.blocks[index]);
+        })) {
+        return k_near_contact_m;
+    }
     double worst = 0.0;
     for (const std::uint32_t index : island.island_blocks) {
         if (takes_part(island, island.blocks[index])) {
             worst = std::max(worst, block_error_m(island.bodies, island.blocks[index]));
         }
     }
-    const double reach_m = std::max(k_near_contact_m, 2.0 * worst);
+    return std::max(k_near_contact_m, 2.0 * worst);
+}
+
+// Rows of the blocks that a step can matter to. What a step overlaps all the same is near in the
+// next one.
+void collect_rows(const IslandView& island, std::vector<Row>& rows) {
+    const double reach_m = reach_of(island);
     rows.clear();
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
@@ -84,10 +97,10 @@ Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     return sum;
 }
 
-// From the multipliers of the last step, for every point held on, or away from, a point.
-void gather_stiffness(const IslandView& island, std::span<const double> lambda,
-                      SolveScratch& scratch) {
+// From the rows and multipliers of the last step, for every point held on, or away from, a point.
+void gather_stiffness(const IslandView& island, SolveScratch& scratch) {
     clear_stiffness(island, scratch);
+    const std::span<const double> lambda = scratch.lambda;
     const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
                          double sign) {
         const SolverBody& body = island.bodies[index];
@@ -96,8 +109,8 @@ void gather_stiffness(const IslandView& island, std::span<const double> lambda,
                 positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
         }
     };
-    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        const Row& row = scratch.rows[i];
+    for (std::size_t i = 0; i < scratch.previous_rows.size(); ++i) {
+        const Row& row = scratch.previous_rows[i];
         const RowBlock& block = island.blocks[row.block];
         const bool is_point = row.width == 3 && row.linear_a == Vec3::UnitX();
         if (!is_point && block.kind != RowKind::distance) {
@@ -122,8 +135,10 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
         const Vec3 turn = scale * scratch.turns_rad[body.slot];
         body.pose_ws.position += move;
         if (turn.squaredNorm() > 0.0) {
+            // Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one.
+            const Vec3 half = 0.5 * turn;
             body.pose_ws.rotation =
-                (rotation_from_vector(turn) * body.pose_ws.rotation).normalized();
+                (Quat(1.0, half.x(), half.y(), half.z()) * body.pose_ws.rotation).normalized();
         }
         longest = std::max({longest, move.norm(), k_angle_m * turn.norm()});
     }
@@ -143,9 +158,14 @@ void adapt(double residual_m, double previous_m, double overlap_m, double previo
                                 : std::max(softness.contact * 0.1, k_contact_softness);
 }
 
-// One Newton step; returns its length, metres.
-double step(const IslandView& island, const Softness& softness, double worst_m,
-            SolveScratch& scratch) {
+struct StepResult {
+    double length_m = 0.0;
+    bool whole = true;  // not scaled down
+};
+
+// One Newton step.
+StepResult take_step(const IslandView& island, const Softness& softness, double worst_m,
+                     SolveScratch& scratch) {
     double factor = 1.0;
     double scale = 1.0;
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
@@ -153,7 +173,7 @@ double step(const IslandView& island, const Softness& softness, double worst_m,
         scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
         regularise(scratch.rows, softness, factor, scratch.system);
         const std::span<const double> lambda = scratch.system.solve(scratch.rows);
-        const double turn = gather_moves(island, lambda, scratch);
+        const double turn = gather_moves(scratch);
         scale = std::min(1.0, k_largest_turn_rad / std::max(turn, 1e-30));
         if (has_contact(scratch.rows)) {
             const double move = std::max(longest_move(scratch), 1e-30);
@@ -165,13 +185,29 @@ double step(const IslandView& island, const Softness& softness, double worst_m,
         }
         factor *= 100.0;
     }
-    return apply_moves(island, scale, scratch);
+    return {apply_moves(island, scale, scratch), scale == 1.0};
 }
 
-void write_errors(const IslandView& island) {
-    for (const std::uint32_t index : island.island_blocks) {
-        island.blocks[index].error_m = block_error_m(island.bodies, island.blocks[index]);
+// A step with the factor of the one before: as good where the poses hardly moved since.
+StepResult repeat_step(const IslandView& island, SolveScratch& scratch) {
+    scratch.values.clear();
+    for (const Row& row : scratch.rows) {
+        scratch.values.push_back(row.value_m);
     }
+    const std::span<const double> lambda = scratch.system.solve_again(scratch.values);
+    gather_moves(scratch);
+    scratch.lambda.assign(lambda.begin(), lambda.end());
+    return {apply_moves(island, 1.0, scratch), true};
+}
+
+// True where the last factor serves these rows: all of them hold (none may let go), and it took the
+// error down well.
+bool may_repeat(std::span<const Row> rows, std::span<const Row> previous_rows, double residual_m,
+                double previous_m) {
+    constexpr double k_good_step = 0.05;
+    return rows.size() == previous_rows.size() && residual_m < k_stiffness_from_m &&
+           residual_m < k_good_step * previous_m &&
+           std::ranges::none_of(rows, [](const Row& row) { return row.unilateral; });
 }
 
 }  // namespace
@@ -182,36 +218,34 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
     Softness softness{settings.hand_softness, k_contact_softness};
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
+    StepResult step{previous, false};
     clear_stiffness(island, scratch);
-    scratch.lambda.clear();
     for (;;) {
+        std::swap(scratch.rows, scratch.previous_rows);
         collect_rows(island, scratch.rows);
         result.residual_m = worst_of(scratch.rows);
         result.converged = result.residual_m < settings.tolerance_m;
-        if (result.converged || result.iterations == settings.max_iterations) {
-            break;
+        if (result.converged || result.iterations == settings.max_iterations ||
+            step.length_m < settings.step_tolerance_m) {
+            return result;
         }
-        if (result.iterations > 0) {
-            adapt(result.residual_m, previous, worst_overlap_of(scratch.rows), previous_overlap,
-                  softness);
-            if (result.residual_m <= k_stiffness_from_m) {
+        const double overlap = worst_overlap_of(scratch.rows);
+        const bool repeats = step.whole && may_repeat(scratch.rows, scratch.previous_rows,
+                                                      result.residual_m, previous);
+        if (result.iterations > 0 && !repeats) {
+            adapt(result.residual_m, previous, overlap, previous_overlap, softness);
+            if (result.residual_m > k_stiffness_from_m) {
+                gather_stiffness(island, scratch);
+            } else {
                 clear_stiffness(island, scratch);
             }
         }
+        step = repeats ? repeat_step(island, scratch)
+                       : take_step(island, softness, result.residual_m, scratch);
         previous = result.residual_m;
-        previous_overlap = worst_overlap_of(scratch.rows);
-        const double length = step(island, softness, result.residual_m, scratch);
-        gather_stiffness(island, scratch.lambda, scratch);  // while these are the rows of lambda
+        previous_overlap = overlap;
         ++result.iterations;
-        if (length < settings.step_tolerance_m) {
-            collect_rows(island, scratch.rows);
-            result.residual_m = worst_of(scratch.rows);
-            result.converged = result.residual_m < settings.tolerance_m;
-            break;
-        }
     }
-    write_errors(island);
-    return result;
 }
 
 }  // namespace handhold

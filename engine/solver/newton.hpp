@@ -20,7 +20,7 @@ struct NewtonResult {
 };
 
 // Moves the island's bodies, by their inverse masses, until every row is met or no step helps.
-// Writes each block's error_m. Infeasible islands end at a least-squares compromise in which
+// Infeasible islands end at a least-squares compromise in which
 // contacts outweigh hands by about 1e5, and joints contacts by 1e3.
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch);

@@ -14,6 +14,62 @@ constexpr std::uint32_t k_widest_node = 12;  // four contacts with friction
 // tells apart.
 constexpr double k_smallest_pivot = 1e-14;
 
+// Nodes are three rows wide nearly always: loops of a length known to the compiler cost half. 0:
+// known at run time only. The order of operations is the same.
+template <std::uint32_t known_width>
+struct Kernels {
+    // J and W J^T of one side of a node; adds J W J^T to its rows' diagonal.
+    static void write_end(std::span<const Row> rows, bool is_a, double inverse_mass,
+                          const Mat3& inverse_inertia, double* jacobian, double* response,
+                          double* diagonal) {
+        const std::size_t width = known_width != 0 ? known_width : rows.size();
+        for (std::size_t m = 0; m < width; ++m) {
+            const Row& row = rows[m];
+            const Vec3 linear = is_a ? row.linear_a : Vec3(-row.linear_a);
+            const Vec3& angular = is_a ? row.angular_a : row.angular_b;
+            const Vec3 move = inverse_mass * linear;
+            const Vec3 turn = inverse_inertia * angular;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto i = static_cast<Eigen::Index>(axis);
+                jacobian[axis * width + m] = linear[i];
+                jacobian[(axis + 3) * width + m] = angular[i];
+                response[axis * width + m] = move[i];
+                response[(axis + 3) * width + m] = turn[i];
+            }
+            diagonal[m] += linear.dot(move) + angular.dot(turn);
+        }
+    }
+
+    // out += response^T jacobian over the six directions of a body's motion.
+    static void add_product(const double* response, std::uint32_t column_width,
+                            const double* jacobian, std::uint32_t row_width, double* out,
+                            std::uint32_t stride) {
+        const std::uint32_t height = known_width != 0 ? known_width : column_width;
+        const std::uint32_t width = known_width != 0 ? known_width : row_width;
+        for (std::uint32_t i = 0; i < height; ++i) {
+            for (std::uint32_t c = 0; c < 6; ++c) {
+                const double factor = response[c * height + i];
+                for (std::uint32_t j = 0; j < width; ++j) {
+                    out[i * stride + j] += factor * jacobian[c * width + j];
+                }
+            }
+        }
+    }
+
+    // move += response lambda.
+    static void add_move(const double* response, const double* lambda, std::uint32_t node_width,
+                         RowSystem::Twist& move) {
+        const std::uint32_t width = known_width != 0 ? known_width : node_width;
+        for (std::uint32_t c = 0; c < 6; ++c) {
+            double sum = move[c];
+            for (std::uint32_t m = 0; m < width; ++m) {
+                sum += response[c * width + m] * lambda[m];
+            }
+            move[c] = sum;
+        }
+    }
+};
+
 std::uint32_t slot_of(const SolverBody& body) {
     return body.inverse_mass > 0.0 ? body.slot : k_no_slot;
 }
@@ -82,23 +138,10 @@ void RowSystem::write_jacobians(std::span<const SolverBody> bodies,
         const bool is_a = end % 2 == 0;
         const double inverse_mass =
             bodies[is_a ? rows[node.first_row].a : rows[node.first_row].b].inverse_mass;
-        const Mat3& inverse_inertia = inverse_inertia_ws[slot];
-        double* const jacobian = &jacobians_[end_begin(end)];
-        double* const response = &responses_[end_begin(end)];
-        for (std::uint32_t m = 0; m < node.width; ++m) {
-            const Row& row = rows[node.first_row + m];
-            const Vec3 linear = is_a ? row.linear_a : Vec3(-row.linear_a);
-            const Vec3& angular = is_a ? row.angular_a : row.angular_b;
-            const Vec3 move = inverse_mass * linear;
-            const Vec3 turn = inverse_inertia * angular;
-            for (std::uint32_t axis = 0; axis < 3; ++axis) {
-                jacobian[axis * node.width + m] = linear[axis];
-                jacobian[(axis + 3) * node.width + m] = angular[axis];
-                response[axis * node.width + m] = move[axis];
-                response[(axis + 3) * node.width + m] = turn[axis];
-            }
-            diagonal_[node.first_row + m] += linear.dot(move) + angular.dot(turn);
-        }
+        const std::span<const Row> of = rows.subspan(node.first_row, node.width);
+        const auto write = node.width == 3 ? Kernels<3>::write_end : Kernels<0>::write_end;
+        write(of, is_a, inverse_mass, inverse_inertia_ws[slot], &jacobians_[end_begin(end)],
+              &responses_[end_begin(end)], &diagonal_[node.first_row]);
     }
 }
 
@@ -109,14 +152,11 @@ void RowSystem::multiply_out() {
         const double* const jacobian = &jacobians_[end_begin(coupling.row_end)];
         const std::uint32_t height = nodes_[coupling.column_end / 2].width;
         const std::uint32_t width = nodes_[coupling.row_end / 2].width;
-        for (std::uint32_t i = 0; i < height; ++i) {
-            double* const out = &matrix_[coupling.target + i * coupling.stride];
-            for (std::uint32_t c = 0; c < 6; ++c) {
-                const double factor = response[c * height + i];
-                for (std::uint32_t j = 0; j < width; ++j) {
-                    out[j] += factor * jacobian[c * width + j];
-                }
-            }
+        double* const out = &matrix_[coupling.target];
+        if (height == 3 && width == 3) {
+            Kernels<3>::add_product(response, 3, jacobian, 3, out, coupling.stride);
+        } else {
+            Kernels<0>::add_product(response, height, jacobian, width, out, coupling.stride);
         }
     }
 }
@@ -231,10 +271,10 @@ void RowSystem::gather_moves(std::span<const double> lambda) {
         }
         Twist& move = moves_[node.slots[end % 2]];
         const double* const response = &responses_[end_begin(end)];
-        for (std::uint32_t c = 0; c < 6; ++c) {
-            for (std::uint32_t m = 0; m < node.width; ++m) {
-                move[c] += response[c * node.width + m] * lambda[node.first_row + m];
-            }
+        if (node.width == 3) {
+            Kernels<3>::add_move(response, &lambda[node.first_row], 3, move);
+        } else {
+            Kernels<0>::add_move(response, &lambda[node.first_row], node.width, move);
         }
     }
 }
@@ -293,9 +333,13 @@ void RowSystem::solve_active() {
 }
 
 std::span<const double> RowSystem::solve(std::span<const Row> rows) {
-    gather_moves(held_lambda_);
+    // What the held rows do to the others.
+    const bool holds = std::ranges::any_of(held_, [](std::uint8_t held) { return held != 0; });
+    if (holds) {
+        gather_moves(held_lambda_);
+    }
     for (std::size_t i = 0; i < size(); ++i) {
-        values_[i] = rows[i].value_m + row_motion(i);  // what the held rows do to it
+        values_[i] = rows[i].value_m + (holds ? row_motion(i) : 0.0);
         active_[i] = !rows[i].unilateral || values_[i] < 0.0 ? 1 : 0;
     }
     std::size_t fewest = size() + 1;
@@ -336,6 +380,7 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
 
 std::span<const double> RowSystem::solve_again(std::span<const double> values) {
     substitute(values);
+    gather_moves(lambda_);
     return lambda_;
 }
 

@@ -15,6 +15,9 @@ namespace handhold {
 
 class RowSystem {
   public:
+    // A move and a turn, about the body's centre.
+    using Twist = std::array<double, 6>;
+
     // Fills J W J^T. `inverse_inertia_ws` by the bodies' slots, as many as the island has bodies.
     void assemble(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws,
                   std::span<const Row> rows);
@@ -35,6 +38,8 @@ class RowSystem {
     // release: a friction that slides.
     void hold(std::size_t row, double lambda);
     void release(std::size_t row);
+    // How the last solve moves the bodies: W J^T lambda, by slot.
+    std::span<const Twist> moves() const { return moves_; }
     // What is left of a row's value after the last solve: value + J W J^T lambda.
     double remainder(std::size_t row, double value) const;
 
@@ -45,9 +50,6 @@ class RowSystem {
         std::uint32_t width = 0;
         std::uint32_t slots[2] = {k_no_slot, k_no_slot};
     };
-    // Force and couple, or motion and turn.
-    using Twist = std::array<double, 6>;
-
     void group_rows(std::span<const SolverBody> bodies, std::size_t slot_count,
                     std::span<const Row> rows);
     void choose_plan();

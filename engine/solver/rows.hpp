@@ -92,7 +92,6 @@ struct RowBlock {
     double friction = 0.0;     // contact: Coulomb's coefficient
     JointRows joint;
 
-    double error_m = 0.0;  // out of solve_positions: as block_error_m
     Vec3 impulse_ws_ns =
         Vec3::Zero();  // out of solve_velocities: on a at its point; b gets the opposite
     Vec3 couple_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite

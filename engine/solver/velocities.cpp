@@ -196,7 +196,7 @@ std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResul
 
 void apply_impulses(const IslandView& island, std::span<const double> lambda,
                     SolveScratch& scratch) {
-    gather_moves(island, lambda, scratch);
+    gather_moves(scratch);
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
         if (body.inverse_mass > 0.0) {
@@ -270,7 +270,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
         regularise(scratch.rows, softness, 1.0, scratch.system);
         const std::span<const double> lambda = solve_with_friction(scratch, result);
-        gather_moves(island, lambda, scratch);
+        gather_moves(scratch);
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
             break;

@@ -94,6 +94,10 @@ struct SolverScene {
     SolverBody& body(std::size_t index) { return graph.bodies[index]; }
     RowBlock& block(std::size_t index) { return graph.blocks[index]; }
 
+    double error_m(std::size_t block) const {
+        return block_error_m(graph.bodies, graph.blocks[block]);
+    }
+
     IslandView view(const Island& island, BlockFilter filter = BlockFilter::all) {
         return {filter, graph.bodies, graph.blocks, graph.bodies_of(island),
                 graph.blocks_of(island)};
