@@ -130,12 +130,15 @@ bool EliminationPlan::may_go(std::uint32_t node) const {
 
 void EliminationPlan::order_nodes() {
     const std::size_t count = nodes_.size() + hubs_.size();
+    // Of equals the one that waits longest: a chain goes from both ends in turn, and neither end
+    // waits for the other's results.
     const auto is_later = [](const Candidate& x, const Candidate& y) {
-        return x.weight != y.weight ? x.weight > y.weight : x.node > y.node;
+        return x.weight != y.weight ? x.weight > y.weight : x.turn > y.turn;
     };
+    std::uint32_t turn = 0;
     const auto offer = [&](std::uint32_t node) {
         if (may_go(node)) {
-            candidates_.push_back({weight_of(node), node});
+            candidates_.push_back({weight_of(node), turn++, node});
             std::ranges::push_heap(candidates_, is_later);
         }
     };

@@ -125,6 +125,7 @@ class EliminationPlan {
     // Scratch of build.
     struct Candidate {
         std::uint32_t weight;
+        std::uint32_t turn;  // when it was offered
         std::uint32_t node;
     };
     std::vector<std::uint32_t> ends_;  // 2 * node + side, by slot

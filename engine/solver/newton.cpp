@@ -21,12 +21,15 @@ constexpr double k_smallest_scale = 0.3;     // below: regularise more instead o
 
 bool may_be_apart(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
 
-// Contacts and limits farther apart than this matter to no step: twice the worst error. Nothing is
-// apart where there are only points and frames that are held together.
+bool has_loose_block(const IslandView& island) {
+    return std::ranges::any_of(island.island_blocks, [&](std::uint32_t index) {
+        return may_be_apart(island.blocks[index]);
+    });
+}
+
+// Contacts and limits farther apart than this matter to no step: twice the worst error.
 double reach_of(const IslandView& island) {
-    if (std::ranges::none_of(island.island_blocks, [&](std::uint32_t index) {
-            return may_be_apart(island.blocks[index]);
-        })) {
+    if (!has_loose_block(island)) {
         return k_near_contact_m;
     }
     double worst = 0.0;
@@ -48,6 +51,29 @@ void collect_rows(const IslandView& island, std::vector<Row>& rows) {
         if (takes_part(island, block) &&
             (!is_contact(block) || contact_separation_m(island.bodies, block) < reach_m)) {
             append_rows(island.bodies, block, index, rows, reach_m);
+        }
+    }
+}
+
+// True where every row, now and after a step, holds a point on a point.
+bool holds_only_points(const IslandView& island, std::span<const Row> rows) {
+    if (has_loose_block(island)) {
+        return false;
+    }
+    for (std::size_t i = 0; i < rows.size(); i += 3) {
+        if (!begins_point(rows[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The errors alone: the rows' directions stay those of the step before.
+void update_point_values(const IslandView& island, std::vector<Row>& rows) {
+    for (std::size_t i = 0; i < rows.size(); i += 3) {
+        const Vec3 error = point_error(island.bodies, island.blocks[rows[i].block]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            rows[i + axis].value_m = error[static_cast<Eigen::Index>(axis)];
         }
     }
 }
@@ -112,7 +138,7 @@ void gather_stiffness(const IslandView& island, SolveScratch& scratch) {
     for (std::size_t i = 0; i < scratch.previous_rows.size(); ++i) {
         const Row& row = scratch.previous_rows[i];
         const RowBlock& block = island.blocks[row.block];
-        const bool is_point = row.width == 3 && row.linear_a == Vec3::UnitX();
+        const bool is_point = begins_point(row);
         if (!is_point && block.kind != RowKind::distance) {
             continue;
         }
@@ -200,14 +226,16 @@ StepResult repeat_step(const IslandView& island, SolveScratch& scratch) {
     return {apply_moves(island, 1.0, scratch), true};
 }
 
-// True where the last factor serves these rows: all of them hold (none may let go), and it took the
-// error down well.
-bool may_repeat(std::span<const Row> rows, std::span<const Row> previous_rows, double residual_m,
-                double previous_m) {
-    constexpr double k_good_step = 0.05;
-    return rows.size() == previous_rows.size() && residual_m < k_stiffness_from_m &&
-           residual_m < k_good_step * previous_m &&
+// True where the factor of the rows before serves these: all of them hold, none may let go.
+bool are_alike(std::span<const Row> rows, std::span<const Row> previous_rows) {
+    return rows.size() == previous_rows.size() &&
            std::ranges::none_of(rows, [](const Row& row) { return row.unilateral; });
+}
+
+// True where the last step took the error down so well that its factor is worth another.
+bool is_good_step(double residual_m, double previous_m) {
+    constexpr double k_good_step = 0.05;
+    return residual_m < k_stiffness_from_m && residual_m < k_good_step * previous_m;
 }
 
 }  // namespace
@@ -219,10 +247,15 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
     StepResult step{previous, false};
+    bool only_points = false;
     clear_stiffness(island, scratch);
     for (;;) {
-        std::swap(scratch.rows, scratch.previous_rows);
-        collect_rows(island, scratch.rows);
+        if (only_points && step.whole) {
+            update_point_values(island, scratch.rows);
+        } else {
+            std::swap(scratch.rows, scratch.previous_rows);
+            collect_rows(island, scratch.rows);
+        }
         result.residual_m = worst_of(scratch.rows);
         result.converged = result.residual_m < settings.tolerance_m;
         if (result.converged || result.iterations == settings.max_iterations ||
@@ -230,8 +263,13 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
             return result;
         }
         const double overlap = worst_overlap_of(scratch.rows);
-        const bool repeats = step.whole && may_repeat(scratch.rows, scratch.previous_rows,
-                                                      result.residual_m, previous);
+        const bool repeats = step.whole &&
+                             (only_points || are_alike(scratch.rows, scratch.previous_rows)) &&
+                             is_good_step(result.residual_m, previous);
+        if (only_points && step.whole && !repeats) {
+            std::swap(scratch.rows, scratch.previous_rows);
+            collect_rows(island, scratch.rows);
+        }
         if (result.iterations > 0 && !repeats) {
             adapt(result.residual_m, previous, overlap, previous_overlap, softness);
             if (result.residual_m > k_stiffness_from_m) {
@@ -242,6 +280,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         }
         step = repeats ? repeat_step(island, scratch)
                        : take_step(island, softness, result.residual_m, scratch);
+        only_points = holds_only_points(island, scratch.rows);
         previous = result.residual_m;
         previous_overlap = overlap;
         ++result.iterations;

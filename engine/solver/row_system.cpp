@@ -56,6 +56,22 @@ struct Kernels {
         }
     }
 
+    // The same of two points: along the axes they share only their mass.
+    static void add_point_product(const double* response, const double* jacobian, double* out,
+                                  std::uint32_t stride) {
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            double sums[3] = {out[i * stride], out[i * stride + 1], out[i * stride + 2]};
+            sums[i] += response[4 * i] * jacobian[4 * i];
+            for (std::uint32_t c = 3; c < 6; ++c) {
+                const double factor = response[c * 3 + i];
+                for (std::uint32_t j = 0; j < 3; ++j) {
+                    sums[j] += factor * jacobian[c * 3 + j];
+                }
+            }
+            std::copy_n(sums, 3, out + i * stride);
+        }
+    }
+
     // move += response lambda.
     static void add_move(const double* response, const double* lambda, std::uint32_t node_width,
                          RowSystem::Twist& move) {
@@ -100,7 +116,8 @@ void RowSystem::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
         ++nodes_.back().width;
         node_of_row_[i] = static_cast<std::uint32_t>(nodes_.size() - 1);
     }
-    for (const Node& node : nodes_) {
+    for (Node& node : nodes_) {
+        node.is_point = node.width == 3 && begins_point(rows[node.first_row]);
         row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width});
     }
 }
@@ -150,13 +167,14 @@ void RowSystem::multiply_out() {
     for (const EliminationPlan::Coupling& coupling : plan().couplings()) {
         const double* const response = &responses_[end_begin(coupling.column_end)];
         const double* const jacobian = &jacobians_[end_begin(coupling.row_end)];
-        const std::uint32_t height = nodes_[coupling.column_end / 2].width;
-        const std::uint32_t width = nodes_[coupling.row_end / 2].width;
+        const Node& column_node = nodes_[coupling.column_end / 2];
+        const Node& row_node = nodes_[coupling.row_end / 2];
         double* const out = &matrix_[coupling.target];
-        if (height == 3 && width == 3) {
-            Kernels<3>::add_product(response, 3, jacobian, 3, out, coupling.stride);
+        if (column_node.is_point && row_node.is_point) {
+            Kernels<3>::add_point_product(response, jacobian, out, coupling.stride);
         } else {
-            Kernels<0>::add_product(response, height, jacobian, width, out, coupling.stride);
+            Kernels<0>::add_product(response, column_node.width, jacobian, row_node.width, out,
+                                    coupling.stride);
         }
     }
 }
@@ -200,10 +218,11 @@ void RowSystem::assemble(std::span<const SolverBody> bodies,
     write_hubs(bodies, inverse_inertia_ws);
     factor_.resize(plan());
     smallest_pivots_.assign(plan().scalar_count(), 0.0);
+    unknown_of_row_.resize(rows.size());
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
         const std::uint32_t node = node_of_row_[i];
-        smallest_pivots_[plan().panel_of(node).scalar + i - nodes_[node].first_row] =
-            k_smallest_pivot * diagonal_[i];
+        unknown_of_row_[i] = plan().panel_of(node).scalar + i - nodes_[node].first_row;
+        smallest_pivots_[unknown_of_row_[i]] = k_smallest_pivot * diagonal_[i];
     }
     alpha_.assign(rows.size(), 0.0);
     lambda_.assign(rows.size(), 0.0);
@@ -251,14 +270,12 @@ void RowSystem::substitute(std::span<const double> values) {
     unknowns_.assign(plan().scalar_count(), 0.0);
     for (std::uint32_t i = 0; i < size(); ++i) {
         if (is_active(i) && diagonal_[i] > 0.0) {
-            const std::uint32_t node = node_of_row_[i];
-            unknowns_[plan().panel_of(node).scalar + i - nodes_[node].first_row] = -values[i];
+            unknowns_[unknown_of_row_[i]] = -values[i];
         }
     }
     factor_.substitute(plan(), unknowns_);
     for (std::uint32_t i = 0; i < size(); ++i) {
-        const std::uint32_t node = node_of_row_[i];
-        lambda_[i] = unknowns_[plan().panel_of(node).scalar + i - nodes_[node].first_row];
+        lambda_[i] = unknowns_[unknown_of_row_[i]];
     }
 }
 

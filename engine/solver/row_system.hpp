@@ -49,6 +49,7 @@ class RowSystem {
         std::uint32_t first_row = 0;
         std::uint32_t width = 0;
         std::uint32_t slots[2] = {k_no_slot, k_no_slot};
+        bool is_point = false;  // a point held on a point: its rows go along the world's axes
     };
     void group_rows(std::span<const SolverBody> bodies, std::size_t slot_count,
                     std::span<const Row> rows);
@@ -76,6 +77,7 @@ class RowSystem {
     std::vector<std::uint8_t> turns_;
     std::vector<std::uint32_t> body_of_slot_;
     std::vector<std::uint32_t> node_of_row_;
+    std::vector<std::uint32_t> unknown_of_row_;
 
     // Structures come back: with and without contacts, with the player held still or not. Which
     // were kept changes nothing but the cost.

@@ -117,8 +117,6 @@ void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& bloc
     rows.push_back(row);
 }
 
-// True where the coordinate is an angle.
-
 // The rate of the joint's coordinate as a row, per unit of the coordinate.
 void set_rate(std::span<const SolverBody> bodies, const RowBlock& block, Row& row) {
     const Vec3 axis_a_ws = frame_a(bodies, block) * Vec3::UnitX();
@@ -266,6 +264,10 @@ std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlo
         rows.push_back(row);
     }
     return rows.size() - before;
+}
+
+Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return Ends(bodies, block).error;
 }
 
 double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block) {

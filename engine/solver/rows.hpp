@@ -135,6 +135,11 @@ void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                  std::uint32_t block_index, std::vector<Row>& rows,
                  double reach_m = std::numeric_limits<double>::infinity());
 
+// From b's point to a's in the world: the values of the rows that hold one on the other.
+Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block);
+// True for the first of three rows that hold a's point on b's, one a world axis.
+inline bool begins_point(const Row& row) { return row.width == 3 && row.linear_a == Vec3::UnitX(); }
+
 // Rows that only velocities have: a contact's two directions along the surface, a joint's free
 // directions. Value 0. Returns how many.
 std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlock& block,
