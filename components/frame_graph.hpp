@@ -28,8 +28,8 @@ struct JointGroups {
 // What the physics stages hand on to each other within one frame. Not state: filled anew in every
 // frame, kept only so that warm frames allocate nothing.
 struct FrameGraph {
-    // One entry a collider, sorted by persistent id: the same index in all of these and in
-    // graph.bodies.
+    // One entry a body or player, sorted by persistent id: the same index in all of these and in
+    // graph.bodies. What has no collider has no shape (k_no_shape) and touches nothing.
     std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
     std::vector<Entity> entities;
     struct PhaseBody {
