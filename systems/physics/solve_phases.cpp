@@ -167,7 +167,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         set_masses(s, island, phase);
         const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        frame.island_results[i] = solve_positions(view, settings, frame.island_scratch[i]);
+        frame.island_results[i] = frame.position_solver(view, settings, frame.island_scratch[i]);
     };
     parallel_for(frame.island_order.size(), solve_one);
     for (const NewtonResult& result : frame.island_results) {
