@@ -42,7 +42,8 @@ struct BodyVelocity {
     Vec3 angular_radps = Vec3::Zero();
 };
 
-// The body's shape, in the body's frame. Without one nothing can touch or grab it.
+// The body's shape, in the body's frame. Without one nothing touches it and no hand finds it;
+// joints and grips that are there act on it all the same.
 struct Collider {
     ShapeId shape;
 };

@@ -11,6 +11,9 @@
 
 namespace handhold {
 
+// Moves one island's bodies until its rows are met: as solve_positions.
+using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
+
 // Free bodies that joints tie together; empty where there is no joint. By the rows of the body
 // column.
 struct JointGroups {
@@ -28,8 +31,8 @@ struct JointGroups {
 // What the physics stages hand on to each other within one frame. Not state: filled anew in every
 // frame, kept only so that warm frames allocate nothing.
 struct FrameGraph {
-    // One entry a collider, sorted by persistent id: the same index in all of these and in
-    // graph.bodies.
+    // One entry a body or player, sorted by persistent id: the same index in all of these and in
+    // graph.bodies. What has no collider has no shape (k_no_shape) and touches nothing.
     std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
     std::vector<Entity> entities;
     struct PhaseBody {
@@ -49,6 +52,10 @@ struct FrameGraph {
     std::vector<ContactPoint> contacts;  // written by find_contacts, solve_phases
     std::vector<IgnoredPair> ignored;    // written by find_contacts
     ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
+
+    // Asked by solve_phases for every island and phase. The measuring tools put the methods here
+    // that this one is compared with.
+    PositionSolver position_solver = &solve_positions;
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;

@@ -63,7 +63,8 @@ struct MomentumLedger {
 
 struct StageStats {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> fallbacks{};
-    std::array<double, static_cast<std::size_t>(Stage::count)> stage_us{};  // of this frame
+    std::array<double, static_cast<std::size_t>(Stage::count)>
+        stage_us{};  // of this frame; stage_now_ns
 
     std::uint64_t grab_onsets = 0;
     std::uint64_t grabs_gripped = 0;

@@ -33,7 +33,9 @@ Entity add_body(World& world, const BodyDescription& description) {
     world.body_pose.add(entity, {description.pose_ws});
     world.body_start.add(entity, {description.pose_ws});
     world.body_velocity.add(entity, description.velocity);
-    world.collider.add(entity, {description.shape});
+    if (description.shape != k_no_shape) {
+        world.collider.add(entity, {description.shape});
+    }
     if (body.kind == BodyKind::free) {
         world.last_valid.add(entity, {description.pose_ws});
     }

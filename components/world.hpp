@@ -96,8 +96,8 @@ struct BodyDescription {
     BodyVelocity velocity;
     ShapeId shape;
 };
-// A body with a collider. Throws PreconditionError for a name that is taken, a pose that is not
-// valid, or a free body without mass or inertia.
+// A body, and its collider unless its shape is k_no_shape. Throws PreconditionError for a name that
+// is taken, a pose that is not valid, or a free body without mass or inertia.
 Entity add_body(World& world, const BodyDescription& description);
 
 struct JointDescription {

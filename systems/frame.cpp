@@ -29,8 +29,8 @@ class StageTimer {
     StageTimer(Stage stage, StageStats& stats)
         : zone_(name_of(stage)),
           stage_us_(stats.stage_us[static_cast<std::size_t>(stage)]),
-          begin_ns_(now_ns()) {}
-    ~StageTimer() { stage_us_ += 1e-3 * static_cast<double>(now_ns() - begin_ns_); }
+          begin_ns_(stage_now_ns()) {}
+    ~StageTimer() { stage_us_ += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns_); }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
 

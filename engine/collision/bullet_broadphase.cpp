@@ -50,6 +50,9 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
     parked_.reserve(parked_.size() + bodies_.size());
     std::size_t old = 0;
     for (const ColliderProxy& proxy : proxies) {
+        if (proxy.shape == k_no_shape) {
+            continue;
+        }
         for (; old < bodies_.size() && bodies_[old].proxy.id < proxy.id; ++old) {
             park(bodies_[old]);
         }

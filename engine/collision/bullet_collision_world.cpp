@@ -64,6 +64,9 @@ void CollisionWorld::Impl::check(std::span<const ColliderProxy> proxies) const {
     for (std::size_t i = 0; i < proxies.size(); ++i) {
         const ColliderProxy& proxy = proxies[i];
         HH_CHECK(proxy.id > (i > 0 ? proxies[i - 1].id : 0), "ids must rise from 1", proxy.id);
+        if (proxy.shape == k_no_shape) {
+            continue;
+        }
         HH_CHECK(proxy.shape.index < cache.size(), "no shape with this id", proxy.shape.index);
         HH_CHECK(!proxy.free || !cache[proxy.shape.index].triangles, "a mesh cannot be free",
                  proxy.id);

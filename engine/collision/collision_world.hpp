@@ -17,8 +17,8 @@ namespace handhold {
 // nothing wrongly, and where it is.
 struct ColliderProxy {
     std::uint64_t id = 0;  // persistent id; unique among proxies, not 0
-    ShapeId shape;
-    Pose from_ws;  // last valid pose
+    ShapeId shape;         // k_no_shape: passed over
+    Pose from_ws;          // last valid pose
     Pose to_ws;  // present pose: contacts are found here, or where the way from from_ws first meets
                  // something
     bool free = false;  // two colliders that are both not free never make contacts

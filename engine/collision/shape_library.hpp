@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,8 @@ struct ShapeId {
     std::uint32_t index = 0;
     friend auto operator<=>(const ShapeId&, const ShapeId&) = default;
 };
+// Of what has no shape: nothing touches it.
+inline constexpr ShapeId k_no_shape = {std::numeric_limits<std::uint32_t>::max()};
 
 struct PlacedShape;
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -15,6 +16,8 @@
 
 namespace handhold {
 namespace {
+
+std::atomic<StageClock> g_stage_clock{StageClock::wall};
 
 struct ZoneRecord {
     const char* name;
@@ -146,6 +149,17 @@ std::string trace_json() {
 std::int64_t now_ns() {
     const auto since_epoch = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count();
+}
+
+void set_stage_clock(StageClock clock) { g_stage_clock.store(clock, std::memory_order_relaxed); }
+
+std::int64_t stage_now_ns() {
+    if (g_stage_clock.load(std::memory_order_relaxed) == StageClock::wall) {
+        return now_ns();
+    }
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
 void start_trace(std::size_t max_zones) {

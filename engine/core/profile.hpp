@@ -13,6 +13,13 @@ namespace handhold {
 // Nanoseconds of a steady clock.
 std::int64_t now_ns();
 
+// What the times of stages are measured with: by the clock on the wall unless a tool that measures
+// on a busy machine asks for the processor's time of the calling thread (a system call, about 0.3
+// us). Set it between frames.
+enum class StageClock : std::uint8_t { wall, thread_cpu };
+void set_stage_clock(StageClock clock);
+std::int64_t stage_now_ns();
+
 // Forgets what was collected and starts collecting the zones of all threads that begin and end from
 // here to stop_trace: up to `max_zones` a thread (24 bytes each), later ones are only counted as
 // dropped.

@@ -77,7 +77,7 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         const std::size_t a = find_body(frame.graph, io.persistent_id.at(player).value);
         const std::size_t b = find_body(frame.graph, io.persistent_id.at(grab.body).value);
         if (a == frame.graph.bodies.size() || b == frame.graph.bodies.size()) {
-            continue;  // a body whose collider was taken away holds nothing
+            continue;  // a body that is gone holds nothing
         }
         RowBlock block = hand_block(grab, frame.graph.bodies[a].pose_ws.rotation,
                                     io.persistent_id.at(hand).value);

@@ -28,8 +28,8 @@ struct BuildConstraintsIo {
     FrameGraph& frame;  // in: proxies, entities, contacts; out: graph, phase
 };
 
-// Stage 5. The frame as the solver sees it: one solver body a collider, hand rows for what is
-// gripped, rows of joints, contact rows, islands. A joint whose body has no collider holds nothing.
+// Stage 5. The frame as the solver sees it: one solver body a body or player, hand rows for what is
+// gripped, rows of joints, contact rows, islands.
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

@@ -11,7 +11,8 @@ namespace {
 ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuning& tuning) {
     ColliderProxy proxy;
     proxy.id = io.persistent_id.at(entity).value;
-    proxy.shape = io.collider.at(entity).shape;
+    const Collider* const collider = io.collider.find(entity);
+    proxy.shape = collider != nullptr ? collider->shape : k_no_shape;
     if (const PlayerOrigin* const origin = io.origin.find(entity)) {
         proxy.to_ws =
             origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
@@ -35,7 +36,9 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
 
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
-    frame.entities.assign(io.collider.owners().begin(), io.collider.owners().end());
+    frame.entities.assign(io.body.owners().begin(), io.body.owners().end());
+    frame.entities.insert(frame.entities.end(), io.origin.owners().begin(),
+                          io.origin.owners().end());
     std::sort(frame.entities.begin(), frame.entities.end(), [&io](Entity x, Entity y) {
         return io.persistent_id.at(x) < io.persistent_id.at(y);
     });

@@ -23,8 +23,9 @@ struct PlaceCollidersIo {
     FrameGraph& frame;                          // out: proxies, entities
 };
 
-// Brings every collider to the collision world, sorted by persistent id: from its last valid pose
-// to its present one. Players are the spheres of their heads, at the end of the frame.
+// Lists all bodies and players by persistent id and brings their colliders to the collision world:
+// from the last valid pose to the present one. Players are the spheres of their heads, at the end
+// of the frame.
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 
 }  // namespace handhold

@@ -167,7 +167,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         set_masses(s, island, phase);
         const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        frame.island_results[i] = solve_positions(view, settings, frame.island_scratch[i]);
+        frame.island_results[i] = frame.position_solver(view, settings, frame.island_scratch[i]);
     };
     parallel_for(frame.island_order.size(), solve_one);
     for (const NewtonResult& result : frame.island_results) {
@@ -179,8 +179,8 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
 // --- Contacts on a phase's result
 // ------------------------------------------------------------------------------------
 
-// Moves the proxies after the solver's bodies; true where any went farther than contacts stay good
-// for.
+// Moves the proxies after the solver's bodies; true where any collider went farther than contacts
+// stay good for.
 bool move_proxies(const Solve& s) {
     bool moved = false;
     for (std::size_t i = 0; i < s.graph().bodies.size(); ++i) {
@@ -193,7 +193,7 @@ bool move_proxies(const Solve& s) {
         const double turn = 2.0 * (now.rotation.conjugate() * proxy.to_ws.rotation).vec().norm();
         if ((now.position - proxy.to_ws.position).norm() + turn * 0.5 > k_moved_m) {
             proxy.to_ws = now;
-            moved = true;
+            moved = moved || proxy.shape != k_no_shape;
         }
     }
     return moved;

@@ -154,6 +154,21 @@ TEST(PlaceColliders, OrderOfInsertionDoesNotMatterAndOnceMoreChangesNothing) {
     }
 }
 
+TEST(PlaceColliders, WithoutAColliderABodyIsListedButNothingMeetsIt) {
+    Random random(7);
+    Placing scene;
+    scene.add_body(k_wall, BodyKind::fixed, random);
+    scene.add_body(k_rock, BodyKind::free, random);
+    scene.body_pose.at(k_wall).pose_ws = {Vec3(0.0, 3.0, 0.0), Quat::Identity()};
+    scene.body_pose.at(k_rock).pose_ws = {Vec3(0.0, -30.0, 0.0), Quat::Identity()};
+    scene.run();
+    scene.collider.remove(k_wall);
+    scene.run();
+    EXPECT_EQ(scene.frame.entities, (std::vector<Entity>{k_rock, k_wall}));
+    EXPECT_EQ(scene.proxy(k_wall).shape, k_no_shape);
+    EXPECT_FALSE(scene.collision.cast_ray(Vec3::Zero(), Vec3(0.0, 10.0, 0.0)).has_value());
+}
+
 TEST(PlaceColliders, CollisionWorldKnowsThem) {
     Random random(6);
     Placing scene;

@@ -458,6 +458,33 @@ TEST(Joints, FixedCarryTheirMomentumTogether) {
     EXPECT_LE(c.worst.rad, 1e-5);
 }
 
+TEST(Joints, HoldBodiesWithoutColliderThatPassThroughEachOther) {
+    Scenario scene;
+    const RigidBody link{BodyKind::free, 1.0, Vec3(0.01, 0.01, 0.01)};
+    const Entity first = scene.add("first", link, k_no_shape, {Vec3(0.1, 0.0, 0.0), {1, 0, 0, 0}});
+    const Entity second = scene.add("second", link, k_no_shape, {Vec3(0.3, 0.0, 0.0), {1, 0, 0, 0}},
+                                    {Vec3(0.0, 2.0, 0.0), Vec3::Zero()});
+    Joint root;
+    root.b = first;
+    Joint middle;
+    middle.a = first;
+    middle.b = second;
+    const Pose between{Vec3(0.2, 0.0, 0.0), Quat::Identity()};
+    const Entity joints[] = {
+        add_joint(scene.world, {"root", joint_at(scene.world, root, Pose{})}),
+        add_joint(scene.world, {"middle", joint_at(scene.world, middle, between)})};
+    scene.add_player_here(Vec3(0.0, 50.0, 0.0));
+    Error worst;
+    scene.run(2.0, [&] {
+        for (const Entity joint : joints) {
+            worst.take(error_of(scene, joint));
+        }
+        EXPECT_EQ(scene.stats.contacts, 0U);
+    });
+    EXPECT_LE(worst.m, 1e-6);
+    EXPECT_GT((scene.body(second).position - Vec3(0.3, 0.0, 0.0)).norm(), 0.05) << "it swings";
+}
+
 TEST(Joints, DestroyedBodyTakesItsJointsAlong) {
     Contraption c;
     make_lever(c);

@@ -20,6 +20,10 @@ add_library(handhold::bullet ALIAS handhold_bullet)
 target_include_directories(handhold_bullet SYSTEM INTERFACE ${bullet_INCLUDE_DIRS})
 target_compile_definitions(handhold_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
 target_link_libraries(handhold_bullet INTERFACE BulletCollision-float64 LinearMath-float64)
+# Its solver too: only for the tool that compares ours with it.
+add_library(handhold_bullet_dynamics INTERFACE)
+add_library(handhold::bullet_dynamics ALIAS handhold_bullet_dynamics)
+target_link_libraries(handhold_bullet_dynamics INTERFACE BulletDynamics-float64 handhold_bullet)
 
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -1,0 +1,143 @@
+// What each scene claims of the runtime, at the goals of the design where today's solver meets
+// them. Expected values are the scenes' closed forms.
+#include <algorithm>
+
+#include "lab_files.hpp"
+#include "tools/lab/lab_scene.hpp"
+
+namespace handhold::lab {
+namespace {
+
+using Json = nlohmann::json;
+
+double worst(const Json& json, const char* figure) { return json[figure]["max"].get<double>(); }
+double claim(const Json& json, const char* figure) {
+    return json["scene_figures"].at(figure).get<double>();
+}
+
+class LabScenes : public LabTest {};
+
+TEST_F(LabScenes, KeepEveryJointWithBothKindsOfHolders) {
+    for (const std::string_view name : scene_names()) {
+        for (const char* holder : {"player", "kinematic"}) {
+            if (name == "lean_in" && std::string(holder) == "kinematic") {
+                continue;  // about the player's own head
+            }
+            SolveOptions asked = options(std::string(name), name == "hub" ? 20 : 90);
+            asked.holder = holder;
+            const Json json = solve(asked);
+            SCOPED_TRACE(std::string(name) + " " + holder);
+            // A kinematic hand's joint is as hard as the others: what it tears two ways gives.
+            const bool is_torn = std::string(holder) == "kinematic" &&
+                                 (name == "lever" || name == "drawer" || name == "door");
+            if (!is_torn) {
+                EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
+                EXPECT_LE(worst(json, "joint_error_deg"), 1e-4);
+            }
+            EXPECT_EQ(worst(json, "player_error_mm"), 0.0);
+        }
+    }
+}
+
+TEST_F(LabScenes, ChainsOfAnyMassesHoldAndMoveNobody) {
+    for (const std::string_view masses : mass_patterns()) {
+        for (const int links : {8, 33}) {
+            SolveOptions asked = options("chain", 120);
+            asked.links = links;
+            asked.masses = masses;
+            const Json json = solve(asked);
+            SCOPED_TRACE(std::string(masses));
+            EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
+            EXPECT_LE(worst(json, "grab_error_mm"), 1e-3);
+            EXPECT_EQ(worst(json, "player_error_mm"), 0.0);
+        }
+    }
+}
+
+TEST_F(LabScenes, ThingsOnAWallHoldAsFarAsTheyAreStrained) {
+    for (const char* scene : {"lever", "drawer", "door"}) {
+        const Json json = solve(scene, 900);
+        SCOPED_TRACE(scene);
+        EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
+        EXPECT_LE(worst(json, "joint_error_deg"), 1e-4);
+        EXPECT_LE(worst(json, "grab_error_mm"), 1e-3);
+        EXPECT_EQ(worst(json, "player_error_mm"), 0.0) << "while they can follow";
+    }
+    EXPECT_LE(claim(solve("lever", 900), "push_back_error_mm"), 1e-3);
+}
+
+TEST_F(LabScenes, WallsPushBackInTheSameFrame) {
+    for (const char* scene : {"shove", "shove_mesh", "step", "lean_in"}) {
+        const Json json = solve(scene);
+        SCOPED_TRACE(scene);
+        EXPECT_LE(worst(json, "penetration_mm"), 1e-3);
+        EXPECT_LE(claim(json, "push_back_error_mm"), 1e-3);
+        EXPECT_EQ(worst(json, "player_error_mm"), 0.0) << "before the wall";
+    }
+}
+
+TEST_F(LabScenes, WhatTwoHandsCannotBothHaveIsSharedAlike) {
+    EXPECT_LE(claim(solve("contradict"), "share_error_mm"), 1e-3);
+    EXPECT_LE(claim(solve("two_players"), "push_back_error_mm"), 1e-3);
+    EXPECT_LE(worst(solve("two_hands"), "grab_error_mm"), 1.0 + 1e-3) << "half of 2 mm";
+}
+
+TEST_F(LabScenes, JamIsSharedByBothWallsAndStill) {
+    const Json json = solve("jam");
+    EXPECT_NEAR(claim(json, "jam_gap_left_mm"), 10.0, 1.0);
+    EXPECT_NEAR(claim(json, "jam_gap_right_mm"), 10.0, 1.0);
+    EXPECT_LE(claim(json, "still_mps"), 1e-6);
+}
+
+// The goal, 1e-5 mm, is below what a solve is asked for: it ends at 1e-4 mm.
+TEST_F(LabScenes, HandsOnShipsLagByNoMoreThanTheSolversTolerance) {
+    for (const char* scene : {"ship_kinematic", "ship_dynamic"}) {
+        EXPECT_LE(claim(solve(scene), "ship_lag_mm"), 1e-4) << scene;
+    }
+}
+
+TEST_F(LabScenes, MomentumStaysWhereNothingActsFromOutside) {
+    for (const char* scene : {"throw", "push_off", "ship_dynamic"}) {
+        EXPECT_LE(solve(scene)["momentum_residual"].get<double>(), 1e-9) << scene;
+    }
+    const Json pushed = solve("push_off");
+    EXPECT_LE(claim(pushed, "push_off_crate_error_mps"), 1e-9);
+    EXPECT_LE(claim(pushed, "push_off_player_error_mps"), 1e-9);
+    const Json thrown = solve("throw");
+    EXPECT_LE(claim(thrown, "throw_speed_error_mps"), 1e-6);
+    EXPECT_LE(claim(thrown, "throw_spin_error_radps"), 1e-6);
+}
+
+TEST_F(LabScenes, BouncesAndSlidesFollowTheirClosedForms) {
+    EXPECT_LE(claim(solve("bounce"), "restitution_error"), 1e-9);
+    const Json slid = solve("slide");
+    EXPECT_LE(claim(slid, "sliding_error_mm"), claim(slid, "sliding_step_mm"));
+}
+
+TEST_F(LabScenes, OtherSolversLeaveMore) {
+    SolveOptions asked = options("chain", 120);
+    asked.holder = "kinematic";
+    const double direct_mm = worst(solve(asked), "joint_error_mm");
+    for (const char* solver : {"plain", "sweep", "bullet"}) {
+        asked.solver = solver;
+        EXPECT_GT(worst(solve(asked), "joint_error_mm"), 100.0 * direct_mm) << solver;
+    }
+}
+
+TEST_F(LabScenes, ResidualsFallFromIterationToIteration) {
+    SolveOptions asked = options("chain", 40);
+    asked.residual_frame = 30;
+    for (const char* solver : {"direct", "plain"}) {
+        asked.solver = solver;
+        const Json json = solve(asked);
+        const auto curve = json["residual_per_iteration"].get<std::vector<double>>();
+        ASSERT_GE(curve.size(), 3U);
+        EXPECT_LT(curve.back(), 0.1 * curve.front()) << solver;
+        EXPECT_TRUE(std::is_sorted(curve.rbegin(), curve.rend())) << solver;
+    }
+    asked.solver = "bullet";
+    EXPECT_EQ(solve(asked)["residual_per_iteration"].size(), 50U);
+}
+
+}  // namespace
+}  // namespace handhold::lab

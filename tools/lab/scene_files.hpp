@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "tools/lab/lab_scene.hpp"
+#include "tools/lab/measure.hpp"
+
+// What `handhold-lab solve` writes. The formats are a contract: docs/lab.md. Fields may be added,
+// none renamed or dropped.
+namespace handhold::lab {
+
+struct RunLabels {
+    std::string solver;
+    std::string masses;
+    std::string holder;
+    double hz = 90.0;
+    int frames = 0;
+    int links = 0;
+};
+
+// Residual against iteration of one solve, metres.
+struct ResidualCurve {
+    int frame = -1;  // none was taken
+    std::vector<double> residual_m;
+};
+
+std::string scene_json(const LabScene& scene, Holder holder, const RunLabels& labels,
+                       const Measure& measure, const ResidualCurve& curve);
+
+// Rows of every body, player and held hand, frame by frame.
+class FrameCsv {
+  public:
+    explicit FrameCsv(const LabScene& scene);
+    void take(int frame, const FrameRecord& record);
+    const std::string& text() const { return text_; }
+
+  private:
+    const LabScene& scene_;
+    std::string text_;
+};
+
+}  // namespace handhold::lab

@@ -1,0 +1,118 @@
+// More than one hand on one thing.
+#include <algorithm>
+#include <cmath>
+
+#include "tools/lab/hand_paths.hpp"
+#include "tools/lab/scenes.hpp"
+
+namespace handhold::lab {
+namespace {
+
+LabBody make_bar(const std::string& name, double mass_kg, const Vec3& half_m, const Vec3& center) {
+    LabBody bar;
+    bar.name = name;
+    bar.mass_kg = mass_kg;
+    bar.half_m = half_m;
+    bar.pose_ws.position = center;
+    return bar;
+}
+
+}  // namespace
+
+// One player with both hands on a lever, both exactly on their arcs; another, 10 m away, with both
+// on a free bar: hands never keep their distance, here they stray by 2 mm.
+LabScene make_two_hands(const SceneOptions& /*options*/) {
+    LabScene scene;
+    const int lever =
+        scene.add_body(make_bar("lever", 2.0, Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0)));
+    LabJoint hinge;
+    hinge.kind = JointKind::hinge;
+    hinge.b = lever;
+    scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
+    const Vec3 aside(10.0, 0.0, 0.0);
+    const int bar = scene.add_body(make_bar("bar", 5.0, Vec3(0.3, 0.02, 0.02), aside));
+    scene.players = {LabPlayer{}, LabPlayer{aside}};
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const bool is_left = side == HandSide::left;
+        const double arm = is_left ? 0.25 : 0.4;
+        LabHold on_lever;
+        on_lever.side = side;
+        on_lever.body = lever;
+        on_lever.point_only = true;
+        on_lever.hand_ps = [arm](double t_s) {
+            const double angle = to_and_fro(t_s, 1.6, k_hand_speed_mps / 0.4, 0.8) - 0.8;
+            return Pose{arm * Vec3(-std::sin(angle), std::cos(angle), 0.0), Quat::Identity()};
+        };
+        scene.add_hold(on_lever);
+        LabHold on_bar;
+        on_bar.player = 1;
+        on_bar.side = side;
+        on_bar.body = bar;
+        on_bar.hand_ps = [is_left](double t_s) {
+            const Quat turn = rotation_about(Vec3::UnitY(), to_and_fro(t_s, 1.0, 2.0));
+            const double stray = 0.002 * std::sin(2.0 * k_pi * 3.0 * t_s);
+            const Vec3 hand =
+                turn * Vec3((is_left ? -0.2 : 0.2) + (is_left ? 0.0 : stray), 0.0, 0.0);
+            return Pose{hand + to_and_fro(t_s, 0.3, k_hand_speed_mps) * Vec3::UnitY(), turn};
+        };
+        scene.add_hold(on_bar);
+    }
+    scene.players_still_until_s = k_never_s;
+    return scene;
+}
+
+// Two players at the ends of one bar who pull it apart by 20 cm, ten times: their origins come
+// together by exactly as much.
+LabScene make_two_players(const SceneOptions& /*options*/) {
+    LabScene scene;
+    const int bar = scene.add_body(make_bar("bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero()));
+    scene.players = {LabPlayer{Vec3(-0.5, 0.0, 0.0)}, LabPlayer{Vec3(0.5, 0.0, 0.0)}};
+    const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
+    for (const int player : {0, 1}) {
+        LabHold hold;
+        hold.player = player;
+        hold.body = bar;
+        hold.hand_ps = [pull, player](double t_s) {
+            return Pose{Vec3((player == 0 ? -1.0 : 1.0) * pull(t_s), 0.0, 0.0), Quat::Identity()};
+        };
+        scene.add_hold(hold);
+    }
+    scene.watch = [pull](const FrameRecord& frame, Figures& figures) {
+        const Vec3 apart = frame.poses[2].position - frame.poses[1].position;
+        // By the direction of the bar, which may turn.
+        const Vec3 axis = frame.poses[0].rotation * Vec3::UnitX();
+        figures.take_worst("push_back_error_mm",
+                           1e3 * std::abs(apart.dot(axis) + 2.0 * pull(frame.t_s) - 1.0));
+    };
+    return scene;
+}
+
+// Both hands on one fixed thing pull 20 cm apart: half of it is left on each.
+LabScene make_contradict(const SceneOptions& /*options*/) {
+    LabScene scene;
+    LabBody rail = make_bar("rail", 0.0, Vec3(0.5, 0.02, 0.02), Vec3::Zero());
+    rail.kind = BodyKind::fixed;
+    scene.add_body(rail);
+    scene.players.emplace_back();
+    const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const double sign = side == HandSide::left ? -1.0 : 1.0;
+        LabHold hold;
+        hold.side = side;
+        hold.point_only = true;
+        hold.hand_ps = [sign, pull](double t_s) {
+            return Pose{Vec3(sign * (0.2 + pull(t_s)), 0.0, 0.0), Quat::Identity()};
+        };
+        scene.add_hold(hold);
+    }
+    scene.watch = [pull](const FrameRecord& frame, Figures& figures) {
+        for (const std::size_t hand : {0U, 1U}) {
+            const double sign = hand == 0 ? -1.0 : 1.0;
+            const double left = (frame.targets[hand].position - sign * 0.2 * Vec3::UnitX()).norm();
+            figures.take_worst("share_error_mm", 1e3 * std::abs(left - pull(frame.t_s)));
+        }
+    };
+    return scene;
+}
+
+}  // namespace handhold::lab

@@ -1,0 +1,119 @@
+// Things on a wall: a lever, a drawer, a door. In the first half of the run the hand goes where
+// they can follow; in the second it pulls them beyond.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/lab/hand_paths.hpp"
+#include "tools/lab/scenes.hpp"
+
+namespace handhold::lab {
+namespace {
+
+constexpr double k_lever_m = 0.4;
+
+// 0 up, `height` and back to 0, once a second: 5, 10, 20 cm in turn.
+double pull_off(double t_s) {
+    constexpr std::array k_heights = {0.05, 0.10, 0.20};
+    if (t_s <= 0.0) {
+        return 0.0;
+    }
+    const auto turn = static_cast<std::size_t>(t_s) % k_heights.size();
+    const double part = t_s - std::floor(t_s);
+    const double rise = std::min({part / 0.3, 1.0, (1.0 - part) / 0.3});
+    return k_heights[turn] * smooth_step(rise, 0.0, 1.0);
+}
+
+LabHold hold_thing(const PathOfTime& path) {
+    LabHold hold;
+    hold.point_only = true;
+    hold.hand_ps = path;
+    return hold;
+}
+
+void add_thing(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
+               const Vec3& center) {
+    LabBody thing;
+    thing.name = name;
+    thing.mass_kg = mass_kg;
+    thing.half_m = half_m;
+    thing.pose_ws.position = center;
+    scene.add_body(thing);
+    scene.players.emplace_back();
+}
+
+}  // namespace
+
+LabScene make_lever(const SceneOptions& options) {
+    LabScene scene;
+    add_thing(scene, "lever", 2.0, Vec3(0.015, 0.5 * k_lever_m, 0.015),
+              Vec3(0.0, 0.5 * k_lever_m, 0.0));
+    LabJoint hinge;
+    hinge.kind = JointKind::hinge;
+    hinge.limited = true;
+    hinge.lower = -1.2;
+    hinge.upper = 1.2;
+    scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
+    const double half_s = 0.5 * options.duration_s;
+    const double pull_s =
+        half_s + 0.2;  // once the lever is at rest: else it pushes him as it stops
+    scene.add_hold(hold_thing([half_s, pull_s](double t_s) {
+        const double angle =
+            to_and_fro(std::min(t_s, half_s), 1.8, k_hand_speed_mps / k_lever_m, 0.9) - 0.9;
+        const double twist = to_and_fro(t_s, k_twist_rad, 2.0);
+        return Pose{
+            Vec3(-k_lever_m * std::sin(angle), k_lever_m * std::cos(angle), pull_off(t_s - pull_s)),
+            rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), twist)};
+    }));
+    scene.players_still_until_s = pull_s;
+    // Along the hinge the lever cannot follow: the player comes by as much.
+    scene.watch = [pull_s](const FrameRecord& frame, Figures& figures) {
+        const Vec3 expected(0.0, 0.0, -pull_off(frame.t_s - pull_s));
+        figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());
+    };
+    return scene;
+}
+
+LabScene make_drawer(const SceneOptions& options) {
+    LabScene scene;
+    add_thing(scene, "drawer", 5.0, Vec3(0.2, 0.1, 0.2), Vec3(0.0, 0.0, -0.2));
+    LabJoint slider;
+    slider.kind = JointKind::slider;
+    slider.limited = true;
+    slider.upper = 0.3;
+    scene.add_joint_at(slider, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
+    const double half_s = 0.5 * options.duration_s;
+    scene.add_hold(hold_thing([half_s](double t_s) {
+        const double out = t_s <= half_s ? to_and_fro(t_s, 0.28, k_hand_speed_mps)
+                                         : to_and_fro(half_s, 0.28, k_hand_speed_mps) +
+                                               2.0 * pull_off(t_s - half_s);
+        return Pose{Vec3(0.0, 0.1, out),
+                    rotation_about(Vec3::UnitX(), to_and_fro(t_s, k_twist_rad, 2.0))};
+    }));
+    scene.players_still_until_s = half_s;
+    return scene;
+}
+
+LabScene make_door(const SceneOptions& options) {
+    LabScene scene;
+    add_thing(scene, "door", 20.0, Vec3(0.4, 0.9, 0.02), Vec3(0.4, 0.0, 0.0));
+    LabJoint hinge;
+    hinge.kind = JointKind::hinge;
+    hinge.limited = true;
+    hinge.upper = 1.6;
+    scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitY())});
+    const double half_s = 0.5 * options.duration_s;
+    scene.add_hold(hold_thing([half_s](double t_s) {
+        constexpr double k_edge_m = 0.75;
+        const double turn = to_and_fro(t_s, 1.5, k_hand_speed_mps / k_edge_m);
+        const double angle = t_s <= half_s ? turn
+                                           : to_and_fro(half_s, 1.5, k_hand_speed_mps / k_edge_m) +
+                                                 4.0 * pull_off(t_s - half_s);
+        return Pose{Vec3(k_edge_m * std::cos(angle), 0.1, -k_edge_m * std::sin(angle)),
+                    rotation_about(Vec3::UnitZ(), to_and_fro(t_s, k_twist_rad, 2.0))};
+    }));
+    scene.players_still_until_s = half_s;
+    return scene;
+}
+
+}  // namespace handhold::lab
