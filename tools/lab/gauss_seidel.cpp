@@ -52,8 +52,7 @@ class GaussSeidel {
         double worst = 0.0;
         for (const std::uint32_t i : order_) {
             RowBlock& block = island_.blocks[i];
-            block.error_m = block_error_m(island_.bodies, block);
-            worst = std::max(worst, block.error_m);
+            worst = std::max(worst, block_error_m(island_.bodies, block));
         }
         return worst;
     }
