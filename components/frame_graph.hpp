@@ -61,6 +61,13 @@ struct FrameGraph {
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
+    struct IslandErrors {
+        bool known = false;
+        double hands_m = 0.0;
+        double joints_m = 0.0;
+        double contacts_m = 0.0;
+    };
+    std::vector<IslandErrors> island_errors;       // by island; unknown once something in it moved
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
     std::vector<double> overlap_m;  // by body

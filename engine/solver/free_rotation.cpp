@@ -43,13 +43,22 @@ void advance_rotation(const Vec3& inertia_kgm2, double dt_s, Quat& rotation, Vec
     const double shared = 1.0 / inertia_kgm2[middle];
     const double of_least = 1.0 / inertia_kgm2[least] - shared;
     const double of_most = 1.0 / inertia_kgm2[most] - shared;
-    const bool is_exact = of_least == 0.0 || of_most == 0.0;
-    const int steps = is_exact ? 1 : steps_for(spin_radps.norm(), dt_s);
-    const double step_s = dt_s / steps;
-    for (int i = 0; i < steps; ++i) {
-        turn_about_axis(least, 0.5 * step_s * of_least * momentum_bs[least], rotation, momentum_bs);
-        turn_about_axis(most, step_s * of_most * momentum_bs[most], rotation, momentum_bs);
-        turn_about_axis(least, 0.5 * step_s * of_least * momentum_bs[least], rotation, momentum_bs);
+    if (of_least == 0.0 || of_most == 0.0) {
+        // Two equal moments: one axis only, and exact.
+        const int axis = of_most == 0.0 ? least : most;
+        const double rate = of_most == 0.0 ? of_least : of_most;
+        if (rate != 0.0) {
+            turn_about_axis(axis, dt_s * rate * momentum_bs[axis], rotation, momentum_bs);
+        }
+    } else {
+        const int steps = steps_for(spin_radps.norm(), dt_s);
+        const double step_s = dt_s / steps;
+        for (int i = 0; i < steps; ++i) {
+            const double half_s = 0.5 * step_s;
+            turn_about_axis(least, half_s * of_least * momentum_bs[least], rotation, momentum_bs);
+            turn_about_axis(most, step_s * of_most * momentum_bs[most], rotation, momentum_bs);
+            turn_about_axis(least, half_s * of_least * momentum_bs[least], rotation, momentum_bs);
+        }
     }
     rotation = (rotation_from_vector(dt_s * shared * momentum_ws) * rotation).normalized();
     // From the momentum in the world, which is what it was: no rounding adds up.

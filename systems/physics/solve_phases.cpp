@@ -38,15 +38,45 @@ bool has_role(const Solve& s, const Island& island, BodyRole role) {
                                [&](std::uint32_t i) { return s.graph().bodies[i].role == role; });
 }
 
-double worst_error(const Solve& s, const Island& island, BlockFilter filter) {
-    double worst = 0.0;
+// The worst error of each kind of row, found once after the island's last solve.
+const FrameGraph::IslandErrors& errors_of(const Solve& s, const Island& island) {
+    const auto index = static_cast<std::size_t>(&island - s.graph().islands.data());
+    FrameGraph::IslandErrors& errors = s.io.frame.island_errors[index];
+    if (errors.known) {
+        return errors;
+    }
+    errors = {true};
     for (const std::uint32_t i : s.graph().blocks_of(island)) {
         const RowBlock& block = s.graph().blocks[i];
-        if (passes(filter, block)) {
-            worst = std::max(worst, block_error_m(s.graph().bodies, block));
-        }
+        double& worst = is_hand(block)      ? errors.hands_m
+                        : is_contact(block) ? errors.contacts_m
+                                            : errors.joints_m;
+        worst = std::max(worst, block_error_m(s.graph().bodies, block));
     }
-    return worst;
+    return errors;
+}
+
+double worst_error(const Solve& s, const Island& island) {
+    const FrameGraph::IslandErrors& errors = errors_of(s, island);
+    return std::max({errors.hands_m, errors.joints_m, errors.contacts_m});
+}
+double worst_error_without_hands(const Solve& s, const Island& island) {
+    const FrameGraph::IslandErrors& errors = errors_of(s, island);
+    return std::max(errors.joints_m, errors.contacts_m);
+}
+
+bool has_hand_or_joint(const Solve& s, const Island& island) {
+    return std::ranges::any_of(s.graph().blocks_of(island),
+                               [&](std::uint32_t i) { return !is_contact(s.graph().blocks[i]); });
+}
+
+void forget_errors(const Solve& s, const Island& island) {
+    s.io.frame.island_errors[static_cast<std::size_t>(&island - s.graph().islands.data())].known =
+        false;
+}
+// Of all, when the islands are new.
+void forget_errors(const Solve& s) {
+    s.io.frame.island_errors.assign(s.graph().islands.size(), {});
 }
 
 // True where the island has two players, or holds on to, hangs on or presses against something that
@@ -170,6 +200,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         frame.island_results[i] = frame.position_solver(view, settings, frame.island_scratch[i]);
     };
     parallel_for(frame.island_order.size(), solve_one);
+    for (const std::uint32_t i : frame.island_order) {
+        frame.island_errors[i].known = false;
+    }
     for (const NewtonResult& result : frame.island_results) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
     }
@@ -241,6 +274,7 @@ bool refresh_contacts(const Solve& s) {
         [](const ContactPoint& contact) { return contact.separation_m < -k_new_overlap_m; });
     merge_contacts(frame);
     replace_contact_rows(frame.contacts, s.graph());
+    forget_errors(s);
     return overlaps;
 }
 
@@ -260,9 +294,8 @@ void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
 
 void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
-    solve_islands(s, Phase::reach, [&](const Island& island) {
-        return worst_error(s, island, BlockFilter::without_contacts) > 0.0;
-    });
+    solve_islands(s, Phase::reach,
+                  [&](const Island& island) { return has_hand_or_joint(s, island); });
     for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
     }
@@ -273,12 +306,12 @@ void forward(const Solve& s) {
     HH_DETAIL_ZONE("forward");
     solve_rounds(s, Phase::forward, [&](const Island& island) {
         return has_role(s, island, BodyRole::free) &&
-               worst_error(s, island, BlockFilter::without_hands) > s.tuning.solver.tolerance_m;
+               worst_error_without_hands(s, island) > s.tuning.solver.tolerance_m;
     });
 }
 
 bool wants_backward(const Solve& s, const Island& island) {
-    return worst_error(s, island, BlockFilter::all) > k_violated_m && may_push(s, island);
+    return worst_error(s, island) > k_violated_m && may_push(s, island);
 }
 
 // Marks the islands to push, and puts players and held objects back to where the hands want them.
@@ -295,6 +328,7 @@ void prepare_backward(const Solve& s) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
         }
+        forget_errors(s, island);
     }
 }
 
@@ -307,14 +341,14 @@ void backward(const Solve& s) {
     HH_DETAIL_ZONE("backward");
     prepare_backward(s);
     solve_rounds(s, Phase::backward, [&](const Island& island) {
-        return is_pushed(s, island) && worst_error(s, island, BlockFilter::all) > k_violated_m;
+        return is_pushed(s, island) && worst_error(s, island) > k_violated_m;
     });
 }
 
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return worst_error(s, island, BlockFilter::without_hands) > k_violated_m;
+        return worst_error_without_hands(s, island) > k_violated_m;
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {
@@ -381,6 +415,7 @@ void write_errors(const Solve& s) {
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
     const Solve s{io, tuning, stats};
+    forget_errors(s);
     reach(s);
     forward(s);
     backward(s);
