@@ -1,6 +1,7 @@
 #include "tools/lab/gauss_seidel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -68,28 +69,28 @@ class GaussSeidel {
     // Steps from what cannot move, breadth first.
     void find_depths() {
         depths_.assign(island_.bodies.size(), k_far);
+        std::vector<std::vector<std::uint32_t>> neighbours(island_.bodies.size());
+        std::vector<std::uint32_t> queue;
         for (const std::uint32_t i : island_.island_blocks) {
-            for (const std::uint32_t body : {island_.blocks[i].a, island_.blocks[i].b}) {
-                if (island_.bodies[body].inverse_mass <= 0.0) {
+            const RowBlock& block = island_.blocks[i];
+            neighbours[block.a].push_back(block.b);
+            neighbours[block.b].push_back(block.a);
+            for (const std::uint32_t body : {block.a, block.b}) {
+                if (island_.bodies[body].inverse_mass <= 0.0 && depths_[body] == k_far) {
                     depths_[body] = 0;
+                    queue.push_back(body);
                 }
             }
         }
-        bool changed = true;
-        while (changed) {
-            changed = false;
-            for (const std::uint32_t i : island_.island_blocks) {
-                const RowBlock& block = island_.blocks[i];
-                changed = deepen(block.a, block.b) || deepen(block.b, block.a) || changed;
+        for (std::size_t next = 0; next < queue.size(); ++next) {
+            const std::uint32_t from = queue[next];
+            for (const std::uint32_t to : neighbours[from]) {
+                if (depths_[to] == k_far) {
+                    depths_[to] = depths_[from] + 1;
+                    queue.push_back(to);
+                }
             }
         }
-    }
-    bool deepen(std::uint32_t from, std::uint32_t to) {
-        if (depths_[from] == k_far || depths_[to] <= depths_[from] + 1) {
-            return false;
-        }
-        depths_[to] = depths_[from] + 1;
-        return true;
     }
 
     Mobility mobility(std::uint32_t index, bool is_nearer) const {
@@ -123,13 +124,13 @@ class GaussSeidel {
 
     // The block's equations together: what a joint's rows say does not depend on its axes.
     void solve_equations(const RowBlock& block, const Mobility& a, const Mobility& b) const {
-        std::vector<const Row*> equations;
+        std::array<const Row*, k_most_rows> equations{};
+        Eigen::Index count = 0;
         for (const Row& row : rows_) {
-            if (!row.unilateral && equations.size() < k_most_rows) {
-                equations.push_back(&row);
+            if (!row.unilateral && count < k_most_rows) {
+                equations[static_cast<std::size_t>(count++)] = &row;
             }
         }
-        const auto count = static_cast<Eigen::Index>(equations.size());
         if (count == 0) {
             return;
         }

@@ -84,8 +84,6 @@ LabScene make_scene(std::string_view name, const SceneOptions& options) {
     return scene;
 }
 
-bool needs_player(const LabScene& scene) { return scene.name == "lean_in"; }
-
 std::vector<std::string_view> mass_patterns() {
     return {"uniform",        "last_x100",   "last_x0.01",
             "alternate_x100", "middle_x100", "alternate_x1000"};

@@ -20,6 +20,10 @@ namespace handhold::lab {
 inline constexpr int k_world = -1;
 inline constexpr double k_never_s = std::numeric_limits<double>::infinity();
 
+// kinematic: every hand is a kinematic body on the same way, tied to what it holds by a joint (by a
+// ball joint where point_only, else rigidly), and there are no players.
+enum class Holder : std::uint8_t { player, kinematic };
+
 using PathOfTime = std::function<Pose(double t_s)>;
 
 struct LabBody {
@@ -77,10 +81,6 @@ struct LabHold {
     bool point_only = false;
 };
 
-// kinematic: every hand is a kinematic body on the same way, tied to what it holds by a joint (by a
-// ball joint where point_only, else rigidly), and there are no players.
-enum class Holder : std::uint8_t { player, kinematic };
-
 // Everything of one scene at the end of one frame.
 struct FrameRecord {
     double t_s = 0.0;
@@ -125,6 +125,8 @@ struct LabScene {
     std::function<void(const FrameRecord&, Figures&)> watch;
     // What Bullet's rigid bodies cannot express; empty where they can.
     std::string beyond_bullet;
+    // The hand goes where what it holds cannot: somebody has to give way.
+    bool needs_player = false;
 
     int player_id(int player) const { return static_cast<int>(bodies.size()) + player; }
     int add_body(LabBody body) {
@@ -142,14 +144,13 @@ struct SceneOptions {
     std::string masses = "uniform";
     double duration_s = 10.0;
     double hz = 90.0;
+    Holder holder = Holder::player;  // kinematic: levers, drawers and doors are not pulled too far
 };
 
 // All scenes' names, in the order of docs/lab.md.
 std::vector<std::string_view> scene_names();
 // `name` is one of them.
 LabScene make_scene(std::string_view name, const SceneOptions& options);
-// True where a scene is about the player's own body: it has no kinematic holder.
-bool needs_player(const LabScene& scene);
 std::vector<std::string_view> mass_patterns();
 
 }  // namespace handhold::lab

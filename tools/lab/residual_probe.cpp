@@ -31,10 +31,12 @@ void probe(const IslandView& island, const NewtonSettings& settings, SolveScratc
         few.max_iterations = iterations;
         set_sweeps(iterations);
         const NewtonResult result = g_solver(island, few, scratch);
-        g_residuals.push_back(residual_m(island));
+        if (result.iterations == iterations) {
+            g_residuals.push_back(residual_m(island));
+        }
         std::copy(start.begin(), start.end(), island.bodies.begin());
         if (result.iterations < iterations) {
-            break;
+            break;  // it had ended before
         }
     }
     set_sweeps(k_sweeps);

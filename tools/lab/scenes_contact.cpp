@@ -54,6 +54,7 @@ LabScene make_rock_before_wall(const std::function<double(double)>& into_wall) {
         return Pose{Vec3(k_rock_half_m + k_gap_m - into_wall(t_s), along, 0.0), Quat::Identity()};
     };
     scene.add_hold(hold);
+    scene.needs_player = true;
     return scene;
 }
 
@@ -111,6 +112,7 @@ LabScene make_lean_in(const SceneOptions& /*options*/) {
     hold.point_only = true;
     hold.hand_ps = [pull](double t_s) { return Pose{Vec3(pull(t_s), 0.0, 0.0), Quat::Identity()}; };
     scene.add_hold(hold);
+    scene.needs_player = true;
     // Contacts outrank hands: the head stops at the wall, what is left is on the hand.
     scene.watch = [pull, room](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected(-std::min(pull(frame.t_s), room), 0.0, 0.0);
@@ -147,6 +149,7 @@ LabScene make_jam(const SceneOptions& options) {
         return Pose{start + sway * Vec3::UnitX(), Quat::Identity()};
     };
     scene.add_hold(hold);
+    scene.needs_player = true;
     const double settled_s = 0.75 * options.duration_s;
     scene.watch = [rock, settled_s, gap, last = Vec3(Vec3::Zero())](const FrameRecord& frame,
                                                                     Figures& figures) mutable {

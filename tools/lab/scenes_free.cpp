@@ -79,6 +79,7 @@ LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     hold.point_only = true;
     hold.hand_ps = wave;
     scene.add_hold(hold);
+    scene.needs_player = true;
     const Vec3 anchor = scene.holds.front().anchor_bs;
     // Where the ship is now, not where it was: the closed form of its way.
     scene.watch = [drive = ship.drive, anchor](const FrameRecord& frame, Figures& figures) {

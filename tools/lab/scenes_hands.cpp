@@ -77,6 +77,7 @@ LabScene make_two_players(const SceneOptions& /*options*/) {
         };
         scene.add_hold(hold);
     }
+    scene.needs_player = true;
     scene.watch = [pull](const FrameRecord& frame, Figures& figures) {
         const Vec3 apart = frame.poses[2].position - frame.poses[1].position;
         // By the direction of the bar, which may turn.
@@ -105,6 +106,7 @@ LabScene make_contradict(const SceneOptions& /*options*/) {
         };
         scene.add_hold(hold);
     }
+    scene.needs_player = true;
     scene.watch = [pull](const FrameRecord& frame, Figures& figures) {
         for (const std::size_t hand : {0U, 1U}) {
             const double sign = hand == 0 ? -1.0 : 1.0;

@@ -24,6 +24,11 @@ double pull_off(double t_s) {
     return k_heights[turn] * smooth_step(rise, 0.0, 1.0);
 }
 
+// When the hand begins to pull too far: never where nobody would give way.
+double half_time(const SceneOptions& options) {
+    return options.holder == Holder::player ? 0.5 * options.duration_s : k_never_s;
+}
+
 LabHold hold_thing(const PathOfTime& path) {
     LabHold hold;
     hold.point_only = true;
@@ -54,7 +59,7 @@ LabScene make_lever(const SceneOptions& options) {
     hinge.lower = -1.2;
     hinge.upper = 1.2;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
-    const double half_s = 0.5 * options.duration_s;
+    const double half_s = half_time(options);
     const double pull_s =
         half_s + 0.2;  // once the lever is at rest: else it pushes him as it stops
     scene.add_hold(hold_thing([half_s, pull_s](double t_s) {
@@ -82,7 +87,7 @@ LabScene make_drawer(const SceneOptions& options) {
     slider.limited = true;
     slider.upper = 0.3;
     scene.add_joint_at(slider, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
-    const double half_s = 0.5 * options.duration_s;
+    const double half_s = half_time(options);
     scene.add_hold(hold_thing([half_s](double t_s) {
         const double out = t_s <= half_s ? to_and_fro(t_s, 0.28, k_hand_speed_mps)
                                          : to_and_fro(half_s, 0.28, k_hand_speed_mps) +
@@ -102,7 +107,7 @@ LabScene make_door(const SceneOptions& options) {
     hinge.limited = true;
     hinge.upper = 1.6;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitY())});
-    const double half_s = 0.5 * options.duration_s;
+    const double half_s = half_time(options);
     scene.add_hold(hold_thing([half_s](double t_s) {
         constexpr double k_edge_m = 0.75;
         const double turn = to_and_fro(t_s, 1.5, k_hand_speed_mps / k_edge_m);

@@ -29,8 +29,9 @@ PositionSolver position_solver(const std::string& name) {
 
 // Why these options say nothing sensible; empty where they do.
 std::string find_objection(const SolveOptions& options, const LabScene& scene) {
-    if (options.holder == "kinematic" && needs_player(scene)) {
-        return "scene " + scene.name + " is about the player himself: it needs --holder player";
+    if (options.holder == "kinematic" && scene.needs_player) {
+        return "scene " + scene.name +
+               ": its hand goes where what it holds cannot: it needs --holder player";
     }
     if (options.solver == "bullet" && !scene.beyond_bullet.empty()) {
         return "scene " + scene.name + ": Bullet cannot express " + scene.beyond_bullet;
@@ -100,13 +101,14 @@ int refuse(const FileError& error) {
 std::vector<std::string> solver_names() { return {"direct", "sweep", "plain", "bullet"}; }
 
 int solve_command(const SolveOptions& options) {
+    const Holder holder = options.holder == "player" ? Holder::player : Holder::kinematic;
     const LabScene scene = make_scene(
-        options.scene, {options.links, options.masses, options.frames / options.hz, options.hz});
+        options.scene,
+        {options.links, options.masses, options.frames / options.hz, options.hz, holder});
     if (const std::string objection = find_objection(options, scene); !objection.empty()) {
         std::fprintf(stderr, "handhold-lab: %s\n", objection.c_str());
         return k_exit_usage;
     }
-    const Holder holder = options.holder == "player" ? Holder::player : Holder::kinematic;
     set_stage_clock(StageClock::thread_cpu);
     Outcome outcome{Measure(scene, holder), FrameCsv(scene), {}};
     if (options.solver == "bullet") {
