@@ -70,6 +70,7 @@ void LabScene::add_hold(LabHold hold) {
 
 std::vector<std::string_view> scene_names() {
     std::vector<std::string_view> names;
+    names.reserve(k_scenes.size());
     for (const NamedScene& scene : k_scenes) {
         names.push_back(scene.name);
     }

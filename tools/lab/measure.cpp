@@ -127,6 +127,12 @@ double Series::max() const {
     return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
+int Series::worst_frame() const {
+    return values.empty()
+               ? -1
+               : static_cast<int>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
 double Series::quantile(double share) const {
     if (values.empty()) {
         return 0.0;

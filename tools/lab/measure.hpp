@@ -34,6 +34,7 @@ struct Series {
 
     void add(double value) { values.push_back(value); }
     double max() const;
+    int worst_frame() const;              // the first with the largest value; -1 without values
     double quantile(double share) const;  // nearest rank; 0 without values
 };
 

@@ -125,12 +125,16 @@ Json planes_json(const LabScene& scene) {
 }
 
 Json worst_and_p99(const Series& series) {
-    return {{"max", series.max()}, {"p99", series.quantile(0.99)}};
+    return {{"max", series.max()},
+            {"p99", series.quantile(0.99)},
+            {"worst_frame", series.worst_frame()}};
 }
 
 Json times(const Series& series) {
-    return {
-        {"median", series.quantile(0.5)}, {"p99", series.quantile(0.99)}, {"max", series.max()}};
+    return {{"median", series.quantile(0.5)},
+            {"p99", series.quantile(0.99)},
+            {"max", series.max()},
+            {"worst_frame", series.worst_frame()}};
 }
 
 void append(std::string& text, double value) {
