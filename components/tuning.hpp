@@ -60,8 +60,8 @@ struct ContactTuning {
 
 struct SolverTuning {
     std::int32_t max_iterations = 30;
-    double tolerance_m = 1e-7;
-    double step_tolerance_m = 1e-8;
+    double tolerance_m = 1e-8;
+    double step_tolerance_m = 1e-9;
 };
 
 struct Tuning {

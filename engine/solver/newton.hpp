@@ -7,8 +7,8 @@ namespace handhold {
 
 struct NewtonSettings {
     int max_iterations = 30;
-    double tolerance_m = 1e-7;
-    double step_tolerance_m = 1e-8;
+    double tolerance_m = 1e-8;
+    double step_tolerance_m = 1e-9;
     double hand_softness =
         1e-6;  // first regularisation of hand rows, relative to the harmonic mean of the diagonal
 };

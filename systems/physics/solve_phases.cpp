@@ -16,7 +16,7 @@ constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what 
 constexpr double k_moved_m = 1e-5;     // colliders that moved less keep their contacts
 constexpr double k_new_overlap_m =
     2e-5;  // a contact found on a phase's result counts from here: Bullet's own noise is below
-constexpr double k_hand_softness = 1e-6;
+constexpr double k_hand_softness = 1e-8;
 constexpr double k_forward_hand_softness = 1e-3;
 
 enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
