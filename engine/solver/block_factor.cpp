@@ -51,21 +51,83 @@ struct Kernels {
     }
 };
 
+constexpr std::uint32_t k_widest_panel = 12;
+
+// to -= sum over m of shares[m] rows[m].
 template <std::uint32_t known_width>
-void scatter(const double* row, double share, std::uint32_t width, double* unknowns) {
+void subtract_rows(const double* rows, std::uint32_t stride, const double* shares,
+                   std::uint32_t depth, std::uint32_t width, double* to) {
+    const std::uint32_t height = known_width != 0 ? known_width : depth;
     const std::uint32_t count = known_width != 0 ? known_width : width;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        unknowns[i] -= row[i] * share;
+    for (std::uint32_t m = 0; m < height; ++m) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            to[i] -= rows[m * stride + i] * shares[m];
+        }
     }
 }
 
+// own[m] -= rows[m] . from.
 template <std::uint32_t known_width>
-double gather(const double* row, double sum, std::uint32_t width, const double* unknowns) {
+void subtract_products(const double* rows, std::uint32_t stride, const double* from,
+                       std::uint32_t depth, std::uint32_t width, double* own) {
+    const std::uint32_t height = known_width != 0 ? known_width : depth;
     const std::uint32_t count = known_width != 0 ? known_width : width;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        sum -= row[i] * unknowns[i];
+    for (std::uint32_t m = 0; m < height; ++m) {
+        double sum = own[m];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            sum -= rows[m * stride + i] * from[i];
+        }
+        own[m] = sum;
     }
-    return sum;
+}
+
+// A panel's unknowns are final: takes their share off the later ones.
+template <std::uint32_t known_width>
+void carry_forward(const EliminationPlan& plan, const Panel& panel, const double* u,
+                   const double* inverse_pivots, double* unknowns) {
+    const std::uint32_t width = known_width != 0 ? known_width : panel.width;
+    double* const own = unknowns + panel.scalar;
+    double shares[known_width != 0 ? known_width : k_widest_panel];
+    for (std::uint32_t m = 0; m < width; ++m) {
+        shares[m] = own[m] * inverse_pivots[panel.scalar + m];
+        for (std::uint32_t i = m + 1; i < width; ++i) {
+            own[i] -= u[m * panel.stride + i] * shares[m];
+        }
+    }
+    for (const EliminationPlan::Block& block : plan.blocks(panel)) {
+        const Panel& later = plan.panels()[block.panel];
+        const double* const rows = u + block.column;
+        double* const to = unknowns + later.scalar;
+        if (known_width != 0 && later.width == known_width) {
+            subtract_rows<known_width>(rows, panel.stride, shares, width, known_width, to);
+        } else {
+            subtract_rows<0>(rows, panel.stride, shares, width, later.width, to);
+        }
+    }
+}
+
+// All later unknowns are solved: solves a panel's own.
+template <std::uint32_t known_width>
+void solve_backward(const EliminationPlan& plan, const Panel& panel, const double* u,
+                    const double* inverse_pivots, double* unknowns) {
+    const std::uint32_t width = known_width != 0 ? known_width : panel.width;
+    double* const own = unknowns + panel.scalar;
+    for (const EliminationPlan::Block& block : plan.blocks(panel)) {
+        const Panel& later = plan.panels()[block.panel];
+        const double* const rows = u + block.column;
+        const double* const from = unknowns + later.scalar;
+        if (known_width != 0 && later.width == known_width) {
+            subtract_products<known_width>(rows, panel.stride, from, width, known_width, own);
+        } else {
+            subtract_products<0>(rows, panel.stride, from, width, later.width, own);
+        }
+    }
+    for (std::uint32_t m = width; m-- > 0;) {
+        for (std::uint32_t i = m + 1; i < width; ++i) {
+            own[m] -= u[m * panel.stride + i] * own[i];
+        }
+        own[m] *= inverse_pivots[panel.scalar + m];
+    }
 }
 
 }  // namespace
@@ -120,39 +182,13 @@ void BlockFactor::factorise(const EliminationPlan& plan, std::span<const double>
 
 void BlockFactor::substitute(const EliminationPlan& plan, std::span<double> unknowns) const {
     for (const Panel& panel : plan.panels()) {
-        for (std::uint32_t m = 0; m < panel.width; ++m) {
-            const double* const row = &values_[panel.begin + m * panel.stride];
-            const double share = unknowns[panel.scalar + m] * inverse_pivots_[panel.scalar + m];
-            for (std::uint32_t i = m + 1; i < panel.width; ++i) {
-                unknowns[panel.scalar + i] -= row[i] * share;
-            }
-            for (const EliminationPlan::Block& block : plan.blocks(panel)) {
-                const Panel& later = plan.panels()[block.panel];
-                double* const to = &unknowns[later.scalar];
-                if (later.width == 3) {
-                    scatter<3>(row + block.column, share, 3, to);
-                } else {
-                    scatter<0>(row + block.column, share, later.width, to);
-                }
-            }
-        }
+        const auto carry = panel.width == 3 ? carry_forward<3> : carry_forward<0>;
+        carry(plan, panel, &values_[panel.begin], inverse_pivots_.data(), unknowns.data());
     }
     for (std::size_t place = plan.panels().size(); place-- > 0;) {
         const Panel& panel = plan.panels()[place];
-        for (std::uint32_t m = panel.width; m-- > 0;) {
-            const double* const row = &values_[panel.begin + m * panel.stride];
-            double sum = unknowns[panel.scalar + m];
-            for (std::uint32_t i = m + 1; i < panel.width; ++i) {
-                sum -= row[i] * unknowns[panel.scalar + i];
-            }
-            for (const EliminationPlan::Block& block : plan.blocks(panel)) {
-                const Panel& later = plan.panels()[block.panel];
-                const double* const of = &unknowns[later.scalar];
-                sum = later.width == 3 ? gather<3>(row + block.column, sum, 3, of)
-                                       : gather<0>(row + block.column, sum, later.width, of);
-            }
-            unknowns[panel.scalar + m] = sum * inverse_pivots_[panel.scalar + m];
-        }
+        const auto solve = panel.width == 3 ? solve_backward<3> : solve_backward<0>;
+        solve(plan, panel, &values_[panel.begin], inverse_pivots_.data(), unknowns.data());
     }
 }
 

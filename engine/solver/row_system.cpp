@@ -33,8 +33,8 @@ struct Kernels {
                 const auto i = static_cast<Eigen::Index>(axis);
                 jacobian[axis * width + m] = linear[i];
                 jacobian[(axis + 3) * width + m] = angular[i];
-                response[axis * width + m] = move[i];
-                response[(axis + 3) * width + m] = turn[i];
+                response[6 * m + axis] = move[i];
+                response[6 * m + axis + 3] = turn[i];
             }
             diagonal[m] += linear.dot(move) + angular.dot(turn);
         }
@@ -48,7 +48,7 @@ struct Kernels {
         const std::uint32_t width = known_width != 0 ? known_width : row_width;
         for (std::uint32_t i = 0; i < height; ++i) {
             for (std::uint32_t c = 0; c < 6; ++c) {
-                const double factor = response[c * height + i];
+                const double factor = response[6 * i + c];
                 for (std::uint32_t j = 0; j < width; ++j) {
                     out[i * stride + j] += factor * jacobian[c * width + j];
                 }
@@ -61,9 +61,9 @@ struct Kernels {
                                   std::uint32_t stride) {
         for (std::uint32_t i = 0; i < 3; ++i) {
             double sums[3] = {out[i * stride], out[i * stride + 1], out[i * stride + 2]};
-            sums[i] += response[4 * i] * jacobian[4 * i];
+            sums[i] += response[7 * i] * jacobian[4 * i];
             for (std::uint32_t c = 3; c < 6; ++c) {
-                const double factor = response[c * 3 + i];
+                const double factor = response[6 * i + c];
                 for (std::uint32_t j = 0; j < 3; ++j) {
                     sums[j] += factor * jacobian[c * 3 + j];
                 }
@@ -76,13 +76,13 @@ struct Kernels {
     static void add_move(const double* response, const double* lambda, std::uint32_t node_width,
                          RowSystem::Twist& move) {
         const std::uint32_t width = known_width != 0 ? known_width : node_width;
-        for (std::uint32_t c = 0; c < 6; ++c) {
-            double sum = move[c];
-            for (std::uint32_t m = 0; m < width; ++m) {
-                sum += response[c * width + m] * lambda[m];
+        RowSystem::Twist sum = move;
+        for (std::uint32_t m = 0; m < width; ++m) {
+            for (std::uint32_t c = 0; c < 6; ++c) {
+                sum[c] += response[6 * m + c] * lambda[m];
             }
-            move[c] = sum;
         }
+        move = sum;
     }
 };
 

@@ -66,7 +66,8 @@ class RowSystem {
     void solve_active();
     bool is_wrong(const Row& row, std::size_t index) const;
     const EliminationPlan& plan() const { return plans_[plan_]; }
-    // J and W J^T of a node's side: six rows of the node's width.
+    // J of a node's side, six rows of the node's width, and W J^T, a row of six for each of its
+    // rows.
     std::size_t end_begin(std::uint32_t end) const {
         const Node& node = nodes_[end / 2];
         return 12 * std::size_t{node.first_row} + (end % 2) * std::size_t{6} * node.width;
