@@ -10,7 +10,7 @@ constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
 constexpr NumberRange k_radius_m = {1e-3, 1e3, false};
 constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
 constexpr NumberRange k_friction_nm = {0.0, 1e12, false};
-constexpr std::int64_t k_most_links = 200;
+constexpr std::int64_t k_most_links = 2000;
 
 std::string read_body_name(const JsonValue& value, const SceneJointNames& names) {
     if (!value.exists()) {

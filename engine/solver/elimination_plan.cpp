@@ -10,9 +10,9 @@
 namespace handhold {
 namespace {
 
-// Bodies with more row nodes than this are hubs.
+// Bodies with more row nodes, or rows, than this are hubs.
 constexpr std::uint32_t k_hub_nodes = 4;
-constexpr std::uint32_t k_hub_width = 6;
+constexpr std::uint32_t k_hub_rows = 16;
 
 }  // namespace
 
@@ -35,9 +35,11 @@ void EliminationPlan::build(std::span<const RowNode> nodes, std::span<const std:
 // The row nodes of each body, and which bodies are hubs.
 void EliminationPlan::find_incidence() {
     ends_begin_.assign(turns_.size() + 1, 0);
+    rows_of_slot_.assign(turns_.size(), 0);
     for (const RowNode& node : nodes_) {
         for (const std::uint32_t slot : node.slots) {
             if (slot != k_no_slot) {
+                rows_of_slot_[slot] += node.width;
                 ++ends_begin_[slot + 1];
             }
         }
@@ -45,7 +47,7 @@ void EliminationPlan::find_incidence() {
     hubs_.clear();
     hub_of_slot_.assign(turns_.size(), k_no_slot);
     for (std::uint32_t slot = 0; slot < turns_.size(); ++slot) {
-        if (ends_begin_[slot + 1] > k_hub_nodes) {
+        if (ends_begin_[slot + 1] > k_hub_nodes || rows_of_slot_[slot] > k_hub_rows) {
             hub_of_slot_[slot] = static_cast<std::uint32_t>(hubs_.size());
             hubs_.push_back({slot, 0, 0});
         }
@@ -110,7 +112,7 @@ std::uint32_t EliminationPlan::weight_of(std::uint32_t node) const {
 // until a hub's elimination has put it there. Otherwise the hub's unknowns would be what is left of
 // numbers 1e10 times larger.
 bool EliminationPlan::may_go(std::uint32_t node) const {
-    if (node >= nodes_.size()) {
+    if (node >= nodes_.size() || nodes_[node].is_soft) {
         return true;
     }
     bool waits = false;

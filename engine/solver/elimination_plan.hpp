@@ -15,6 +15,7 @@ inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::m
 struct RowNode {
     std::uint32_t slots[2] = {k_no_slot, k_no_slot};  // of the bodies that move; a's, b's
     std::uint32_t width = 0;                          // rows
+    bool is_soft = false;  // all of them have so large an alpha that it can serve as their pivot
     bool operator==(const RowNode&) const = default;
 };
 
@@ -130,6 +131,7 @@ class EliminationPlan {
     };
     std::vector<std::uint32_t> ends_;  // 2 * node + side, by slot
     std::vector<std::uint32_t> ends_begin_;
+    std::vector<std::uint32_t> rows_of_slot_;
     std::vector<std::uint32_t> hub_of_slot_;
     std::vector<std::vector<std::uint32_t>> neighbours_;  // ascending; of nodes not yet eliminated
     std::vector<std::uint32_t> merged_;

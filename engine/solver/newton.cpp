@@ -248,6 +248,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
     double previous_overlap = previous;
     StepResult step{previous, false};
     bool only_points = false;
+    scratch.system.forget_active_set();
     clear_stiffness(island, scratch);
     for (;;) {
         if (only_points && step.whole) {

@@ -8,6 +8,10 @@ namespace handhold {
 namespace {
 
 constexpr int k_active_set_changes = 40;  // three or four do nearly always
+// Murty's steps of one row take as many as there are rows: for larger sets there is no waiting.
+constexpr std::ptrdiff_t k_small_set = 96;
+constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
+constexpr int k_drops = 6;               // of all pulling rows at once
 constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
 constexpr std::uint32_t k_widest_node = 12;  // four contacts with friction
 // Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
@@ -86,6 +90,10 @@ struct Kernels {
     }
 };
 
+bool has_only_contacts(std::span<const Row> rows) {
+    return std::ranges::all_of(rows, [](const Row& row) { return row.group == RowGroup::contact; });
+}
+
 std::uint32_t slot_of(const SolverBody& body) {
     return body.inverse_mass > 0.0 ? body.slot : k_no_slot;
 }
@@ -118,7 +126,8 @@ void RowSystem::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
     }
     for (Node& node : nodes_) {
         node.is_point = node.width == 3 && begins_point(rows[node.first_row]);
-        row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width});
+        const bool is_soft = has_only_contacts(rows.subspan(node.first_row, node.width));
+        row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width, is_soft});
     }
 }
 
@@ -209,6 +218,27 @@ void RowSystem::write_hubs(std::span<const SolverBody> bodies,
     }
 }
 
+// Both lists are in the order of their blocks.
+void RowSystem::take_over_active_set(std::span<const Row> rows) {
+    std::swap(keys_, previous_keys_);
+    std::swap(active_, previous_active_);
+    keys_.clear();
+    active_.clear();
+    std::size_t before = 0;
+    for (const Row& row : rows) {
+        const std::uint64_t block = std::uint64_t{row.block} << 32U;
+        const bool is_first = keys_.empty() || keys_.back() < block;
+        keys_.push_back(is_first ? block : keys_.back() + 1);
+        while (before < previous_keys_.size() && previous_keys_[before] < keys_.back()) {
+            ++before;
+        }
+        const bool is_known =
+            before < previous_keys_.size() && previous_keys_[before] == keys_.back();
+        // What acted in the rows before acts at first.
+        active_.push_back(!row.unilateral ? 1 : is_known ? previous_active_[before] : k_undecided);
+    }
+}
+
 void RowSystem::assemble(std::span<const SolverBody> bodies,
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows) {
     group_rows(bodies, inverse_inertia_ws.size(), rows);
@@ -227,7 +257,7 @@ void RowSystem::assemble(std::span<const SolverBody> bodies,
     alpha_.assign(rows.size(), 0.0);
     lambda_.assign(rows.size(), 0.0);
     values_.resize(rows.size());
-    active_.assign(rows.size(), 1);
+    take_over_active_set(rows);
     held_.assign(rows.size(), 0);
     held_lambda_.assign(rows.size(), 0.0);
     moves_.resize(inverse_inertia_ws.size());
@@ -357,8 +387,39 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
     }
     for (std::size_t i = 0; i < size(); ++i) {
         values_[i] = rows[i].value_m + (holds ? row_motion(i) : 0.0);
-        active_[i] = !rows[i].unilateral || values_[i] < 0.0 ? 1 : 0;
+        if (active_[i] == k_undecided) {
+            active_[i] = values_[i] < 0.0 ? 1 : 0;
+        }
     }
+    if (find_active_set(rows)) {
+        return lambda_;
+    }
+    // No agreement: what pulls is left out for good. What that overlaps is the next step's.
+    for (int drop = 0; drop < k_drops; ++drop) {
+        bool pulls = false;
+        for (std::size_t i = 0; i < size(); ++i) {
+            if (rows[i].unilateral && is_active(i) && lambda_[i] < 0.0) {
+                active_[i] = 0;
+                pulls = true;
+            }
+        }
+        if (!pulls) {
+            return lambda_;
+        }
+        solve_active();
+    }
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (rows[i].unilateral && lambda_[i] < 0.0) {
+            lambda_[i] = 0.0;
+        }
+    }
+    gather_moves(lambda_);
+    return lambda_;
+}
+
+// True where every acting row pushes and no other overlaps.
+bool RowSystem::find_active_set(std::span<const Row> rows) {
+    const bool is_small = std::ranges::count_if(rows, &Row::unilateral) <= k_small_set;
     std::size_t fewest = size() + 1;
     int blocks_left = k_block_changes;
     for (int change = 0; change < k_active_set_changes; ++change) {
@@ -370,29 +431,24 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
             }
         }
         if (wrong_rows_.empty()) {
-            return lambda_;
+            return true;
         }
         if (wrong_rows_.size() < fewest) {
             fewest = wrong_rows_.size();
             blocks_left = k_block_changes;
         } else if (blocks_left > 0) {
             --blocks_left;
-        } else {
+        } else if (is_small) {
             wrong_rows_.assign(1, wrong_rows_.back());
+        } else {
+            return false;
         }
         for (const std::uint32_t i : wrong_rows_) {
             active_[i] ^= 1U;
         }
     }
-    // No agreement: take the last set without its pulling rows.
     solve_active();
-    for (std::size_t i = 0; i < size(); ++i) {
-        if (rows[i].unilateral && lambda_[i] < 0.0) {
-            lambda_[i] = 0.0;
-        }
-    }
-    gather_moves(lambda_);
-    return lambda_;
+    return false;
 }
 
 std::span<const double> RowSystem::solve_again(std::span<const double> values) {

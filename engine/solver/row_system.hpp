@@ -18,9 +18,13 @@ class RowSystem {
     // A move and a turn, about the body's centre.
     using Twist = std::array<double, 6>;
 
-    // Fills J W J^T. `inverse_inertia_ws` by the bodies' slots, as many as the island has bodies.
+    // Fills J W J^T. Unilateral rows that the rows before had too begin as they ended there.
+    // `inverse_inertia_ws` by the bodies' slots, as many as the island has bodies.
     void assemble(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws,
                   std::span<const Row> rows);
+
+    // The next rows are no later state of those before: nothing is known of who acts.
+    void forget_active_set() { keys_.clear(); }
 
     std::size_t size() const { return diagonal_.size(); }
     double diagonal(std::size_t row) const { return diagonal_[row]; }
@@ -28,8 +32,8 @@ class RowSystem {
     std::span<double> alpha() { return alpha_; }
 
     // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. At most 40 changes
-    // of the active set. The result is valid until the next assemble. Rows that nothing can move
-    // (zero diagonal) get lambda 0.
+    // of the active set, then rows are only left out. The result is valid until the next assemble.
+    // Rows that nothing can move (zero diagonal) get lambda 0.
     std::span<const double> solve(std::span<const Row> rows);
     // The same factor and active set against other values: for refinement.
     std::span<const double> solve_again(std::span<const double> values);
@@ -58,12 +62,14 @@ class RowSystem {
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows);
     void multiply_out();
     void write_hubs(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws);
+    void take_over_active_set(std::span<const Row> rows);
     void factorise();
     void leave_out(std::uint32_t node, std::uint32_t row_in_node);
     void substitute(std::span<const double> values);
     void gather_moves(std::span<const double> lambda);
     double row_motion(std::size_t row) const;
     void solve_active();
+    bool find_active_set(std::span<const Row> rows);
     bool is_wrong(const Row& row, std::size_t index) const;
     const EliminationPlan& plan() const { return plans_[plan_]; }
     // J of a node's side, six rows of the node's width, and W J^T, a row of six for each of its
@@ -101,6 +107,10 @@ class RowSystem {
     std::vector<double> unknowns_;
     std::vector<Twist> moves_;  // W J^T lambda of the last solve, by slot
     std::vector<std::uint8_t> active_;
+    // Of the rows before these: which of a block's rows, and whether it acted.
+    std::vector<std::uint64_t> keys_;
+    std::vector<std::uint64_t> previous_keys_;
+    std::vector<std::uint8_t> previous_active_;
     std::vector<std::uint8_t> held_;
     std::vector<double> held_lambda_;
     std::vector<std::uint32_t> wrong_rows_;

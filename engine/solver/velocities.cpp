@@ -113,7 +113,7 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
         slip[static_cast<Eigen::Index>(i)] =
             scratch.system.remainder(row, scratch.rows[row].value_m);
     }
-    const double tolerance = 1e-9 * limit + 1e-15;
+    const double tolerance = 1e-6 * limit + 1e-15;
     if (!friction.slides && push.norm() <= limit + tolerance) {
         return false;
     }
@@ -148,24 +148,33 @@ double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) 
     return largest;
 }
 
-// Multipliers of all rows, by fixed point over who sticks and who slides.
-std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResult& result) {
+// True where the contacts' impulses give more energy than they take: half of impulse times
+// velocity, before and after. Restitution and Coulomb's law only ever take.
+bool contacts_give_energy(std::span<const double> lambda, const SolveScratch& scratch) {
+    constexpr double k_tolerance = 1e-3;  // of what they exchange
+    double work = 0.0;
+    double exchanged = 0.0;
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        const Row& row = scratch.rows[i];
+        if (row.group != RowGroup::contact) {
+            continue;
+        }
+        const double before = row.value_m - scratch.approach_mps[i];
+        const double after = scratch.system.remainder(i, before);
+        work += 0.5 * lambda[i] * (before + after);
+        exchanged += 0.5 * std::abs(lambda[i]) * (std::abs(before) + std::abs(after));
+    }
+    return work > k_tolerance * exchanged;
+}
+
+// Who sticks and who slides, by fixed point. The multipliers are those of the last pass.
+std::span<const double> settle_friction(SolveScratch& scratch, VelocityResult& result) {
     constexpr int k_passes = 16;
     constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
     constexpr double k_wedge = 10.0;      // times what pressed while all stuck
-    result = {};
-    for (SolveScratch::Friction& friction : scratch.frictions) {
-        friction.slides = false;
-        for (std::size_t i = 0; i < friction.width; ++i) {
-            scratch.system.release(friction.row + i);
-        }
-    }
     std::span<const double> lambda = scratch.system.solve(scratch.rows);
-    if (scratch.frictions.empty()) {
-        return lambda;
-    }
     const double pressed = pressure_of(lambda, scratch);
-    for (int pass = 0; pass < k_passes && !result.wedged; ++pass) {
+    for (int pass = 0; pass < k_passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
             changes |= apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
@@ -174,14 +183,35 @@ std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResul
             return lambda;
         }
         lambda = scratch.system.solve(scratch.rows);
-        result.wedged = pressure_of(lambda, scratch) > k_wedge * pressed;
+        if (pressure_of(lambda, scratch) > k_wedge * pressed) {
+            result.wedged = true;
+            return lambda;
+        }
     }
+    result.undecided = true;
+    return lambda;
+}
+
+// Multipliers of all rows, with friction.
+std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResult& result) {
+    result = {};
+    for (SolveScratch::Friction& friction : scratch.frictions) {
+        friction.slides = false;
+        for (std::size_t i = 0; i < friction.width; ++i) {
+            scratch.system.release(friction.row + i);
+        }
+    }
+    if (scratch.frictions.empty()) {
+        return scratch.system.solve(scratch.rows);
+    }
+    const std::span<const double> lambda = settle_friction(scratch, result);
+    result.wedged = result.wedged || contacts_give_energy(lambda, scratch);
     if (!result.wedged) {
-        result.undecided = true;
         return lambda;
     }
-    // A wedge: the harder it is held, the harder it presses. It has no answer; let contacts slip
+    // The harder it is held, the harder it presses. A wedge has no answer; let contacts slip
     // freely.
+    result.undecided = false;
     for (SolveScratch::Friction& friction : scratch.frictions) {
         if (!(friction.coefficient > 0.0)) {
             continue;
@@ -259,6 +289,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     evaluate_velocity_rows(island, scratch);
     clear_stiffness(island, scratch);
     prepare_inertia(island, scratch);
+    scratch.system.forget_active_set();
     scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
     double lacking = 0.0;
     for (const Row& row : scratch.rows) {

@@ -11,7 +11,8 @@ struct VelocitySettings {
 };
 // What an island's friction had no answer to in one frame.
 struct VelocityResult {
-    bool wedged = false;     // pressed the harder the harder it was held: its contacts slip freely
+    bool wedged = false;     // pressed the harder the harder it was held, or gained energy by it:
+                             // its contacts slip freely
     bool undecided = false;  // who sticks and who slides still changed in the last pass
 };
 // One solve over the same rows: hands move as they are driven, joints keep, contacts
