@@ -235,6 +235,7 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("phase", c.phase);
     visit("body", c.body);
     visit("jointed", c.jointed);
+    visit("two_handed", c.two_handed);
     visit("hit_bs", c.hit_bs);
     visit("hit_normal_bs", c.hit_normal_bs);
     visit("anchor_bs", c.anchor_bs);

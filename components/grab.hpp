@@ -36,8 +36,8 @@ enum class GrabPhase : std::uint8_t {
                 // frame's end
 };
 
-// Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target), solve_phases
-// (error).
+// Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target, two_handed),
+// solve_phases (error).
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
@@ -50,7 +50,9 @@ struct Grab {
     Vec3 target_spin_ps_radps = Vec3::Zero();
     double since_s =
         0.0;  // when the hand closed: of two hands the one that holds longer is the first
-    double error_m = 0.0;  // of the hand against its anchor, at the end of the frame
+    double error_m = 0.0;     // of the hand against its anchor, at the end of the frame
+    bool two_handed = false;  // held with the player's other hand, and both lead: the first's
+                              // point, the line between the hands, the twist about it
     bool jointed = false;  // held, and joints lead from it to something fixed: the hand may turn on
                            // it, as on a surface
 };

@@ -56,6 +56,8 @@ const char* name_of(Fallback reason) {
             return "grip_reanchored";
         case Fallback::hand_left_two_hand_grip:
             return "hand_left_two_hand_grip";
+        case Fallback::hands_too_close:
+            return "hands_too_close";
         case Fallback::contact_rounds_exhausted:
             return "contact_rounds_exhausted";
         case Fallback::contacts_contradict:

@@ -38,7 +38,8 @@ enum class Fallback : std::uint8_t {
     grip_body_gone,       // the gripped body was destroyed: let go
     grip_reanchored,      // tracking came back, or the other hand left: anchor taken anew where the
                           // hand is
-    hand_left_two_hand_grip,   // one of two hands let go: no throw
+    hand_left_two_hand_grip,  // one of two hands let go: no throw
+    hands_too_close,  // two hands on one free body with no line between them: the first leads alone
     contact_rounds_exhausted,  // new contacts after every allowed round
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame

@@ -209,6 +209,9 @@ void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
             append_point_rows(ends, hand, rows);
             append_weld_rows(rotation_error(bodies, block), hand, rows);
             return;
+        case RowKind::hand_direction:
+            append_weld_rows(rotation_error(bodies, block), hand, rows);
+            return;
         case RowKind::contact:
             append_contact_row(bodies, block, ends,
                                empty_row(block, block_index, RowGroup::contact), rows);
@@ -292,6 +295,9 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
                      rotation_error(bodies, block).norm()};
             break;
         }
+        case RowKind::hand_direction:
+            error.angle_rad = rotation_error(bodies, block).norm();
+            break;
         case RowKind::hand_point:
         case RowKind::ball:
             error.point_m = apart.norm();

@@ -42,12 +42,16 @@ struct SolverBody {
 enum class RowKind : std::uint8_t {
     hand_point,  // 3 rows: a's point on b's point
     hand_weld,   // 6 rows: and a's rotation on b's
-    contact,     // 1 row, >= 0: separation along b's normal
-    ball,        // 3 rows: a's point on b's point
-    hinge,       // 5 rows: and the axes along each other
-    slider,      // 5 rows: b's point on a's axis, and a's rotation on b's
-    fixed,       // 6 rows: as hand_weld
-    distance,    // no row of its own: only limits
+    // 3 rows: a's rotation on b's. The second of two hands on one body: the direction of the line
+    // between the hands and the twist about it, both turned by the body alone; its points take part
+    // in no row, they may slide along the line. See two_hands.hpp.
+    hand_direction,
+    contact,   // 1 row, >= 0: separation along b's normal
+    ball,      // 3 rows: a's point on b's point
+    hinge,     // 5 rows: and the axes along each other
+    slider,    // 5 rows: b's point on a's axis, and a's rotation on b's
+    fixed,     // 6 rows: as hand_weld
+    distance,  // no row of its own: only limits
 };
 
 // A joint's one degree of freedom, in its own unit: a hinge's angle about the axis (rad), a
@@ -97,7 +101,8 @@ struct RowBlock {
     Vec3 couple_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite
 };
 inline bool is_hand(RowKind kind) {
-    return kind == RowKind::hand_point || kind == RowKind::hand_weld;
+    return kind == RowKind::hand_point || kind == RowKind::hand_weld ||
+           kind == RowKind::hand_direction;
 }
 inline bool is_hand(const RowBlock& block) { return is_hand(block.kind); }
 inline bool is_contact(const RowBlock& block) { return block.kind == RowKind::contact; }

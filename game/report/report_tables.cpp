@@ -78,6 +78,8 @@ const char* meaning_of(Fallback reason) {
                    "the hand was.";
         case Fallback::hand_left_two_hand_grip:
             return "One of two hands let go; nothing was thrown.";
+        case Fallback::hands_too_close:
+            return "Two hands on one thing were too close to turn it by; the first led alone.";
         case Fallback::contact_rounds_exhausted:
             return "New contacts appeared after every allowed round; those left wait for the next "
                    "frame.";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/hand_rows.hpp"
+#include "engine/solver/two_hands.hpp"
 
 namespace handhold {
 namespace {
@@ -27,20 +28,25 @@ double fraction_of(const SettleGrabsIo& io, double t_s) {
     return std::clamp((t_s - io.start_s) / (io.end_s - io.start_s), 0.0, 1.0);
 }
 
-// The row of the same player's other hand, or the column's size.
-std::size_t other_hand(const SettleGrabsIo& io, std::size_t row) {
-    const std::size_t own = io.owner.find_row(io.grab.owners()[row]);
-    const Entity player = io.owner.rows()[own].player;
-    // The left hand's row comes before the right one's.
-    const std::size_t beside =
-        io.owner.rows()[own].side == HandSide::left ? own + 1 : own + io.owner.size() - 1;
-    std::size_t other = find_hand_row(io.owner, player, beside);
-    if (other == own) {
-        other = find_hand_row(io.owner, player, own + 1);
+// A grip, its hand and the same player's other ones; the other grip is null where there is no other
+// hand.
+struct HandPair {
+    Grab& grab;
+    const HandTracking& hand;
+    Grab* other = nullptr;
+    const HandTracking* other_hand = nullptr;
+    Entity player;
+};
+
+HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
+    const Entity entity = io.grab.owners()[row];
+    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr,
+                  io.owner.at(entity).player};
+    if (const std::size_t other = find_other_hand(io.owner, io.grab, row); other < io.grab.size()) {
+        pair.other = &io.grab.rows()[other];
+        pair.other_hand = &io.hand.at(io.grab.owners()[other]);
     }
-    const std::size_t found =
-        other == own ? Column<Grab>::k_npos : io.grab.find_row(io.owner.owners()[other]);
-    return found == Column<Grab>::k_npos ? io.grab.size() : found;
+    return pair;
 }
 
 // The player's origin at an instant: from a hand that already holds on to something fixed, exact;
@@ -58,8 +64,97 @@ Pose origin_at(const Instant& now, Entity player, const Grab* holding,
     return origin_ws;
 }
 
-void take_anchor(const Instant& now, const Pose& origin_ws, const Pose& hand_ps, Grab& grab) {
-    grab.anchor_bs = inverse(now.body_ws(grab.body)) * (origin_ws * hand_ps);
+void take_anchor(const Pose& body_ws, const Pose& origin_ws, const Pose& hand_ps, Grab& grab) {
+    grab.anchor_bs = inverse(body_ws) * (origin_ws * hand_ps);
+}
+
+// As at the frame's start, where everything is known exactly. A hand found again is where it is
+// now.
+void take_anchor_at_start(const SettleGrabsIo& io, Entity player, const HandTracking& hand,
+                          Grab& grab) {
+    const Instant start{io, 0.0};
+    take_anchor(start.body_ws(grab.body), start.origin_ws(player),
+                hand.resumed ? hand.pose_ps : hand.start_ps, grab);
+}
+
+// --- Free bodies in two hands
+// --------------------------------------------------------------------------------------------
+
+// Where the hands want a free body; `first` leads it, alone or with the other hand.
+Pose wanted_body(const Instant& now, const HandPair& first) {
+    const Pose origin_ws = now.origin_ws(first.player);
+    const Pose hand_ps = now.hand_ps(first.hand);
+    const Pose& anchor_bs = first.grab.anchor_bs;
+    if (!first.grab.two_handed) {
+        return origin_ws * (hand_ps * inverse(anchor_bs));
+    }
+    const TwoHands hands{hand_ps, now.hand_ps(*first.other_hand), anchor_bs,
+                         first.other->anchor_bs};
+    const Quat near = origin_ws.rotation.conjugate() * now.body_ws(first.grab.body).rotation;
+    const Quat rotation = rotation_by_two_hands(hands, near);
+    return origin_ws * Pose{hand_ps.position - rotation * anchor_bs.position, rotation};
+}
+
+// Where a free body that is held is at an instant: it follows its hands, not its velocity, and
+// lacks all the while what it lacked at the frame's start. What began to hold it in this frame
+// lacks nothing.
+Pose held_body(const Instant& now, const HandPair& first) {
+    const bool jumps = first.hand.resumed || (first.grab.two_handed && first.other_hand->resumed);
+    if (jumps) {
+        return now.body_ws(first.grab.body);
+    }
+    const Pose wanted_ws = wanted_body(now, first);
+    if (first.hand.edge == GrabEdge::onset) {
+        return wanted_ws;
+    }
+    const Pose start_ws = now.io.body_start.at(first.grab.body).pose_ws;
+    return wanted_ws * (inverse(wanted_body({now.io, 0.0}, first)) * start_ws);
+}
+
+HandPair swapped(const HandPair& pair) {
+    return {*pair.other, *pair.other_hand, &pair.grab, &pair.hand, pair.player};
+}
+
+// Hands that led a body together and do not any more, for whatever reason: what stays starts
+// afresh.
+void end_broken_pairs(const SettleGrabsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        const bool whole = pair.other != nullptr && pair.other->two_handed &&
+                           share_free_body(pair.grab, *pair.other);
+        if (pair.grab.two_handed && !whole) {
+            take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
+            pair.grab.two_handed = false;
+            stats.count(Fallback::grip_reanchored);
+        }
+    }
+}
+
+double line_length_m(const HandPair& pair) {
+    const Vec3 apart = pair.other->target_ps.position - pair.grab.target_ps.position;
+    const Vec3 apart_bs = pair.other->anchor_bs.position - pair.grab.anchor_bs.position;
+    return std::min(apart.norm(), apart_bs.norm());
+}
+
+// Says whether the two lead together. The second of hands that are too close holds on wherever it
+// is; once they part, the line between them begins as it lies then. Nothing jumps either way.
+void pair_hands(const SettleGrabsIo& io, const HandPair& first, StageStats& stats) {
+    constexpr double k_begin_m = 0.05;
+    constexpr double k_end_m = 0.04;
+    const bool together = first.grab.two_handed;
+    if (!together && first.other_hand->edge != GrabEdge::onset) {
+        take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
+    }
+    const bool lead_both = line_length_m(first) >= (together ? k_end_m : k_begin_m);
+    if (together && !lead_both) {
+        take_anchor_at_start(io, first.player, first.hand, first.grab);
+        take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
+    }
+    if (!lead_both) {
+        stats.count(Fallback::hands_too_close);
+    }
+    first.grab.two_handed = lead_both;
+    first.other->two_handed = lead_both;
 }
 
 void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
@@ -88,42 +183,30 @@ bool share_hold(const Grab& a, const Grab& b) {
 
 // The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
 // player (or the body).
-void leave_shared_hold(const SettleGrabsIo& io, Grab& leaving, const HandTracking& leaving_hand,
-                       Grab& staying, const HandTracking& staying_hand, Entity player) {
-    const Instant now{io, fraction_of(io, leaving_hand.edge_t_s)};
-    Pose origin_ws = now.origin_ws(player);
+void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first) {
+    Grab& staying = *leaving.other;
+    const HandTracking& staying_hand = *leaving.other_hand;
+    const Instant now{io, fraction_of(io, leaving.hand.edge_t_s)};
+    Pose origin_ws = now.origin_ws(leaving.player);
     if (staying.kind == GripKind::surface) {
         const auto held_origin = [&](const Grab& grab, const Vec3& hand_ps) -> Vec3 {
             return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) -
                    origin_ws.rotation * hand_ps;
         };
         const Vec3 from_staying = held_origin(staying, now.hand_ps(staying_hand).position);
-        const Vec3 from_leaving = held_origin(leaving, leaving_hand.edge_ps.position);
+        const Vec3 from_leaving = held_origin(leaving.grab, leaving.hand.edge_ps.position);
         origin_ws.position = 0.5 * (from_staying + from_leaving);
     }
-    take_anchor(now, origin_ws, now.hand_ps(staying_hand), staying);
-    leaving = {};
-}
-
-// A grip, its hand and the same player's other ones; the other grip is null where there is no other
-// hand.
-struct HandPair {
-    Grab& grab;
-    const HandTracking& hand;
-    Grab* other = nullptr;
-    const HandTracking* other_hand = nullptr;
-    Entity player;
-};
-
-HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
-    const Entity entity = io.grab.owners()[row];
-    HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr,
-                  io.owner.at(entity).player};
-    if (const std::size_t other = other_hand(io, row); other < io.grab.size()) {
-        pair.other = &io.grab.rows()[other];
-        pair.other_hand = &io.hand.at(io.grab.owners()[other]);
+    const Pose body_ws = share_free_body(leaving.grab, staying)
+                             ? held_body(now, leaving_is_first ? leaving : swapped(leaving))
+                             : now.body_ws(staying.body);
+    if (staying_hand.resumed && share_free_body(leaving.grab, staying)) {
+        take_anchor_at_start(io, leaving.player, staying_hand, staying);
+    } else {
+        take_anchor(body_ws, origin_ws, now.hand_ps(staying_hand), staying);
     }
-    return pair;
+    staying.two_handed = false;
+    leaving.grab = {};
 }
 
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
@@ -132,14 +215,32 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const bool at_once = pair.other != nullptr && pair.other_hand->edge == GrabEdge::onset &&
                          pair.other_hand->edge_t_s == pair.hand.edge_t_s;
     const Grab* const leading = at_once ? nullptr : pair.other;
-    take_anchor(now, origin_at(now, pair.player, leading, pair.other_hand), pair.hand.edge_ps,
+    const bool joins = leading != nullptr && leading->phase != GrabPhase::fresh &&
+                       share_free_body(pair.grab, *leading);
+    const Pose body_ws = joins ? held_body(now, swapped(pair)) : now.body_ws(pair.grab.body);
+    take_anchor(body_ws, origin_at(now, pair.player, leading, pair.other_hand), pair.hand.edge_ps,
                 pair.grab);
     pair.grab.phase = GrabPhase::holding;
+}
+
+// The hand was lost and is somewhere now: it holds on there, and so does the one it led with.
+void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, StageStats& stats) {
+    const Instant now{io, 0.0};
+    if (pair.grab.two_handed) {
+        take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
+        pair.grab.two_handed = false;
+        pair.other->two_handed = false;
+    }
+    take_anchor(now.body_ws(pair.grab.body),
+                origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.pose_ps,
+                pair.grab);
+    stats.count(Fallback::grip_reanchored);
 }
 
 }  // namespace
 
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
+    end_broken_pairs(io, stats);
     // New grips before anything leaves, the earlier edge first: which hand is listed first
     // does not matter.
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -149,7 +250,7 @@ void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
         }
         if (pair.other != nullptr && pair.other->phase == GrabPhase::fresh &&
             pair.other_hand->edge_t_s < pair.hand.edge_t_s) {
-            settle_fresh(io, {*pair.other, *pair.other_hand, &pair.grab, &pair.hand, pair.player});
+            settle_fresh(io, swapped(pair));
         }
         settle_fresh(io, pair);
     }
@@ -167,18 +268,24 @@ void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
         }
         if (grab.phase == GrabPhase::releasing && pair.other != nullptr &&
             pair.other->phase == GrabPhase::holding && share_hold(grab, *pair.other)) {
-            leave_shared_hold(io, grab, pair.hand, *pair.other, *pair.other_hand, pair.player);
+            const std::size_t other = find_other_hand(io.owner, io.grab, row);
+            leave_shared_hold(io, pair, is_first_hand(io.owner, io.grab, row, other));
             stats.count(Fallback::hand_left_two_hand_grip);
             continue;
         }
         if (grab.phase == GrabPhase::holding && pair.hand.resumed &&
             pair.hand.edge != GrabEdge::onset) {
-            const Instant now{io, 0.0};
-            take_anchor(now, origin_at(now, pair.player, pair.other, pair.other_hand),
-                        pair.hand.pose_ps, grab);
-            stats.count(Fallback::grip_reanchored);
+            settle_resumed(io, pair, stats);
         }
         aim(io, pair.hand, grab);
+    }
+    end_broken_pairs(io, stats);
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        if (pair.other != nullptr && share_free_body(pair.grab, *pair.other) &&
+            is_first_hand(io.owner, io.grab, row, find_other_hand(io.owner, io.grab, row))) {
+            pair_hands(io, pair, stats);
+        }
     }
 }
 

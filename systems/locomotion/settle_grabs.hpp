@@ -18,7 +18,7 @@ struct SettleGrabsIo {
     const Column<PlayerOrigin>& origin;       // in: predicted
     const Column<BodyStart>& body_start;      // in
     const Column<BodyPose>& body_pose;        // in: predicted
-    Column<Grab>& grab;                       // in/out: anchor, target, phase
+    Column<Grab>& grab;                       // in/out: anchor, target, phase, two_handed
 };
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
@@ -28,7 +28,9 @@ struct SettleGrabsIo {
 //  - a hand that lets go carries on with its release velocity to the frame's end, and is free then;
 //  - where one of a player's two hands on fixed things, or on one body, lets go, it leaves at once
 //  and the other's anchor is taken anew
-//    where that hand is: no throw, no jump. The same where a gripping hand's tracking comes back.
+//    where that hand is: no throw, no jump. The same where a gripping hand's tracking comes back;
+//  - two hands on one free body lead it together as long as they are apart: the first's point, the
+//    line between them, the twist about it (engine/solver/two_hands.hpp).
 // Also sets what the hand's constraint aims at in this frame.
 void settle_grabs(const SettleGrabsIo& io, StageStats& stats);
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
 #include "engine/solver/contact_rows.hpp"
+#include "engine/solver/two_hands.hpp"
 
 namespace handhold {
 namespace {
@@ -65,6 +67,51 @@ RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand
     return block;
 }
 
+// Where a hand's target was at the start of the frame, by its mean velocity.
+Pose target_before(const Grab& grab, double dt_s) {
+    return {grab.target_ps.position - dt_s * grab.target_velocity_ps_mps,
+            (rotation_from_vector(-dt_s * grab.target_spin_ps_radps) * grab.target_ps.rotation)
+                .normalized()};
+}
+
+// The second of two hands turns the body; the rotation and its rate follow from both hands. The
+// block keeps the hand's points: how far it slid counts as its error.
+void set_direction(const Grab& first, const Grab& second, const SolverBody& player,
+                   const SolverBody& body, double dt_s, RowBlock& block) {
+    const Quat near = player.pose_ws.rotation.conjugate() * body.pose_ws.rotation;
+    const Quat now = rotation_by_two_hands(
+        {first.target_ps, second.target_ps, first.anchor_bs, second.anchor_bs}, near);
+    const Quat before =
+        rotation_by_two_hands({target_before(first, dt_s), target_before(second, dt_s),
+                               first.anchor_bs, second.anchor_bs},
+                              now);
+    block.kind = RowKind::hand_direction;
+    block.rotation_a_bs = now;
+    block.rotation_b_bs = Quat::Identity();
+    block.drive_spin_ws_radps =
+        player.pose_ws.rotation * (rotation_to_vector(now * before.conjugate()) / dt_s);
+}
+
+// Of two hands that share a free body the first holds its point and the second turns it; where they
+// are too close for that, the second follows. False where the hand has no rows.
+bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    const Grab& grab = io.grab.rows()[row];
+    if (other == io.grab.size() || !share_free_body(grab, io.grab.rows()[other])) {
+        return true;
+    }
+    if (is_first_hand(io.owner, io.grab, row, other)) {
+        block.kind = grab.two_handed ? RowKind::hand_point : block.kind;
+        return true;
+    }
+    if (grab.two_handed) {
+        const std::vector<SolverBody>& bodies = io.frame.graph.bodies;
+        set_direction(io.grab.rows()[other], grab, bodies[block.a], bodies[block.b], io.dt_s,
+                      block);
+    }
+    return grab.two_handed;
+}
+
 void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
     FrameGraph& frame = io.frame;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -84,6 +131,9 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         block.a = static_cast<std::uint32_t>(a);
         block.b = static_cast<std::uint32_t>(b);
         block.source = static_cast<std::uint32_t>(row);
+        if (!share_rows(io, row, block)) {
+            continue;
+        }
         frame.graph.blocks.push_back(block);
         frame.phase[b].held = grab.kind == GripKind::held;
         if (grab.kind == GripKind::held && !grab.jointed) {

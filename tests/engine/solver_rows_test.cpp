@@ -13,7 +13,8 @@ namespace {
 
 using test::Random;
 
-constexpr std::array k_all_kinds = {RowKind::hand_point, RowKind::hand_weld, RowKind::contact};
+constexpr std::array k_all_kinds = {RowKind::hand_point, RowKind::hand_weld,
+                                    RowKind::hand_direction, RowKind::contact};
 
 std::vector<SolverBody> two_random_bodies(Random& random) {
     return {test::random_free_body(1, random), test::random_free_body(2, random)};
@@ -91,11 +92,25 @@ RC_GTEST_PROP(Rows, JacobianOfAContactIsItsSlopeAtAnyPosesHoweverFarApart, (std:
 }
 
 RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed)) {
+    for (const RowKind kind : {RowKind::hand_weld, RowKind::hand_direction}) {
+        Random random(seed);
+        const auto bodies = two_random_bodies(random);
+        RowBlock block = test::random_block(kind, 0, 1, random);
+        test::meet(bodies, block);
+        RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
+    }
+}
+
+// The points may be anywhere: they slide.
+RC_GTEST_PROP(Rows, DirectionIsAllRotation, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
-    RowBlock block = test::random_block(RowKind::hand_weld, 0, 1, random);
-    test::meet(bodies, block);
-    RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
+    const RowBlock block = test::random_block(RowKind::hand_direction, 0, 1, random);
+    for (const Row& row : rows_of(bodies, block)) {
+        RC_ASSERT(row.linear_a == Vec3(Vec3::Zero()));
+        RC_ASSERT(row.angular_a ==
+                  -row.angular_b);  // a pure couple, whatever point it is booked at
+    }
 }
 
 // Farther off the rotation vector's slope is 1 + O(angle); along the error itself it is exact at
@@ -193,6 +208,11 @@ RC_GTEST_PROP(Rows, SeparationAndErrorsAreThoseOfTheRows, (std::uint64_t seed)) 
             RC_ASSERT(std::abs(contact_separation_m(bodies, block) - rows[0].value_m) < 1e-14);
             continue;
         }
+        if (kind == RowKind::hand_direction) {
+            const Vec3 turned(rows[0].value_m, rows[1].value_m, rows[2].value_m);
+            RC_ASSERT(std::abs(block_error_m(bodies, block) - turned.norm()) < 1e-14);
+            continue;
+        }
         const double point = Vec3(rows[0].value_m, rows[1].value_m, rows[2].value_m).norm();
         const double angle = kind == RowKind::hand_weld
                                  ? Vec3(rows[3].value_m, rows[4].value_m, rows[5].value_m).norm()
@@ -207,9 +227,9 @@ TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
     for (const RowKind kind : k_all_kinds) {
         std::vector<Row> rows;
         append_rows(bodies, test::random_block(kind, 1, 0, random), 7, rows);
-        const std::size_t expected = kind == RowKind::contact      ? 1
-                                     : kind == RowKind::hand_point ? 3
-                                                                   : 6;
+        const std::size_t expected = kind == RowKind::contact     ? 1
+                                     : kind == RowKind::hand_weld ? 6
+                                                                  : 3;
         EXPECT_EQ(rows.size(), expected);
         for (const Row& row : rows) {
             EXPECT_EQ(row.unilateral, kind == RowKind::contact);

@@ -184,6 +184,43 @@ TEST(BuildConstraints, HandsBecomeRowsFromTargetToAnchorDrivenInTheWorld) {
     }
 }
 
+TEST(BuildConstraints, OfTwoHandsTheOneThatHoldsLongerHoldsThePointAndTheOtherTurns) {
+    for (const Entity first : {k_left, k_right}) {
+        for (const bool two_handed : {true, false}) {
+            Random random(8);
+            Building scene;
+            scene.add_rock(5.0);
+            for (const Entity hand : {k_left, k_right}) {
+                Grab& grab = scene.grip(hand, GripKind::held, k_rock, random);
+                grab.since_s = hand == first ? 1.0 : 2.0;
+                grab.two_handed = two_handed;
+            }
+            scene.run();
+            const std::vector<RowBlock>& blocks = scene.frame.graph.blocks;
+            ASSERT_EQ(blocks.size(), two_handed ? 2U : 1U);  // too close: the first alone
+            EXPECT_EQ(blocks[0].kind, two_handed ? RowKind::hand_point : RowKind::hand_weld);
+            EXPECT_EQ(blocks[0].key, id_of(first));
+            if (two_handed) {
+                EXPECT_EQ(blocks[1].kind, RowKind::hand_direction);
+            }
+        }
+    }
+}
+
+TEST(BuildConstraints, HandsOnWhatHangsOnJointsHoldAPointEach) {
+    Random random(9);
+    Building scene;
+    scene.add_rock(5.0);
+    for (const Entity hand : {k_left, k_right}) {
+        scene.grip(hand, GripKind::held, k_rock, random).jointed = true;
+    }
+    scene.run();
+    ASSERT_EQ(scene.frame.graph.blocks.size(), 2U);
+    for (const RowBlock& block : scene.frame.graph.blocks) {
+        EXPECT_EQ(block.kind, RowKind::hand_point);
+    }
+}
+
 // 1/kappa is 3t^2 - 2t^3 between light and heavy: 0, 0.15625, 0.5, 1 at t = 0, 1/4, 1/2, 1.
 TEST(BuildConstraints, ShareOfThePlayerFollowsTheDesignersCurve) {
     const PhaseTuning phases;
@@ -271,8 +308,8 @@ TEST(BuildConstraints, OrderOfHandsAndBodiesDoesNotMatter) {
     back.add_rock(5.0);
     for (Building* const scene : {&forth, &back}) {
         Random random(7);
-        scene->grip(k_left, GripKind::held, k_rock, random);
-        scene->grip(k_right, GripKind::held, k_rock, random);
+        scene->grip(k_left, GripKind::held, k_rock, random).two_handed = true;
+        scene->grip(k_right, GripKind::held, k_rock, random).two_handed = true;
         scene->run();
     }
     ASSERT_EQ(forth.frame.graph.blocks.size(), 2U);

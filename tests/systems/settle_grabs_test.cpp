@@ -242,6 +242,75 @@ TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.2, 1.0, 0.0)).norm(), 1e-12);
 }
 
+// Hands 40 cm apart on one body, both on their anchors at the frame's start.
+Settling held_by_both(bool two_handed) {
+    Settling scene;
+    for (const Entity hand : {k_left, k_right}) {
+        const Pose pose = pose_at(Vec3(hand == k_left ? -0.2 : 0.2, 1.0, 0.0));
+        scene.move_hand(hand, pose, pose);
+        scene.set_grip(hand, GripKind::held, GrabPhase::holding, k_ship, pose);
+        scene.grab.at(hand).since_s = hand == k_left ? 0.5 : 1.0;
+        scene.grab.at(hand).two_handed = two_handed;
+    }
+    return scene;
+}
+
+TEST(SettleGrabs, TwoHandsLeadABodyTogetherWhereTheyAreApart) {
+    for (const bool before : {false, true}) {
+        for (const double apart_m : {0.03, 0.045, 0.06}) {
+            Settling scene = held_by_both(before);
+            const Pose near = pose_at(Vec3(-0.2 + apart_m, 1.0, 0.0));
+            scene.move_hand(k_right, near, near);
+            scene.run();
+            // From 5 cm on, down to 4 cm.
+            const bool together = apart_m > (before ? 0.04 : 0.05);
+            EXPECT_EQ(scene.grab.at(k_left).two_handed, together);
+            EXPECT_EQ(scene.grab.at(k_right).two_handed, together);
+            EXPECT_EQ(count_of(scene.stats, Fallback::hands_too_close), together ? 0U : 1U);
+            // Hands that led together keep their anchors: the second slides. Else it holds on where
+            // it is.
+            const double anchor_x = before && together ? 0.2 : -0.2 + apart_m;
+            EXPECT_NEAR(scene.grab.at(k_right).anchor_bs.position.x(), anchor_x, 1e-12);
+            EXPECT_NEAR(scene.grab.at(k_left).anchor_bs.position.x(), -0.2, 1e-12);
+        }
+    }
+}
+
+TEST(SettleGrabs, HandWhosePartnerIsGoneStartsAfreshWhereItWas) {
+    for (const Entity gone : {k_left, k_right}) {
+        Settling scene = held_by_both(true);
+        const Entity staying = other_of(gone);
+        scene.grab.at(gone) = {};  // stretched too far
+        scene.move_hand(staying, pose_at(Vec3(0.1, 1.2, 0.3)), pose_at(Vec3(0.1, 1.2, 0.4)));
+        scene.run();
+        EXPECT_FALSE(scene.grab.at(staying).two_handed);
+        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(0.1, 1.2, 0.3)).norm(), 1e-12);
+        EXPECT_EQ(count_of(scene.stats, Fallback::grip_reanchored), 1U);
+    }
+}
+
+TEST(SettleGrabs, HandsOnWhatHangsOnJointsDoNotLeadTogether) {
+    Settling scene = held_by_both(false);
+    for (const Entity hand : {k_left, k_right}) {
+        scene.grab.at(hand).jointed = true;
+    }
+    scene.run();
+    EXPECT_FALSE(scene.grab.at(k_left).two_handed);
+    EXPECT_EQ(count_of_all(scene.stats), 0U);
+}
+
+// The body follows the hand that holds it, not its predicted velocity: a second hand closes on
+// where it is.
+TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatHoldsTheBody) {
+    Settling scene = held_by_both(false);
+    scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
+    scene.move_body(k_ship, {}, pose_at(Vec3(0.0, 0.0, 7.0)));
+    scene.grab.at(k_right).phase = GrabPhase::fresh;
+    scene.set_edge(k_right, GrabEdge::onset, 0.5);
+    scene.run();
+    EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - Vec3(0.2, 1.0, -0.1)).norm(), 1e-12);
+}
+
 TEST(SettleGrabs, HandsOnDifferentFreeBodiesLeaveEachOtherAlone) {
     Settling scene;
     const Pose anchor = pose_at(Vec3(0.1, 0.0, 0.0));
@@ -337,11 +406,18 @@ RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uin
                 set_state(*scene, k_right, right, right_at);
                 scene->hand.at(k_left).edge_ps.position += bend;
                 scene->hand.at(k_right).edge_ps.position -= 0.5 * bend;
+                const bool led = left.kind == GripKind::held && right.kind == GripKind::held &&
+                                 left.phase != GrabPhase::fresh && right.phase != GrabPhase::fresh;
+                for (const Entity hand : {k_left, k_right}) {
+                    scene->grab.at(hand).two_handed = led && !at_once;
+                    scene->grab.at(hand).since_s = hand == k_left ? 1.0 : 1.0 + bend.x();
+                }
                 scene->run();
             }
             for (const Entity hand : {k_left, k_right}) {
                 RC_ASSERT(forth.grab.at(hand).kind == back.grab.at(hand).kind);
                 RC_ASSERT(forth.grab.at(hand).phase == back.grab.at(hand).phase);
+                RC_ASSERT(forth.grab.at(hand).two_handed == back.grab.at(hand).two_handed);
                 RC_ASSERT(distance(forth.grab.at(hand).anchor_bs, back.grab.at(hand).anchor_bs) <
                           1e-12);
                 RC_ASSERT(distance(forth.grab.at(hand).target_ps, back.grab.at(hand).target_ps) <

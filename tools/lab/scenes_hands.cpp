@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tools/lab/hand_paths.hpp"
+#include "tools/lab/measure.hpp"
 #include "tools/lab/scenes.hpp"
 
 namespace handhold::lab {
@@ -20,7 +21,8 @@ LabBody make_bar(const std::string& name, double mass_kg, const Vec3& half_m, co
 }  // namespace
 
 // One player with both hands on a lever, both exactly on their arcs; another, 10 m away, with both
-// on a free bar: hands never keep their distance, here they stray by 2 mm.
+// on a free bar: hands never keep their distance, here they stray by 2 mm. The first keeps its
+// point, the second is on the line through both.
 LabScene make_two_hands(const SceneOptions& /*options*/) {
     LabScene scene;
     const int lever =
@@ -58,6 +60,17 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
         scene.add_hold(on_bar);
     }
     scene.players_still_until_s = k_never_s;
+    // Of hands without a time since when they hold the left one is the first. Holds: lever and bar
+    // of the left hand, then of the right one.
+    scene.watch = [first = scene.holds[1], second = scene.holds[3]](const FrameRecord& frame,
+                                                                    Figures& figures) {
+        figures.take_worst("first_hand_error_mm",
+                           1e3 * grab_error_m(first, frame.targets[1], frame.poses));
+        const Pose& bar_ws = frame.poses[static_cast<std::size_t>(first.body)];
+        const Vec3 line = (frame.targets[3].position - frame.targets[1].position).normalized();
+        const Vec3 apart = transform_point(bar_ws, second.anchor_bs) - frame.targets[3].position;
+        figures.take_worst("second_hand_beside_line_mm", 1e3 * line.cross(apart).norm());
+    };
     return scene;
 }
 
