@@ -17,7 +17,11 @@ constexpr double k_stubborn_overlap_m =
 constexpr double k_near_contact_m = 1e-3;    // contacts farther than this and any error stay out
 constexpr double k_stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
 constexpr double k_largest_turn_rad = 1.0;   // of a step
-constexpr double k_smallest_scale = 0.3;     // below: regularise more instead of scaling further
+// The farthest that joints may move a body, in what they lack: a chain that is all but stretched
+// out. A hand that pulls across an endless rail would send what slides on it to the horizon.
+constexpr double k_largest_joint_move = 10.0;
+constexpr double k_free_move_m = 0.1;     // no move is too far up to this
+constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of scaling further
 
 bool may_be_apart(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
 
@@ -201,10 +205,11 @@ StepResult take_step(const IslandView& island, const Softness& softness, double 
         const std::span<const double> lambda = scratch.system.solve(scratch.rows);
         const double turn = gather_moves(scratch);
         scale = std::min(1.0, k_largest_turn_rad / std::max(turn, 1e-30));
-        if (has_contact(scratch.rows)) {
-            const double move = std::max(longest_move(scratch), 1e-30);
-            scale = std::min(scale, k_largest_move * worst_m / move);
-        }
+        const double move = std::max(longest_move(scratch), 1e-30);
+        const double largest = has_contact(scratch.rows)
+                                   ? k_largest_move * worst_m
+                                   : std::max(k_largest_joint_move * worst_m, k_free_move_m);
+        scale = std::min(scale, largest / move);
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (scale >= k_smallest_scale) {
             break;
