@@ -11,21 +11,21 @@ using Panel = EliminationPlan::Panel;
 
 // Blocks are three or six wide nearly always: loops of a length known to the compiler cost half.
 // 0: known at run time only. The order of operations is the same.
-template <std::uint32_t known_depth, std::uint32_t known_width>
+template <std::size_t KnownDepth, std::size_t KnownWidth>
 struct Kernels {
     // u -> D L^T within a panel's own rows.
     static void eliminate(const Panel& panel, std::span<const double> smallest_pivots, double* u,
                           double* inverse_pivots) {
-        const std::uint32_t depth = known_depth != 0 ? known_depth : panel.width;
-        const std::uint32_t stride = panel.stride;
-        for (std::uint32_t m = 0; m < depth; ++m) {
+        const std::size_t depth = KnownDepth != 0 ? KnownDepth : panel.width;
+        const std::size_t stride = panel.stride;
+        for (std::size_t m = 0; m < depth; ++m) {
             const double pivot = u[m * stride + m];
             const bool counts = std::abs(pivot) > smallest_pivots[panel.scalar + m];
             const double inverse = counts ? 1.0 / pivot : 0.0;
             inverse_pivots[panel.scalar + m] = inverse;
-            for (std::uint32_t row = m + 1; row < depth; ++row) {
+            for (std::size_t row = m + 1; row < depth; ++row) {
                 const double factor = u[m * stride + row] * inverse;
-                for (std::uint32_t column = row; column < stride; ++column) {
+                for (std::size_t column = row; column < stride; ++column) {
                     u[row * stride + column] -= factor * u[m * stride + column];
                 }
             }
@@ -36,14 +36,14 @@ struct Kernels {
     static void subtract_product(const Panel& panel, const Panel& row_panel,
                                  const Panel& column_panel, const double* from, const double* to,
                                  const double* inverse_pivots, double* c) {
-        const std::uint32_t depth = known_depth != 0 ? known_depth : panel.width;
-        const std::uint32_t rows = known_width != 0 ? known_width : row_panel.width;
-        const std::uint32_t columns = known_width != 0 ? known_width : column_panel.width;
-        for (std::uint32_t row = 0; row < rows; ++row) {
+        const std::size_t depth = KnownDepth != 0 ? KnownDepth : panel.width;
+        const std::size_t rows = KnownWidth != 0 ? KnownWidth : row_panel.width;
+        const std::size_t columns = KnownWidth != 0 ? KnownWidth : column_panel.width;
+        for (std::size_t row = 0; row < rows; ++row) {
             double* const out = c + row * row_panel.stride;
-            for (std::uint32_t m = 0; m < depth; ++m) {
+            for (std::size_t m = 0; m < depth; ++m) {
                 const double factor = from[m * panel.stride + row] * inverse_pivots[m];
-                for (std::uint32_t column = 0; column < columns; ++column) {
+                for (std::size_t column = 0; column < columns; ++column) {
                     out[column] -= factor * to[m * panel.stride + column];
                 }
             }
@@ -51,30 +51,28 @@ struct Kernels {
     }
 };
 
-constexpr std::uint32_t k_widest_panel = 12;
-
 // to -= sum over m of shares[m] rows[m].
-template <std::uint32_t known_width>
-void subtract_rows(const double* rows, std::uint32_t stride, const double* shares,
-                   std::uint32_t depth, std::uint32_t width, double* to) {
-    const std::uint32_t height = known_width != 0 ? known_width : depth;
-    const std::uint32_t count = known_width != 0 ? known_width : width;
-    for (std::uint32_t m = 0; m < height; ++m) {
-        for (std::uint32_t i = 0; i < count; ++i) {
+template <std::size_t KnownWidth>
+void subtract_rows(const double* rows, std::size_t stride, const double* shares, std::size_t depth,
+                   std::size_t width, double* to) {
+    const std::size_t height = KnownWidth != 0 ? KnownWidth : depth;
+    const std::size_t count = KnownWidth != 0 ? KnownWidth : width;
+    for (std::size_t m = 0; m < height; ++m) {
+        for (std::size_t i = 0; i < count; ++i) {
             to[i] -= rows[m * stride + i] * shares[m];
         }
     }
 }
 
 // own[m] -= rows[m] . from.
-template <std::uint32_t known_width>
-void subtract_products(const double* rows, std::uint32_t stride, const double* from,
-                       std::uint32_t depth, std::uint32_t width, double* own) {
-    const std::uint32_t height = known_width != 0 ? known_width : depth;
-    const std::uint32_t count = known_width != 0 ? known_width : width;
-    for (std::uint32_t m = 0; m < height; ++m) {
+template <std::size_t KnownWidth>
+void subtract_products(const double* rows, std::size_t stride, const double* from,
+                       std::size_t depth, std::size_t width, double* own) {
+    const std::size_t height = KnownWidth != 0 ? KnownWidth : depth;
+    const std::size_t count = KnownWidth != 0 ? KnownWidth : width;
+    for (std::size_t m = 0; m < height; ++m) {
         double sum = own[m];
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             sum -= rows[m * stride + i] * from[i];
         }
         own[m] = sum;
@@ -82,15 +80,15 @@ void subtract_products(const double* rows, std::uint32_t stride, const double* f
 }
 
 // A panel's unknowns are final: takes their share off the later ones.
-template <std::uint32_t known_width>
+template <std::size_t KnownWidth>
 void carry_forward(const EliminationPlan& plan, const Panel& panel, const double* u,
                    const double* inverse_pivots, double* unknowns) {
-    const std::uint32_t width = known_width != 0 ? known_width : panel.width;
+    const std::size_t width = KnownWidth != 0 ? KnownWidth : panel.width;
     double* const own = unknowns + panel.scalar;
-    double shares[known_width != 0 ? known_width : k_widest_panel];
-    for (std::uint32_t m = 0; m < width; ++m) {
+    double shares[KnownWidth != 0 ? KnownWidth : k_widest_node];
+    for (std::size_t m = 0; m < width; ++m) {
         shares[m] = own[m] * inverse_pivots[panel.scalar + m];
-        for (std::uint32_t i = m + 1; i < width; ++i) {
+        for (std::size_t i = m + 1; i < width; ++i) {
             own[i] -= u[m * panel.stride + i] * shares[m];
         }
     }
@@ -98,8 +96,8 @@ void carry_forward(const EliminationPlan& plan, const Panel& panel, const double
         const Panel& later = plan.panels()[block.panel];
         const double* const rows = u + block.column;
         double* const to = unknowns + later.scalar;
-        if (known_width != 0 && later.width == known_width) {
-            subtract_rows<known_width>(rows, panel.stride, shares, width, known_width, to);
+        if (KnownWidth != 0 && later.width == KnownWidth) {
+            subtract_rows<KnownWidth>(rows, panel.stride, shares, width, KnownWidth, to);
         } else {
             subtract_rows<0>(rows, panel.stride, shares, width, later.width, to);
         }
@@ -107,23 +105,23 @@ void carry_forward(const EliminationPlan& plan, const Panel& panel, const double
 }
 
 // All later unknowns are solved: solves a panel's own.
-template <std::uint32_t known_width>
+template <std::size_t KnownWidth>
 void solve_backward(const EliminationPlan& plan, const Panel& panel, const double* u,
                     const double* inverse_pivots, double* unknowns) {
-    const std::uint32_t width = known_width != 0 ? known_width : panel.width;
+    const std::size_t width = KnownWidth != 0 ? KnownWidth : panel.width;
     double* const own = unknowns + panel.scalar;
     for (const EliminationPlan::Block& block : plan.blocks(panel)) {
         const Panel& later = plan.panels()[block.panel];
         const double* const rows = u + block.column;
         const double* const from = unknowns + later.scalar;
-        if (known_width != 0 && later.width == known_width) {
-            subtract_products<known_width>(rows, panel.stride, from, width, known_width, own);
+        if (KnownWidth != 0 && later.width == KnownWidth) {
+            subtract_products<KnownWidth>(rows, panel.stride, from, width, KnownWidth, own);
         } else {
             subtract_products<0>(rows, panel.stride, from, width, later.width, own);
         }
     }
-    for (std::uint32_t m = width; m-- > 0;) {
-        for (std::uint32_t i = m + 1; i < width; ++i) {
+    for (std::size_t m = width; m-- > 0;) {
+        for (std::size_t i = m + 1; i < width; ++i) {
             own[m] -= u[m * panel.stride + i] * own[i];
         }
         own[m] *= inverse_pivots[panel.scalar + m];

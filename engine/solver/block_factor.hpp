@@ -15,7 +15,7 @@ class BlockFactor {
     std::span<double> values() { return values_; }
     void resize(const EliminationPlan& plan);
 
-    // `smallest_pivots` by unknown, > 0: an unknown whose pivot is smaller repeats others beyond
+    // `smallest_pivots` by unknown, >= 0: an unknown whose pivot is smaller repeats others beyond
     // what rounding tells apart, and gets no share.
     void factorise(const EliminationPlan& plan, std::span<const double> smallest_pivots);
     // Right-hand side in, solution out, by unknown.

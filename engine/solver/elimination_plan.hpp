@@ -9,6 +9,7 @@
 // lies: the symbolic half of a sparse LDL^T. It depends on who is tied to whom and on nothing else.
 namespace handhold {
 
+inline constexpr std::uint32_t k_widest_node = 12;  // rows: four contacts with friction
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
 // Rows between the same two bodies: one block of unknowns, their multipliers.
@@ -48,10 +49,11 @@ class EliminationPlan {
         std::uint32_t panel = 0;   // of the later node
         std::uint32_t column = 0;  // in this panel's rows
     };
-    // A product that is added to the matrix: of two row nodes that share a body.
+    // A product that is added to the matrix, of two row nodes that share a body: rows of the
+    // earlier one's panel, columns of the later one's block.
     struct Coupling {
-        std::uint32_t column_end = 0;  // 2 * node + side
-        std::uint32_t row_end = 0;
+        std::uint32_t panel_end = 0;  // 2 * node + side
+        std::uint32_t later_end = 0;
         std::uint32_t target = 0;
         std::uint32_t stride = 0;
     };
@@ -60,7 +62,7 @@ class EliminationPlan {
         std::uint32_t end = 0;  // 2 * node + side
         std::uint32_t target = 0;
         std::uint32_t stride = 0;
-        bool hub_is_column = false;
+        bool hub_first = false;
     };
     struct Hub {
         std::uint32_t slot = 0;

@@ -29,8 +29,10 @@ struct SolveScratch {
         std::size_t normal = 0;  // row whose multiplier times `coefficient` is the limit
         double coefficient = 0.0;
         bool slides = false;
+        bool is_off = false;  // slips freely: its contacts are wedged
     };
     std::vector<Friction> frictions;
+    bool is_driven = false;  // a hand or a detent may give energy
     RowSystem system;
 };
 

@@ -13,20 +13,19 @@ constexpr std::ptrdiff_t k_small_set = 96;
 constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
 constexpr int k_drops = 6;               // of all pulling rows at once
 constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
-constexpr std::uint32_t k_widest_node = 12;  // four contacts with friction
 // Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
 // tells apart.
 constexpr double k_smallest_pivot = 1e-14;
 
 // Nodes are three rows wide nearly always: loops of a length known to the compiler cost half. 0:
 // known at run time only. The order of operations is the same.
-template <std::uint32_t known_width>
+template <std::size_t KnownWidth>
 struct Kernels {
     // J and W J^T of one side of a node; adds J W J^T to its rows' diagonal.
     static void write_end(std::span<const Row> rows, bool is_a, double inverse_mass,
                           const Mat3& inverse_inertia, double* jacobian, double* response,
                           double* diagonal) {
-        const std::size_t width = known_width != 0 ? known_width : rows.size();
+        const std::size_t width = KnownWidth != 0 ? KnownWidth : rows.size();
         for (std::size_t m = 0; m < width; ++m) {
             const Row& row = rows[m];
             const Vec3 linear = is_a ? row.linear_a : Vec3(-row.linear_a);
@@ -45,15 +44,15 @@ struct Kernels {
     }
 
     // out += response^T jacobian over the six directions of a body's motion.
-    static void add_product(const double* response, std::uint32_t column_width,
-                            const double* jacobian, std::uint32_t row_width, double* out,
-                            std::uint32_t stride) {
-        const std::uint32_t height = known_width != 0 ? known_width : column_width;
-        const std::uint32_t width = known_width != 0 ? known_width : row_width;
-        for (std::uint32_t i = 0; i < height; ++i) {
-            for (std::uint32_t c = 0; c < 6; ++c) {
+    static void add_product(const double* response, std::size_t column_width,
+                            const double* jacobian, std::size_t row_width, double* out,
+                            std::size_t stride) {
+        const std::size_t height = KnownWidth != 0 ? KnownWidth : column_width;
+        const std::size_t width = KnownWidth != 0 ? KnownWidth : row_width;
+        for (std::size_t i = 0; i < height; ++i) {
+            for (std::size_t c = 0; c < 6; ++c) {
                 const double factor = response[6 * i + c];
-                for (std::uint32_t j = 0; j < width; ++j) {
+                for (std::size_t j = 0; j < width; ++j) {
                     out[i * stride + j] += factor * jacobian[c * width + j];
                 }
             }
@@ -62,13 +61,13 @@ struct Kernels {
 
     // The same of two points: along the axes they share only their mass.
     static void add_point_product(const double* response, const double* jacobian, double* out,
-                                  std::uint32_t stride) {
-        for (std::uint32_t i = 0; i < 3; ++i) {
+                                  std::size_t stride) {
+        for (std::size_t i = 0; i < 3; ++i) {
             double sums[3] = {out[i * stride], out[i * stride + 1], out[i * stride + 2]};
             sums[i] += response[7 * i] * jacobian[4 * i];
-            for (std::uint32_t c = 3; c < 6; ++c) {
+            for (std::size_t c = 3; c < 6; ++c) {
                 const double factor = response[6 * i + c];
-                for (std::uint32_t j = 0; j < 3; ++j) {
+                for (std::size_t j = 0; j < 3; ++j) {
                     sums[j] += factor * jacobian[c * 3 + j];
                 }
             }
@@ -77,12 +76,12 @@ struct Kernels {
     }
 
     // move += response lambda.
-    static void add_move(const double* response, const double* lambda, std::uint32_t node_width,
+    static void add_move(const double* response, const double* lambda, std::size_t node_width,
                          RowSystem::Twist& move) {
-        const std::uint32_t width = known_width != 0 ? known_width : node_width;
+        const std::size_t width = KnownWidth != 0 ? KnownWidth : node_width;
         RowSystem::Twist sum = move;
-        for (std::uint32_t m = 0; m < width; ++m) {
-            for (std::uint32_t c = 0; c < 6; ++c) {
+        for (std::size_t m = 0; m < width; ++m) {
+            for (std::size_t c = 0; c < 6; ++c) {
                 sum[c] += response[6 * m + c] * lambda[m];
             }
         }
@@ -115,7 +114,8 @@ void RowSystem::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
             for (std::size_t side = 0; side < 2; ++side) {
                 const std::uint32_t body = side == 0 ? rows[i].a : rows[i].b;
                 if (node.slots[side] != k_no_slot) {
-                    turns_[node.slots[side]] = bodies[body].inverse_inertia_bs.isZero(0.0) ? 0 : 1;
+                    turns_[node.slots[side]] =
+                        bodies[body].inverse_inertia_bs.squaredNorm() == 0.0 ? 0 : 1;
                     body_of_slot_[node.slots[side]] = body;
                 }
             }
@@ -174,15 +174,15 @@ void RowSystem::write_jacobians(std::span<const SolverBody> bodies,
 void RowSystem::multiply_out() {
     matrix_.assign(plan().value_count(), 0.0);
     for (const EliminationPlan::Coupling& coupling : plan().couplings()) {
-        const double* const response = &responses_[end_begin(coupling.column_end)];
-        const double* const jacobian = &jacobians_[end_begin(coupling.row_end)];
-        const Node& column_node = nodes_[coupling.column_end / 2];
-        const Node& row_node = nodes_[coupling.row_end / 2];
+        const double* const response = &responses_[end_begin(coupling.panel_end)];
+        const double* const jacobian = &jacobians_[end_begin(coupling.later_end)];
+        const Node& panel_node = nodes_[coupling.panel_end / 2];
+        const Node& later_node = nodes_[coupling.later_end / 2];
         double* const out = &matrix_[coupling.target];
-        if (column_node.is_point && row_node.is_point) {
+        if (panel_node.is_point && later_node.is_point) {
             Kernels<3>::add_point_product(response, jacobian, out, coupling.stride);
         } else {
-            Kernels<0>::add_product(response, column_node.width, jacobian, row_node.width, out,
+            Kernels<0>::add_product(response, panel_node.width, jacobian, later_node.width, out,
                                     coupling.stride);
         }
     }
@@ -198,7 +198,7 @@ void RowSystem::write_hubs(std::span<const SolverBody> bodies,
         for (std::uint32_t c = 0; c < (turns ? 6U : 3U); ++c) {
             for (std::uint32_t j = 0; j < width; ++j) {
                 const std::uint32_t at =
-                    coupling.hub_is_column ? c * coupling.stride + j : j * coupling.stride + c;
+                    coupling.hub_first ? c * coupling.stride + j : j * coupling.stride + c;
                 matrix_[coupling.target + at] = -jacobian[c * width + j];
             }
         }
@@ -264,15 +264,15 @@ void RowSystem::assemble(std::span<const SolverBody> bodies,
 }
 
 // As if the row were not there: its multiplier is 0.
-void RowSystem::leave_out(std::uint32_t node, std::uint32_t row_in_node) {
+void RowSystem::leave_out(std::uint32_t node, std::size_t row_in_node) {
     const std::span<double> values = factor_.values();
     const EliminationPlan::Panel& panel = plan().panel_of(node);
-    double* const own = &values[panel.begin];
-    for (std::uint32_t i = 0; i < row_in_node; ++i) {
-        own[i * panel.stride + row_in_node] = 0.0;
+    for (std::size_t i = 0; i < row_in_node; ++i) {
+        values[panel.begin + i * panel.stride + row_in_node] = 0.0;
     }
-    std::fill_n(own + row_in_node * panel.stride + row_in_node, panel.stride - row_in_node, 0.0);
-    own[row_in_node * panel.stride + row_in_node] = 1.0;
+    const std::size_t diagonal = panel.begin + row_in_node * panel.stride + row_in_node;
+    std::ranges::fill(values.subspan(diagonal, panel.stride - row_in_node), 0.0);
+    values[diagonal] = 1.0;
     for (const EliminationPlan::Appearance& appearance : plan().appearances(node)) {
         for (std::uint32_t i = 0; i < appearance.rows; ++i) {
             values[appearance.begin + i * appearance.stride + row_in_node] = 0.0;
@@ -338,7 +338,7 @@ double RowSystem::row_motion(std::size_t row) const {
         const Twist& move = moves_[node.slots[side]];
         const double* const jacobian =
             &jacobians_[end_begin(2 * index + side) + row - node.first_row];
-        for (std::uint32_t c = 0; c < 6; ++c) {
+        for (std::size_t c = 0; c < 6; ++c) {
             sum += jacobian[c * node.width] * move[c];
         }
     }
@@ -409,9 +409,7 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
         solve_active();
     }
     for (std::size_t i = 0; i < size(); ++i) {
-        if (rows[i].unilateral && lambda_[i] < 0.0) {
-            lambda_[i] = 0.0;
-        }
+        lambda_[i] = rows[i].unilateral && is_active(i) ? std::max(0.0, lambda_[i]) : lambda_[i];
     }
     gather_moves(lambda_);
     return lambda_;

@@ -32,7 +32,8 @@ class RowSystem {
     std::span<double> alpha() { return alpha_; }
 
     // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. At most 40 changes
-    // of the active set, then rows are only left out. The result is valid until the next assemble.
+    // of the active set, then rows are only left out. The result is valid until the next solve or
+    // assemble.
     // Rows that nothing can move (zero diagonal) get lambda 0.
     std::span<const double> solve(std::span<const Row> rows);
     // The same factor and active set against other values: for refinement.
@@ -64,7 +65,7 @@ class RowSystem {
     void write_hubs(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws);
     void take_over_active_set(std::span<const Row> rows);
     void factorise();
-    void leave_out(std::uint32_t node, std::uint32_t row_in_node);
+    void leave_out(std::uint32_t node, std::size_t row_in_node);
     void substitute(std::span<const double> values);
     void gather_moves(std::span<const double> lambda);
     double row_motion(std::size_t row) const;

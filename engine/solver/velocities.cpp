@@ -54,6 +54,7 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
                            SolveScratch& scratch) {
     scratch.rows.clear();
     scratch.frictions.clear();
+    scratch.is_driven = false;
     scratch.approach_mps.clear();
     for (const std::uint32_t index : island.island_blocks) {
         RowBlock& block = island.blocks[index];
@@ -65,6 +66,7 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         if (!counts || !takes_part(island, block)) {
             continue;
         }
+        scratch.is_driven = scratch.is_driven || is_hand(block) || has_drive(block);
         append_rows(island.bodies, block, index, scratch.rows, settings.touch_m);
         for (std::size_t i = scratch.approach_mps.size(); i < scratch.rows.size(); ++i) {
             const double speed = row_velocity(island, scratch.rows[i]);
@@ -137,34 +139,36 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     return changes;
 }
 
-// The largest impulse that presses a contact that rubs, N s.
+// The largest impulse that presses a contact that rubs, N s; 0 where none does.
 double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) {
     double largest = 0.0;
     for (const SolveScratch::Friction& friction : scratch.frictions) {
-        if (friction.coefficient > 0.0) {
+        if (friction.coefficient > 0.0 && !friction.is_off) {
             largest = std::max(largest, std::abs(lambda[friction.normal]));
         }
     }
     return largest;
 }
 
-// True where the contacts' impulses give more energy than they take: half of impulse times
-// velocity, before and after. Restitution and Coulomb's law only ever take.
-bool contacts_give_energy(std::span<const double> lambda, const SolveScratch& scratch) {
-    constexpr double k_tolerance = 1e-3;  // of what they exchange
+// True where the rows of an island that nothing drives give it more energy than they take: half of
+// impulse times velocity, before and after.
+bool gives_energy(std::span<const double> lambda, const VelocityResult& result,
+                  const SolveScratch& scratch) {
+    // Of what they exchange, which is out of all proportion where friction was not settled.
+    const double tolerance = result.undecided ? 1e-9 : 1e-3;
+    constexpr double k_slow_mps = 1e-3;
+    if (scratch.is_driven) {
+        return false;
+    }
     double work = 0.0;
     double exchanged = 0.0;
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        const Row& row = scratch.rows[i];
-        if (row.group != RowGroup::contact) {
-            continue;
-        }
-        const double before = row.value_m - scratch.approach_mps[i];
+        const double before = scratch.rows[i].value_m - scratch.approach_mps[i];
         const double after = scratch.system.remainder(i, before);
         work += 0.5 * lambda[i] * (before + after);
-        exchanged += 0.5 * std::abs(lambda[i]) * (std::abs(before) + std::abs(after));
+        exchanged += 0.5 * std::abs(lambda[i]) * (std::abs(before) + std::abs(after) + k_slow_mps);
     }
-    return work > k_tolerance * exchanged;
+    return work > tolerance * exchanged;
 }
 
 // Who sticks and who slides, by fixed point. The multipliers are those of the last pass.
@@ -177,7 +181,8 @@ std::span<const double> settle_friction(SolveScratch& scratch, VelocityResult& r
     for (int pass = 0; pass < k_passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
-            changes |= apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
+            changes |= !friction.is_off &&
+                       apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
         }
         if (!changes) {
             return lambda;
@@ -192,36 +197,60 @@ std::span<const double> settle_friction(SolveScratch& scratch, VelocityResult& r
     return lambda;
 }
 
+void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
+    friction.slides = false;
+    for (std::size_t i = 0; i < friction.width; ++i) {
+        scratch.system.release(friction.row + i);
+    }
+}
+
+void slip_freely(SolveScratch& scratch, SolveScratch::Friction& friction) {
+    friction.is_off = true;
+    for (std::size_t i = 0; i < friction.width; ++i) {
+        scratch.system.hold(friction.row + i, 0.0);
+    }
+}
+
+// Newton's law of restitution gains energy where some contacts bounce and others do not.
+void drop_bounce(SolveScratch& scratch) {
+    for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
+        if (scratch.rows[i].group == RowGroup::contact) {
+            scratch.rows[i].value_m -= scratch.approach_mps[i];
+            scratch.approach_mps[i] = 0.0;
+        }
+    }
+}
+
 // Multipliers of all rows, with friction.
 std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResult& result) {
     result = {};
     for (SolveScratch::Friction& friction : scratch.frictions) {
-        friction.slides = false;
-        for (std::size_t i = 0; i < friction.width; ++i) {
-            scratch.system.release(friction.row + i);
-        }
+        friction.is_off = false;
+        stick(scratch, friction);
     }
     if (scratch.frictions.empty()) {
         return scratch.system.solve(scratch.rows);
     }
     const std::span<const double> lambda = settle_friction(scratch, result);
-    result.wedged = result.wedged || contacts_give_energy(lambda, scratch);
-    if (!result.wedged) {
+    if (!result.wedged && !gives_energy(lambda, result, scratch)) {
         return lambda;
     }
-    // The harder it is held, the harder it presses. A wedge has no answer; let contacts slip
-    // freely.
-    result.undecided = false;
+    // The harder it is held, the harder it presses, or the more it gains. A wedge has no answer;
+    // let contacts slip freely, and settle what rubs in joints anew.
     for (SolveScratch::Friction& friction : scratch.frictions) {
-        if (!(friction.coefficient > 0.0)) {
-            continue;
-        }
-        friction.slides = true;
-        for (std::size_t i = 0; i < friction.width; ++i) {
-            scratch.system.hold(friction.row + i, 0.0);
+        stick(scratch, friction);
+        if (friction.coefficient > 0.0) {
+            slip_freely(scratch, friction);
         }
     }
-    return scratch.system.solve(scratch.rows);
+    result = {};
+    std::span<const double> without = settle_friction(scratch, result);
+    if (gives_energy(without, result, scratch)) {
+        drop_bounce(scratch);
+        without = settle_friction(scratch, result);
+    }
+    result.wedged = true;
+    return without;
 }
 
 void apply_impulses(const IslandView& island, std::span<const double> lambda,

@@ -88,7 +88,8 @@ const char* meaning_of(Fallback reason) {
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
         case Fallback::friction_wedged:
-            return "Contacts wedged something in; their friction was set aside.";
+            return "Contacts wedged something in, or would have given it energy; their friction "
+                   "was set aside.";
         case Fallback::friction_undecided:
             return "What sticks and what slides was not settled; the last answer was taken.";
         case Fallback::release_speed_clamped:

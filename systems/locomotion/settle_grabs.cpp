@@ -103,7 +103,7 @@ Pose held_body(const Instant& now, const HandPair& first) {
     if (jumps) {
         return now.body_ws(first.grab.body);
     }
-    const Pose wanted_ws = wanted_body(now, first);
+    Pose wanted_ws = wanted_body(now, first);
     if (first.hand.edge == GrabEdge::onset) {
         return wanted_ws;
     }

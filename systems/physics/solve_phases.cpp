@@ -11,7 +11,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_violated_m =
-    2e-7;  // twice the solver's tolerance: what a solved phase leaves is no violation
+    2e-7;  // 20 times the solver's tolerance: what a solved phase leaves is no violation
 constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
 constexpr double k_moved_m = 1e-5;     // colliders that moved less keep their contacts
 constexpr double k_new_overlap_m =
@@ -186,8 +186,8 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
               [&](std::uint32_t x, std::uint32_t y) {
                   return size_of(x) != size_of(y) ? size_of(x) > size_of(y) : x < y;
               });
-    if (frame.island_scratch.size() < frame.island_order.size()) {
-        frame.island_scratch.resize(frame.island_order.size());
+    if (frame.island_scratch.size() < graph.islands.size()) {
+        frame.island_scratch.resize(graph.islands.size());
     }
     frame.island_results.assign(frame.island_order.size(), {});
     const NewtonSettings settings = settings_of(s, phase);
@@ -197,7 +197,8 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         set_masses(s, island, phase);
         const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        frame.island_results[i] = frame.position_solver(view, settings, frame.island_scratch[i]);
+        frame.island_results[i] =
+            frame.position_solver(view, settings, frame.island_scratch[frame.island_order[i]]);
     };
     parallel_for(frame.island_order.size(), solve_one);
     for (const std::uint32_t i : frame.island_order) {

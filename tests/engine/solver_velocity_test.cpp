@@ -206,6 +206,56 @@ TEST(SolveVelocities, DepthOfAnOverlapNeverBecomesSpeed) {
 
 // Balls around one another and a floor, touching at random points: what comes out neither
 // approaches nor is pulled.
+double energy_of(const SolverBody& body) {
+    const Vec3 spin_bs = body.pose_ws.rotation.conjugate() * body.spin_radps;
+    return 0.5 * body.mass_kg * body.velocity_mps.squaredNorm() +
+           0.5 * spin_bs.dot(body.inertia_kgm2.cwiseProduct(spin_bs));
+}
+
+// Two contacts with friction of up to 2 on one body, anywhere on it: wedges are among them.
+RC_GTEST_PROP(SolveVelocities, ContactsAloneGiveNoEnergy, (std::uint64_t seed)) {
+    Random random(seed);
+    SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1), test::random_free_body(2, random)};
+    scene.body(1).velocity_mps = random.vector(10.0);
+    scene.body(1).spin_radps = random.vector(20.0);
+    const double restitution = random.between(0.0, 0.5);  // Newton's law gains by unequal ones
+    constexpr std::uint64_t k_contacts = 2;
+    for (std::uint64_t i = 0; i < k_contacts; ++i) {
+        RowBlock block = test::random_block(RowKind::contact, 1, 0, random);
+        test::meet(scene.graph.bodies, block);
+        block.key = i;
+        block.friction = random.between(0.0, 2.0);
+        block.restitution = restitution;
+        scene.graph.blocks.push_back(block);
+    }
+    sort_blocks(scene.graph.blocks);
+    const double before = energy_of(scene.body(1));
+    scene.solve_velocities();
+    RC_ASSERT(energy_of(scene.body(1)) <= 1.01 * before);
+}
+
+// A held box is pressed against a wall and scrubbed: where the hand turns back the wall's friction
+// still brakes it, though it gives energy against the motion that the hand ended.
+TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
+    SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1), test::player_body(3, 80.0)};
+    scene.body(1).velocity_mps = Vec3(0.3, 0.0, 0.0);
+    RowBlock contact = test::row_block(RowKind::contact, 1, 0);
+    contact.friction = 0.4;
+    RowBlock hand = test::row_block(RowKind::hand_point, 2, 1);
+    hand.drive_velocity_ws_mps = Vec3(-0.2, -0.02, 0.0);
+    scene.graph.blocks = {contact, hand};
+    sort_blocks(scene.graph.blocks);
+    build_islands(scene.graph);
+    const Island& island = scene.graph.islands.front();
+    const VelocityResult result = solve_velocities(scene.view(island), {}, scene.scratch);
+    EXPECT_FALSE(result.wedged);
+    const auto wall = std::ranges::find_if(scene.graph.blocks, is_contact);
+    ASSERT_GT(wall->impulse_ws_ns.y(), 0.0);
+    EXPECT_NEAR(wall->impulse_ws_ns.x(), 0.4 * wall->impulse_ws_ns.y(), 1e-3);
+}
+
 RC_GTEST_PROP(SolveVelocities, NoContactApproachesAndNonePulls, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
