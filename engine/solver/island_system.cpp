@@ -22,7 +22,6 @@ bool takes_part(const IslandView& island, const RowBlock& block) {
            (island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0);
 }
 
-// Only contacts can contradict each other into huge steps; hands on long levers may need them.
 bool has_contact(std::span<const Row> rows) {
     return std::ranges::any_of(rows, [](const Row& row) { return row.group == RowGroup::contact; });
 }

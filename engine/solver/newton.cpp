@@ -286,6 +286,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         }
         step = repeats ? repeat_step(island, scratch)
                        : take_step(island, softness, result.residual_m, scratch);
+        result.unsettled |= scratch.system.is_unsettled();
         only_points = holds_only_points(island, scratch.rows);
         previous = result.residual_m;
         previous_overlap = overlap;

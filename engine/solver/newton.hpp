@@ -17,6 +17,7 @@ struct NewtonResult {
     int iterations = 0;
     double residual_m = 0.0;  // worst point, angle (at its lever) or overlap at the end
     bool converged = false;   // residual below the tolerance
+    bool unsettled = false;   // in a step it was not found who pushes: what pulled was left out
 };
 
 // Moves the island's bodies, by their inverse masses, until every row is met or no step helps.

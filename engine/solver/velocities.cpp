@@ -99,6 +99,13 @@ void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
+void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
+    friction.slides = false;
+    for (std::size_t i = 0; i < friction.width; ++i) {
+        scratch.system.release(friction.row + i);
+    }
+}
+
 // Coulomb's law for one friction after a solve: what takes more than its limit slides, against its
 // motion, by the limit; what slides and is pushed along its motion sticks again. True where that
 // changes the next solve.
@@ -120,10 +127,7 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
         return false;
     }
     if (friction.slides && may_stick && push.dot(slip) > 0.0 && limit > 0.0) {
-        friction.slides = false;
-        for (std::size_t i = 0; i < friction.width; ++i) {
-            scratch.system.release(friction.row + i);
-        }
+        stick(scratch, friction);
         return true;
     }
     Vec3 wanted = friction.slides ? Vec3(-slip) : push;
@@ -195,13 +199,6 @@ std::span<const double> settle_friction(SolveScratch& scratch, VelocityResult& r
     }
     result.undecided = true;
     return lambda;
-}
-
-void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
-    friction.slides = false;
-    for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.release(friction.row + i);
-    }
 }
 
 void slip_freely(SolveScratch& scratch, SolveScratch::Friction& friction) {
@@ -338,6 +335,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
         softness.hand *= 100.0;
         softness.contact *= 100.0;
     }
+    result.unsettled = scratch.system.is_unsettled();
     apply_impulses(island, scratch.lambda, scratch);
     if (softness.contact == k_contact_softness) {
         refine_velocities(island, scratch);

@@ -206,6 +206,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     }
     for (const NewtonResult& result : frame.island_results) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
+        if (result.unsettled) {
+            s.stats.count(Fallback::active_set_unsettled);
+        }
     }
     return frame.island_order.size();
 }

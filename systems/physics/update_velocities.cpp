@@ -54,6 +54,9 @@ void solve_islands(FrameGraph& frame, const ContactTuning& tuning, StageStats& s
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
+        if (result.unsettled) {
+            stats.count(Fallback::active_set_unsettled);
+        }
         if (result.wedged) {
             stats.count(Fallback::friction_wedged);
         }

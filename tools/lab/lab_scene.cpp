@@ -90,4 +90,14 @@ std::vector<std::string_view> mass_patterns() {
             "alternate_x100", "middle_x100", "alternate_x1000"};
 }
 
+int add_box(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
+            const Vec3& center_ws) {
+    LabBody body;
+    body.name = name;
+    body.mass_kg = mass_kg;
+    body.half_m = half_m;
+    body.pose_ws.position = center_ws;
+    return scene.add_body(body);
+}
+
 }  // namespace handhold::lab

@@ -139,6 +139,10 @@ struct LabScene {
     void add_hold(LabHold hold);
 };
 
+// A free box that stands along the world's axes; returns its place in scene.bodies.
+int add_box(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
+            const Vec3& center_ws);
+
 struct SceneOptions {
     int links = 0;  // 0: the scene's own number
     std::string masses = "uniform";

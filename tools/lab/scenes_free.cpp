@@ -17,16 +17,6 @@ void take_off_limits(Tuning& tuning) {
     tuning.locomotion.object_spin_max_radps = 1e3;
 }
 
-int add_box(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
-            const Vec3& center) {
-    LabBody body;
-    body.name = name;
-    body.mass_kg = mass_kg;
-    body.half_m = half_m;
-    body.pose_ws.position = center;
-    return scene.add_body(body);
-}
-
 const std::vector<Vec3>& wave_corners() {
     static const std::vector<Vec3> k_corners = {Vec3::Zero(), Vec3(0.4, 0.0, 0.0),
                                                 Vec3(0.1, 0.3, 0.0), Vec3(0.1, 0.0, -0.3)};

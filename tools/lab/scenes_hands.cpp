@@ -7,32 +7,18 @@
 #include "tools/lab/scenes.hpp"
 
 namespace handhold::lab {
-namespace {
-
-LabBody make_bar(const std::string& name, double mass_kg, const Vec3& half_m, const Vec3& center) {
-    LabBody bar;
-    bar.name = name;
-    bar.mass_kg = mass_kg;
-    bar.half_m = half_m;
-    bar.pose_ws.position = center;
-    return bar;
-}
-
-}  // namespace
-
 // One player with both hands on a lever, both exactly on their arcs; another, 10 m away, with both
 // on a free bar: hands never keep their distance, here they stray by 2 mm. The first keeps its
 // point, the second is on the line through both.
 LabScene make_two_hands(const SceneOptions& /*options*/) {
     LabScene scene;
-    const int lever =
-        scene.add_body(make_bar("lever", 2.0, Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0)));
+    const int lever = add_box(scene, "lever", 2.0, Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0));
     LabJoint hinge;
     hinge.kind = JointKind::hinge;
     hinge.b = lever;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const Vec3 aside(10.0, 0.0, 0.0);
-    const int bar = scene.add_body(make_bar("bar", 5.0, Vec3(0.3, 0.02, 0.02), aside));
+    const int bar = add_box(scene, "bar", 5.0, Vec3(0.3, 0.02, 0.02), aside);
     scene.players = {LabPlayer{}, LabPlayer{aside}};
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const bool is_left = side == HandSide::left;
@@ -78,7 +64,7 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
 // together by exactly as much.
 LabScene make_two_players(const SceneOptions& /*options*/) {
     LabScene scene;
-    const int bar = scene.add_body(make_bar("bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero()));
+    const int bar = add_box(scene, "bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero());
     scene.players = {LabPlayer{Vec3(-0.5, 0.0, 0.0)}, LabPlayer{Vec3(0.5, 0.0, 0.0)}};
     const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
     for (const int player : {0, 1}) {
@@ -104,9 +90,8 @@ LabScene make_two_players(const SceneOptions& /*options*/) {
 // Both hands on one fixed thing pull 20 cm apart: half of it is left on each.
 LabScene make_contradict(const SceneOptions& /*options*/) {
     LabScene scene;
-    LabBody rail = make_bar("rail", 0.0, Vec3(0.5, 0.02, 0.02), Vec3::Zero());
-    rail.kind = BodyKind::fixed;
-    scene.add_body(rail);
+    const int rail = add_box(scene, "rail", 0.0, Vec3(0.5, 0.02, 0.02), Vec3::Zero());
+    scene.bodies[static_cast<std::size_t>(rail)].kind = BodyKind::fixed;
     scene.players.emplace_back();
     const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
     for (const HandSide side : {HandSide::left, HandSide::right}) {

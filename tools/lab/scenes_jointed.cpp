@@ -36,14 +36,10 @@ LabHold hold_thing(const PathOfTime& path) {
     return hold;
 }
 
+// The thing, and the player who holds it.
 void add_thing(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
-               const Vec3& center) {
-    LabBody thing;
-    thing.name = name;
-    thing.mass_kg = mass_kg;
-    thing.half_m = half_m;
-    thing.pose_ws.position = center;
-    scene.add_body(thing);
+               const Vec3& center_ws) {
+    add_box(scene, name, mass_kg, half_m, center_ws);
     scene.players.emplace_back();
 }
 
