@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/collision/collision_world.hpp"
@@ -61,13 +62,16 @@ struct FrameGraph {
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
-    struct IslandErrors {
-        bool known = false;
-        double hands_m = 0.0;
-        double joints_m = 0.0;
-        double contacts_m = 0.0;
+    struct SunkBody {
+        std::uint32_t body = 0;
+        double error_m = 0.0;  // its island's worst, hands excepted
+        Pose pose_ws;
+        Vec3 velocity_mps = Vec3::Zero();
+        Vec3 spin_radps = Vec3::Zero();
     };
-    std::vector<IslandErrors> island_errors;       // by island; unknown once something in it moved
+    std::vector<SunkBody> sunk_bodies;  // by body
+    std::vector<std::optional<IslandErrors>>
+        island_errors;                             // by island; none once something in it moved
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
     std::vector<double> overlap_m;  // by body

@@ -64,6 +64,8 @@ const char* name_of(Fallback reason) {
             return "contacts_contradict";
         case Fallback::contacts_unresolved:
             return "contacts_unresolved";
+        case Fallback::put_back:
+            return "put_back";
         case Fallback::active_set_unsettled:
             return "active_set_unsettled";
         case Fallback::friction_wedged:

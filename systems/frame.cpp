@@ -10,6 +10,7 @@
 #include "systems/physics/animate_movers.hpp"
 #include "systems/physics/build_constraints.hpp"
 #include "systems/physics/find_contacts.hpp"
+#include "systems/physics/finish_positions.hpp"
 #include "systems/physics/group_joints.hpp"
 #include "systems/physics/place_colliders.hpp"
 #include "systems/physics/predict_bodies.hpp"
@@ -114,8 +115,9 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::solve_phases, stats);
-        solve_phases({caches.collision, graph, w.body_pose, w.player_origin, w.grab}, tuning,
-                     stats);
+        solve_phases({caches.collision, graph}, tuning, stats);
+        finish_positions({caches.collision, graph, w.body_pose, w.player_origin, w.grab},
+                         tuning.contact, stats);
     }
     {
         const StageTimer timer(Stage::update_velocities, stats);

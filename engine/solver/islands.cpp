@@ -108,4 +108,16 @@ void build_islands(ConstraintGraph& graph) {
     place_members(graph);
 }
 
+IslandErrors island_errors(const ConstraintGraph& graph, const Island& island) {
+    IslandErrors errors;
+    for (const std::uint32_t i : graph.blocks_of(island)) {
+        const RowBlock& block = graph.blocks[i];
+        double& worst = is_hand(block)      ? errors.hands_m
+                        : is_contact(block) ? errors.contacts_m
+                                            : errors.joints_m;
+        worst = std::max(worst, block_error_m(graph.bodies, block));
+    }
+    return errors;
+}
+
 }  // namespace handhold

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,5 +48,16 @@ void sort_blocks(std::vector<RowBlock>& blocks);
 // Connected components over the bodies that any phase may move: everything but fixed ones. Bodies
 // without a block have no island.
 void build_islands(ConstraintGraph& graph);
+
+// The worst error of each kind of row at the present poses, metres.
+struct IslandErrors {
+    double hands_m = 0.0;
+    double joints_m = 0.0;
+    double contacts_m = 0.0;
+
+    double without_hands_m() const { return std::max(joints_m, contacts_m); }
+    double worst_m() const { return std::max(hands_m, without_hands_m()); }
+};
+IslandErrors island_errors(const ConstraintGraph& graph, const Island& island);
 
 }  // namespace handhold

@@ -175,15 +175,16 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
     return longest;
 }
 
-// Hands give way while the error does not fall. Contacts do so only where they contradict each
-// other: else their multipliers grow without bound and push along what they do not even oppose.
-void adapt(double residual_m, double previous_m, double overlap_m, double previous_overlap_m,
+// Hands give way while the error does not fall below the least so far: steps that overshoot to and
+// fro are no progress. Contacts do so only where they contradict each other: else their multipliers
+// grow without bound and push along what they do not even oppose.
+void adapt(double residual_m, double least_m, double overlap_m, double previous_overlap_m,
            Softness& softness) {
     const bool hands_gave_way = softness.hand >= k_softness_cap;
     const bool stubborn =
         hands_gave_way && overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
-    softness.hand = residual_m < 0.5 * previous_m ? std::max(softness.hand * 0.03, k_softness_floor)
-                                                  : std::min(softness.hand * 10.0, k_softness_cap);
+    softness.hand = residual_m < 0.5 * least_m ? std::max(softness.hand * 0.03, k_softness_floor)
+                                               : std::min(softness.hand * 10.0, k_softness_cap);
     softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
                                 : std::max(softness.contact * 0.1, k_contact_softness);
 }
@@ -251,6 +252,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
     Softness softness{settings.hand_softness, k_contact_softness};
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
+    double least = previous;
     StepResult step{previous, false};
     bool only_points = false;
     scratch.system.forget_active_set();
@@ -277,7 +279,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
             collect_rows(island, scratch.rows);
         }
         if (result.iterations > 0 && !repeats) {
-            adapt(result.residual_m, previous, overlap, previous_overlap, softness);
+            adapt(result.residual_m, least, overlap, previous_overlap, softness);
             if (result.residual_m > k_stiffness_from_m) {
                 gather_stiffness(island, scratch);
             } else {
@@ -289,6 +291,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         result.unsettled |= scratch.system.is_unsettled();
         only_points = holds_only_points(island, scratch.rows);
         previous = result.residual_m;
+        least = std::min(least, previous);
         previous_overlap = overlap;
         ++result.iterations;
     }

@@ -1,5 +1,6 @@
-// Sources: active set: block principal pivoting of Judice and Pires (1994), whose steps of one row,
-// after Murty (1974), end it where changing all wrong rows at once goes round in a circle.
+// Sources: active set: block principal pivoting of Judice and Pires (1994); where changing all
+// wrong rows at once goes round in a circle, the descent of Lawson and Hanson, Solving Least
+// Squares Problems (1974), which cannot.
 #include "engine/solver/row_system.hpp"
 
 #include <algorithm>
@@ -7,12 +8,10 @@
 namespace handhold {
 namespace {
 
-constexpr int k_active_set_changes = 40;  // three or four do nearly always
-// Murty's steps of one row take as many as there are rows: for larger sets there is no waiting.
-constexpr std::ptrdiff_t k_small_set = 96;
 constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
-constexpr int k_drops = 6;               // of all pulling rows at once
 constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
+constexpr int k_descents = 60;      // factorisations after that
+constexpr double k_overlap_m = 1e-10;
 
 }  // namespace
 
@@ -65,14 +64,13 @@ double RowSystem::remainder(std::size_t row, double value) const {
 // A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
 // it.
 bool RowSystem::is_wrong(const Row& row, std::size_t index) const {
-    constexpr double k_overlap = 1e-10;
     if (!row.unilateral || held_[index] != 0) {
         return false;
     }
     if (active_[index] != 0) {
         return lambda_[index] < 0.0;
     }
-    return remainder(index, row.value_m) < -k_overlap;
+    return remainder(index, row.value_m) < -k_overlap_m;
 }
 
 void RowSystem::solve_active() {
@@ -99,19 +97,14 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
             active_[i] = values_[i] < 0.0 ? 1 : 0;
         }
     }
-    is_unsettled_ = !find_active_set(rows);
-    if (is_unsettled_) {
-        leave_out_pulling(rows);
-    }
+    is_unsettled_ = !change_all_wrong(rows) && !descend(rows);
     return lambda_;
 }
 
-// True where every acting row pushes and no other overlaps.
-bool RowSystem::find_active_set(std::span<const Row> rows) {
-    const bool is_small = std::ranges::count_if(rows, &Row::unilateral) <= k_small_set;
+// True where it ends with every acting row pushing and no other overlapping. It need not.
+bool RowSystem::change_all_wrong(std::span<const Row> rows) {
     std::size_t fewest = size() + 1;
-    int blocks_left = k_block_changes;
-    for (int change = 0; change < k_active_set_changes; ++change) {
+    for (int blocks_left = k_block_changes; blocks_left >= 0;) {
         solve_active();
         wrong_rows_.clear();
         for (std::uint32_t i = 0; i < size(); ++i) {
@@ -125,40 +118,97 @@ bool RowSystem::find_active_set(std::span<const Row> rows) {
         if (wrong_rows_.size() < fewest) {
             fewest = wrong_rows_.size();
             blocks_left = k_block_changes;
-        } else if (blocks_left > 0) {
-            --blocks_left;
-        } else if (is_small) {
-            wrong_rows_.assign(1, wrong_rows_.back());
         } else {
-            return false;
+            --blocks_left;
         }
         for (const std::uint32_t i : wrong_rows_) {
             active_[i] ^= 1U;
         }
     }
-    solve_active();
     return false;
 }
 
-// Without an active set: what pulls is left out for good. What that overlaps is the next step's.
-void RowSystem::leave_out_pulling(std::span<const Row> rows) {
-    for (int drop = 0; drop < k_drops; ++drop) {
-        bool pulls = false;
-        for (std::size_t i = 0; i < size(); ++i) {
-            if (rows[i].unilateral && is_active(i) && lambda_[i] < 0.0) {
-                active_[i] = 0;
-                pulls = true;
-            }
-        }
-        if (!pulls) {
-            return;
-        }
-        solve_active();
-    }
+// From what pushes now, always down: half lambda A lambda + value lambda shrinks with every step,
+// so that no set comes twice, and where the steps run out nothing pulls. Rows that overlap join all
+// at once, or only the worst where that led nowhere. True where the minimum was found.
+bool RowSystem::descend(std::span<const Row> rows) {
+    point_.assign(lambda_.begin(), lambda_.end());
     for (std::size_t i = 0; i < size(); ++i) {
-        lambda_[i] = rows[i].unilateral && is_active(i) ? std::max(0.0, lambda_[i]) : lambda_[i];
+        if (rows[i].unilateral && held_[i] == 0) {
+            point_[i] = active_[i] != 0 ? std::max(0.0, point_[i]) : 0.0;
+            active_[i] = point_[i] > 0.0 ? 1 : 0;
+        }
     }
+    bool moves = true;
+    bool one_joined = false;
+    for (int step = 0; step < k_descents; ++step) {
+        solve_active();
+        const Approach approach = approach_solution(rows);
+        moves = moves || approach.moves;
+        if (!approach.arrives) {
+            continue;
+        }
+        if (one_joined && !moves) {
+            return true;  // the worst overlap was no more than noise
+        }
+        one_joined = !moves;
+        if (!join_overlapping(rows, one_joined)) {
+            return true;
+        }
+        moves = false;
+    }
+    lambda_.assign(point_.begin(), point_.end());
     matrix_.gather_moves(lambda_);
+    return false;
+}
+
+// Takes the point towards lambda until a row begins to pull, which is left out.
+RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
+    const auto way_of = [&](std::size_t i) {
+        const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
+        return pulls ? point_[i] / (point_[i] - lambda_[i]) : 1.0;
+    };
+    double way = 1.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        way = std::min(way, way_of(i));
+    }
+    Approach approach{way == 1.0};
+    for (std::size_t i = 0; i < size(); ++i) {
+        const double before = point_[i];
+        if (approach.arrives) {
+            point_[i] = lambda_[i];
+        } else if (way_of(i) <= way) {
+            point_[i] = 0.0;
+            active_[i] = 0;
+        } else {
+            point_[i] += way * (lambda_[i] - point_[i]);
+        }
+        approach.moves = approach.moves || point_[i] != before;
+    }
+    return approach;
+}
+
+// True where any row overlaps that does not act.
+bool RowSystem::join_overlapping(std::span<const Row> rows, bool only_worst) {
+    wrong_rows_.clear();
+    double worst = 0.0;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        if (active_[i] != 0 || !is_wrong(rows[i], i)) {
+            continue;
+        }
+        const double rest = remainder(i, rows[i].value_m);
+        if (only_worst && rest < worst) {
+            wrong_rows_.clear();
+        }
+        if (!only_worst || rest < worst) {
+            wrong_rows_.push_back(i);
+            worst = std::min(worst, rest);
+        }
+    }
+    for (const std::uint32_t i : wrong_rows_) {
+        active_[i] = 1;
+    }
+    return !wrong_rows_.empty();
 }
 
 std::span<const double> RowSystem::solve_again(std::span<const double> values) {

@@ -27,8 +27,8 @@ class RowSystem {
     // Added to the diagonal from now on; one number a row, >= 0.
     std::span<double> alpha() { return matrix_.alpha(); }
 
-    // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. At most 40 changes
-    // of the active set, fewer where it is large; then rows are only left out. The result is valid
+    // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. Where the changes of
+    // the active set run out, nothing pulls, but rows left out may overlap. The result is valid
     // until the next solve or assemble. Rows that nothing can move (zero diagonal) get lambda 0.
     std::span<const double> solve(std::span<const Row> rows);
     // True where the last solve found no active set: rows left out may overlap.
@@ -48,8 +48,14 @@ class RowSystem {
   private:
     void take_over_active_set(std::span<const Row> rows);
     void solve_active();
-    bool find_active_set(std::span<const Row> rows);
-    void leave_out_pulling(std::span<const Row> rows);
+    bool change_all_wrong(std::span<const Row> rows);
+    bool descend(std::span<const Row> rows);
+    struct Approach {
+        bool arrives = false;
+        bool moves = false;  // anything at all
+    };
+    Approach approach_solution(std::span<const Row> rows);
+    bool join_overlapping(std::span<const Row> rows, bool only_worst);
     bool is_wrong(const Row& row, std::size_t index) const;
 
     RowMatrix matrix_;
@@ -64,6 +70,7 @@ class RowSystem {
     std::vector<double> held_lambda_;
     std::vector<std::uint8_t> chosen_;  // active and not held
     std::vector<std::uint32_t> wrong_rows_;
+    std::vector<double> point_;  // multipliers none of which pulls
     bool is_unsettled_ = false;
 };
 

@@ -337,7 +337,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     }
     result.unsettled = scratch.system.is_unsettled();
     apply_impulses(island, scratch.lambda, scratch);
-    if (softness.contact == k_contact_softness) {
+    if (softness.contact == k_contact_softness && !result.unsettled) {
         refine_velocities(island, scratch);
     }
     return result;

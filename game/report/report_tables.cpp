@@ -87,6 +87,9 @@ const char* meaning_of(Fallback reason) {
             return "Hands asked for what contacts forbid; the hands' rows were set aside.";
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
+        case Fallback::put_back:
+            return "Nothing took bodies out of a surface; they stayed where they were for the "
+                   "frame.";
         case Fallback::active_set_unsettled:
             return "It was not found which contacts push; those that pulled were left out.";
         case Fallback::friction_wedged:

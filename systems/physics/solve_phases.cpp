@@ -1,11 +1,10 @@
 #include "systems/physics/solve_phases.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
-#include "engine/solver/contact_rows.hpp"
+#include "engine/solver/moving_contacts.hpp"
 
 namespace handhold {
 namespace {
@@ -13,9 +12,6 @@ namespace {
 constexpr double k_violated_m =
     2e-7;  // 20 times the solver's tolerance: what a solved phase leaves is no violation
 constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
-constexpr double k_moved_m = 1e-5;     // colliders that moved less keep their contacts
-constexpr double k_new_overlap_m =
-    2e-5;  // a contact found on a phase's result counts from here: Bullet's own noise is below
 constexpr double k_hand_softness = 1e-8;
 constexpr double k_forward_hand_softness = 1e-3;
 
@@ -38,45 +34,26 @@ bool has_role(const Solve& s, const Island& island, BodyRole role) {
                                [&](std::uint32_t i) { return s.graph().bodies[i].role == role; });
 }
 
-// The worst error of each kind of row, found once after the island's last solve.
-const FrameGraph::IslandErrors& errors_of(const Solve& s, const Island& island) {
-    const auto index = static_cast<std::size_t>(&island - s.graph().islands.data());
-    FrameGraph::IslandErrors& errors = s.io.frame.island_errors[index];
-    if (errors.known) {
-        return errors;
-    }
-    errors = {true};
-    for (const std::uint32_t i : s.graph().blocks_of(island)) {
-        const RowBlock& block = s.graph().blocks[i];
-        double& worst = is_hand(block)      ? errors.hands_m
-                        : is_contact(block) ? errors.contacts_m
-                                            : errors.joints_m;
-        worst = std::max(worst, block_error_m(s.graph().bodies, block));
-    }
-    return errors;
+std::optional<IslandErrors>& kept_errors(const Solve& s, const Island& island) {
+    return s.io.frame.island_errors[static_cast<std::size_t>(&island - s.graph().islands.data())];
 }
-
-double worst_error(const Solve& s, const Island& island) {
-    const FrameGraph::IslandErrors& errors = errors_of(s, island);
-    return std::max({errors.hands_m, errors.joints_m, errors.contacts_m});
+// Found once after the island's last solve.
+const IslandErrors& errors_of(const Solve& s, const Island& island) {
+    std::optional<IslandErrors>& errors = kept_errors(s, island);
+    if (!errors) {
+        errors = island_errors(s.graph(), island);
+    }
+    return *errors;
 }
-double worst_error_without_hands(const Solve& s, const Island& island) {
-    const FrameGraph::IslandErrors& errors = errors_of(s, island);
-    return std::max(errors.joints_m, errors.contacts_m);
+void forget_errors(const Solve& s, const Island& island) { kept_errors(s, island).reset(); }
+// Of all, when the islands are new.
+void forget_errors(const Solve& s) {
+    s.io.frame.island_errors.assign(s.graph().islands.size(), {});
 }
 
 bool has_hand_or_joint(const Solve& s, const Island& island) {
     return std::ranges::any_of(s.graph().blocks_of(island),
                                [&](std::uint32_t i) { return !is_contact(s.graph().blocks[i]); });
-}
-
-void forget_errors(const Solve& s, const Island& island) {
-    s.io.frame.island_errors[static_cast<std::size_t>(&island - s.graph().islands.data())].known =
-        false;
-}
-// Of all, when the islands are new.
-void forget_errors(const Solve& s) {
-    s.io.frame.island_errors.assign(s.graph().islands.size(), {});
 }
 
 // True where the island has two players, or holds on to, hangs on or presses against something that
@@ -202,7 +179,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     };
     parallel_for(frame.island_order.size(), solve_one);
     for (const std::uint32_t i : frame.island_order) {
-        frame.island_errors[i].known = false;
+        frame.island_errors[i].reset();
     }
     for (const NewtonResult& result : frame.island_results) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
@@ -213,80 +190,25 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return frame.island_order.size();
 }
 
-// --- Contacts on a phase's result
-// ------------------------------------------------------------------------------------
-
-// Moves the proxies after the solver's bodies; true where any collider went farther than contacts
-// stay good for.
-bool move_proxies(const Solve& s) {
-    bool moved = false;
-    for (std::size_t i = 0; i < s.graph().bodies.size(); ++i) {
-        const SolverBody& body = s.graph().bodies[i];
-        if (body.role == BodyRole::fixed) {
-            continue;
-        }
-        ColliderProxy& proxy = s.io.frame.proxies[i];
-        const Pose now = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
-        const double turn = 2.0 * (now.rotation.conjugate() * proxy.to_ws.rotation).vec().norm();
-        if ((now.position - proxy.to_ws.position).norm() + turn * 0.5 > k_moved_m) {
-            proxy.to_ws = now;
-            moved = moved || proxy.shape != k_no_shape;
-        }
-    }
-    return moved;
-}
-
-auto order_of(const ContactPoint& contact) {
-    return std::tie(contact.id_a, contact.id_b, contact.feature);
-}
-bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
-    return std::tie(x.id_a, x.id_b) < std::tie(y.id_a, y.id_b);
-}
-
-// New contacts replace the old ones of their pairs; old pairs that are no longer near stay, they
-// hold back what they held back. Both lists are sorted.
-void merge_contacts(FrameGraph& frame) {
-    const std::size_t fresh_count = frame.fresh_contacts.size();
-    std::size_t fresh = 0;
-    for (const ContactPoint& old : frame.contacts) {
-        while (fresh < fresh_count && is_pair_before(frame.fresh_contacts[fresh], old)) {
-            ++fresh;
-        }
-        if (fresh == fresh_count || is_pair_before(old, frame.fresh_contacts[fresh])) {
-            frame.fresh_contacts.push_back(old);
-        }
-    }
-    std::sort(
-        frame.fresh_contacts.begin(), frame.fresh_contacts.end(),
-        [](const ContactPoint& x, const ContactPoint& y) { return order_of(x) < order_of(y); });
-    std::swap(frame.contacts, frame.fresh_contacts);
-}
-
-// Finds contacts where the phase left everything. True where some overlap, so that the phase has to
-// be solved again with them.
-bool refresh_contacts(const Solve& s) {
+// True where contacts found on the phase's result overlap.
+bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
-    if (!move_proxies(s)) {
-        return false;
+    const FoundContacts found = refresh_contacts(
+        {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
+        {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
+    if (found != FoundContacts::as_before) {
+        ++s.stats.contact_rounds;
+        forget_errors(s);
     }
-    ++s.stats.contact_rounds;
-    s.io.collision.set_proxies(frame.proxies);
-    s.io.collision.find_contacts({s.tuning.contact.margin_m, s.tuning.contact.sweep_m},
-                                 frame.fresh_contacts);
-    const bool overlaps = std::ranges::any_of(
-        frame.fresh_contacts,
-        [](const ContactPoint& contact) { return contact.separation_m < -k_new_overlap_m; });
-    merge_contacts(frame);
-    replace_contact_rows(frame.contacts, s.graph());
-    forget_errors(s);
-    return overlaps;
+    return found == FoundContacts::overlapping;
 }
 
 // Solves a phase until no new contact overlaps; counts where the rounds did not suffice.
 template <typename Wanted>
 void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
-        if (solve_islands(s, phase, wanted) == 0 || !refresh_contacts(s)) {
+        if (solve_islands(s, phase, wanted) == 0 ||
+            !refresh_contacts(s, round == 0 ? OldPoints::replaced : OldPoints::kept)) {
             return;
         }
     }
@@ -303,19 +225,19 @@ void reach(const Solve& s) {
     for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
         s.phase_of(i).reached_ws = s.graph().bodies[i].pose_ws;
     }
-    refresh_contacts(s);
+    refresh_contacts(s, OldPoints::replaced);
 }
 
 void forward(const Solve& s) {
     HH_DETAIL_ZONE("forward");
     solve_rounds(s, Phase::forward, [&](const Island& island) {
         return has_role(s, island, BodyRole::free) &&
-               worst_error_without_hands(s, island) > s.tuning.solver.tolerance_m;
+               errors_of(s, island).without_hands_m() > s.tuning.solver.tolerance_m;
     });
 }
 
 bool wants_backward(const Solve& s, const Island& island) {
-    return worst_error(s, island) > k_violated_m && may_push(s, island);
+    return errors_of(s, island).worst_m() > k_violated_m && may_push(s, island);
 }
 
 // Marks the islands to push, and puts players and held objects back to where the hands want them.
@@ -345,14 +267,14 @@ void backward(const Solve& s) {
     HH_DETAIL_ZONE("backward");
     prepare_backward(s);
     solve_rounds(s, Phase::backward, [&](const Island& island) {
-        return is_pushed(s, island) && worst_error(s, island) > k_violated_m;
+        return is_pushed(s, island) && errors_of(s, island).worst_m() > k_violated_m;
     });
 }
 
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return worst_error_without_hands(s, island) > k_violated_m;
+        return errors_of(s, island).without_hands_m() > k_violated_m;
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {
@@ -366,55 +288,6 @@ void contradiction(const Solve& s) {
     solve_rounds(s, Phase::contradiction, wanted);
 }
 
-// --- Results
-// ---------------------------------------------------------------------------------------------------------
-
-void write_poses(const Solve& s) {
-    for (std::uint32_t i = 0; i < s.graph().bodies.size(); ++i) {
-        const SolverBody& body = s.graph().bodies[i];
-        if (body.role == BodyRole::fixed) {
-            continue;
-        }
-        const Entity entity = s.io.frame.entities[i];
-        if (body.role == BodyRole::player) {
-            s.io.origin.at(entity).pose_ws.position = body.pose_ws.position;
-            s.phase_of(i).push_back_m =
-                (body.pose_ws.position - s.phase_of(i).reached_ws.position).norm();
-        } else {
-            s.io.body_pose.at(entity).pose_ws = body.pose_ws;
-        }
-    }
-}
-
-void write_hand_error(const Solve& s, const RowBlock& block) {
-    RowBlock point = block;
-    point.kind = RowKind::hand_point;
-    const double error = block_error_m(s.graph().bodies, point);
-    s.stats.hand_error_m = std::max(s.stats.hand_error_m, error);
-    s.io.grab.rows()[block.source].error_m = error;
-}
-
-void write_errors(const Solve& s) {
-    for (Grab& grab : s.io.grab.rows()) {
-        grab.error_m = 0.0;
-    }
-    for (const RowBlock& block : s.graph().blocks) {
-        if (is_hand(block)) {
-            write_hand_error(s, block);
-        } else if (is_joint(block)) {
-            const JointError error = joint_error(s.graph().bodies, block);
-            s.stats.joint_error_m = std::max(s.stats.joint_error_m, error.point_m);
-            s.stats.joint_error_rad = std::max(s.stats.joint_error_rad, error.angle_rad);
-        } else {
-            const double overlap = block_error_m(s.graph().bodies, block);
-            s.stats.residual_m = std::max(s.stats.residual_m, overlap);
-            if (overlap > k_new_overlap_m) {
-                s.stats.count(Fallback::contacts_unresolved);
-            }
-        }
-    }
-}
-
 }  // namespace
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
@@ -424,10 +297,7 @@ void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& sta
     forward(s);
     backward(s);
     contradiction(s);
-    write_poses(s);
-    write_errors(s);
     stats.islands += s.graph().islands.size();
-    stats.contacts += io.frame.contacts.size();
 }
 
 }  // namespace handhold

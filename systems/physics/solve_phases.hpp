@@ -1,22 +1,15 @@
 #pragma once
 
-#include "components/body.hpp"
 #include "components/frame_graph.hpp"
-#include "components/grab.hpp"
-#include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
-#include "engine/ecs/column.hpp"
 
 namespace handhold {
 
 struct SolvePhasesIo {
-    CollisionWorld& collision;     // in/out: proxies follow the phases
-    FrameGraph& frame;             // in/out
-    Column<BodyPose>& body_pose;   // out: free bodies
-    Column<PlayerOrigin>& origin;  // out
-    Column<Grab>& grab;            // out: error
+    CollisionWorld& collision;  // in/out: proxies follow the phases
+    FrameGraph& frame;          // in/out: poses of the graph's bodies
 };
 
 // Stages 6 to 8: the player as designer's physics sees him (talk rows 4, 7). Each phase is a Newton

@@ -262,6 +262,48 @@ TEST(RowSystem, ActiveSetThatGoesRoundInACircleIsEndedByStepsOfOneRow) {
     EXPECT_LT(*error, 1e-8);
 }
 
+// A thing among several faces that it is sunk into or near to, some points found twice: far more
+// contacts than it has freedoms, and no place that meets them all.
+Problem crowded_contacts(Random& random) {
+    Problem problem;
+    problem.place_bodies({test::random_free_body(1, random), test::fixed_body(2)});
+    const Vec3 outward = random.direction();
+    const std::uint32_t faces = 2 + random_index(10, random);
+    for (std::uint32_t face = 0; face < faces; ++face) {
+        RowBlock block = test::random_block(RowKind::contact, 0, 1, random);
+        const bool is_ceiling = random_index(4, random) == 0;
+        block.normal_b_bs = ((is_ceiling ? -1.0 : 1.0) * outward + random.vector(0.7)).normalized();
+        const double depth_m = random.between(-0.35, 0.2);
+        const std::uint32_t points = 1 + random_index(5, random);
+        for (std::uint32_t point = 0; point < points; ++point) {
+            if (random_index(4, random) != 0) {
+                block.point_a_bs = random.vector(0.3);
+            }
+            problem.add_block(block);
+            problem.rows.back().value_m = depth_m + random.between(-0.05, 0.05);
+        }
+    }
+    return problem;
+}
+
+TEST(RowSystem, CrowdedContactsSettle) {
+    int unsettled = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        Random random(seed);
+        const Problem problem = crowded_contacts(random);
+        RowSystem system = assembled(problem, 1e-7);
+        const std::span<const double> lambda = system.solve(problem.rows);
+        unsettled += system.is_unsettled() ? 1 : 0;
+        for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+            ASSERT_GE(lambda[i], 0.0) << seed;
+            if (!system.is_active(i) && !system.is_unsettled()) {
+                ASSERT_GE(system.remainder(i, problem.rows[i].value_m), -1e-8) << seed;
+            }
+        }
+    }
+    EXPECT_EQ(unsettled, 0);
+}
+
 RC_GTEST_PROP(RowSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint64_t seed)) {
     constexpr double k_alpha = 1e-3;
     Random random(seed);

@@ -1,5 +1,6 @@
 // Many climbers in one world: where they begin, that none is lost, and that they are the same for
-// every number of threads. A long run: HANDHOLD_CROWD_PLAYERS, HANDHOLD_CROWD_SECONDS.
+// every number of threads. A long run: HANDHOLD_CROWD_PLAYERS, HANDHOLD_CROWD_SECONDS,
+// HANDHOLD_CROWD_SEED.
 #include "game/crowd.hpp"
 
 #include <cstdlib>
@@ -125,11 +126,14 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     const auto count =
         static_cast<std::size_t>(number_from_environment("HANDHOLD_CROWD_PLAYERS", 30.0));
     const double seconds = number_from_environment("HANDHOLD_CROWD_SECONDS", 20.0);
+    const auto seed =
+        static_cast<std::uint64_t>(number_from_environment("HANDHOLD_CROWD_SEED", 1.0));
     Scene scene = *make_built_in_scene("station");
     FrameCaches caches(*scene.shapes);
-    const std::vector<PlayerEntities> players = add_climbers(scene, caches, count, 1);
+    const std::vector<PlayerEntities> players = add_climbers(scene, caches, count, seed);
     ASSERT_EQ(players.size(), count);
     RunSettings settings{90.0, seconds, 1};
+    settings.seed = seed;
     settings.climbers_from = 0;
     settings.keep_frames = false;
     RunTally tally;
