@@ -27,7 +27,7 @@ struct RigidBody {
     double friction = 0.4;             // Coulomb's coefficient; of two bodies the geometric mean
 };
 
-// Where a body is. Written by animate_movers and predict_bodies, then solve_phases.
+// Where a body is. Written by animate_movers and predict_bodies, then finish_positions.
 struct BodyPose {
     Pose pose_ws;
 };

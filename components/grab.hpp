@@ -37,7 +37,7 @@ enum class GrabPhase : std::uint8_t {
 };
 
 // Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target, two_handed),
-// solve_phases (error).
+// finish_positions (error).
 struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;

@@ -15,7 +15,7 @@ struct PlayerBody {
     double mass_kg = 80.0;  // > 0
 };
 
-// The play space in the world. The position is moved by predict_bodies and solve_phases, the
+// The play space in the world. The position is moved by predict_bodies and finish_positions, the
 // rotation by locomote_players only (turning, following a support).
 struct PlayerOrigin {
     Pose pose_ws;

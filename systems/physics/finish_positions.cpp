@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_sunk_m = 1e-3;
+constexpr double k_sunk_m = 1e-4;
 
 // --- What is sunk into surfaces
 // ------------------------------------------------------------------------------------
