@@ -56,12 +56,20 @@ struct ContactTuning {
     double sweep_m = 0.005;
     double restitution_speed_mps = 0.2;
     std::int32_t max_rounds = 4;
+    double sunk_m = 1e-4;  // what stays sunk deeper is put back
 };
 
 struct SolverTuning {
     std::int32_t max_iterations = 30;
     double tolerance_m = 1e-8;
     double step_tolerance_m = 1e-9;
+    // Relative to the system's diagonal; hands soften and harden from here as the error falls.
+    double hand_softness = 1e-8;
+    double forward_hand_softness = 1e-3;
+    double contact_softness = 1e-7;
+    double joint_softness = 1e-10;
+    double stiffness_from_m = 1e-4;
+    std::int32_t friction_passes = 16;
 };
 
 struct Tuning {
@@ -148,12 +156,26 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "slower impacts do not bounce");
     see("contact.max_rounds", t.contact.max_rounds, "", 1.0, 16.0,
         "times that a phase is solved again with contacts found on its result");
+    see("contact.sunk_m", t.contact.sunk_m, "m", 1e-6, 10.0,
+        "free bodies that no phase takes out of a deeper overlap stay where they were");
     see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0,
         "Newton iterations a phase");
     see("solver.tolerance_m", t.solver.tolerance_m, "m", 1e-12, 1e-3,
         "constraint error at which a phase is solved; angles count times 0.1 m");
     see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
         "a smaller Newton step ends a phase");
+    see("solver.hand_softness", t.solver.hand_softness, "", 1e-12, 1.0,
+        "how much hands give way at first, but in the forward phase");
+    see("solver.forward_hand_softness", t.solver.forward_hand_softness, "", 1e-12, 1.0,
+        "how much hands give way at first in the forward phase, where contacts decide");
+    see("solver.contact_softness", t.solver.contact_softness, "", 1e-12, 1.0,
+        "how much contacts give way that cannot all be met");
+    see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1.0,
+        "how much joints give way that cannot all be met; their limits a hundred times");
+    see("solver.stiffness_from_m", t.solver.stiffness_from_m, "m", 1e-9, 10.0,
+        "constraint error above which steps account for how forces turn with their arms");
+    see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
+        "solves at most to find who sticks and who slides");
 }
 
 }  // namespace handhold

@@ -58,8 +58,7 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
 
 namespace {
 
-constexpr double k_limit_softness = 1e-8;
-constexpr double k_joint_softness = 1e-10;
+constexpr double k_limit = 100.0;  // times a joint: limits may contradict each other
 
 double softness_of(const Row& row, const Softness& softness) {
     switch (row.group) {
@@ -68,11 +67,11 @@ double softness_of(const Row& row, const Softness& softness) {
         case RowGroup::contact:
             return softness.contact;
         case RowGroup::limit:
-            return row.unilateral ? k_limit_softness : k_joint_softness;
+            return row.unilateral ? k_limit * softness.joint : softness.joint;
         case RowGroup::joint:
             break;
     }
-    return k_joint_softness;
+    return softness.joint;
 }
 
 }  // namespace

@@ -57,11 +57,11 @@ void clear_stiffness(const IslandView& island, SolveScratch& scratch);
 // Inverse inertia of all bodies at their present poses, with the stiffness.
 void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 
-inline constexpr double k_contact_softness = 1e-7;
 // How much a row may give way, relative to the system's diagonal; joints and limits hardly do.
 struct Softness {
     double hand = 1e-6;
-    double contact = k_contact_softness;
+    double contact = 1e-7;
+    double joint = 1e-10;
 };
 // Times that a solve whose answer is too large to be meant softens its rows.
 inline constexpr int k_softening_retries = 3;

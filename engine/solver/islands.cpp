@@ -108,6 +108,14 @@ void build_islands(ConstraintGraph& graph) {
     place_members(graph);
 }
 
+void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {
+    std::ranges::sort(islands, [&graph](std::uint32_t x, std::uint32_t y) {
+        const std::size_t blocks_x = graph.blocks_of(graph.islands[x]).size();
+        const std::size_t blocks_y = graph.blocks_of(graph.islands[y]).size();
+        return blocks_x != blocks_y ? blocks_x > blocks_y : x < y;
+    });
+}
+
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island) {
     IslandErrors errors;
     for (const std::uint32_t i : graph.blocks_of(island)) {

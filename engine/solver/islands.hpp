@@ -49,6 +49,10 @@ void sort_blocks(std::vector<RowBlock>& blocks);
 // without a block have no island.
 void build_islands(ConstraintGraph& graph);
 
+// Indices of islands by their blocks, most first, of equal ones in order: threads that take them so
+// wait least for each other.
+void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands);
+
 // The worst error of each kind of row at the present poses, metres.
 struct IslandErrors {
     double hands_m = 0.0;

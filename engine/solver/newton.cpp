@@ -13,10 +13,9 @@ constexpr double k_softness_cap = 1e-2;
 constexpr double k_softness_floor = 1e-9;
 constexpr double k_contact_softness_cap = 1e-3;
 constexpr double k_stubborn_overlap_m =
-    1e-4;                                    // contacts that contradict each other soften from here
-constexpr double k_near_contact_m = 1e-3;    // contacts farther than this and any error stay out
-constexpr double k_stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
-constexpr double k_largest_turn_rad = 1.0;   // of a step
+    1e-4;                                   // contacts that contradict each other soften from here
+constexpr double k_near_contact_m = 1e-3;   // contacts farther than this and any error stay out
+constexpr double k_largest_turn_rad = 1.0;  // of a step
 // The farthest that joints may move a body, in what they lack: a chain that is all but stretched
 // out. A hand that pulls across an endless rail would send what slides on it to the horizon.
 constexpr double k_largest_joint_move = 10.0;
@@ -179,14 +178,14 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
 // fro are no progress. Contacts do so only where they contradict each other: else their multipliers
 // grow without bound and push along what they do not even oppose.
 void adapt(double residual_m, double least_m, double overlap_m, double previous_overlap_m,
-           Softness& softness) {
+           double contact_softness, Softness& softness) {
     const bool hands_gave_way = softness.hand >= k_softness_cap;
     const bool stubborn =
         hands_gave_way && overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
     softness.hand = residual_m < 0.5 * least_m ? std::max(softness.hand * 0.03, k_softness_floor)
                                                : std::min(softness.hand * 10.0, k_softness_cap);
     softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
-                                : std::max(softness.contact * 0.1, k_contact_softness);
+                                : std::max(softness.contact * 0.1, contact_softness);
 }
 
 struct StepResult {
@@ -239,9 +238,9 @@ bool are_alike(std::span<const Row> rows, std::span<const Row> previous_rows) {
 }
 
 // True where the last step took the error down so well that its factor is worth another.
-bool is_good_step(double residual_m, double previous_m) {
+bool is_good_step(double residual_m, double previous_m, double stiffness_from_m) {
     constexpr double k_good_step = 0.05;
-    return residual_m < k_stiffness_from_m && residual_m < k_good_step * previous_m;
+    return residual_m < stiffness_from_m && residual_m < k_good_step * previous_m;
 }
 
 }  // namespace
@@ -249,7 +248,7 @@ bool is_good_step(double residual_m, double previous_m) {
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     NewtonResult result;
-    Softness softness{settings.hand_softness, k_contact_softness};
+    Softness softness = settings.softness;
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
     double least = previous;
@@ -273,14 +272,15 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
         const double overlap = worst_overlap_of(scratch.rows);
         const bool repeats = step.whole &&
                              (only_points || are_alike(scratch.rows, scratch.previous_rows)) &&
-                             is_good_step(result.residual_m, previous);
+                             is_good_step(result.residual_m, previous, settings.stiffness_from_m);
         if (only_points && step.whole && !repeats) {
             std::swap(scratch.rows, scratch.previous_rows);
             collect_rows(island, scratch.rows);
         }
         if (result.iterations > 0 && !repeats) {
-            adapt(result.residual_m, least, overlap, previous_overlap, softness);
-            if (result.residual_m > k_stiffness_from_m) {
+            adapt(result.residual_m, least, overlap, previous_overlap, settings.softness.contact,
+                  softness);
+            if (result.residual_m > settings.stiffness_from_m) {
                 gather_stiffness(island, scratch);
             } else {
                 clear_stiffness(island, scratch);

@@ -9,8 +9,9 @@ struct NewtonSettings {
     int max_iterations = 30;
     double tolerance_m = 1e-8;
     double step_tolerance_m = 1e-9;
-    double hand_softness =
-        1e-6;  // first regularisation of hand rows, relative to the harmonic mean of the diagonal
+    // First regularisation: of hand rows relative to the harmonic mean of the diagonal.
+    Softness softness{};
+    double stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
 };
 
 struct NewtonResult {

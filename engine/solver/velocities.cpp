@@ -176,13 +176,12 @@ bool gives_energy(std::span<const double> lambda, const VelocityResult& result,
 }
 
 // Who sticks and who slides, by fixed point. The multipliers are those of the last pass.
-std::span<const double> settle_friction(SolveScratch& scratch, VelocityResult& result) {
-    constexpr int k_passes = 16;
+std::span<const double> settle_friction(int passes, SolveScratch& scratch, VelocityResult& result) {
     constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
     constexpr double k_wedge = 10.0;      // times what pressed while all stuck
     std::span<const double> lambda = scratch.system.solve(scratch.rows);
     const double pressed = pressure_of(lambda, scratch);
-    for (int pass = 0; pass < k_passes; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
             changes |= !friction.is_off &&
@@ -219,7 +218,8 @@ void drop_bounce(SolveScratch& scratch) {
 }
 
 // Multipliers of all rows, with friction.
-std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResult& result) {
+std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
+                                            VelocityResult& result) {
     result = {};
     for (SolveScratch::Friction& friction : scratch.frictions) {
         friction.is_off = false;
@@ -228,7 +228,7 @@ std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResul
     if (scratch.frictions.empty()) {
         return scratch.system.solve(scratch.rows);
     }
-    const std::span<const double> lambda = settle_friction(scratch, result);
+    const std::span<const double> lambda = settle_friction(passes, scratch, result);
     if (!result.wedged && !gives_energy(lambda, result, scratch)) {
         return lambda;
     }
@@ -241,10 +241,10 @@ std::span<const double> solve_with_friction(SolveScratch& scratch, VelocityResul
         }
     }
     result = {};
-    std::span<const double> without = settle_friction(scratch, result);
+    std::span<const double> without = settle_friction(passes, scratch, result);
     if (gives_energy(without, result, scratch)) {
         drop_bounce(scratch);
-        without = settle_friction(scratch, result);
+        without = settle_friction(passes, scratch, result);
     }
     result.wedged = true;
     return without;
@@ -310,7 +310,6 @@ void refine_velocities(const IslandView& island, SolveScratch& scratch) {
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch) {
     VelocityResult result;
-    constexpr double k_hand_softness = 1e-6;
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);
     clear_stiffness(island, scratch);
@@ -323,10 +322,11 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     }
     // Contacts that contradict each other (a jam) are met by no velocity; hard ones would try with
     // huge ones. Nobody may gain more than the rows lack.
-    Softness softness{k_hand_softness, k_contact_softness};
+    Softness softness = settings.softness;
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
         regularise(scratch.rows, softness, 1.0, scratch.system);
-        const std::span<const double> lambda = solve_with_friction(scratch, result);
+        const std::span<const double> lambda =
+            solve_with_friction(settings.friction_passes, scratch, result);
         gather_moves(scratch);
         scratch.lambda.assign(lambda.begin(), lambda.end());
         if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
@@ -337,7 +337,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     }
     result.unsettled = scratch.system.is_unsettled();
     apply_impulses(island, scratch.lambda, scratch);
-    if (softness.contact == k_contact_softness && !result.unsettled) {
+    if (softness.contact == settings.softness.contact && !result.unsettled) {
         refine_velocities(island, scratch);
     }
     return result;

@@ -8,6 +8,8 @@ namespace handhold {
 struct VelocitySettings {
     double touch_m = 1e-4;               // contacts closer than this count
     double restitution_speed_mps = 0.2;  // slower impacts do not bounce
+    Softness softness{};                 // at first
+    int friction_passes = 16;            // at most, to find who sticks and who slides
 };
 // What an island's friction had no answer to in one frame.
 struct VelocityResult {

@@ -7,8 +7,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_sunk_m = 1e-4;
-
 // --- What is sunk into surfaces
 // ------------------------------------------------------------------------------------
 
@@ -33,11 +31,11 @@ const std::uint32_t* deepest_wall(const ConstraintGraph& graph, const Island& is
 }
 
 // Lists the free bodies of islands that are sunk, as they are.
-void note_sunk_bodies(FrameGraph& frame) {
+void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
     frame.sunk_bodies.clear();
     for (const Island& island : frame.graph.islands) {
         const double error_m = island_errors(frame.graph, island).without_hands_m();
-        if (error_m < k_sunk_m) {
+        if (error_m < sunk_m) {
             continue;
         }
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
@@ -119,7 +117,7 @@ bool undo_where_worse(FrameGraph& frame, StageStats& stats) {
 
 void put_back(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
     FrameGraph& frame = io.frame;
-    note_sunk_bodies(frame);
+    note_sunk_bodies(tuning.sunk_m, frame);
     if (frame.sunk_bodies.empty()) {
         return;
     }

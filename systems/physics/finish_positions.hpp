@@ -21,7 +21,7 @@ struct FinishPositionsIo {
 
 // Stage 8, after the phases: writes poses and what is left of errors.
 //
-// What no phase could take out of a surface it is sunk into, by 0.1 mm or more, stays where
+// What no phase could take out of a surface it is sunk into (contact.sunk_m) stays where
 // it last overlapped nothing, if that is better: a hand's jump through clutter carries nothing into
 // a wall, and no head is squeezed into a gap. It rides along with what it is sunk into, and takes
 // its speed. An island that is put back is counted.

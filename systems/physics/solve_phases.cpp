@@ -12,8 +12,6 @@ namespace {
 constexpr double k_violated_m =
     2e-7;  // 20 times the solver's tolerance: what a solved phase leaves is no violation
 constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
-constexpr double k_hand_softness = 1e-8;
-constexpr double k_forward_hand_softness = 1e-3;
 
 enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
 
@@ -129,8 +127,13 @@ void set_masses(const Solve& s, const Island& island, Phase phase) {
 
 NewtonSettings settings_of(const Solve& s, Phase phase) {
     const SolverTuning& tuning = s.tuning.solver;
-    return {tuning.max_iterations, tuning.tolerance_m, tuning.step_tolerance_m,
-            phase == Phase::forward ? k_forward_hand_softness : k_hand_softness};
+    const double hand =
+        phase == Phase::forward ? tuning.forward_hand_softness : tuning.hand_softness;
+    return {tuning.max_iterations,
+            tuning.tolerance_m,
+            tuning.step_tolerance_m,
+            {hand, tuning.contact_softness, tuning.joint_softness},
+            tuning.stiffness_from_m};
 }
 
 BlockFilter filter_of(Phase phase) {
@@ -156,13 +159,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
             frame.island_order.push_back(i);
         }
     }
-    const auto size_of = [&graph](std::uint32_t i) {
-        return graph.blocks_of(graph.islands[i]).size();
-    };
-    std::sort(frame.island_order.begin(), frame.island_order.end(),
-              [&](std::uint32_t x, std::uint32_t y) {
-                  return size_of(x) != size_of(y) ? size_of(x) > size_of(y) : x < y;
-              });
+    sort_largest_first(graph, frame.island_order);
     if (frame.island_scratch.size() < graph.islands.size()) {
         frame.island_scratch.resize(graph.islands.size());
     }

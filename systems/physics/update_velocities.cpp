@@ -38,19 +38,31 @@ void set_masses(FrameGraph& frame, const Island& island) {
     }
 }
 
-void solve_islands(FrameGraph& frame, const ContactTuning& tuning, StageStats& stats) {
+VelocitySettings settings_of(const Tuning& tuning) {
+    VelocitySettings settings{k_valid_overlap_m, tuning.contact.restitution_speed_mps};
+    settings.softness.contact = tuning.solver.contact_softness;
+    settings.softness.joint = tuning.solver.joint_softness;
+    settings.friction_passes = tuning.solver.friction_passes;
+    return settings;
+}
+
+void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
     ConstraintGraph& graph = frame.graph;
+    const VelocitySettings settings = settings_of(tuning);
     if (frame.island_scratch.size() < graph.islands.size()) {
         frame.island_scratch.resize(graph.islands.size());
     }
     frame.velocity_results.assign(graph.islands.size(), {});
-    auto solve_one = [&](std::size_t i) {
+    frame.island_order.resize(graph.islands.size());
+    std::iota(frame.island_order.begin(), frame.island_order.end(), 0U);
+    sort_largest_first(graph, frame.island_order);
+    auto solve_one = [&](std::size_t order) {
+        const std::uint32_t i = frame.island_order[order];
         const Island& island = graph.islands[i];
         set_masses(frame, island);
         const IslandView view{BlockFilter::all, graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
-        frame.velocity_results[i] = solve_velocities(
-            view, {k_valid_overlap_m, tuning.restitution_speed_mps}, frame.island_scratch[i]);
+        frame.velocity_results[i] = solve_velocities(view, settings, frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
@@ -284,7 +296,7 @@ void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, Stage
     for (std::size_t i = 0; i < io.frame.phase.size(); ++i) {
         io.frame.phase[i].velocity_before_mps = io.frame.graph.bodies[i].velocity_mps;
     }
-    solve_islands(io.frame, tuning.contact, stats);
+    solve_islands(io.frame, tuning, stats);
     book_impulses(io.frame.graph, stats.ledger);
     write_velocities(io, tuning.locomotion, stats);
     clamp_handled_bodies(io, tuning.locomotion, stats);

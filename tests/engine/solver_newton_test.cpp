@@ -106,7 +106,7 @@ TEST(SolvePositions, ContactOutweighsAHandByAHundredThousand) {
     for (const double first_softness : {1e-6, 1e-3}) {
         SolverScene scene = ball_between_hand_and_plane(0.0);
         NewtonSettings settings;
-        settings.hand_softness = first_softness;
+        settings.softness.hand = first_softness;
         const NewtonResult result = scene.solve_positions(settings);
         EXPECT_FALSE(result.converged);
         EXPECT_NEAR(scene.error_m(1) / scene.error_m(0), 1e-5, 1e-7);
