@@ -64,14 +64,15 @@ struct FrameGraph {
     std::vector<NewtonResult> island_results;
     struct SunkBody {
         std::uint32_t body = 0;
-        double error_m = 0.0;  // its island's worst, hands excepted
+        std::uint32_t island = 0;  // that it was in
+        double error_m = 0.0;      // of its own rows, hands excepted
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
     };
     std::vector<SunkBody> sunk_bodies;  // by body
     std::vector<std::optional<IslandErrors>>
-        island_errors;                             // by island; none once something in it moved
+        island_errors;  // by island; none once a phase moved something in it
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
     std::vector<double> overlap_m;  // by body

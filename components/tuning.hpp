@@ -164,13 +164,13 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "constraint error at which a phase is solved; angles count times 0.1 m");
     see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
         "a smaller Newton step ends a phase");
-    see("solver.hand_softness", t.solver.hand_softness, "", 1e-12, 1.0,
+    see("solver.hand_softness", t.solver.hand_softness, "", 1e-9, 1e-2,
         "how much hands give way at first, but in the forward phase");
-    see("solver.forward_hand_softness", t.solver.forward_hand_softness, "", 1e-12, 1.0,
+    see("solver.forward_hand_softness", t.solver.forward_hand_softness, "", 1e-9, 1e-2,
         "how much hands give way at first in the forward phase, where contacts decide");
-    see("solver.contact_softness", t.solver.contact_softness, "", 1e-12, 1.0,
+    see("solver.contact_softness", t.solver.contact_softness, "", 1e-12, 1e-3,
         "how much contacts give way that cannot all be met");
-    see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1.0,
+    see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1e-3,
         "how much joints give way that cannot all be met; their limits a hundred times");
     see("solver.stiffness_from_m", t.solver.stiffness_from_m, "m", 1e-9, 10.0,
         "constraint error above which steps account for how forces turn with their arms");

@@ -12,6 +12,7 @@ namespace {
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
 constexpr double k_slid_m = 5e-3;   // a point whose bodies slid farther touches something else now
 constexpr double k_same_point_m = 1e-3;
+constexpr double k_same_normal = 0.99;
 
 Pose collider_pose(const SolverBody& body) {
     return body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
@@ -57,7 +58,8 @@ bool slid_away(const ConstraintGraph& graph, const ContactPoint& contact) {
 
 bool is_among(const ContactPoint& contact, std::span<const ContactPoint> points) {
     return std::ranges::any_of(points, [&contact](const ContactPoint& point) {
-        return (point.point_a_bs - contact.point_a_bs).norm() < k_same_point_m;
+        return (point.point_a_bs - contact.point_a_bs).norm() < k_same_point_m &&
+               point.normal_b_bs.dot(contact.normal_b_bs) > k_same_normal;
     });
 }
 

@@ -14,7 +14,7 @@ inline constexpr double k_new_overlap_m = 2e-5;
 
 struct MovingContacts {
     CollisionWorld& collision;
-    std::vector<ColliderProxy>& proxies;  // as graph.bodies; follow the solver's bodies
+    std::vector<ColliderProxy>& proxies;  // as graph.bodies, but for the world; follow them
     std::vector<ContactPoint>& contacts;  // in/out, sorted by pair and feature
     ConstraintGraph& graph;               // out: contact rows, islands
     std::vector<ContactPoint>& scratch;

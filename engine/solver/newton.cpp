@@ -174,7 +174,7 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
     return longest;
 }
 
-// Hands give way while the error does not fall below the least so far: steps that overshoot to and
+// Hands give way until the error falls below half of the least so far: steps that overshoot to and
 // fro are no progress. Contacts do so only where they contradict each other: else their multipliers
 // grow without bound and push along what they do not even oppose.
 void adapt(double residual_m, double least_m, double overlap_m, double previous_overlap_m,

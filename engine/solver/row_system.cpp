@@ -9,9 +9,10 @@ namespace handhold {
 namespace {
 
 constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
-constexpr int k_block_changes = 3;  // of all wrong rows at once that may fail to make them fewer
+constexpr int k_block_changes = 4;  // of all wrong rows at once that may fail to make them fewer
 constexpr int k_descents = 60;      // factorisations after that
 constexpr double k_overlap_m = 1e-10;
+constexpr double k_noise_m = 1e-8;  // an overlap that no row that joins can better
 
 }  // namespace
 
@@ -104,7 +105,7 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
 // True where it ends with every acting row pushing and no other overlapping. It need not.
 bool RowSystem::change_all_wrong(std::span<const Row> rows) {
     std::size_t fewest = size() + 1;
-    for (int blocks_left = k_block_changes; blocks_left >= 0;) {
+    for (int blocks_left = k_block_changes; blocks_left > 0;) {
         solve_active();
         wrong_rows_.clear();
         for (std::uint32_t i = 0; i < size(); ++i) {
@@ -149,7 +150,7 @@ bool RowSystem::descend(std::span<const Row> rows) {
             continue;
         }
         if (one_joined && !moves) {
-            return true;  // the worst overlap was no more than noise
+            return worst_remainder(rows) > -k_noise_m;
         }
         one_joined = !moves;
         if (!join_overlapping(rows, one_joined)) {
@@ -164,15 +165,16 @@ bool RowSystem::descend(std::span<const Row> rows) {
 
 // Takes the point towards lambda until a row begins to pull, which is left out.
 RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
+    constexpr double k_whole_way = 2.0;  // what pulls ever so little stops it at 1 or before
     const auto way_of = [&](std::size_t i) {
         const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
-        return pulls ? point_[i] / (point_[i] - lambda_[i]) : 1.0;
+        return pulls ? point_[i] / (point_[i] - lambda_[i]) : k_whole_way;
     };
-    double way = 1.0;
+    double way = k_whole_way;
     for (std::size_t i = 0; i < size(); ++i) {
         way = std::min(way, way_of(i));
     }
-    Approach approach{way == 1.0};
+    Approach approach{way == k_whole_way};
     for (std::size_t i = 0; i < size(); ++i) {
         const double before = point_[i];
         if (approach.arrives) {
@@ -186,6 +188,16 @@ RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
         approach.moves = approach.moves || point_[i] != before;
     }
     return approach;
+}
+
+double RowSystem::worst_remainder(std::span<const Row> rows) const {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (rows[i].unilateral && held_[i] == 0 && active_[i] == 0) {
+            worst = std::min(worst, remainder(i, rows[i].value_m));
+        }
+    }
+    return worst;
 }
 
 // True where any row overlaps that does not act.

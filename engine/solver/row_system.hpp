@@ -55,6 +55,7 @@ class RowSystem {
         bool moves = false;  // anything at all
     };
     Approach approach_solution(std::span<const Row> rows);
+    double worst_remainder(std::span<const Row> rows) const;
     bool join_overlapping(std::span<const Row> rows, bool only_worst);
     bool is_wrong(const Row& row, std::size_t index) const;
 

@@ -1,7 +1,9 @@
 #include "systems/physics/finish_positions.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "engine/solver/contact_rows.hpp"
 #include "engine/solver/moving_contacts.hpp"
 
 namespace handhold {
@@ -10,55 +12,62 @@ namespace {
 // --- What is sunk into surfaces
 // ------------------------------------------------------------------------------------
 
-// What a body overlaps most, of all that does not give way; null where there is nothing.
-const std::uint32_t* deepest_wall(const ConstraintGraph& graph, const Island& island,
-                                  std::uint32_t body) {
-    const std::uint32_t* wall = nullptr;
+constexpr double k_farthest_back_m = 0.5;  // what has been sunk for long stays where it is
+constexpr double k_gain = 0.5;             // of its error: less is not worth going back for
+
+// The worst error of a body's own rows, hands excepted; or of its contacts alone.
+double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
+    double worst = 0.0;
+    for (const RowBlock& block : graph.blocks) {
+        const bool counts = only_contacts ? is_contact(block) : !is_hand(block);
+        if (counts && (block.a == body || block.b == body)) {
+            worst = std::max(worst, block_error_m(graph.bodies, block));
+        }
+    }
+    return worst;
+}
+
+// What is fixed or driven that a body overlaps most, if anything.
+std::optional<std::uint32_t> deepest_wall(const ConstraintGraph& graph, std::uint32_t body) {
+    std::optional<std::uint32_t> wall;
     double depth_m = 0.0;
-    for (const std::uint32_t i : graph.blocks_of(island)) {
-        const RowBlock& block = graph.blocks[i];
+    for (const RowBlock& block : graph.blocks) {
         if (!is_contact(block) || (block.a != body && block.b != body)) {
             continue;
         }
-        const std::uint32_t& other = block.a == body ? block.b : block.a;
+        const std::uint32_t other = block.a == body ? block.b : block.a;
         const double overlap_m = block_error_m(graph.bodies, block);
         if (graph.bodies[other].role == BodyRole::fixed && overlap_m > depth_m) {
             depth_m = overlap_m;
-            wall = &other;
+            wall = other;
         }
     }
     return wall;
 }
 
-// Lists the free bodies of islands that are sunk, as they are.
+// Lists free bodies that are sunk, as they are.
 void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
     frame.sunk_bodies.clear();
-    for (const Island& island : frame.graph.islands) {
-        const double error_m = island_errors(frame.graph, island).without_hands_m();
-        if (error_m < sunk_m) {
+    for (std::uint32_t i = 0; i < frame.graph.islands.size(); ++i) {
+        const Island& island = frame.graph.islands[i];
+        if (island_errors(frame.graph, island).contacts_m < sunk_m) {
             continue;
         }
-        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-            const SolverBody& body = frame.graph.bodies[i];
-            if (body.role == BodyRole::free) {
-                frame.sunk_bodies.push_back(
-                    {i, error_m, body.pose_ws, body.velocity_mps, body.spin_radps});
+        for (const std::uint32_t index : frame.graph.bodies_of(island)) {
+            const SolverBody& body = frame.graph.bodies[index];
+            if (body.role == BodyRole::free && own_error_m(frame.graph, index, true) >= sunk_m) {
+                frame.sunk_bodies.push_back({index, i, own_error_m(frame.graph, index, false),
+                                             body.pose_ws, body.velocity_mps, body.spin_radps});
             }
         }
     }
-    std::ranges::sort(frame.sunk_bodies, {}, &FrameGraph::SunkBody::body);
 }
 
-const FrameGraph::SunkBody* find_sunk(const FrameGraph& frame, std::uint32_t body) {
-    const auto found =
-        std::ranges::lower_bound(frame.sunk_bodies, body, {}, &FrameGraph::SunkBody::body);
-    return found != frame.sunk_bodies.end() && found->body == body ? &*found : nullptr;
-}
-
-void step_back(const Island& island, std::uint32_t index, FrameGraph& frame) {
-    SolverBody& body = frame.graph.bodies[index];
-    Pose valid_ws = frame.proxies[index].from_ws;
-    if (const std::uint32_t* const found = deepest_wall(frame.graph, island, index)) {
+// To where it last overlapped nothing.
+void step_back(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[sunk.body];
+    Pose valid_ws = frame.proxies[sunk.body].from_ws;
+    if (const std::optional<std::uint32_t> found = deepest_wall(frame.graph, sunk.body)) {
         const SolverBody& wall = frame.graph.bodies[*found];
         const ColliderProxy& proxy = frame.proxies[*found];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
@@ -69,48 +78,57 @@ void step_back(const Island& island, std::uint32_t index, FrameGraph& frame) {
     body.pose_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
 }
 
+void undo(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[sunk.body];
+    body.pose_ws = sunk.pose_ws;
+    body.velocity_mps = sunk.velocity_mps;
+    body.spin_radps = sunk.spin_radps;
+}
+
 // What was found inside of things says nothing about where they are now.
 void find_contacts_anew(const FinishPositionsIo& io, const ContactTuning& tuning,
                         StageStats& stats) {
     FrameGraph& frame = io.frame;
     const auto is_sunk = [&frame](std::uint64_t id) {
-        const auto body = static_cast<std::uint32_t>(find_body(frame.graph, id));
-        return find_sunk(frame, body) != nullptr;
+        return std::ranges::any_of(frame.sunk_bodies, [&](const FrameGraph::SunkBody& sunk) {
+            return frame.graph.bodies[sunk.body].id == id;
+        });
     };
     std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
         return is_sunk(contact.id_a) || is_sunk(contact.id_b);
     });
-    refresh_contacts(
+    const FoundContacts found = refresh_contacts(
         {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
-    ++stats.contact_rounds;
+    if (found == FoundContacts::as_before) {
+        replace_contact_rows(frame.contacts, frame.graph);
+    } else {
+        ++stats.contact_rounds;
+    }
 }
 
-// True where an island was better off sunk, and is as it was.
-bool undo_where_worse(FrameGraph& frame, StageStats& stats) {
+// Bodies that met before they were put back stay or go together. True where any went.
+bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
+    const auto is_better = [&frame](const FrameGraph::SunkBody& sunk) {
+        const double way_m =
+            (frame.graph.bodies[sunk.body].pose_ws.position - sunk.pose_ws.position).norm();
+        return way_m < k_farthest_back_m &&
+               own_error_m(frame.graph, sunk.body, false) < k_gain * sunk.error_m;
+    };
+    const std::vector<FrameGraph::SunkBody>& sunk = frame.sunk_bodies;
     bool undone = false;
-    for (const Island& island : frame.graph.islands) {
-        double sunk_m = 0.0;
-        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-            const FrameGraph::SunkBody* const sunk = find_sunk(frame, i);
-            sunk_m = std::max(sunk_m, sunk != nullptr ? sunk->error_m : 0.0);
-        }
-        if (sunk_m == 0.0) {
-            continue;
-        }
-        if (island_errors(frame.graph, island).without_hands_m() < sunk_m) {
+    for (auto first = sunk.begin(); first != sunk.end();) {
+        const auto last = std::find_if(first, sunk.end(), [&](const FrameGraph::SunkBody& other) {
+            return other.island != first->island;
+        });
+        if (std::all_of(first, last, is_better)) {
             stats.count(Fallback::put_back);
-            continue;
+        } else {
+            std::for_each(first, last,
+                          [&](const FrameGraph::SunkBody& body) { undo(body, frame); });
+            undone = true;
         }
-        undone = true;
-        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-            if (const FrameGraph::SunkBody* const sunk = find_sunk(frame, i)) {
-                SolverBody& body = frame.graph.bodies[i];
-                body.pose_ws = sunk->pose_ws;
-                body.velocity_mps = sunk->velocity_mps;
-                body.spin_radps = sunk->spin_radps;
-            }
-        }
+        first = last;
     }
     return undone;
 }
@@ -121,15 +139,11 @@ void put_back(const FinishPositionsIo& io, const ContactTuning& tuning, StageSta
     if (frame.sunk_bodies.empty()) {
         return;
     }
-    for (const Island& island : frame.graph.islands) {
-        for (const std::uint32_t i : frame.graph.bodies_of(island)) {
-            if (find_sunk(frame, i) != nullptr) {
-                step_back(island, i, frame);
-            }
-        }
+    for (const FrameGraph::SunkBody& sunk : frame.sunk_bodies) {
+        step_back(sunk, frame);
     }
     find_contacts_anew(io, tuning, stats);
-    if (undo_where_worse(frame, stats)) {
+    if (undo_where_no_better(frame, stats)) {
         find_contacts_anew(io, tuning, stats);
     }
 }

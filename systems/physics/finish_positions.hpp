@@ -21,10 +21,11 @@ struct FinishPositionsIo {
 
 // Stage 8, after the phases: writes poses and what is left of errors.
 //
-// What no phase could take out of a surface it is sunk into (contact.sunk_m) stays where
-// it last overlapped nothing, if that is better: a hand's jump through clutter carries nothing into
-// a wall, and no head is squeezed into a gap. It rides along with what it is sunk into, and takes
-// its speed. An island that is put back is counted.
+// Free bodies that no phase could take out of what they are sunk into (contact.sunk_m) go back to
+// where they last overlapped nothing, no more than half a metre, if that halves their error: a
+// hand's jump through clutter carries nothing into a wall. What is sunk into something fixed or
+// driven rides along with it and starts the velocity solve at its speed. Bodies of one island go
+// back together or not at all; counted by island.
 void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats);
 
 }  // namespace handhold

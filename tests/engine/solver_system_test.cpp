@@ -256,14 +256,14 @@ RC_GTEST_PROP(RowSystem, ActiveSetMeetsTheConditionsThatOnlyOneSubsetMeets, (std
 }
 
 // About one problem in 4000: here changing all wrong rows at once comes back to where it began.
-TEST(RowSystem, ActiveSetThatGoesRoundInACircleIsEndedByStepsOfOneRow) {
+TEST(RowSystem, ActiveSetThatGoesRoundInACircleIsEndedByDescent) {
     const auto error = active_set_error(3634);
     ASSERT_TRUE(error.has_value());
     EXPECT_LT(*error, 1e-8);
 }
 
 // A thing among several faces that it is sunk into or near to, some points found twice: far more
-// contacts than it has freedoms, and no place that meets them all.
+// contacts than it has freedoms, and often no place that meets them all.
 Problem crowded_contacts(Random& random) {
     Problem problem;
     problem.place_bodies({test::random_free_body(1, random), test::fixed_body(2)});
