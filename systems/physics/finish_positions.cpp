@@ -12,8 +12,9 @@ namespace {
 // --- What is sunk into surfaces
 // ------------------------------------------------------------------------------------
 
-constexpr double k_farthest_back_m = 0.5;  // what has been sunk for long stays where it is
-constexpr double k_gain = 0.5;             // of its error: less is not worth going back for
+constexpr double k_farthest_back_m =
+    2.0;                        // a jump of an arm; what has been sunk for long stays where it is
+constexpr double k_gain = 0.5;  // of its error: less is not worth going back for
 
 // The worst error of a body's own rows, hands excepted; or of its contacts alone.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
