@@ -62,15 +62,16 @@ struct FrameGraph {
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
+    // A body that finish_positions puts back, as the phases left it.
     struct SunkBody {
         std::uint32_t body = 0;
-        std::uint32_t island = 0;  // that it was in
-        double error_m = 0.0;      // of its own rows, hands excepted
+        std::uint32_t island = 0;  // in which the phases left it: islands are found anew since
+        double error_m = 0.0;      // the worst of its own rows, hands excepted
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
     };
-    std::vector<SunkBody> sunk_bodies;  // by body
+    std::vector<SunkBody> sunk_bodies;  // by island
     std::vector<std::optional<IslandErrors>>
         island_errors;  // by island; none once a phase moved something in it
     std::vector<VelocityResult> velocity_results;  // by island

@@ -43,8 +43,8 @@ enum class Fallback : std::uint8_t {
     contact_rounds_exhausted,  // new contacts after every allowed round
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame
-    put_back,                  // bodies left where they were: nothing took them out of a surface
-    active_set_unsettled,      // in a solve it was not found which contacts push
+    put_back,                  // islands whose sunk bodies went back to where they were clear
+    active_set_unsettled,      // solves that ended before it was clear which contacts push
     friction_wedged,           // contacts that would press without end or give energy slip freely
     friction_undecided,        // who sticks and who slides was not settled within its passes
     release_speed_clamped,

@@ -68,7 +68,7 @@ bool is_among(const ContactPoint& contact, std::span<const ContactPoint> points)
 void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::vector<ContactPoint>& merged = moving.scratch;
     const std::size_t fresh_count = merged.size();
-    std::size_t first = 0;  // of the fresh ones of a pair
+    std::size_t first = 0;  // of the fresh ones of the old one's pair, up to end
     std::size_t end = 0;
     std::uint32_t feature = 0;  // the pair's last
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {

@@ -17,7 +17,7 @@ struct MovingContacts {
     std::vector<ColliderProxy>& proxies;  // as graph.bodies, but for the world; follow them
     std::vector<ContactPoint>& contacts;  // in/out, sorted by pair and feature
     ConstraintGraph& graph;               // out: contact rows, islands
-    std::vector<ContactPoint>& scratch;
+    std::vector<ContactPoint>& scratch;   // the contacts before, when done
 };
 
 // What becomes of points found before, of a pair that is found again.
@@ -30,7 +30,8 @@ enum class OldPoints : std::uint8_t {
 enum class FoundContacts : std::uint8_t { as_before, clear, overlapping };
 
 // Sweeps colliders from their last valid pose to where the solver's bodies are now, and makes the
-// contacts found there the graph's rows. As before where no collider moved.
+// contacts found there the graph's rows; islands are built anew. As before, and nothing done, where
+// no collider moved.
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
 

@@ -9,8 +9,7 @@ struct NewtonSettings {
     int max_iterations = 30;
     double tolerance_m = 1e-8;
     double step_tolerance_m = 1e-9;
-    // First regularisation: of hand rows relative to the harmonic mean of the diagonal.
-    Softness softness{};
+    Softness softness{};             // at first; contacts and joints never have less
     double stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
 };
 
@@ -18,7 +17,8 @@ struct NewtonResult {
     int iterations = 0;
     double residual_m = 0.0;  // worst point, angle (at its lever) or overlap at the end
     bool converged = false;   // residual below the tolerance
-    bool unsettled = false;   // in a step it was not found who pushes: what pulled was left out
+    bool unsettled =
+        false;  // a step left rows out that may overlap: its changes of the active set ran out
 };
 
 // Moves the island's bodies, by their inverse masses, until every row is met or no step helps.

@@ -12,7 +12,7 @@ constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it ove
 constexpr int k_block_changes = 4;  // of all wrong rows at once that may fail to make them fewer
 constexpr int k_descents = 60;      // factorisations after that
 constexpr double k_overlap_m = 1e-10;
-constexpr double k_noise_m = 1e-8;  // an overlap that no row that joins can better
+constexpr double k_noise_m = 1e-8;
 
 }  // namespace
 
@@ -131,7 +131,8 @@ bool RowSystem::change_all_wrong(std::span<const Row> rows) {
 
 // From what pushes now, always down: half lambda A lambda + value lambda shrinks with every step,
 // so that no set comes twice, and where the steps run out nothing pulls. Rows that overlap join all
-// at once, or only the worst where that led nowhere. True where the minimum was found.
+// at once, or only the worst where that led nowhere. True where the minimum was found, but for
+// noise: a worst overlap that is left out again as soon as it joins.
 bool RowSystem::descend(std::span<const Row> rows) {
     point_.assign(lambda_.begin(), lambda_.end());
     for (std::size_t i = 0; i < size(); ++i) {
@@ -190,6 +191,7 @@ RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
     return approach;
 }
 
+// The deepest overlap of those that do not act, negative; 0 where none overlaps.
 double RowSystem::worst_remainder(std::span<const Row> rows) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {

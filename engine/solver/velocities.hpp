@@ -16,7 +16,8 @@ struct VelocityResult {
     bool wedged = false;     // pressed the harder the harder it was held, or gained energy by it:
                              // its contacts slip freely
     bool undecided = false;  // who sticks and who slides still changed in the last pass
-    bool unsettled = false;  // it was not found who pushes: what pulled was left out
+    bool unsettled =
+        false;  // rows were left out that may overlap: changes of the active set ran out
 };
 // One solve over the same rows: hands move as they are driven, joints keep, contacts
 // v_n >= -e v_n(before), and what slides is held back by at most its friction. Writes velocities,

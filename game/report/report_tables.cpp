@@ -88,10 +88,10 @@ const char* meaning_of(Fallback reason) {
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
         case Fallback::put_back:
-            return "Nothing took bodies out of a surface; they stayed where they were for the "
-                   "frame.";
+            return "Nothing took bodies out of a surface; they went back to where they were "
+                   "clear of it.";
         case Fallback::active_set_unsettled:
-            return "It was not found which contacts push; those that pulled were left out.";
+            return "A solve ended before it was clear which contacts push; some may overlap.";
         case Fallback::friction_wedged:
             return "Contacts wedged something in, or would have given it energy; their friction "
                    "was set aside.";

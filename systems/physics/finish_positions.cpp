@@ -12,9 +12,9 @@ namespace {
 // --- What is sunk into surfaces
 // ------------------------------------------------------------------------------------
 
-constexpr double k_farthest_back_m =
-    2.0;                        // a jump of an arm; what has been sunk for long stays where it is
-constexpr double k_gain = 0.5;  // of its error: less is not worth going back for
+// As far as an arm jumps: what has been dragged along sunk for longer stays where it is.
+constexpr double k_farthest_back_m = 2.0;
+constexpr double k_gain = 0.5;  // of its error must be gone
 
 // The worst error of a body's own rows, hands excepted; or of its contacts alone.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
@@ -64,7 +64,7 @@ void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
     }
 }
 
-// To where it last overlapped nothing.
+// To where it last overlapped nothing, carried along by the wall it is sunk into.
 void step_back(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[sunk.body];
     Pose valid_ws = frame.proxies[sunk.body].from_ws;
@@ -108,7 +108,8 @@ void find_contacts_anew(const FinishPositionsIo& io, const ContactTuning& tuning
     }
 }
 
-// Bodies that met before they were put back stay or go together. True where any went.
+// The sunk bodies of one island stay put back, which is counted, or are all sunk again. True where
+// any are.
 bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
     const auto is_better = [&frame](const FrameGraph::SunkBody& sunk) {
         const double way_m =
