@@ -8,7 +8,8 @@
 #include "engine/math/math.hpp"
 
 // What the headset and the controllers say, and what stage 1 makes of it. Play space (_ps) is the
-// frame that the tracking is given in: it is carried through the world by PlayerOrigin.
+// frame that the tracking is given in, shifted by what re-centring took from it (HeadTracking): it
+// is carried through the world by PlayerOrigin.
 namespace handhold {
 
 enum class HandSide : std::uint8_t { left, right };
@@ -59,6 +60,11 @@ struct HeadTracking {
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
+    // Added to every position that the tracking gives, so that a head that jumps (re-centring, a
+    // glitch) stays where it was in the world; from recentred_t_s on, before that the one before.
+    Vec3 recentre_m = Vec3::Zero();
+    Vec3 recentre_before_m = Vec3::Zero();
+    double recentred_t_s = 0.0;  // on the frame clock
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };

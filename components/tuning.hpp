@@ -10,6 +10,7 @@ namespace handhold {
 
 struct TrackingTuning {
     double lost_after_s = 0.25;
+    double max_jump_m = 2.0;
     double release_window_s = 0.06;
 };
 
@@ -21,6 +22,7 @@ struct HandTuning {
     double ray_length_m = 0.15;
     double reach_m = 0.10;
     double max_stretch_m = 0.3;
+    double max_arm_m = 2.0;
 };
 
 struct HeadTuning {
@@ -101,6 +103,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     };
     see("tracking.lost_after_s", t.tracking.lost_after_s, "s", 0.02, 10.0,
         "a device silent or invalid for longer counts as lost");
+    see("tracking.max_jump_m", t.tracking.max_jump_m, "m", 0.1, 1000.0,
+        "a head that is farther from one sample to the next has been re-centred: nobody moves");
     see("tracking.release_window_s", t.tracking.release_window_s, "s", 0.01, 0.5,
         "span before letting go over which the hand's velocity is measured");
     see("hand.controller_offset_m", t.hand.controller_offset_m, "m", -0.5, 0.5,
@@ -116,6 +120,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "where the ray misses, the nearest surface up to this far from the palm is gripped");
     see("hand.max_stretch_m", t.hand.max_stretch_m, "m", 0.01, 10.0,
         "a hand farther than this from its anchor lets go");
+    see("hand.max_arm_m", t.hand.max_arm_m, "m", 0.5, 1000.0,
+        "a hand farther than this from its player's head holds nothing");
     see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
         "centre of the head's collider in the tracked head's frame");

@@ -58,6 +58,10 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
     }
 }
 
+const Vec3& recentre_at(const HeadTracking& head, double t_s) {
+    return t_s < head.recentred_t_s ? head.recentre_before_m : head.recentre_m;
+}
+
 void remember(HandHistory& history, const HandTracking& hand) {
     history.entries[history.next] = {hand.sample_t_s, hand.sample_ps};
     history.next = (history.next + 1) % HandHistory::k_capacity;
@@ -137,7 +141,8 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 struct HandRows {
     HandTracking& hand;
     HandHistory& history;
-    Pose joint;  // hand in controller
+    const HeadTracking& head;  // of this frame
+    Pose joint;                // hand in controller
     HandSide side;
 };
 
@@ -158,7 +163,8 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
         const ControllerSample& reading = sample.controllers[index_of(rows.side)];
-        const Pose hand_ps = reading.controller_ps * rows.joint;
+        Pose hand_ps = reading.controller_ps * rows.joint;
+        hand_ps.position += recentre_at(rows.head, sample.t_s);
         if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_trackable(reading.controller_ps)) {
                 later = hand_ps;
@@ -194,6 +200,22 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
     }
 }
 
+// Shifts the head's reading, and from its time on all of the player's, to where the last one was,
+// if it is farther from that than any head moves.
+void recentre_where_it_jumps(HeadTracking& head, bool has_sample, double t_s, Pose& head_ps,
+                             const TrackingTuning& tuning, StageStats& stats) {
+    head_ps.position += recentre_at(head, t_s);
+    const Vec3 back_m = head.sample_ps.position - head_ps.position;
+    if (!has_sample || back_m.norm() <= tuning.max_jump_m) {
+        return;
+    }
+    stats.count(Fallback::head_recentred);
+    head.recentre_before_m = head.recentre_m;
+    head.recentre_m += back_m;
+    head.recentred_t_s = t_s;
+    head_ps.position = head.sample_ps.position;
+}
+
 void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingIo& io,
                const TrackingTuning& tuning, StageStats& stats) {
     bool has_sample = head.state != TrackingState::never;
@@ -202,9 +224,10 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
     const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
-        const Pose head_ps{sample.head_ps.position, sample.head_ps.rotation.normalized()};
+        Pose head_ps{sample.head_ps.position, sample.head_ps.rotation.normalized()};
         if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_trackable(sample.head_ps)) {
+                recentre_where_it_jumps(head, has_sample, sample.t_s, head_ps, tuning, stats);
                 later = head_ps;
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -216,6 +239,7 @@ void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingI
         } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
+            recentre_where_it_jumps(head, has_sample, sample.t_s, head_ps, tuning, stats);
             head.sample_ps = head_ps;
             head.sample_t_s = sample.t_s;
             has_sample = true;
@@ -279,7 +303,7 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
         const Entity entity = io.owner.owners()[row];
         const HandOwner& owner = io.owner.rows()[row];
         const ControllerToHand* const own = io.controller_to_hand.find(entity);
-        const HandRows rows{io.hand.at(entity), io.history.at(entity),
+        const HandRows rows{io.hand.at(entity), io.history.at(entity), io.head.at(owner.player),
                             own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)],
                             owner.side};
         read_hand(rows, input_of(io, owner.player, row / k_hand_count), io, tuning.tracking, stats);

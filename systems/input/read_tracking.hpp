@@ -26,7 +26,9 @@ struct ReadTrackingIo {
 // Stage 1. Brings samples of any rate to the frame clock: poses at the end of the frame,
 // interpolated where a later sample is known, held otherwise; button edges at their own sample's
 // time. Samples that are out of order or not finite are ignored and counted; a device silent for
-// longer than lost_after_s is lost and its pose frozen. Commands hold for their own frame only;
+// longer than lost_after_s is lost and its pose frozen. Where a head jumps farther than max_jump_m
+// from one sample to the next, all of the player's readings are shifted back by as much from there
+// on, and counted. Commands hold for their own frame only;
 // numbers in them that are not finite ask for nothing.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
 

@@ -31,9 +31,9 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 TEST(ReadTracking, PosesAreInterpolatedToTheFramesEnd) {
     Devices devices;
     // The end at 0.010 lies half way between the samples.
-    devices.step({sample_at(0.008, Vec3(0.0, 1.0, 0.0)), sample_at(0.012, Vec3(1.0, 1.0, 4.0))});
-    EXPECT_LT((devices.player_head().pose_ps.position - Vec3(0.5, 1.0, 2.0)).norm(), 1e-12);
-    EXPECT_LT((devices.right().pose_ps.position - Vec3(0.5, 1.0, 2.0)).norm(), 1e-12);
+    devices.step({sample_at(0.008, Vec3(0.0, 1.0, 0.0)), sample_at(0.012, Vec3(1.0, 1.0, 1.0))});
+    EXPECT_LT((devices.player_head().pose_ps.position - Vec3(0.5, 1.0, 0.5)).norm(), 1e-12);
+    EXPECT_LT((devices.right().pose_ps.position - Vec3(0.5, 1.0, 0.5)).norm(), 1e-12);
     EXPECT_EQ(devices.right().sample_t_s, 0.008);
 }
 
@@ -164,6 +164,42 @@ TEST(ReadTracking, LaterSampleThatIsNotFiniteIsNotInterpolatedTo) {
     EXPECT_EQ(devices.right().pose_ps.position, Vec3(1.0, 0.0, 0.0));
 }
 
+TEST(ReadTracking, HeadThatJumpsIsRecentredAndItsHandsWithIt) {
+    const Vec3 jump_m(7.0, -3.0, 900.0);
+    const auto place_at = [](double t_s) { return Vec3(t_s, 0.0, 1.0); };  // 1 m/s
+    Devices devices;
+    devices.step({sample_at(0.005, place_at(0.005))});
+    // Interpolated across the jump, button edges and speeds too.
+    devices.step({sample_at(0.015, place_at(0.015)),
+                  sample_at(0.024, place_at(0.024) + jump_m, true)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
+    EXPECT_LT((devices.player_head().pose_ps.position - place_at(0.015)).norm(), 1e-9);
+    devices.step({sample_at(0.024, place_at(0.024) + jump_m, true),
+                  sample_at(0.029, place_at(0.029) + jump_m, true)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 0U);
+    // The head stood still for the 9 ms of the jump, the hands moved on beside it.
+    const Vec3 stood_m(0.009, 0.0, 0.0);
+    EXPECT_LT((devices.player_head().pose_ps.position + stood_m - place_at(0.029)).norm(), 1e-9);
+    EXPECT_LT((devices.right().edge_ps.position + stood_m - place_at(0.024)).norm(), 1e-9);
+    devices.step({sample_at(0.039, place_at(0.039) + jump_m)});
+    EXPECT_LT((devices.left().pose_ps.position + stood_m - place_at(0.039)).norm(), 1e-9);
+    EXPECT_LT(devices.left().release_velocity_ps_mps.norm(), 1.1);
+    // And back.
+    devices.step({sample_at(0.045, place_at(0.045))});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
+    EXPECT_LT((devices.left().pose_ps.position - devices.player_head().pose_ps.position).norm(),
+              1e-9);
+}
+
+TEST(ReadTracking, HeadThatLeapsWithinItsBoundIsFollowed) {
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0))});
+    const Vec3 leap(devices.tuning.tracking.max_jump_m - 0.001, 0.0, 0.0);
+    devices.step({sample_at(0.015, Vec3(1.0, 0.0, 0.0) + leap)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 0U);
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3(1.0, 0.0, 0.0) + leap);
+}
+
 TEST(ReadTracking, DeviceThatWasNeverSeenIsNeitherTrackedNorLost) {
     Devices devices;
     TrackingSample bad = sample_at(0.005);
@@ -224,11 +260,11 @@ TEST(ReadTracking, DeviceThatComesBackSaysSoAndDoesNotSweepAcrossItsJump) {
     Devices devices;
     devices.step({sample_at(0.01)});
     devices.step({}, 0.5);
-    devices.step({sample_at(0.515, Vec3(3.0, 0.0, 0.0))});
+    devices.step({sample_at(0.515, Vec3(1.5, 0.0, 0.0))});
     EXPECT_TRUE(devices.right().resumed);
-    EXPECT_EQ(devices.right().start_ps.position, Vec3(3.0, 0.0, 0.0));
+    EXPECT_EQ(devices.right().start_ps.position, Vec3(1.5, 0.0, 0.0));
     EXPECT_EQ(devices.right().state, TrackingState::tracked);
-    devices.step({sample_at(0.525, Vec3(3.0, 0.0, 0.0))});
+    devices.step({sample_at(0.525, Vec3(1.5, 0.0, 0.0))});
     EXPECT_FALSE(devices.right().resumed);
 }
 
