@@ -10,8 +10,9 @@ namespace handhold {
 namespace {
 
 constexpr double k_touch_m = 1e-6;
-constexpr int k_steps =
+constexpr int k_searches =
     64;  // glancing turns close in slowly; the fraction reached is then early, never late
+constexpr double k_worn_share = 0.5;  // of the gap that a direction was found for
 
 // How far the sphere about a goes before it nears a triangle: cheap steps, whatever a's turn, that
 // leave most triangles behind. nullopt where the sphere never does.
@@ -39,34 +40,9 @@ std::optional<double> skip_free_way(const RelativeMotion& motion, const Corners&
     return fraction;
 }
 
-// Advances from `fraction` by steps that no point of a can outrun. nullopt where a does not come
-// within k_touch_m before `limit`.
-std::optional<Impact> advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
-                              double fraction, double limit) {
-    Impact impact;
-    impact.fraction = fraction;
-    for (int step = 0; step < k_steps; ++step) {
-        const Convex placed = a.at(motion.at(impact.fraction));
-        const CoreSeparation separation = separate(placed, b);
-        const double gap = separation.separation_m - placed.radius_m - b.radius_m;
-        const Vec3& normal = separation.normal;
-        impact.normal = normal;
-        impact.point_b_ns = separation.point_b_ns + b.radius_m * normal;
-        if (gap <= k_touch_m) {
-            return impact;
-        }
-        // Turning carries a point along the normal no faster than this, wherever it turns to.
-        const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
-        const double closing_m = turning_m - motion.move().dot(normal);
-        if (closing_m <= 0.0) {
-            return std::nullopt;
-        }
-        impact.fraction += (gap - 0.5 * k_touch_m) / closing_m;
-        if (impact.fraction > limit) {
-            return std::nullopt;
-        }
-    }
-    return impact;
+// What keeps a apart from b along a direction; negative where it does not.
+double gap_along(const Convex& a, const Convex& b, const Vec3& normal) {
+    return normal.dot(a.support(-normal) - b.support(normal)) - a.radius_m - b.radius_m;
 }
 
 }  // namespace
@@ -90,17 +66,55 @@ Vec3 RelativeMotion::velocity_at(const Vec3& point_ns, double fraction) const {
     return move_ + turn_.cross(point_ns - (from_.position + fraction * move_));
 }
 
-std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
-                                     const Convex& b, double limit) {
-    double start = 0.0;
+std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
+                                       const Convex& b, double limit) {
+    Approach approach;
     if (b.corners_ns != nullptr) {
         const auto free_way = skip_free_way(motion, *b.corners_ns, a.extent().radius_m, limit);
         if (!free_way) {
             return std::nullopt;
         }
-        start = *free_way;
+        approach.fraction = *free_way;
     }
-    return advance(a, motion, b, start, limit);
+    return approach;
+}
+
+Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, double limit,
+            Approach& approach) {
+    const Convex placed = a.at(motion.at(approach.fraction));
+    // A direction that keeps them apart is as good as the best one until little is left of the gap,
+    // and costs a tenth of finding another.
+    double gap = approach.searches > 0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
+    if (gap <= std::max(k_worn_share * approach.gap_m, 10.0 * k_touch_m)) {
+        const CoreSeparation separation = separate(placed, b);
+        gap = separation.separation_m - placed.radius_m - b.radius_m;
+        approach.gap_m = gap;
+        approach.impact.fraction = approach.fraction;
+        approach.impact.normal = separation.normal;
+        approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
+        if (gap <= k_touch_m || ++approach.searches == k_searches) {
+            return Way::touches;
+        }
+    }
+    // Turning carries a point along the normal no faster than this, wherever it turns to.
+    const Vec3& normal = approach.impact.normal;
+    const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
+    const double closing_m = turning_m - motion.move().dot(normal);
+    if (closing_m <= 0.0) {
+        return Way::misses;
+    }
+    approach.fraction += (gap - 0.5 * k_touch_m) / closing_m;
+    return approach.fraction > limit ? Way::misses : Way::goes_on;
+}
+
+std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
+                                     const Convex& b, double limit) {
+    std::optional<Approach> approach = begin_approach(a, motion, b, limit);
+    Way way = approach ? Way::goes_on : Way::misses;
+    while (way == Way::goes_on) {
+        way = advance(a, motion, b, limit, *approach);
+    }
+    return way == Way::touches ? std::optional(approach->impact) : std::nullopt;
 }
 
 }  // namespace handhold

@@ -39,6 +39,21 @@ struct Impact {
     std::uint32_t part = 0;          // of a; whoever asks about several writes it
 };
 
+// How far a part of what moves is known to go without touching a resting shape.
+struct Approach {
+    double fraction = 0.0;
+    Impact impact;  // of the last search for what keeps them apart; where they touch: the touch
+    double gap_m = 0.0;  // then
+    int searches = 0;
+};
+enum class Way : std::uint8_t { goes_on, touches, misses };
+// The first step, cheap, and the others, each from the last one's fraction to one that no point of
+// a can outrun: many shapes are so met at a time, whichever is nearest first. `limit` as below.
+std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
+                                       const Convex& b, double limit);
+Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, double limit,
+            Approach& approach);
+
 // First fraction of the way at which a, a part of what moves, is within a micrometre of b, or
 // nullopt where it is not before `limit`. A start in touch is an impact at 0.
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,

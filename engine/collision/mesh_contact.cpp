@@ -53,6 +53,9 @@ bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to
 bool is_far(const MeshContactIo& io, const NearTriangle& triangle) {
     const double reach_m = io.core_reach_m + io.a.radius_m + io.margin_m;
     const Vec3 centre = io.a.centre_ns();
+    if (!meet(triangle.box_ns, bounds_of(centre, centre).grown(reach_m))) {
+        return true;
+    }
     if (std::abs((centre - triangle.corners_ns[0]).dot(triangle.normal)) > reach_m) {
         return true;
     }

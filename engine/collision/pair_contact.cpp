@@ -36,29 +36,58 @@ void keep_first(const std::optional<Impact>& impact, std::optional<Impact>& firs
     }
 }
 
+// Those nearest to a touch first: a heap's top is its greatest.
+bool is_later(const TriangleApproach& x, const TriangleApproach& y) {
+    return x.approach.fraction != y.approach.fraction ? x.approach.fraction > y.approach.fraction
+                                                      : x.triangle > y.triangle;
+}
+
+// An internal edge's bent normal would stop what only slides over it: there the face decides.
+void straighten(const NearTriangles& triangles, const NearTriangle& triangle, const Vec3& from,
+                Impact& impact) {
+    if (!in_normal_cone(triangles, impact.point_b_ns, impact.normal)) {
+        const bool in_front = (from - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0;
+        impact.normal = in_front ? triangle.normal : Vec3(-triangle.normal);
+    }
+}
+
+// Whichever triangle is nearest to a touch goes one step on: none goes farther than the first stop.
 std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a,
                                            const NearTriangles& triangles,
                                            const RelativeMotion& motion, double limit) {
     const double graze = graze_m(io, a, nullptr);
     const Vec3 from = a.placed(motion.at(0.0)).position;
-    std::optional<Impact> first;
-    for (const NearTriangle& triangle : triangles.all()) {
-        const Convex b = io.scratch.triangle.place(triangle.corners_ns, triangle.normal);
-        auto impact = time_of_impact(a, motion, b, first ? first->fraction : limit);
-        if (!impact || (first && impact->fraction >= first->fraction)) {
-            continue;
-        }
-        // An internal edge's bent normal would stop what only slides over it: there the face
-        // decides.
-        if (!in_normal_cone(triangles, impact->point_b_ns, impact->normal)) {
-            const bool in_front = (from - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0;
-            impact->normal = in_front ? triangle.normal : Vec3(-triangle.normal);
-        }
-        if (stops(*impact, motion, impact->normal, graze)) {
-            first = impact;
+    const auto place = [&](std::uint32_t index) {
+        const NearTriangle& triangle = triangles.all()[index];
+        return io.scratch.triangle.place(triangle.corners_ns, triangle.normal);
+    };
+    std::vector<TriangleApproach>& queue = io.scratch.approaches;
+    queue.clear();
+    for (std::uint32_t i = 0; i < triangles.all().size(); ++i) {
+        if (const auto approach = begin_approach(a, motion, place(i), limit)) {
+            queue.push_back({*approach, i});
         }
     }
-    return first;
+    std::ranges::make_heap(queue, is_later);
+    while (!queue.empty()) {
+        std::ranges::pop_heap(queue, is_later);
+        TriangleApproach& next = queue.back();
+        const Way way = advance(a, motion, place(next.triangle), limit, next.approach);
+        if (way == Way::goes_on) {
+            std::ranges::push_heap(queue, is_later);
+            continue;
+        }
+        Impact impact = next.approach.impact;
+        const NearTriangle& triangle = triangles.all()[next.triangle];
+        queue.pop_back();
+        if (way == Way::touches) {
+            straighten(triangles, triangle, from, impact);
+            if (stops(impact, motion, impact.normal, graze)) {
+                return impact;
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 // How far a body's parts reach from its place.

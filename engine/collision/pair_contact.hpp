@@ -3,17 +3,25 @@
 #include <span>
 #include <vector>
 
+#include "engine/collision/bullet_sweep.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/mesh_contact.hpp"
 
 // Contacts of one pair of colliders: a pure function of the two shapes and a's way relative to b.
 namespace handhold {
 
+// A triangle that a part is on its way to.
+struct TriangleApproach {
+    Approach approach;
+    std::uint32_t triangle = 0;
+};
+
 // Memory that is reused from pair to pair; its content means nothing between calls.
 struct PairScratch {
     TriangleShape triangle;
     ClipScratch clip;
     std::vector<NearTriangles> triangles;
+    std::vector<TriangleApproach> approaches;
     std::vector<NearContact> contacts;
     std::vector<NearContact> spare;
 };

@@ -212,5 +212,59 @@ TEST(Sweep, OfATriangleIsMetByWhatMeetsItAndByNothingThatMissesIt) {
     EXPECT_GT(misses, 50);
 }
 
+// Oracle: small steps again. At the step where the first of many triangles is met, a contact's
+// plane must just be reached: that of a triangle met later would still be far.
+TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
+    Random random(33);
+    constexpr int k_steps = 200;
+    constexpr double k_reached_m = 0.03;  // a step, with what a fast end turns in it
+    int hits = 0;
+    int missed = 0;
+    for (int round = 0; round < 80; ++round) {
+        ShapeLibrary shapes;
+        const ShapeId body =
+            round % 2 == 0 ? shapes.add_capsule(0.02, 0.3) : shapes.add_box({0.3, 0.02, 0.05});
+        auto mesh = std::make_shared<Mesh>();
+        std::vector<Corners> triangles;
+        for (std::uint32_t i = 0; i < 24; ++i) {
+            const Vec3 middle = random.vector(0.8);
+            triangles.push_back({Vec3(middle + random.vector(0.4)),
+                                 Vec3(middle + random.vector(0.4)),
+                                 Vec3(middle + random.vector(0.4))});
+            mesh->positions.insert(mesh->positions.end(), triangles.back().begin(),
+                                   triangles.back().end());
+            mesh->triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        const ShapeId soup = shapes.add_mesh(mesh);
+        const Vec3 start = 1.5 * random.direction();
+        const Pose from = at(start, random.rotation());
+        const Vec3 aside = random.vector(0.3);  // first: compilers order arguments as they like
+        const Pose to = at(aside - start, random.rotation());
+        std::optional<double> met;
+        for (int i = 0; i <= k_steps && !met; ++i) {
+            const double fraction = static_cast<double>(i) / k_steps;
+            const auto core = test::make_core(shapes.at(body), interpolate(from, to, fraction));
+            const bool meets = std::ranges::any_of(triangles, [&](const Corners& corners) {
+                return test::gap_to_triangle(core, corners).distance_m < -1e-3;
+            });
+            met = meets ? std::optional(fraction) : std::nullopt;
+        }
+        if (!met) {
+            continue;
+        }
+        ++hits;
+        const auto contacts = contacts_of(
+            shapes, {resting(1, soup, {}, false), moving(2, body, from, to)}, {1e-3, 0.005});
+        const Pose there = interpolate(from, to, *met);
+        const bool reached = std::ranges::any_of(contacts, [&](const ContactPoint& contact) {
+            const Vec3 way = transform_point(there, contact.point_a_bs) - contact.point_b_bs;
+            return std::abs(contact.normal_b_bs.dot(way)) < k_reached_m;
+        });
+        missed += reached ? 0 : 1;
+    }
+    EXPECT_GT(hits, 30);
+    EXPECT_LE(missed, hits / 50);  // brushes whose end is clear along their own normal
+}
+
 }  // namespace
 }  // namespace handhold

@@ -170,8 +170,8 @@ TEST(ReadTracking, HeadThatJumpsIsRecentredAndItsHandsWithIt) {
     Devices devices;
     devices.step({sample_at(0.005, place_at(0.005))});
     // Interpolated across the jump, button edges and speeds too.
-    devices.step({sample_at(0.015, place_at(0.015)),
-                  sample_at(0.024, place_at(0.024) + jump_m, true)});
+    devices.step(
+        {sample_at(0.015, place_at(0.015)), sample_at(0.024, place_at(0.024) + jump_m, true)});
     EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
     EXPECT_LT((devices.player_head().pose_ps.position - place_at(0.015)).norm(), 1e-9);
     devices.step({sample_at(0.024, place_at(0.024) + jump_m, true),
