@@ -176,9 +176,7 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("sample_ps", c.sample_ps);
     visit("sample_t_s", c.sample_t_s);
     visit("state", c.state);
-    visit("recentre_m", c.recentre_m);
-    visit("recentre_before_m", c.recentre_before_m);
-    visit("recentred_t_s", c.recentred_t_s);
+    visit("shift_m", c.shift_m);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {

@@ -44,14 +44,14 @@ const char* name_of(Fallback reason) {
             return "sample_not_finite";
         case Fallback::tracking_lost:
             return "tracking_lost";
+        case Fallback::hand_out_of_reach:
+            return "hand_out_of_reach";
         case Fallback::head_recentred:
             return "head_recentred";
         case Fallback::grab_no_surface:
             return "grab_no_surface";
         case Fallback::grip_stretched:
             return "grip_stretched";
-        case Fallback::grip_out_of_reach:
-            return "grip_out_of_reach";
         case Fallback::grip_lost:
             return "grip_lost";
         case Fallback::grip_body_gone:

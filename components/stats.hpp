@@ -32,10 +32,10 @@ enum class Fallback : std::uint8_t {
     sample_out_of_order,  // a sample older than the one before: ignored
     sample_not_finite,    // one device's pose in one sample: ignored
     tracking_lost,        // a device became silent or invalid: its pose is frozen
+    hand_out_of_reach,    // farther from its head than HandTuning::max_arm_m in a sample: ignored
     head_recentred,       // a head farther than TrackingTuning::max_jump_m: nobody moved
     grab_no_surface,      // a hand closed on nothing
     grip_stretched,       // a hand farther from its anchor than HandTuning::max_stretch_m: let go
-    grip_out_of_reach,    // a hand farther from its head than HandTuning::max_arm_m: holds nothing
     grip_lost,            // a hand came back from lost tracking open: let go, no throw
     grip_body_gone,       // the gripped body was destroyed: let go
     grip_reanchored,      // tracking came back, or the other hand left: anchor taken anew where the

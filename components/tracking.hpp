@@ -8,8 +8,8 @@
 #include "engine/math/math.hpp"
 
 // What the headset and the controllers say, and what stage 1 makes of it. Play space (_ps) is the
-// frame that the tracking is given in, shifted by what re-centring took from it (HeadTracking): it
-// is carried through the world by PlayerOrigin.
+// frame that the tracking is given in, but for HeadTracking::shift_m, which samples do not have in
+// them yet: it is carried through the world by PlayerOrigin.
 namespace handhold {
 
 enum class HandSide : std::uint8_t { left, right };
@@ -61,10 +61,8 @@ struct HeadTracking {
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
     // Added to every position that the tracking gives, so that a head that jumps (re-centring, a
-    // glitch) stays where it was in the world; from recentred_t_s on, before that the one before.
-    Vec3 recentre_m = Vec3::Zero();
-    Vec3 recentre_before_m = Vec3::Zero();
-    double recentred_t_s = 0.0;  // on the frame clock
+    // glitch) stays where it was in the world.
+    Vec3 shift_m = Vec3::Zero();
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -77,7 +75,9 @@ struct HandTracking {
     Pose sample_ps;
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    bool resumed = false;  // tracked in this frame, lost in the last one: the pose may have jumped
+    // Tracked in this frame, and lost in the last one or farther than TrackingTuning::max_jump_m
+    // from there: the pose has jumped.
+    bool resumed = false;
     // At most one edge a frame and hand; where buttons bounce faster the next frame begins with the
     // next edge.
     GrabEdge edge = GrabEdge::none;

@@ -121,7 +121,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("hand.max_stretch_m", t.hand.max_stretch_m, "m", 0.01, 10.0,
         "a hand farther than this from its anchor lets go");
     see("hand.max_arm_m", t.hand.max_arm_m, "m", 0.5, 1000.0,
-        "a hand farther than this from its player's head holds nothing");
+        "a hand that is said to be farther than this from its head is not believed");
     see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
         "centre of the head's collider in the tracked head's frame");

@@ -72,8 +72,8 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
         const StageTimer timer(Stage::update_grabs, stats);
         place(w, caches, tuning);
         update_grabs(
-            {caches.collision, w.persistent_id, w.hand_owner, w.head_tracking, w.hand_tracking,
-             w.player_origin, w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
+            {caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
+             w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
             tuning, stats);
     }
     {

@@ -10,8 +10,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_touch_m = 1e-6;
-constexpr int k_searches =
-    64;  // glancing turns close in slowly; the fraction reached is then early, never late
+constexpr int k_steps =
+    128;  // glancing turns close in slowly; the touch given is then early, never late
 constexpr double k_worn_share = 0.5;  // of the gap that a direction was found for
 
 // How far the sphere about a goes before it nears a triangle: cheap steps, whatever a's turn, that
@@ -82,29 +82,32 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
 Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, double limit,
             Approach& approach) {
     const Convex placed = a.at(motion.at(approach.fraction));
-    // A direction that keeps them apart is as good as the best one until little is left of the gap,
-    // and costs a tenth of finding another.
-    double gap = approach.searches > 0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
-    if (gap <= std::max(k_worn_share * approach.gap_m, 10.0 * k_touch_m)) {
+    // A direction that keeps them apart is as safe as the best one; it is kept until half of its
+    // gap is gone: finding another costs ten times as much.
+    double gap = approach.gap_m > 0.0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
+    if (!(gap > std::max(k_worn_share * approach.gap_m, 10.0 * k_touch_m))) {
         const CoreSeparation separation = separate(placed, b);
         gap = separation.separation_m - placed.radius_m - b.radius_m;
         approach.gap_m = gap;
         approach.impact.fraction = approach.fraction;
         approach.impact.normal = separation.normal;
         approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
-        if (gap <= k_touch_m || ++approach.searches == k_searches) {
+        if (!(gap > k_touch_m)) {
             return Way::touches;
         }
+    }
+    if (++approach.steps == k_steps) {
+        return Way::touches;
     }
     // Turning carries a point along the normal no faster than this, wherever it turns to.
     const Vec3& normal = approach.impact.normal;
     const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
     const double closing_m = turning_m - motion.move().dot(normal);
-    if (closing_m <= 0.0) {
+    if (!(closing_m > 0.0)) {
         return Way::misses;
     }
     approach.fraction += (gap - 0.5 * k_touch_m) / closing_m;
-    return approach.fraction > limit ? Way::misses : Way::goes_on;
+    return approach.fraction <= limit ? Way::goes_on : Way::misses;
 }
 
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,

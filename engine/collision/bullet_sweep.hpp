@@ -44,7 +44,7 @@ struct Approach {
     double fraction = 0.0;
     Impact impact;  // of the last search for what keeps them apart; where they touch: the touch
     double gap_m = 0.0;  // then
-    int searches = 0;
+    int steps = 0;
 };
 enum class Way : std::uint8_t { goes_on, touches, misses };
 // The first step, cheap, and the others, each from the last one's fraction to one that no point of

@@ -65,14 +65,15 @@ const char* meaning_of(Fallback reason) {
             return "A device's pose that was no number, or no rotation, was ignored.";
         case Fallback::tracking_lost:
             return "A device fell silent or became invalid; its last pose was kept.";
+        case Fallback::hand_out_of_reach:
+            return "A sample had a hand farther from its head than any arm reaches; it was "
+                   "ignored.";
         case Fallback::head_recentred:
             return "The head's tracking jumped; the player stayed where he was in the world.";
         case Fallback::grab_no_surface:
             return "A hand closed with no surface within reach; it holds nothing.";
         case Fallback::grip_stretched:
             return "A hand was pulled farther from its anchor than the stretch allows and let go.";
-        case Fallback::grip_out_of_reach:
-            return "A hand was farther from its head than any arm reaches; it held nothing.";
         case Fallback::grip_lost:
             return "A hand came back from lost tracking open; it let go without a throw.";
         case Fallback::grip_body_gone:

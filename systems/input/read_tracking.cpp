@@ -23,6 +23,43 @@ bool is_stale(double t_s, bool has_sample, double last_t_s) {
 // A sample of no time at all is not one after the frame.
 bool is_later(double t_s, double end_s) { return std::isfinite(t_s) && t_s > end_s; }
 
+// Where a player's head is and how his readings are shifted, sample by sample: the same walk for
+// his head and for each of his hands.
+struct HeadWalk {
+    Vec3 shift_m;
+    Vec3 head_ps;  // of the last valid sample, shifted
+    double t_s;    // its time
+    bool has_sample;
+    bool jumped = false;  // in the sample followed last
+
+    explicit HeadWalk(const HeadTracking& head)
+        : shift_m(head.shift_m),
+          head_ps(head.sample_ps.position),
+          t_s(head.sample_t_s),
+          has_sample(head.state != TrackingState::never) {}
+
+    // A head that is farther from the last sample than any head moves has been re-centred: from
+    // here on all is shifted back to where it was.
+    void follow(const TrackingSample& sample, double max_jump_m) {
+        jumped = false;
+        if (is_stale(sample.t_s, has_sample, t_s) || !is_trackable(sample.head_ps)) {
+            return;
+        }
+        Vec3 next_ps = sample.head_ps.position + shift_m;
+        if (has_sample && (next_ps - head_ps).norm() > max_jump_m) {
+            jumped = true;
+            shift_m += head_ps - next_ps;
+            next_ps = head_ps;
+        }
+        head_ps = next_ps;
+        t_s = sample.t_s;
+        has_sample = true;
+    }
+    bool reaches(const Vec3& hand_ps, double max_arm_m) const {
+        return !has_sample || (hand_ps - head_ps).norm() <= max_arm_m;
+    }
+};
+
 // The same for the head and for hands: state and the pose at the end of the frame.
 // `later` is the first pose after the frame's end, or null.
 template <typename Device>
@@ -56,10 +93,6 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
     if (first) {
         device.start_ps = device.pose_ps;
     }
-}
-
-const Vec3& recentre_at(const HeadTracking& head, double t_s) {
-    return t_s < head.recentred_t_s ? head.recentre_before_m : head.recentre_m;
 }
 
 void remember(HandHistory& history, const HandTracking& hand) {
@@ -141,32 +174,39 @@ void begin_edge(HandTracking& hand, const HandHistory& history, double t_s, cons
 struct HandRows {
     HandTracking& hand;
     HandHistory& history;
-    const HeadTracking& head;  // of this frame
-    Pose joint;                // hand in controller
+    HeadWalk walk;  // from the end of the last frame
+    Pose joint;     // hand in controller
     HandSide side;
 };
 
-void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackingIo& io,
-               const TrackingTuning& tuning, StageStats& stats) {
+void read_hand(HandRows rows, const PlayerInput& input, const ReadTrackingIo& io,
+               const Tuning& tuning, StageStats& stats) {
     HandTracking& hand = rows.hand;
+    HeadWalk& walk = rows.walk;
     const TrackingState before = hand.state;
     bool has_sample = hand.state != TrackingState::never;
+    bool jumped = false;
     hand.start_ps = hand.pose_ps;
     hand.edge = GrabEdge::none;
     const bool may_begin_now =
         before == TrackingState::tracked || (before == TrackingState::lost && hand.pressed);
     if (hand.raw_pressed != hand.pressed && may_begin_now) {
-        begin_edge(hand, rows.history, io.frame_start_s, hand.start_ps, tuning);
+        begin_edge(hand, rows.history, io.frame_start_s, hand.start_ps, tuning.tracking);
     }
     Pose later;
     const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
         const ControllerSample& reading = sample.controllers[index_of(rows.side)];
+        walk.follow(sample, tuning.tracking.max_jump_m);
         Pose hand_ps = reading.controller_ps * rows.joint;
-        hand_ps.position += recentre_at(rows.head, sample.t_s);
+        hand_ps.position += walk.shift_m;
+        const bool is_seen = is_trackable(reading.controller_ps);
+        const bool is_believed = is_seen && walk.reaches(hand_ps.position, tuning.hand.max_arm_m);
+        const bool jumps = has_sample && (hand_ps.position - hand.sample_ps.position).norm() >
+                                             tuning.tracking.max_jump_m;
         if (is_later(sample.t_s, io.frame_end_s)) {
-            if (is_trackable(reading.controller_ps)) {
+            if (is_believed && !jumps) {
                 later = hand_ps;
                 later_or_null = &later;
                 later_t_s = sample.t_s;
@@ -177,69 +217,63 @@ void read_hand(const HandRows& rows, const PlayerInput& input, const ReadTrackin
             continue;  // counted once a player, by the head
         }
         hand.raw_pressed = reading.grab;
-        if (is_trackable(reading.controller_ps)) {
+        if (is_believed) {
+            if (jumps) {
+                jumped = true;
+                rows.history.count = rows.history.next = 0;
+            }
             hand.sample_ps = hand_ps;
             hand.sample_t_s = sample.t_s;
             has_sample = true;
             remember(rows.history, hand);
         } else {
-            stats.count(Fallback::sample_not_finite);
+            stats.count(is_seen ? Fallback::hand_out_of_reach : Fallback::sample_not_finite);
         }
         // A hand that cannot be seen may let go, but waits with closing until it is seen again.
-        const bool may_begin = has_sample && (is_trackable(reading.controller_ps) || !reading.grab);
+        const bool may_begin = has_sample && (is_believed || !reading.grab);
         if (may_begin && reading.grab != hand.pressed && hand.edge == GrabEdge::none) {
             begin_edge(hand, rows.history, std::max(sample.t_s, io.frame_start_s), hand.sample_ps,
-                       tuning);
+                       tuning.tracking);
         }
     }
-    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s, tuning.lost_after_s,
-                  stats);
-    hand.resumed = before == TrackingState::lost && hand.state == TrackingState::tracked;
+    finish_device(hand, has_sample, later_or_null, later_t_s, io.frame_end_s,
+                  tuning.tracking.lost_after_s, stats);
+    hand.resumed = hand.state == TrackingState::tracked &&
+                   (before == TrackingState::lost || (jumped && before != TrackingState::never));
     if (hand.resumed) {
         hand.start_ps = hand.pose_ps;
     }
 }
 
-// Shifts the head's reading, and from its time on all of the player's, to where the last one was,
-// if it is farther from that than any head moves.
-void recentre_where_it_jumps(HeadTracking& head, bool has_sample, double t_s, Pose& head_ps,
-                             const TrackingTuning& tuning, StageStats& stats) {
-    head_ps.position += recentre_at(head, t_s);
-    const Vec3 back_m = head.sample_ps.position - head_ps.position;
-    if (!has_sample || back_m.norm() <= tuning.max_jump_m) {
-        return;
-    }
-    stats.count(Fallback::head_recentred);
-    head.recentre_before_m = head.recentre_m;
-    head.recentre_m += back_m;
-    head.recentred_t_s = t_s;
-    head_ps.position = head.sample_ps.position;
-}
-
 void read_head(HeadTracking& head, const PlayerInput& input, const ReadTrackingIo& io,
                const TrackingTuning& tuning, StageStats& stats) {
-    bool has_sample = head.state != TrackingState::never;
+    HeadWalk walk(head);
+    bool has_sample = walk.has_sample;
     head.start_ps = head.pose_ps;
     Pose later;
     const Pose* later_or_null = nullptr;
     double later_t_s = 0.0;
     for (const TrackingSample& sample : input.samples) {
-        Pose head_ps{sample.head_ps.position, sample.head_ps.rotation.normalized()};
+        const bool is_stale_now = is_stale(sample.t_s, has_sample, head.sample_t_s);
+        walk.follow(sample, tuning.max_jump_m);
+        const Pose head_ps{walk.head_ps, sample.head_ps.rotation.normalized()};
         if (is_later(sample.t_s, io.frame_end_s)) {
             if (is_trackable(sample.head_ps)) {
-                recentre_where_it_jumps(head, has_sample, sample.t_s, head_ps, tuning, stats);
                 later = head_ps;
                 later_or_null = &later;
                 later_t_s = sample.t_s;
             }
             break;
         }
-        if (is_stale(sample.t_s, has_sample, head.sample_t_s)) {
+        if (is_stale_now) {
             stats.count(Fallback::sample_out_of_order);
         } else if (!is_trackable(sample.head_ps)) {
             stats.count(Fallback::sample_not_finite);
         } else {
-            recentre_where_it_jumps(head, has_sample, sample.t_s, head_ps, tuning, stats);
+            if (walk.jumped) {
+                stats.count(Fallback::head_recentred);
+            }
+            head.shift_m = walk.shift_m;
             head.sample_ps = head_ps;
             head.sample_t_s = sample.t_s;
             has_sample = true;
@@ -291,22 +325,23 @@ void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& s
              io.frame_end_s - io.frame_start_s);
     const Pose joints[k_hand_count] = {default_controller_to_hand(HandSide::left, tuning.hand),
                                        default_controller_to_hand(HandSide::right, tuning.hand)};
-    for (std::size_t row = 0; row < io.head.size(); ++row) {
-        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row], row), io,
-                  tuning.tracking, stats);
-    }
     for (std::size_t row = 0; row < io.commands.size(); ++row) {
         io.commands.rows()[row] =
             finite_commands(input_of(io, io.commands.owners()[row], row).commands);
     }
+    // Hands first: they follow the head from where the last frame left it.
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const Entity entity = io.owner.owners()[row];
         const HandOwner& owner = io.owner.rows()[row];
         const ControllerToHand* const own = io.controller_to_hand.find(entity);
-        const HandRows rows{io.hand.at(entity), io.history.at(entity), io.head.at(owner.player),
-                            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)],
-                            owner.side};
-        read_hand(rows, input_of(io, owner.player, row / k_hand_count), io, tuning.tracking, stats);
+        const HandRows rows{
+            io.hand.at(entity), io.history.at(entity), HeadWalk(io.head.at(owner.player)),
+            own != nullptr ? own->hand_in_controller : joints[index_of(owner.side)], owner.side};
+        read_hand(rows, input_of(io, owner.player, row / k_hand_count), io, tuning, stats);
+    }
+    for (std::size_t row = 0; row < io.head.size(); ++row) {
+        read_head(io.head.rows()[row], input_of(io, io.head.owners()[row], row), io,
+                  tuning.tracking, stats);
     }
 }
 

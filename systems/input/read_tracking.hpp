@@ -28,7 +28,8 @@ struct ReadTrackingIo {
 // time. Samples that are out of order or not finite are ignored and counted; a device silent for
 // longer than lost_after_s is lost and its pose frozen. Where a head jumps farther than max_jump_m
 // from one sample to the next, all of the player's readings are shifted back by as much from there
-// on, and counted. Commands hold for their own frame only;
+// on; a hand farther than max_arm_m from its head is not believed in that sample; a hand that jumps
+// comes back as from lost tracking. Each is counted. Commands hold for their own frame only;
 // numbers in them that are not finite ask for nothing.
 void read_tracking(const ReadTrackingIo& io, const Tuning& tuning, StageStats& stats);
 

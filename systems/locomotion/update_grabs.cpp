@@ -79,21 +79,9 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     *place = body;
 }
 
-// Farther from its head than any arm: tracking that is wrong, or a controller left behind.
-bool is_out_of_reach(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand,
-                     const HandTuning& tuning) {
-    const HeadTracking& head = io.head.at(owner.player);
-    return head.state != TrackingState::never &&
-           (hand.pose_ps.position - head.pose_ps.position).norm() > tuning.max_arm_m;
-}
-
 void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand,
                 Grab& grab, const Tuning& tuning, StageStats& stats) {
     ++stats.grab_onsets;
-    if (is_out_of_reach(io, owner, hand, tuning.hand)) {
-        stats.count(Fallback::grip_out_of_reach);
-        return;
-    }
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
     const auto surface = find_surface(io, palm_ray(hand_ws, owner.side, tuning.hand), tuning.hand);
     if (!surface) {
@@ -149,11 +137,6 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         if (grab.kind != GripKind::none && grab.error_m > tuning.hand.max_stretch_m &&
             gives_way(io, row)) {
             stats.count(Fallback::grip_stretched);
-            grab = {};
-        }
-        if (grab.kind != GripKind::none &&
-            is_out_of_reach(io, io.owner.at(entity), hand, tuning.hand)) {
-            stats.count(Fallback::grip_out_of_reach);
             grab = {};
         }
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {

@@ -16,7 +16,6 @@ struct UpdateGrabsIo {
     const CollisionWorld& collision;            // in: colliders at the start of the frame
     const Column<PersistentId>& persistent_id;  // in
     const Column<HandOwner>& owner;             // in
-    const Column<HeadTracking>& head;           // in
     const Column<HandTracking>& hand;           // in: edges
     const Column<PlayerOrigin>& origin;         // in: at the start of the frame
     const Column<RigidBody>& body;              // in
@@ -28,9 +27,9 @@ struct UpdateGrabsIo {
 
 // Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
 // it; where that meets nothing, for the nearest surface within reach of the palm: any surface, from
-// any angle. Hands that open, that are stretched too far or out of their player's reach, or whose
-// body is gone let go; of a player's two stretched hands only the worse, of two alike the one that
-// grips for the shorter time. Talk rows 2, 3.
+// any angle. Hands that open, that are stretched too far, or whose body is gone let go; of a
+// player's two stretched hands only the worse, of two alike the one that grips for the shorter
+// time. Talk rows 2, 3.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

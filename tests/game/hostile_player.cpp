@@ -70,13 +70,13 @@ Pose HostilePlayer::shown(const Device& device) {
 
 PlayerInput HostilePlayer::play(Entity player, double start_s, double end_s) {
     const double dt_s = end_s - start_s;
-    move(head_, 0.25, dt_s);
-    for (Device& hand : hands_) {
-        move(hand, 0.6, dt_s);
-    }
     samples_.clear();
     const auto count = static_cast<int>(random_.unit() * 4.0);
     for (int i = 0; i < count; ++i) {
+        move(head_, 0.25, dt_s / count);
+        for (Device& hand : hands_) {
+            move(hand, 0.6, dt_s / count);
+        }
         TrackingSample sample;
         sample.t_s = start_s + dt_s * (i + random_.between(0.0, 1.3)) / count;
         if (random_.chance(0.01)) {

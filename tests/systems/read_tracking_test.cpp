@@ -91,7 +91,7 @@ TEST(ReadTracking, HandSitsInItsControllerAsItsJointSays) {
     const Pose joint{Vec3(0.01, 0.02, 0.09), rotation_about(Vec3::UnitX(), 0.4)};
     devices.joint.at(Devices::hand_of(k_player, HandSide::left)).hand_in_controller = joint;
     TrackingSample sample = sample_at(0.005);
-    sample.controllers[0].controller_ps = {Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitY(), 0.7)};
+    sample.controllers[0].controller_ps = {Vec3(0.5, 1.0, 1.5), rotation_about(Vec3::UnitY(), 0.7)};
     devices.step({sample});
     EXPECT_LT(distance(devices.left().pose_ps, sample.controllers[0].controller_ps * joint), 1e-14);
 }
@@ -100,6 +100,7 @@ RC_GTEST_PROP(ReadTracking, MirroredControllersGiveMirroredHands, (std::uint64_t
     Random random(seed);
     Devices devices;
     devices.joint.clear();  // both hands have Tuning's joint
+    devices.tuning.hand.max_arm_m = devices.tuning.tracking.max_jump_m = 100.0;
     devices.tuning.hand.controller_offset_m = random.vector(0.3);
     devices.tuning.hand.controller_pitch_rad = random.between(-3.0, 3.0);
     std::vector<TrackingSample> samples;
@@ -169,26 +170,99 @@ TEST(ReadTracking, HeadThatJumpsIsRecentredAndItsHandsWithIt) {
     const auto place_at = [](double t_s) { return Vec3(t_s, 0.0, 1.0); };  // 1 m/s
     Devices devices;
     devices.step({sample_at(0.005, place_at(0.005))});
-    // Interpolated across the jump, button edges and speeds too.
     devices.step(
         {sample_at(0.015, place_at(0.015)), sample_at(0.024, place_at(0.024) + jump_m, true)});
-    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
+    // Not interpolated across the jump.
     EXPECT_LT((devices.player_head().pose_ps.position - place_at(0.015)).norm(), 1e-9);
+    EXPECT_LT((devices.right().pose_ps.position - place_at(0.015)).norm(), 1e-9);
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 0U);
     devices.step({sample_at(0.024, place_at(0.024) + jump_m, true),
                   sample_at(0.029, place_at(0.029) + jump_m, true)});
-    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 0U);
-    // The head stood still for the 9 ms of the jump, the hands moved on beside it.
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
+    // It stood still for the 9 ms of the jump, and its hands with it.
     const Vec3 stood_m(0.009, 0.0, 0.0);
     EXPECT_LT((devices.player_head().pose_ps.position + stood_m - place_at(0.029)).norm(), 1e-9);
     EXPECT_LT((devices.right().edge_ps.position + stood_m - place_at(0.024)).norm(), 1e-9);
+    EXPECT_FALSE(devices.right().resumed);
     devices.step({sample_at(0.039, place_at(0.039) + jump_m)});
-    EXPECT_LT((devices.left().pose_ps.position + stood_m - place_at(0.039)).norm(), 1e-9);
-    EXPECT_LT(devices.left().release_velocity_ps_mps.norm(), 1.1);
-    // And back.
-    devices.step({sample_at(0.045, place_at(0.045))});
+    // What it throws with: 1 m/s, less what the jump stood still.
+    const double slope_mps = devices.left().release_velocity_ps_mps.x();
+    EXPECT_GT(slope_mps, 0.5);
+    EXPECT_LT(slope_mps, 1.0);
+    devices.step({sample_at(0.045, place_at(0.045))});  // and back
     EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
     EXPECT_LT((devices.left().pose_ps.position - devices.player_head().pose_ps.position).norm(),
               1e-9);
+}
+
+TEST(ReadTracking, GlitchWithinAFrameLeavesNothingBehind) {
+    const Vec3 far_m(0.0, 3000.0, 0.0);
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0), true)});
+    devices.step({sample_at(0.012, Vec3(1.0, 0.0, 0.0), true), sample_at(0.014, far_m, false),
+                  sample_at(0.016, Vec3(1.0, 0.0, 0.0), false)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 2U);
+    for (const Vec3& place : {devices.player_head().pose_ps.position,
+                              devices.right().pose_ps.position, devices.right().edge_ps.position}) {
+        EXPECT_LT((place - Vec3(1.0, 0.0, 0.0)).norm(), 1e-9);
+    }
+    EXPECT_EQ(devices.right().edge, GrabEdge::release);
+    EXPECT_LT(devices.right().release_velocity_ps_mps.norm(), 1e-6);
+}
+
+TEST(ReadTracking, HandOutOfItsHeadsReachIsNotBelieved) {
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3::Zero(), true)});
+    TrackingSample glitch = sample_at(0.015, Vec3::Zero(), false);
+    glitch.controllers[1].controller_ps.position.x() = devices.tuning.hand.max_arm_m + 0.001;
+    devices.step({glitch});
+    EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 1U);
+    // Where it was, but what its button says counts: it may open.
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3::Zero());
+    EXPECT_EQ(devices.right().edge, GrabEdge::release);
+    EXPECT_EQ(devices.right().release_velocity_ps_mps, Vec3::Zero());
+    glitch.controllers[1].controller_ps.position.x() = devices.tuning.hand.max_arm_m - 0.001;
+    glitch.t_s = 0.025;
+    devices.step({glitch});
+    EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 0U);
+    EXPECT_EQ(devices.right().pose_ps.position, glitch.controllers[1].controller_ps.position);
+}
+
+TEST(ReadTracking, HeadThatJumpsAloneLeavesItsHandsWhereTheyWere) {
+    Devices devices;
+    devices.step({sample_at(0.005, Vec3(1.0, 0.0, 0.0), true)});
+    TrackingSample glitch = sample_at(0.015, Vec3(1.0, 0.0, 0.0), true);
+    glitch.head_ps.position.z() = 3000.0;
+    devices.step({glitch});
+    EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 2U);
+    devices.step({sample_at(0.025, Vec3(1.0, 0.0, 0.0), true)});
+    EXPECT_EQ(count_of(devices.stats, Fallback::hand_out_of_reach), 0U);
+    EXPECT_FALSE(devices.right().resumed);
+    EXPECT_LT((devices.right().pose_ps.position - Vec3(1.0, 0.0, 0.0)).norm(), 1e-9);
+    EXPECT_TRUE(devices.right().pressed);
+}
+
+TEST(ReadTracking, HandThatJumpsWithinReachSaysSoAndDoesNotSweep) {
+    Devices devices;
+    TrackingSample sample = sample_at(0.005);
+    sample.controllers[0].controller_ps.position.x() = -1.9;
+    devices.step({sample});
+    sample = sample_at(0.015);
+    sample.controllers[0].controller_ps.position.x() = 1.9;
+    devices.step({sample});
+    EXPECT_TRUE(devices.left().resumed);
+    EXPECT_EQ(devices.left().start_ps.position, Vec3(1.9, 0.0, 0.0));
+    EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.9, 0.0, 0.0));
+}
+
+TEST(ReadTracking, HeadThatComesBackFarAwayStaysWhereItWas) {
+    Devices devices;
+    devices.step({sample_at(0.01)});
+    devices.step({}, 0.5);
+    devices.step({sample_at(0.515, Vec3(3.0, 0.0, 0.0))});
+    EXPECT_EQ(count_of(devices.stats, Fallback::head_recentred), 1U);
+    EXPECT_EQ(devices.player_head().pose_ps.position, Vec3::Zero());
+    EXPECT_EQ(devices.right().pose_ps.position, Vec3::Zero());
 }
 
 TEST(ReadTracking, HeadThatLeapsWithinItsBoundIsFollowed) {

@@ -32,7 +32,6 @@ struct Grabs {
     std::vector<ColliderProxy> proxies;
     Column<PersistentId> persistent_id;
     Column<HandOwner> owner;
-    Column<HeadTracking> head;
     Column<HandTracking> hand;
     Column<PlayerOrigin> origin;
     Column<RigidBody> body;
@@ -47,7 +46,6 @@ struct Grabs {
         : frame_ws(frame) {
         persistent_id.add(k_player, {100});
         origin.add(k_player, {frame_ws});
-        head.add(k_player);
         head_ignores.add(k_player);
         for (const Entity entity : hands) {
             owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
@@ -91,8 +89,8 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs({collision, persistent_id, owner, head, hand, origin, body, body_pose,
-                      joint_groups, grab, head_ignores},
+        update_grabs({collision, persistent_id, owner, hand, origin, body, body_pose, joint_groups,
+                      grab, head_ignores},
                      tuning, stats);
     }
 };
@@ -246,28 +244,6 @@ TEST(UpdateGrabs, HandLetsGoOfABodyThatIsGone) {
     EXPECT_EQ(grabs.grab.at(k_right).kind, GripKind::none);
     EXPECT_EQ(grabs.grab.at(k_right).phase, GrabPhase::none);
     EXPECT_EQ(count_of(grabs.stats, Fallback::grip_body_gone), 1U);
-}
-
-TEST(UpdateGrabs, HandOutOfItsPlayersReachLetsGoAndGripsNothing) {
-    for (const double excess_m : {-0.001, 0.001}) {
-        const bool is_out = excess_m > 0.0;
-        Grabs grabs;
-        grabs.add_floor(1.0);
-        grabs.head.at(k_player).state = TrackingState::tracked;
-        grabs.hand.at(k_left).pose_ps.position.x() = grabs.tuning.hand.max_arm_m + excess_m;
-        grabs.close(k_left, Vec3(0.3, 1.05, 0.0));
-        grabs.close(k_right, Vec3(0.3, 1.05, 0.0));
-        grabs.run();
-        EXPECT_EQ(grabs.grab.at(k_left).kind == GripKind::none, is_out);
-        EXPECT_NE(grabs.grab.at(k_right).kind, GripKind::none);
-        EXPECT_EQ(count_of(grabs.stats, Fallback::grip_out_of_reach), is_out ? 1U : 0U);
-        grabs.hand.at(k_right).edge = GrabEdge::none;
-        grabs.hand.at(k_left).edge = GrabEdge::none;
-        grabs.hand.at(k_right).pose_ps.position.z() = -grabs.tuning.hand.max_arm_m - excess_m;
-        grabs.run();
-        EXPECT_EQ(grabs.grab.at(k_right).kind == GripKind::none, is_out);
-        EXPECT_EQ(count_of(grabs.stats, Fallback::grip_out_of_reach), is_out ? 1U : 0U);
-    }
 }
 
 TEST(UpdateGrabs, HandLetsGoWhereItIsStretchedFartherThanAllowed) {
