@@ -6,18 +6,12 @@
 #include <cstdio>
 
 #include "engine/collision/collision_world.hpp"
-#include "game/render/figures.hpp"
+#include "game/player_view.hpp"
 #include "game/render/primitives.hpp"
-#include "game/render/renderer.hpp"
 #include "game/render/video_writer.hpp"
-#include "game/scene_picture.hpp"
 
 namespace handhold {
 namespace {
-
-constexpr Color k_ray_color = {0.1F, 0.75F, 1.0F};
-constexpr Color k_hit_color = {0.2F, 1.0F, 0.35F};
-constexpr Color k_constraint_color = {1.0F, 0.55F, 0.05F};
 
 enum class View { first_person, outside };
 
@@ -27,16 +21,8 @@ struct SessionFilm::Impl {
     const Scene& scene;
     FilmSettings settings;
     double session_s;
-    // Each renderer has its own meshes.
-    struct Stage {
-        Renderer renderer;
-        std::vector<MeshId> visuals;  // by Scene::visuals
-        std::vector<MeshId> head;
-        std::array<std::array<std::vector<MeshId>, 2>, k_hand_count>
-            hands;  // by side, then open or grip
-    };
-    std::optional<Stage> still;
-    std::optional<Stage> moving;
+    std::optional<PlayerView> still;
+    std::optional<PlayerView> moving;
     std::unique_ptr<VideoWriter> video;
     std::string video_failure;
     CollisionWorld walls;  // static surfaces, so that the outside camera stays in the room
@@ -48,31 +34,6 @@ struct SessionFilm::Impl {
 
     Impl(const Scene& of_scene, const FilmSettings& with)
         : scene(of_scene), settings(with), session_s(0.0), walls(*of_scene.shapes) {}
-
-    static std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
-        std::vector<MeshId> ids;
-        ids.reserve(meshes.size());
-        for (const Mesh& mesh : meshes) {
-            ids.push_back(renderer.add_mesh(mesh));
-        }
-        return ids;
-    }
-
-    std::optional<Stage> make_stage(int width_px, int height_px, std::string& why_not) const {
-        std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not);
-        if (!renderer) {
-            return std::nullopt;
-        }
-        Stage stage{std::move(*renderer), {}, {}, {}};
-        stage.visuals = add_scene_meshes(scene, stage.renderer);
-        stage.head = add_all(stage.renderer, make_head());
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const FigureSide figure = side == 0 ? FigureSide::left : FigureSide::right;
-            stage.hands[side][0] = add_all(stage.renderer, make_hand(figure, HandShape::open));
-            stage.hands[side][1] = add_all(stage.renderer, make_hand(figure, HandShape::grip));
-        }
-        return stage;
-    }
 
     void place_walls() {
         std::vector<ColliderProxy> proxies;
@@ -116,40 +77,13 @@ struct SessionFilm::Impl {
         return look_along(best, target - best, up);
     }
 
-    static void add_figures(const Stage& stage, const RenderPose& render, View view, bool own,
-                            RenderFrame& frame) {
-        if (!(own && view == View::first_person)) {
-            for (const MeshId mesh : stage.head) {
-                frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
-            }
+    void draw(PlayerView& stage, View view, double fov_rad) {
+        const RenderPose& first = scene.world.render_pose.rows()[0];
+        if (view == View::first_person) {
+            stage.draw(first.head_ws, fov_rad, 0, image);
+        } else {
+            stage.draw(outside_camera(first), fov_rad, std::nullopt, image);
         }
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const RenderPose::Hand& hand = render.hands[side];
-            const bool grips = hand.grip != GripKind::none;
-            for (const MeshId mesh : stage.hands[side][grips ? 1 : 0]) {
-                frame.instances.push_back({mesh, hand.shown_ws, std::nullopt, {}});
-            }
-            frame.lines.push_back(
-                {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
-            if (grips) {
-                frame.lines.push_back(
-                    {render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
-                frame.lines.push_back(
-                    {hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
-            }
-        }
-    }
-
-    void draw(Stage& stage, View view, double fov_rad) {
-        RenderFrame frame = make_scene_frame(scene, stage.visuals);
-        const auto players = scene.world.render_pose.rows();
-        for (std::size_t i = 0; i < players.size(); ++i) {
-            add_figures(stage, players[i], view, i == 0, frame);
-        }
-        frame.camera.pose_ws =
-            view == View::first_person ? players[0].head_ws : outside_camera(players[0]);
-        frame.camera.vertical_fov_rad = fov_rad;
-        stage.renderer.draw(frame, image);
     }
 
     void add_shot(View view, const FrameLog& frame) {
@@ -200,7 +134,7 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
     auto impl = std::make_unique<Impl>(scene, settings);
     impl->session_s = session_s;
     impl->next_shot_s = std::min(1.0, 0.1 * session_s);
-    impl->still = impl->make_stage(settings.width_px, settings.height_px, why_not);
+    impl->still = PlayerView::open(scene, settings.width_px, settings.height_px, why_not);
     if (!impl->still) {
         return nullptr;
     }
@@ -212,7 +146,7 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
         impl->video = VideoWriter::open(settings.video.string(), video, impl->video_failure);
         if (impl->video != nullptr) {
             impl->moving =
-                impl->make_stage(settings.video_width_px, settings.video_height_px, why_not);
+                PlayerView::open(scene, settings.video_width_px, settings.video_height_px, why_not);
             if (!impl->moving) {
                 return nullptr;
             }

@@ -1,0 +1,79 @@
+#include "game/player_view.hpp"
+
+#include "game/render/figures.hpp"
+#include "game/scene_picture.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr Color k_ray_color = {0.1F, 0.75F, 1.0F};
+constexpr Color k_hit_color = {0.2F, 1.0F, 0.35F};
+constexpr Color k_constraint_color = {1.0F, 0.55F, 0.05F};
+
+std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
+    std::vector<MeshId> ids;
+    ids.reserve(meshes.size());
+    for (const Mesh& mesh : meshes) {
+        ids.push_back(renderer.add_mesh(mesh));
+    }
+    return ids;
+}
+
+}  // namespace
+
+PlayerView::PlayerView(const Scene& scene, Renderer renderer)
+    : scene_(&scene), renderer_(std::move(renderer)) {
+    visuals_ = add_scene_meshes(scene, renderer_);
+    head_ = add_all(renderer_, make_head());
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const FigureSide figure = side == 0 ? FigureSide::left : FigureSide::right;
+        hands_[side][0] = add_all(renderer_, make_hand(figure, HandShape::open));
+        hands_[side][1] = add_all(renderer_, make_hand(figure, HandShape::grip));
+    }
+}
+
+std::optional<PlayerView> PlayerView::open(const Scene& scene, int width_px, int height_px,
+                                           std::string& why_not) {
+    std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not);
+    if (!renderer) {
+        return std::nullopt;
+    }
+    return PlayerView(scene, std::move(*renderer));
+}
+
+void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) const {
+    if (with_head) {
+        for (const MeshId mesh : head_) {
+            frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
+        }
+    }
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const RenderPose::Hand& hand = render.hands[side];
+        const bool grips = hand.grip != GripKind::none;
+        for (const MeshId mesh : hands_[side][grips ? 1 : 0]) {
+            frame.instances.push_back({mesh, hand.shown_ws, std::nullopt, {}});
+        }
+        frame.lines.push_back(
+            {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
+        if (grips) {
+            frame.lines.push_back(
+                {render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
+            frame.lines.push_back(
+                {hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
+        }
+    }
+}
+
+void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
+                      std::optional<std::size_t> without_head, Image& out) {
+    RenderFrame frame = make_scene_frame(*scene_, visuals_);
+    const auto players = scene_->world.render_pose.rows();
+    for (std::size_t i = 0; i < players.size(); ++i) {
+        add_figure(players[i], without_head != i, frame);
+    }
+    frame.camera.pose_ws = camera_ws;
+    frame.camera.vertical_fov_rad = vertical_fov_rad;
+    renderer_.draw(frame, out);
+}
+
+}  // namespace handhold

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/render.hpp"
+#include "game/render/renderer.hpp"
+#include "game/scene.hpp"
+
+namespace handhold {
+
+// A scene with its players as a renderer draws them: their heads and hands, what their palms point
+// at, and what holds them.
+class PlayerView {
+  public:
+    // Nothing, with the reason, where nothing can be drawn on this machine. `scene` must outlive
+    // the view.
+    static std::optional<PlayerView> open(const Scene& scene, int width_px, int height_px,
+                                          std::string& why_not);
+
+    // As it stands now, from a camera; `without_head`: the row of the player whose eyes it is.
+    void draw(const Pose& camera_ws, double vertical_fov_rad,
+              std::optional<std::size_t> without_head, Image& out);
+
+  private:
+    PlayerView(const Scene& scene, Renderer renderer);
+    void add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) const;
+
+    const Scene* scene_;
+    Renderer renderer_;            // each has its own meshes
+    std::vector<MeshId> visuals_;  // by Scene::visuals
+    std::vector<MeshId> head_;
+    std::array<std::array<std::vector<MeshId>, 2>, k_hand_count>
+        hands_;  // by side, then open or grip
+};
+
+}  // namespace handhold
