@@ -8,6 +8,7 @@
 #include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
 #include "game/picture_command.hpp"
+#include "game/play_command.hpp"
 #include "game/run_command.hpp"
 #include "game/scene.hpp"
 
@@ -71,6 +72,19 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
     pictures.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
 
+void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
+    play.add_option("--scene", options.scene, "As of run; default: station");
+    play.add_option("--spawn", options.spawn, "A spawn of the scene; default: its first");
+    play.add_option("--record", options.record,
+                    "Save the session (.csv): run --input plays it again");
+    play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");
+    play.add_option("--picture", options.picture, "Save the last picture (.png)");
+    play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
+        ->check(CLI::Range(0.01, 1e6));
+    play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
+    play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
+}
+
 int list_scenes() {
     for (const std::string_view name : handhold::built_in_scenes()) {
         const auto scene = handhold::make_built_in_scene(name);
@@ -89,6 +103,9 @@ int main(int argc, char** argv) {
     CLI::App* const run =
         app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
+    handhold::PlayOptions play_options;
+    CLI::App* const play = app.add_subcommand("play", "Play in a window with keyboard and mouse");
+    add_play_options(*play, play_options);
     handhold::ClimbOptions climb_options;
     CLI::App* const climb =
         app.add_subcommand("climb", "Record a session of a scripted climber who wanders");
@@ -115,6 +132,9 @@ int main(int argc, char** argv) {
     }
     if (scenes->parsed()) {
         return list_scenes();
+    }
+    if (play->parsed()) {
+        return handhold::play_command(play_options);
     }
     if (climb->parsed()) {
         return handhold::climb_command(climb_options);

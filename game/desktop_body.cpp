@@ -1,0 +1,175 @@
+#include "game/desktop_body.hpp"
+
+#include <algorithm>
+
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+const Vec3 k_head_place_ps(0.0, 1.6, 0.0);
+const Vec3 k_shoulder_hs(0.18, -0.2, 0.05);  // right; in the head's frame
+constexpr double k_arm_m = 0.78;             // from the shoulder
+constexpr double k_clearance_m = 0.15;       // of a pulling hand from the head
+constexpr double k_steepest_rad = 1.5;
+constexpr double k_look_m = 0.85;       // as far as he reaches for what he looks at
+constexpr double k_near_look_m = 0.08;  // beside the line of sight
+constexpr double k_no_surface_m = 0.6;
+constexpr double k_reach_mps = 3.5;
+constexpr double k_return_mps = 2.5;
+constexpr double k_longest_reach_s = 0.5;
+constexpr double k_arrived_m = 0.005;
+constexpr double k_pull_mps = 0.9;
+
+double sign_of(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
+
+Vec3 mirrored(Vec3 right, HandSide side) {
+    right.x() *= sign_of(side);
+    return right;
+}
+
+// What a hand that lies on something points its fingers along: up a wall, ahead on a floor.
+Vec3 fingers_on(const Vec3& away, const Quat& head) {
+    const Vec3 wanted = head * Vec3(0.0, 1.0, -0.3);
+    const Vec3 across = wanted - away * away.dot(wanted);
+    constexpr double k_least = 0.1;
+    return across.norm() > k_least ? wanted : Vec3(head * Vec3::UnitX());
+}
+
+}  // namespace
+
+// Open, at the height of the chest, in sight.
+Pose DesktopBody::rest_ps(HandSide side, const HandTuning& tuning) const {
+    const PalmPlace place{mirrored({0.2, -0.24, -0.42}, side),
+                          mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
+    return head_ps_ * hand_on(place, side, tuning);
+}
+
+// The surface that he looks at, or near which he looks by.
+void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
+                      const PlayerEntities& player) {
+    const Pose& origin_ws = scene.world.player_origin.at(player.player).pose_ws;
+    const std::uint64_t himself = scene.world.persistent_id.at(player.player).value;
+    const Vec3 from_ws = transform_point(origin_ws, head_ps_.position);
+    const Vec3 ahead_ps = head_ps_.rotation * -Vec3::UnitZ();
+    const Vec3 to_ws = from_ws + k_look_m * (origin_ws.rotation * ahead_ps);
+    auto hit = collision.cast_ray(from_ws, to_ws, {&himself, 1});
+    if (!hit) {
+        hit = collision.cast_sphere(k_near_look_m, from_ws, to_ws, {&himself, 1});
+    }
+    aim_ps_.reset();
+    if (hit) {
+        const Vec3 away = origin_ws.rotation.conjugate() * hit->normal_ws;
+        aim_ps_ = {inverse_transform_point(origin_ws, hit->point_ws), away,
+                   fingers_on(away, head_ps_.rotation)};
+    }
+}
+
+// On what he looks at; else out in front of him.
+Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
+    const PalmPlace ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
+                          head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
+    return hand_on(aim_ps_.value_or(ahead), side, tuning);
+}
+
+// Closes where it arrives, or where it has tried for long.
+void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
+    const double distance_m = (target_ps.position - hand.hand_ps.position).norm();
+    const double share =
+        distance_m > k_arrived_m ? std::min(1.0, k_reach_mps * dt_s / distance_m) : 1.0;
+    hand.hand_ps = interpolate(hand.hand_ps, target_ps, share);
+    hand.reaches_s += dt_s;
+    if (share == 1.0 || hand.reaches_s > k_longest_reach_s) {
+        hand.closed = true;
+        hand.carried_hs = inverse(head_ps_) * hand.hand_ps;
+    }
+}
+
+// Neither out of the arm's reach nor into the face, but for ways back from there.
+bool DesktopBody::may_pull(const Hand& hand, HandSide side, const Vec3& move_ps) const {
+    const Vec3 next_ps = hand.hand_ps.position + move_ps;
+    const Vec3 shoulder_ps = transform_point(head_ps_, mirrored(k_shoulder_hs, side));
+    const auto grows = [&](const Vec3& about) {
+        return (next_ps - about).norm() - (hand.hand_ps.position - about).norm();
+    };
+    const bool out = (next_ps - shoulder_ps).norm() > k_arm_m && grows(shoulder_ps) > 0.0;
+    const bool in =
+        (next_ps - head_ps_.position).norm() < k_clearance_m && grows(head_ps_.position) < 0.0;
+    return !out && !in;
+}
+
+// All hands that pull go together: what they hold does not give.
+void DesktopBody::pull(const Vec3& move_ps) {
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        if (uses_[side] == Use::pulls &&
+            !may_pull(hands_[side], static_cast<HandSide>(side), move_ps)) {
+            return;
+        }
+    }
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        if (uses_[side] == Use::pulls) {
+            hands_[side].hand_ps.position += move_ps;
+        }
+    }
+}
+
+TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& collision,
+                                    const PlayerEntities& player, const DesktopInput& input,
+                                    double t_s, double dt_s) {
+    yaw_rad_ += input.turn_left_rad;
+    pitch_rad_ = std::clamp(pitch_rad_ + input.look_up_rad, -k_steepest_rad, k_steepest_rad);
+    head_ps_.position = k_head_place_ps;
+    head_ps_.rotation =
+        (rotation_about(Vec3::UnitY(), yaw_rad_) * rotation_about(Vec3::UnitX(), pitch_rad_))
+            .normalized();
+    aim(scene, collision, player);
+    for (std::size_t i = 0; i < k_hand_count; ++i) {
+        const auto side = static_cast<HandSide>(i);
+        Hand& hand = hands_[i];
+        if (!has_hands_) {
+            hand.hand_ps = rest_ps(side, scene.tuning.hand);
+        }
+        const Grab& grab = scene.world.grab.at(player.hands[i]);
+        const bool carries = grab.kind == GripKind::held && !grab.jointed;
+        uses_[i] = !input.grip[i] ? Use::opens
+                   : !hand.closed ? Use::reaches
+                   : carries      ? Use::carries
+                                  : Use::pulls;
+        if (uses_[i] == Use::opens) {
+            hand.closed = false;
+            hand.reaches_s = 0.0;
+            const Pose rest = rest_ps(side, scene.tuning.hand);
+            const double distance_m = (rest.position - hand.hand_ps.position).norm();
+            const double share = std::min(1.0, k_return_mps * dt_s / std::max(distance_m, 1e-9));
+            hand.hand_ps = interpolate(hand.hand_ps, rest, share);
+        } else if (uses_[i] == Use::reaches) {
+            reach(target_ps(side, scene.tuning.hand), dt_s, hand);
+        } else if (uses_[i] == Use::carries) {
+            hand.carried_hs.position.z() -= input.farther_m;
+            hand.carried_hs.position.z() = std::clamp(hand.carried_hs.position.z(), -k_arm_m, -0.2);
+            hand.hand_ps = head_ps_ * hand.carried_hs;
+        }
+    }
+    has_hands_ = true;
+    const double speed_mps = (input.hurry ? 2.0 : 1.0) * k_pull_mps;
+    const Vec3 move_hs = -speed_mps * dt_s * input.move - input.farther_m * Vec3::UnitZ();
+    pull(head_ps_.rotation * move_hs);
+
+    TrackingSample sample;
+    sample.t_s = t_s;
+    sample.head_ps = head_ps_;
+    for (std::size_t i = 0; i < k_hand_count; ++i) {
+        const Pose joint = default_controller_to_hand(static_cast<HandSide>(i), scene.tuning.hand);
+        sample.controllers[i] = {hands_[i].hand_ps * inverse(joint), hands_[i].closed};
+    }
+    return sample;
+}
+
+PlayerCommands DesktopBody::commands(const DesktopInput& input) const {
+    PlayerCommands commands;
+    commands.brake = input.brake ? 1.0 : 0.0;
+    commands.thrust_ps = head_ps_.rotation * input.move;  // obeyed where the tuning has jets
+    return commands;
+}
+
+}  // namespace handhold
