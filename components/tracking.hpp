@@ -8,8 +8,8 @@
 #include "engine/math/math.hpp"
 
 // What the headset and the controllers say, and what stage 1 makes of it. Play space (_ps) is the
-// frame that the tracking is given in, but for HeadTracking::shift_m, which samples do not have in
-// them yet: it is carried through the world by PlayerOrigin.
+// frame that the tracking is given in, but for HeadTracking::shift_m, which the readings of an
+// input do not have in them yet: it is carried through the world by PlayerOrigin.
 namespace handhold {
 
 enum class HandSide : std::uint8_t { left, right };
@@ -75,8 +75,8 @@ struct HandTracking {
     Pose sample_ps;
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Tracked in this frame, and lost in the last one or farther than TrackingTuning::max_jump_m
-    // from there: the pose has jumped.
+    // Tracked in this frame, and lost in the last one, or a sample was farther than
+    // TrackingTuning::max_jump_m from the one before: the pose may have jumped.
     bool resumed = false;
     // At most one edge a frame and hand; where buttons bounce faster the next frame begins with the
     // next edge.

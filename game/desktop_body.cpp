@@ -81,7 +81,6 @@ void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     hand.reaches_s += dt_s;
     if (share == 1.0 || hand.reaches_s > k_longest_reach_s) {
         hand.closed = true;
-        hand.carried_hs = inverse(head_ps_) * hand.hand_ps;
     }
 }
 
@@ -130,11 +129,12 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
             hand.hand_ps = rest_ps(side, scene.tuning.hand);
         }
         const Grab& grab = scene.world.grab.at(player.hands[i]);
-        const bool carries = grab.kind == GripKind::held && !grab.jointed;
-        uses_[i] = !input.grip[i] ? Use::opens
-                   : !hand.closed ? Use::reaches
-                   : carries      ? Use::carries
-                                  : Use::pulls;
+        const bool carries =
+            grab.kind == GripKind::none || (grab.kind == GripKind::held && !grab.jointed);
+        uses_[i] = !input.grip[i] || input.opened[i] ? Use::opens
+                   : !hand.closed                    ? Use::reaches
+                   : carries                         ? Use::carries
+                                                     : Use::pulls;
         if (uses_[i] == Use::opens) {
             hand.closed = false;
             hand.reaches_s = 0.0;
@@ -145,8 +145,11 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
         } else if (uses_[i] == Use::reaches) {
             reach(target_ps(side, scene.tuning.hand), dt_s, hand);
         } else if (uses_[i] == Use::carries) {
-            hand.carried_hs.position.z() -= input.farther_m;
-            hand.carried_hs.position.z() = std::clamp(hand.carried_hs.position.z(), -k_arm_m, -0.2);
+            const double z_m = hand.carried_hs.position.z();
+            if (const double to_m = z_m - input.farther_m;
+                to_m > -k_arm_m && to_m < -k_clearance_m) {
+                hand.carried_hs.position.z() = to_m;
+            }
             hand.hand_ps = head_ps_ * hand.carried_hs;
         }
     }
@@ -154,6 +157,12 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
     const double speed_mps = (input.hurry ? 2.0 : 1.0) * k_pull_mps;
     const Vec3 move_hs = -speed_mps * dt_s * input.move - input.farther_m * Vec3::UnitZ();
     pull(head_ps_.rotation * move_hs);
+
+    for (std::size_t i = 0; i < k_hand_count; ++i) {
+        if (uses_[i] != Use::carries) {
+            hands_[i].carried_hs = inverse(head_ps_) * hands_[i].hand_ps;
+        }
+    }
 
     TrackingSample sample;
     sample.t_s = t_s;

@@ -15,10 +15,11 @@ namespace handhold {
 struct DesktopInput {
     double turn_left_rad = 0.0;
     double look_up_rad = 0.0;
-    std::array<bool, k_hand_count> grip{};  // by HandSide; held down
-    Vec3 move = Vec3::Zero();               // each in [-1, 1]: right, up, back, as he looks
-    double farther_m = 0.0;                 // what he holds or is held by; negative: nearer
-    bool hurry = false;                     // pulls twice as fast
+    std::array<bool, k_hand_count> grip{};    // by HandSide; held down
+    std::array<bool, k_hand_count> opened{};  // not held down for a moment of it
+    Vec3 move = Vec3::Zero();                 // each in [-1, 1]: right, up, back, as he looks
+    double farther_m = 0.0;                   // what he holds or is held by; negative: nearer
+    bool hurry = false;                       // pulls twice as fast
     bool brake = false;
 };
 
@@ -39,7 +40,7 @@ class DesktopBody {
   private:
     struct Hand {
         Pose hand_ps;
-        Pose carried_hs;  // in the head's frame, when it closed
+        Pose carried_hs;  // in the head's frame, when it began to go with the head
         double reaches_s = 0.0;
         bool closed = false;
     };

@@ -4,23 +4,20 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 
 #include "engine/core/profile.hpp"
-#include "game/desktop_body.hpp"
-#include "game/place_scene.hpp"
+#include "game/desktop_session.hpp"
 #include "game/platform/window.hpp"
 #include "game/player_view.hpp"
-#include "game/recording.hpp"
 #include "game/report/run_summary.hpp"
-#include "systems/frame.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr int k_exit_bad_file = 2;
 constexpr int k_exit_no_window = 3;
-constexpr double k_dt_s = 1.0 / 90.0;
 constexpr double k_most_behind_s = 0.1;  // then time goes slower
 constexpr double k_fov_rad = 1.25;
 constexpr double k_jets_mps2 = 0.5;
@@ -36,51 +33,6 @@ int refuse(const FileError& error) {
     return k_exit_bad_file;
 }
 
-RecordedSample recorded(const TrackingSample& sample) {
-    RecordedSample out{sample.t_s, sample.head_ps, {}};
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const ControllerSample& controller = sample.controllers[side];
-        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.grab ? 1.0 : 0.0};
-    }
-    return out;
-}
-
-// A scene with one player at the desk.
-struct Game {
-    Scene scene;
-    FrameCaches caches;
-    PlayerEntities player;
-    DesktopBody body;
-    Recording recording;
-    bool has_used_sticks = false;
-
-    Game(Scene loaded, const Pose& origin_ws)
-        : scene(std::move(loaded)),
-          caches(*scene.shapes),
-          player(add_scene_player(scene,
-                                  {free_player_name(scene.world, "player0"), origin_ws, 80.0})) {}
-
-    void step(const DesktopInput& input) {
-        place_scene(scene, caches);
-        const double start_s = scene.world.clock.t_s;
-        std::vector<TrackingSample> samples;
-        if (recording.samples.empty()) {  // recordings begin with the session
-            samples.push_back(body.advance(scene, caches.collision, player, {}, start_s, 1e-9));
-        }
-        samples.push_back(
-            body.advance(scene, caches.collision, player, input, start_s + k_dt_s, k_dt_s));
-        for (const TrackingSample& sample : samples) {
-            recording.samples.push_back(recorded(sample));
-        }
-        has_used_sticks = has_used_sticks || input.brake ||
-                          (scene.tuning.locomotion.thruster_mps2 > 0.0 && !input.move.isZero());
-        const PlayerInput from{player.player, samples, body.commands(input)};
-        StageStats stats;
-        step_frame(scene.world, caches, scene.tuning, {k_dt_s, {&from, 1}}, stats);
-    }
-};
-
 // Real time into steps of the simulation: input that happened between two of them waits.
 class Clock {
   public:
@@ -90,8 +42,8 @@ class Clock {
         behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
         behind_s_ = std::min(behind_s_, k_most_behind_s);
         last_ns_ = now;
-        const auto due = static_cast<int>(behind_s_ / k_dt_s);
-        behind_s_ -= due * k_dt_s;
+        const auto due = static_cast<int>(behind_s_ / DesktopSession::k_dt_s);
+        behind_s_ -= due * DesktopSession::k_dt_s;
         return due;
     }
 
@@ -101,21 +53,29 @@ class Clock {
 };
 
 // What came with one look at the window goes into the first of several steps, but for what is held.
-void spend(DesktopInput& input) { input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0; }
+void spend(DesktopInput& input) {
+    input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
+    input.opened = {};
+}
 void gather(const DesktopInput& now, DesktopInput& input) {
     const DesktopInput before = input;
     input = now;
     input.turn_left_rad += before.turn_left_rad;
     input.look_up_rad += before.look_up_rad;
     input.farther_m += before.farther_m;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        input.opened[side] = input.opened[side] || before.opened[side];
+    }
 }
 
-void play(const PlayOptions& options, Game& game, Window& window, PlayerView& view, Image& image) {
+void play(const PlayOptions& options, DesktopSession& session, Window& window, PlayerView& view,
+          Image& image) {
     Clock clock;
     DesktopInput input;
     bool shows_help = true;
+    const World& world = session.scene().world;
     const double end_s = options.seconds > 0.0 ? options.seconds : HUGE_VAL;
-    for (bool quits = false; !quits && game.scene.world.clock.t_s < end_s;) {
+    for (bool quits = false; !quits && world.clock.t_s < end_s;) {
         const WindowEvents events = window.poll();
         gather(events.input, input);
         shows_help = shows_help != events.help;
@@ -125,26 +85,41 @@ void play(const PlayOptions& options, Game& game, Window& window, PlayerView& vi
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             continue;
         }
-        for (int i = 0; i < due && game.scene.world.clock.t_s < end_s; ++i) {
-            game.step(input);
+        for (int i = 0; i < due && world.clock.t_s < end_s; ++i) {
+            session.step(input);
             spend(input);
         }
-        const RenderPose& eyes = game.scene.world.render_pose.at(game.player.player);
-        const std::size_t row = game.scene.world.render_pose.find_row(game.player.player);
-        view.draw(eyes.head_ws, k_fov_rad, row, image);
-        window.show(image, game.body.can_reach(), shows_help ? k_help : "");
+        const Entity player = session.player().player;
+        view.draw(world.render_pose.at(player).head_ws, k_fov_rad,
+                  world.render_pose.find_row(player), image);
+        window.show(image, session.body().can_reach(), shows_help ? k_help : "");
     }
 }
 
-std::optional<FileError> save(const PlayOptions& options, const Game& game, const Image& image) {
-    if (!options.record.empty()) {
-        if (auto error = save_recording(options.record, game.recording)) {
+// Said before anything is played: a session that cannot be kept is not begun.
+std::optional<FileError> check_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+        return FileError{file.string(), "", "expected a folder that is there"};
+    }
+    return std::nullopt;
+}
+
+std::optional<FileError> save(const PlayOptions& options, const std::string& spawn,
+                              const DesktopSession& session, const Image& image) {
+    const Recording& recording = session.recording();
+    if (recording.samples.size() > 1) {
+        if (auto error = save_recording(options.record, recording)) {
             return error;
         }
-        std::printf("%s: %zu samples%s\n", options.record.c_str(), game.recording.samples.size(),
-                    game.has_used_sticks ? "; brake and jets are not in it" : "");
+        std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
+                    recording.samples.size(),
+                    session.used_sticks() ? ", without brake and jets" : "");
+        std::printf("handhold run --scene %s%s --players 1 --input %s\n", options.scene.c_str(),
+                    spawn.empty() ? "" : (" --spawn " + spawn).c_str(), options.record.c_str());
     }
-    if (!options.picture.empty() && !save_png(image, options.picture)) {
+    if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
         return FileError{options.picture, "", "expected a file that can be written"};
     }
     return std::nullopt;
@@ -153,26 +128,36 @@ std::optional<FileError> save(const PlayOptions& options, const Game& game, cons
 }  // namespace
 
 int play_command(const PlayOptions& options) {
+    for (const std::string& file : {options.record, options.picture}) {
+        if (const auto error = check_folder(file)) {
+            return refuse(*error);
+        }
+    }
     Result<Scene> loaded = load_scene(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }
+    SceneSpawnPoint place;  // the origin where the scene names none
     const auto& spawns = loaded.value().spawns;
-    const auto spawn = std::ranges::find_if(spawns, [&](const SceneSpawnPoint& candidate) {
+    const auto found = std::ranges::find_if(spawns, [&](const SceneSpawnPoint& candidate) {
         return options.spawn.empty() || candidate.name == options.spawn;
     });
-    if (spawn == spawns.end() && !options.spawn.empty()) {
+    if (found != spawns.end()) {
+        place = *found;
+    } else if (!options.spawn.empty()) {
         return refuse({options.scene, "/spawns",
                        "expected a spawn \"" + options.spawn + "\", found none of that name"});
     }
-    const Pose origin_ws = spawn != spawns.end() ? spawn->pose_ws : Pose{};
-    Game game(std::move(loaded.value()), origin_ws);
     if (options.jets) {
-        game.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
+        loaded.value().tuning.locomotion.thruster_mps2 = k_jets_mps2;
+    }
+    DesktopSession session(std::move(loaded.value()), place.pose_ws);
+    if (!options.record.empty()) {
+        session.record();
     }
     std::string why_not;
-    auto view = PlayerView::open(game.scene, options.width_px, options.height_px, why_not);
-    const auto window = view ? Window::open("Handhold: " + game.scene.name, options.width_px,
+    auto view = PlayerView::open(session.scene(), options.width_px, options.height_px, why_not);
+    const auto window = view ? Window::open("Handhold: " + session.scene().name, options.width_px,
                                             options.height_px, why_not)
                              : nullptr;
     if (window == nullptr) {
@@ -181,11 +166,11 @@ int play_command(const PlayOptions& options) {
     }
     std::printf("%s\n", k_help);
     Image image;
-    play(options, game, *window, *view, image);
-    if (const auto error = save(options, game, image)) {
+    play(options, session, *window, *view, image);
+    if (const auto error = save(options, place.name, session, image)) {
         return refuse(*error);
     }
-    std::printf("state_hash %s\n", format_hash(hash_state(game.scene.world)).c_str());
+    std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
     return 0;
 }
 

@@ -126,7 +126,7 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
     }
     const double begin_s = scene.world.clock.t_s;
     const double seconds = session_length_s(recording, settings) - begin_s;
-    constexpr double k_rounding = 1e-6;  // of a frame: the clock is a sum
+    constexpr double k_rounding = 1e-3;  // of a frame: the clock is a sum
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (playback && scene.world.clock.frame > 0) {

@@ -1,6 +1,7 @@
 #include "game/platform/window.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include <SDL.h>
@@ -130,6 +131,12 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
         return failed();
     }
+    // Without a display SDL plays for nobody, unless it is told to.
+    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    if (std::getenv("SDL_VIDEODRIVER") == nullptr && (driver == "offscreen" || driver == "dummy")) {
+        why_not = "no display";
+        return nullptr;
+    }
     impl->window = SDL_CreateWindow(title.c_str(), k_anywhere, k_anywhere, width_px, height_px,
                                     SDL_WINDOW_RESIZABLE);
     if (impl->window == nullptr) {
@@ -160,6 +167,9 @@ WindowEvents Window::poll() {
         } else if (event.type == SDL_MOUSEMOTION) {
             input.turn_left_rad -= k_rad_per_px * event.motion.xrel;
             input.look_up_rad -= k_rad_per_px * event.motion.yrel;
+        } else if (event.type == SDL_MOUSEBUTTONUP) {
+            input.opened[0] = input.opened[0] || event.button.button == SDL_BUTTON_LEFT;
+            input.opened[1] = input.opened[1] || event.button.button == SDL_BUTTON_RIGHT;
         } else if (event.type == SDL_MOUSEWHEEL) {
             input.farther_m += k_wheel_m * event.wheel.y;
         }

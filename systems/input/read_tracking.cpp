@@ -86,7 +86,7 @@ void finish_device(Device& device, bool has_sample, const Pose* later, double la
     }
     device.state = TrackingState::tracked;
     device.pose_ps = device.sample_ps;
-    if (later != nullptr && later_t_s > device.sample_t_s) {
+    if (later != nullptr && later_t_s > device.sample_t_s && end_s > device.sample_t_s) {
         const double t = (end_s - device.sample_t_s) / (later_t_s - device.sample_t_s);
         device.pose_ps = interpolate(device.sample_ps, *later, std::clamp(t, 0.0, 1.0));
     }
@@ -221,6 +221,10 @@ void read_hand(HandRows rows, const PlayerInput& input, const ReadTrackingIo& io
             if (jumps) {
                 jumped = true;
                 rows.history.count = rows.history.next = 0;
+                if (hand.edge == GrabEdge::onset) {  // it closes where it is now
+                    hand.edge_ps = hand_ps;
+                    hand.edge_t_s = std::max(sample.t_s, io.frame_start_s);
+                }
             }
             hand.sample_ps = hand_ps;
             hand.sample_t_s = sample.t_s;

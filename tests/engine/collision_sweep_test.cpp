@@ -221,8 +221,8 @@ double deepest_m(const std::vector<ContactPoint>& contacts) {
 }
 
 // Oracle: small steps again. At the step where the first of many triangles is met, a contact's
-// plane must just be reached: that of a triangle met later would still be far. Their order changes
-// nothing.
+// plane must just be reached: that of a triangle met later would still be far. Nor does the
+// depth depend on their order.
 TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
     Random random(33);
     constexpr int k_steps = 200;

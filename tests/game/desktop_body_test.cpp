@@ -102,6 +102,22 @@ TEST(DesktopBody, LettingGoWhilePullingDrifts) {
     EXPECT_LT(velocity.z(), -0.7);
 }
 
+TEST(DesktopBody, FistThatHoldsNothingDoesNotStopTheOtherHand) {
+    DeskAtRail desk;
+    desk.input.grip[0] = true;
+    desk.run(0.7);
+    ASSERT_EQ(desk.grip(HandSide::left), GripKind::surface);
+    desk.input.turn_left_rad = -1.2;  // nothing there
+    desk.step();
+    desk.input.grip[1] = true;
+    desk.run(0.8);
+    ASSERT_EQ(desk.grip(HandSide::right), GripKind::none);
+    const Vec3 before = desk.head_ws();
+    desk.input.move = Vec3(0.0, 0.0, -1.0);
+    desk.run(0.4);
+    EXPECT_GT((desk.head_ws() - before).norm(), 0.25);
+}
+
 TEST(DesktopBody, JetsPushHimAsHeLooks) {
     Desk desk(make_void(), Vec3::Zero());
     desk.scene.tuning.locomotion.thruster_mps2 = 1.0;

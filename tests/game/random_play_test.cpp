@@ -30,7 +30,7 @@ struct PlayCase {
 };
 
 constexpr double k_far_jump_m = 5000.0;
-// Nothing goes farther in a frame: three samples of a head and a hand, two metres each.
+// Of a head in a frame, by three samples of two metres each and what its hands and a ship do.
 constexpr double k_farthest_step_m = 15.0;
 
 class HostilePlay : public testing::TestWithParam<PlayCase> {};
@@ -66,7 +66,7 @@ struct Playground {
     std::vector<PlayerEntities> players;
     double fastest_player = 0.0;
     double fastest_loose = 0.0;
-    double farthest_step_m = 0.0;     // of a head, but for where its scene carries it
+    double farthest_step_m = 0.0;     // of a head
     std::vector<Vec3> last_heads_ws;  // by player
     std::uint64_t grabs = 0;
 

@@ -255,6 +255,22 @@ TEST(ReadTracking, HandThatJumpsWithinReachSaysSoAndDoesNotSweep) {
     EXPECT_EQ(devices.left().pose_ps.position, Vec3(1.9, 0.0, 0.0));
 }
 
+TEST(ReadTracking, HandThatClosesAndJumpsClosesWhereItJumpedTo) {
+    Devices devices;
+    TrackingSample sample = sample_at(0.005);
+    sample.controllers[0].controller_ps.position.x() = -1.9;
+    devices.step({sample});
+    sample.t_s = 0.012;
+    sample.controllers[0].grab = true;
+    TrackingSample jumped = sample;
+    jumped.t_s = 0.016;
+    jumped.controllers[0].controller_ps.position.x() = 1.9;
+    devices.step({sample, jumped});
+    EXPECT_EQ(devices.left().edge, GrabEdge::onset);
+    EXPECT_EQ(devices.left().edge_t_s, 0.016);
+    EXPECT_EQ(devices.left().edge_ps.position, Vec3(1.9, 0.0, 0.0));
+}
+
 TEST(ReadTracking, HeadThatComesBackFarAwayStaysWhereItWas) {
     Devices devices;
     devices.step({sample_at(0.01)});

@@ -1,0 +1,50 @@
+#include "game/desktop_session.hpp"
+
+#include "game/place_scene.hpp"
+
+namespace handhold {
+namespace {
+
+RecordedSample recorded(const TrackingSample& sample) {
+    RecordedSample out{sample.t_s, sample.head_ps, {}};
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const ControllerSample& controller = sample.controllers[side];
+        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
+                           controller.grab ? 1.0 : 0.0};
+    }
+    return out;
+}
+
+}  // namespace
+
+DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
+    : scene_(std::move(scene)),
+      caches_(*scene_.shapes),
+      player_(
+          add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {}
+
+void DesktopSession::step(const DesktopInput& input) {
+    place_scene(scene_, caches_);
+    const double start_s = scene_.world.clock.t_s;
+    samples_.clear();
+    if (scene_.world.clock.frame == 0) {  // a recording begins with its session
+        samples_.push_back(body_.advance(scene_, caches_.collision, player_, {}, start_s, 1e-9));
+    }
+    samples_.push_back(
+        body_.advance(scene_, caches_.collision, player_, input, start_s + k_dt_s, k_dt_s));
+    if (records_) {
+        for (const TrackingSample& sample : samples_) {
+            recording_.samples.push_back(recorded(sample));
+        }
+    }
+    PlayerCommands commands = body_.commands(input);
+    if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
+        commands.thrust_ps.setZero();  // nobody would obey, but commands are state
+    }
+    used_sticks_ = used_sticks_ || input.brake || !commands.thrust_ps.isZero();
+    const PlayerInput from{player_.player, samples_, commands};
+    StageStats stats;
+    step_frame(scene_.world, caches_, scene_.tuning, {k_dt_s, {&from, 1}}, stats);
+}
+
+}  // namespace handhold
