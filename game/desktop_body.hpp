@@ -49,7 +49,7 @@ class DesktopBody {
     Pose rest_ps(HandSide side, const HandTuning& tuning) const;
     void aim(const Scene& scene, const CollisionWorld& collision, const PlayerEntities& player);
     Pose target_ps(HandSide side, const HandTuning& tuning) const;
-    void reach(const Pose& target_ps, double dt_s, Hand& hand);
+    static void reach(const Pose& target_ps, double dt_s, Hand& hand);
     void pull(const Vec3& move_ps);
     bool may_pull(const Hand& hand, HandSide side, const Vec3& move_ps) const;
 

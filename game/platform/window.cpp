@@ -1,7 +1,6 @@
 #include "game/platform/window.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include <SDL.h>
@@ -133,7 +132,7 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
     }
     // Without a display SDL plays for nobody, unless it is told to.
     const std::string_view driver = SDL_GetCurrentVideoDriver();
-    if (std::getenv("SDL_VIDEODRIVER") == nullptr && (driver == "offscreen" || driver == "dummy")) {
+    if (SDL_getenv("SDL_VIDEODRIVER") == nullptr && (driver == "offscreen" || driver == "dummy")) {
         why_not = "no display";
         return nullptr;
     }
