@@ -63,7 +63,7 @@ struct ContactTuning {
 
 struct SolverTuning {
     std::int32_t max_iterations = 30;
-    double tolerance_m = 1e-8;
+    double tolerance_m = 1e-7;
     double step_tolerance_m = 1e-9;
     // Relative to the system's diagonal; hands soften and harden from here as the error falls.
     double hand_softness = 1e-8;

@@ -33,7 +33,7 @@ void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGrap
     for (const ContactPoint& contact : contacts) {
         graph.blocks.push_back(contact_block(contact, graph));
     }
-    sort_blocks(graph.blocks);
+    sort_blocks(graph);
     build_islands(graph);
 }
 

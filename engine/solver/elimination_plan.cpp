@@ -10,8 +10,7 @@
 namespace handhold {
 namespace {
 
-// Bodies with more row nodes, or rows, than this are hubs.
-constexpr std::uint32_t k_hub_nodes = 4;
+// Bodies with more rows than this are hubs too.
 constexpr std::uint32_t k_hub_rows = 16;
 
 }  // namespace

@@ -10,6 +10,7 @@
 namespace handhold {
 
 inline constexpr std::uint32_t k_widest_node = 12;  // rows: four contacts with friction
+inline constexpr std::uint32_t k_hub_nodes = 4;     // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
 // Rows between the same two bodies: one block of unknowns, their multipliers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace handhold {
 namespace {
@@ -10,16 +11,35 @@ namespace {
 // Axes from the smallest moment to the largest.
 std::array<int, 3> axes_by_moment(const Vec3& inertia_kgm2) {
     std::array<int, 3> axes = {0, 1, 2};
-    std::ranges::stable_sort(axes, {}, [&](int axis) { return inertia_kgm2[axis]; });
+    const auto order = [&](std::size_t i, std::size_t j) {
+        if (inertia_kgm2[axes[j]] < inertia_kgm2[axes[i]]) {
+            std::swap(axes[i], axes[j]);
+        }
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
     return axes;
 }
 
 // Turns the body about one of its own axes; the momentum stays in the world, so it turns back in
 // the body.
 void turn_about_axis(int axis, double angle_rad, Quat& rotation, Vec3& momentum_bs) {
-    const Quat turn = rotation_about(Vec3::Unit(axis), angle_rad);
-    rotation = rotation * turn;
-    momentum_bs = turn.conjugate() * momentum_bs;
+    double s = 0.0;  // of half the angle
+    double c = 1.0;
+    sin_cos(0.5 * angle_rad, s, c);
+    const int next = (axis + 1) % 3;
+    const int last = (axis + 2) % 3;
+    const Quat before = rotation;
+    rotation.w() = before.w() * c - before.vec()[axis] * s;
+    rotation.vec()[axis] = before.vec()[axis] * c + before.w() * s;
+    rotation.vec()[next] = before.vec()[next] * c + before.vec()[last] * s;
+    rotation.vec()[last] = before.vec()[last] * c - before.vec()[next] * s;
+    const double sine = 2.0 * s * c;
+    const double cosine = c * c - s * s;
+    const Vec3 momentum = momentum_bs;
+    momentum_bs[next] = momentum[next] * cosine + momentum[last] * sine;
+    momentum_bs[last] = momentum[last] * cosine - momentum[next] * sine;
 }
 
 int steps_for(double spin_radps, double dt_s) {
@@ -62,8 +82,9 @@ void advance_rotation(const Vec3& inertia_kgm2, double dt_s, Quat& rotation, Vec
     }
     rotation = (rotation_from_vector(dt_s * shared * momentum_ws) * rotation).normalized();
     // From the momentum in the world, which is what it was: no rounding adds up.
-    momentum_bs = rotation.conjugate() * momentum_ws;
-    spin_radps = rotation * Vec3(momentum_bs.cwiseQuotient(inertia_kgm2));
+    const Mat3 axes = rotation.toRotationMatrix();
+    momentum_bs = axes.transpose() * momentum_ws;
+    spin_radps = axes * momentum_bs.cwiseQuotient(inertia_kgm2);
 }
 
 }  // namespace handhold

@@ -5,23 +5,6 @@
 
 namespace handhold {
 
-bool passes(BlockFilter filter, const RowBlock& block) {
-    switch (filter) {
-        case BlockFilter::without_contacts:
-            return !is_contact(block);
-        case BlockFilter::without_hands:
-            return !is_hand(block);
-        case BlockFilter::all:
-            break;
-    }
-    return true;
-}
-
-bool takes_part(const IslandView& island, const RowBlock& block) {
-    return passes(island.filter, block) &&
-           (island.bodies[block.a].inverse_mass > 0.0 || island.bodies[block.b].inverse_mass > 0.0);
-}
-
 bool has_contact(std::span<const Row> rows) {
     return std::ranges::any_of(rows, [](const Row& row) { return row.group == RowGroup::contact; });
 }

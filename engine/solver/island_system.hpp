@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "engine/solver/island_view.hpp"
 #include "engine/solver/row_system.hpp"
 #include "engine/solver/rows.hpp"
+#include "engine/solver/triad_system.hpp"
 
 // One island as linear equations: what the solve of positions and that of velocities share.
 namespace handhold {
@@ -34,22 +36,9 @@ struct SolveScratch {
     std::vector<Friction> frictions;
     bool is_driven = false;  // a hand or a detent may give energy
     RowSystem system;
+    TriadSystem triads;  // in place of all the others where it serves
 };
 
-enum class BlockFilter : std::uint8_t { all, without_contacts, without_hands };
-bool passes(BlockFilter filter, const RowBlock& block);
-
-// An island's part of the graph. Blocks between two bodies with zero inverse mass are passed over.
-struct IslandView {
-    BlockFilter filter = BlockFilter::all;
-    std::span<SolverBody> bodies;  // of the whole graph
-    std::span<RowBlock> blocks;
-    std::span<const std::uint32_t> island_bodies;
-    std::span<const std::uint32_t> island_blocks;
-};
-
-// True where the filter lets the block pass and something in it can move.
-bool takes_part(const IslandView& island, const RowBlock& block);
 bool has_contact(std::span<const Row> rows);
 
 // No geometric stiffness, for all of the island's bodies.
@@ -57,12 +46,6 @@ void clear_stiffness(const IslandView& island, SolveScratch& scratch);
 // Inverse inertia of all bodies at their present poses, with the stiffness.
 void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 
-// How much a row may give way, relative to the system's diagonal; joints and limits hardly do.
-struct Softness {
-    double hand = 1e-6;
-    double contact = 1e-7;
-    double joint = 1e-10;
-};
 // Times that a solve whose answer is too large to be meant softens its rows.
 inline constexpr int k_softening_retries = 3;
 // The farthest that rows of contacts may move a body, in what they lack: a lever of 1 m.

@@ -77,10 +77,26 @@ std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id) {
                : graph.bodies.size();
 }
 
-void sort_blocks(std::vector<RowBlock>& blocks) {
-    std::sort(blocks.begin(), blocks.end(), [](const RowBlock& x, const RowBlock& y) {
+// Blocks are large: their places are sorted, and each is moved once.
+void sort_blocks(ConstraintGraph& graph) {
+    using Place = ConstraintGraph::BlockPlace;
+    const auto is_before = [](const Place& x, const Place& y) {
         return std::tie(x.a, x.b, x.kind, x.key) < std::tie(y.a, y.b, y.kind, y.key);
-    });
+    };
+    std::vector<RowBlock>& blocks = graph.blocks;
+    graph.places.clear();
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        graph.places.push_back({blocks[i].key, blocks[i].a, blocks[i].b, i, blocks[i].kind});
+    }
+    if (std::ranges::is_sorted(graph.places, is_before)) {
+        return;
+    }
+    std::ranges::sort(graph.places, is_before);
+    graph.sorted_blocks.clear();
+    for (const Place& place : graph.places) {
+        graph.sorted_blocks.push_back(blocks[place.index]);
+    }
+    std::swap(blocks, graph.sorted_blocks);
 }
 
 void build_islands(ConstraintGraph& graph) {

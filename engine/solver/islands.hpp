@@ -34,7 +34,16 @@ struct ConstraintGraph {
             .subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
     }
 
-    // Scratch of build_islands.
+    // Scratch of sort_blocks and build_islands.
+    struct BlockPlace {
+        std::uint64_t key = 0;
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        std::uint32_t index = 0;
+        RowKind kind = RowKind::contact;
+    };
+    std::vector<BlockPlace> places;
+    std::vector<RowBlock> sorted_blocks;
     std::vector<std::uint32_t> parent;
     std::vector<std::uint32_t> island_of_root;
 };
@@ -43,7 +52,7 @@ struct ConstraintGraph {
 std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id);
 
 // By the bodies' ids, then kind, then key: the order in which rows were found never shows.
-void sort_blocks(std::vector<RowBlock>& blocks);
+void sort_blocks(ConstraintGraph& graph);
 
 // Connected components over the bodies that any phase may move: everything but fixed ones. Bodies
 // without a block have no island.

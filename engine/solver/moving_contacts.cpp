@@ -15,7 +15,7 @@ constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
 
 Pose collider_pose(const SolverBody& body) {
-    return body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
+    return {transform_point(body.pose_ws, body.collider_offset_bs), body.pose_ws.rotation};
 }
 
 // Moves the proxies after the solver's bodies; true where any collider went farther than contacts

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solver/geometric_stiffness.hpp"
+
 namespace handhold {
 namespace {
 
@@ -21,6 +23,8 @@ constexpr double k_largest_turn_rad = 1.0;  // of a step
 constexpr double k_largest_joint_move = 10.0;
 constexpr double k_free_move_m = 0.1;     // no move is too far up to this
 constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of scaling further
+
+// --- Any rows ----------------------------------------------------------------------------------
 
 bool may_be_apart(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
 
@@ -58,29 +62,6 @@ void collect_rows(const IslandView& island, std::vector<Row>& rows) {
     }
 }
 
-// True where every row, now and after a step, holds a point on a point.
-bool holds_only_points(const IslandView& island, std::span<const Row> rows) {
-    if (has_loose_block(island)) {
-        return false;
-    }
-    for (std::size_t i = 0; i < rows.size(); i += 3) {
-        if (!begins_point(rows[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-// The errors alone: the rows' directions stay those of the step before.
-void update_point_values(const IslandView& island, std::vector<Row>& rows) {
-    for (std::size_t i = 0; i < rows.size(); i += 3) {
-        const Vec3 error = point_error(island.bodies, island.blocks[rows[i].block]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            rows[i + axis].value_m = error[static_cast<Eigen::Index>(axis)];
-        }
-    }
-}
-
 double worst_overlap_of(std::span<const Row> rows) {
     double worst = 0.0;
     for (const Row& row : rows) {
@@ -106,55 +87,10 @@ double worst_of(std::span<const Row> rows) {
     return worst;
 }
 
-// The part of (l.r) I - sym(l r^T) (sign +1) or of its negative (-1) with eigenvalues above zero,
-// in closed form: its eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r.
-Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
-    const double product = force.norm() * arm.norm();
-    if (product < 1e-12) {
-        return Mat3::Zero();
-    }
-    const double along = force.dot(arm);
-    const Vec3 axis = force.normalized() - sign * arm.normalized();
-    const Vec3 normal = force.cross(arm);
-    Mat3 sum = Mat3::Zero();
-    if (axis.squaredNorm() > 1e-12) {
-        sum += (0.5 * (product + sign * along) / axis.squaredNorm()) * (axis * axis.transpose());
-    }
-    if (sign * along > 0.0 && normal.squaredNorm() > 1e-12 * product * product) {
-        sum += (sign * along / normal.squaredNorm()) * (normal * normal.transpose());
-    }
-    return sum;
-}
-
-// From the rows and multipliers of the last step, for every point held on, or away from, a point.
-void gather_stiffness(const IslandView& island, SolveScratch& scratch) {
-    clear_stiffness(island, scratch);
-    const std::span<const double> lambda = scratch.lambda;
-    const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
-                         double sign) {
-        const SolverBody& body = island.bodies[index];
-        if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
-            scratch.stiffness[body.slot] +=
-                positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
-        }
-    };
-    for (std::size_t i = 0; i < scratch.previous_rows.size(); ++i) {
-        const Row& row = scratch.previous_rows[i];
-        const RowBlock& block = island.blocks[row.block];
-        const bool is_point = begins_point(row);
-        if (!is_point && block.kind != RowKind::distance) {
-            continue;
-        }
-        const Vec3 force = is_point ? Vec3(lambda[i], lambda[i + 1], lambda[i + 2])
-                                    : Vec3(lambda[i] * row.linear_a);
-        add(row.a, force, block.point_a_bs, 1.0);
-        add(row.b, force, block.point_b_bs, -1.0);
-    }
-}
-
 // Returns the longest step, metres.
 double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
-    double longest = 0.0;
+    double longest_move = 0.0;
+    double longest_turn = 0.0;
     for (const std::uint32_t index : island.island_bodies) {
         SolverBody& body = island.bodies[index];
         if (!(body.inverse_mass > 0.0)) {
@@ -169,10 +105,132 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
             body.pose_ws.rotation =
                 (Quat(1.0, half.x(), half.y(), half.z()) * body.pose_ws.rotation).normalized();
         }
-        longest = std::max({longest, move.norm(), k_angle_m * turn.norm()});
+        longest_move = std::max(longest_move, move.squaredNorm());
+        longest_turn = std::max(longest_turn, turn.squaredNorm());
     }
-    return longest;
+    return std::max(std::sqrt(longest_move), k_angle_m * std::sqrt(longest_turn));
 }
+
+// An island's rows one by one, as RowSystem has them: any kind, with an active set.
+class RowSteps {
+  public:
+    RowSteps(const IslandView& island, SolveScratch& scratch) : island_(island), scratch_(scratch) {
+        scratch_.system.forget_active_set();
+        clear_stiffness(island_, scratch_);
+    }
+
+    void evaluate() {
+        std::swap(scratch_.rows, scratch_.previous_rows);
+        collect_rows(island_, scratch_.rows);
+    }
+    double worst_m() const { return worst_of(scratch_.rows); }
+    double overlap_m() const { return worst_overlap_of(scratch_.rows); }
+    bool has_contact() const { return handhold::has_contact(scratch_.rows); }
+    bool is_unsettled() const { return scratch_.system.is_unsettled(); }
+
+    // True where the factor of the rows before serves these: all of them hold, none may let go.
+    bool keeps_factor() const {
+        return scratch_.rows.size() == scratch_.previous_rows.size() &&
+               std::ranges::none_of(scratch_.rows, [](const Row& row) { return row.unilateral; });
+    }
+    void stiffen(bool stiff) {
+        clear_stiffness(island_, scratch_);
+        if (stiff) {
+            gather_stiffness();
+        }
+    }
+
+    void solve(const Softness& softness, double factor) {
+        prepare_inertia(island_, scratch_);
+        scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
+        regularise(scratch_.rows, softness, factor, scratch_.system);
+        take(scratch_.system.solve(scratch_.rows));
+    }
+    void solve_again() {
+        scratch_.values.clear();
+        for (const Row& row : scratch_.rows) {
+            scratch_.values.push_back(row.value_m);
+        }
+        take(scratch_.system.solve_again(scratch_.values));
+    }
+    double longest_move() const { return handhold::longest_move(scratch_); }
+    double longest_turn() const { return longest_turn_; }
+    double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
+    void finish() {}
+
+  private:
+    void take(std::span<const double> lambda) {
+        longest_turn_ = gather_moves(scratch_);
+        scratch_.lambda.assign(lambda.begin(), lambda.end());
+    }
+
+    // From the rows and multipliers of the last step, for every point held on, or away from, a
+    // point.
+    void gather_stiffness() {
+        const std::span<const double> lambda = scratch_.lambda;
+        const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
+                             double sign) {
+            const SolverBody& body = island_.bodies[index];
+            if (body.inverse_inertia_bs.squaredNorm() > 0.0) {
+                scratch_.stiffness[body.slot] +=
+                    positive_stiffness(force, body.pose_ws.rotation * point_bs, sign);
+            }
+        };
+        for (std::size_t i = 0; i < scratch_.previous_rows.size(); ++i) {
+            const Row& row = scratch_.previous_rows[i];
+            const RowBlock& block = island_.blocks[row.block];
+            const bool is_point = begins_point(row);
+            if (!is_point && block.kind != RowKind::distance) {
+                continue;
+            }
+            const Vec3 force = is_point ? Vec3(lambda[i], lambda[i + 1], lambda[i + 2])
+                                        : Vec3(lambda[i] * row.linear_a);
+            add(row.a, force, block.point_a_bs, 1.0);
+            add(row.b, force, block.point_b_bs, -1.0);
+        }
+    }
+
+    const IslandView& island_;
+    SolveScratch& scratch_;
+    double longest_turn_ = 0.0;
+};
+
+// --- Rows that all hold ------------------------------------------------------------------------
+
+// The same for an island that TriadSystem serves.
+class TriadSteps {
+  public:
+    TriadSteps(const IslandView& island, TriadSystem& system) : island_(island), system_(system) {}
+
+    void evaluate() { system_.evaluate(island_); }
+    double worst_m() const { return system_.worst_value(); }
+    double overlap_m() const { return 0.0; }
+    bool has_contact() const { return false; }
+    bool is_unsettled() const { return false; }
+    bool keeps_factor() const { return true; }
+    void stiffen(bool stiff) {
+        if (stiff) {
+            system_.gather_stiffness();
+        } else {
+            system_.clear_stiffness();
+        }
+    }
+    void solve(const Softness& softness, double factor) {
+        system_.factorise(softness, factor);
+        system_.solve();
+    }
+    void solve_again() { system_.solve(); }
+    double longest_move() const { return system_.longest_move(); }
+    double longest_turn() const { return system_.longest_turn(); }
+    double apply_moves(double scale) { return system_.apply_moves(scale); }
+    void finish() { system_.store_poses(island_); }
+
+  private:
+    const IslandView& island_;
+    TriadSystem& system_;
+};
+
+// --- Newton's method ---------------------------------------------------------------------------
 
 // Hands give way until the error falls below half of the least so far: steps that overshoot to and
 // fro are no progress. Contacts do so only where they contradict each other: else their multipliers
@@ -194,47 +252,31 @@ struct StepResult {
 };
 
 // One Newton step.
-StepResult take_step(const IslandView& island, const Softness& softness, double worst_m,
-                     SolveScratch& scratch) {
+template <typename Steps>
+StepResult take_step(const Softness& softness, double worst_m, Steps& steps) {
     double factor = 1.0;
     double scale = 1.0;
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
-        prepare_inertia(island, scratch);
-        scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
-        regularise(scratch.rows, softness, factor, scratch.system);
-        const std::span<const double> lambda = scratch.system.solve(scratch.rows);
-        const double turn = gather_moves(scratch);
-        scale = std::min(1.0, k_largest_turn_rad / std::max(turn, 1e-30));
-        const double move = std::max(longest_move(scratch), 1e-30);
-        const double largest = has_contact(scratch.rows)
+        steps.solve(softness, factor);
+        const double turn = std::max(steps.longest_turn(), 1e-30);
+        const double move = std::max(steps.longest_move(), 1e-30);
+        const double largest = steps.has_contact()
                                    ? k_largest_move * worst_m
                                    : std::max(k_largest_joint_move * worst_m, k_free_move_m);
-        scale = std::min(scale, largest / move);
-        scratch.lambda.assign(lambda.begin(), lambda.end());
+        scale = std::min({1.0, k_largest_turn_rad / turn, largest / move});
         if (scale >= k_smallest_scale) {
             break;
         }
         factor *= 100.0;
     }
-    return {apply_moves(island, scale, scratch), scale == 1.0};
+    return {steps.apply_moves(scale), scale == 1.0};
 }
 
 // A step with the factor of the one before: as good where the poses hardly moved since.
-StepResult repeat_step(const IslandView& island, SolveScratch& scratch) {
-    scratch.values.clear();
-    for (const Row& row : scratch.rows) {
-        scratch.values.push_back(row.value_m);
-    }
-    const std::span<const double> lambda = scratch.system.solve_again(scratch.values);
-    gather_moves(scratch);
-    scratch.lambda.assign(lambda.begin(), lambda.end());
-    return {apply_moves(island, 1.0, scratch), true};
-}
-
-// True where the factor of the rows before serves these: all of them hold, none may let go.
-bool are_alike(std::span<const Row> rows, std::span<const Row> previous_rows) {
-    return rows.size() == previous_rows.size() &&
-           std::ranges::none_of(rows, [](const Row& row) { return row.unilateral; });
+template <typename Steps>
+StepResult repeat_step(Steps& steps) {
+    steps.solve_again();
+    return {steps.apply_moves(1.0), true};
 }
 
 // True where the last step took the error down so well that its factor is worth another.
@@ -243,58 +285,49 @@ bool is_good_step(double residual_m, double previous_m, double stiffness_from_m)
     return residual_m < stiffness_from_m && residual_m < k_good_step * previous_m;
 }
 
-}  // namespace
-
-NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
-                             SolveScratch& scratch) {
+template <typename Steps>
+NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
     NewtonResult result;
     Softness softness = settings.softness;
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
     double least = previous;
     StepResult step{previous, false};
-    bool only_points = false;
-    scratch.system.forget_active_set();
-    clear_stiffness(island, scratch);
     for (;;) {
-        if (only_points && step.whole) {
-            update_point_values(island, scratch.rows);
-        } else {
-            std::swap(scratch.rows, scratch.previous_rows);
-            collect_rows(island, scratch.rows);
-        }
-        result.residual_m = worst_of(scratch.rows);
+        steps.evaluate();
+        result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
         if (result.converged || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m) {
+            steps.finish();
             return result;
         }
-        const double overlap = worst_overlap_of(scratch.rows);
-        const bool repeats = step.whole &&
-                             (only_points || are_alike(scratch.rows, scratch.previous_rows)) &&
+        const double overlap = steps.overlap_m();
+        const bool repeats = step.whole && steps.keeps_factor() &&
                              is_good_step(result.residual_m, previous, settings.stiffness_from_m);
-        if (only_points && step.whole && !repeats) {
-            std::swap(scratch.rows, scratch.previous_rows);
-            collect_rows(island, scratch.rows);
-        }
         if (result.iterations > 0 && !repeats) {
             adapt(result.residual_m, least, overlap, previous_overlap, settings.softness.contact,
                   softness);
-            if (result.residual_m > settings.stiffness_from_m) {
-                gather_stiffness(island, scratch);
-            } else {
-                clear_stiffness(island, scratch);
-            }
+            steps.stiffen(result.residual_m > settings.stiffness_from_m);
         }
-        step = repeats ? repeat_step(island, scratch)
-                       : take_step(island, softness, result.residual_m, scratch);
-        result.unsettled |= scratch.system.is_unsettled();
-        only_points = holds_only_points(island, scratch.rows);
+        step = repeats ? repeat_step(steps) : take_step(softness, result.residual_m, steps);
+        result.unsettled |= steps.is_unsettled();
         previous = result.residual_m;
         least = std::min(least, previous);
         previous_overlap = overlap;
         ++result.iterations;
     }
+}
+
+}  // namespace
+
+NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
+                             SolveScratch& scratch) {
+    // Positions may bring any contact near: not one may be left out.
+    constexpr double k_touch_m = std::numeric_limits<double>::infinity();
+    return scratch.triads.load(island, k_touch_m)
+               ? iterate(settings, TriadSteps(island, scratch.triads))
+               : iterate(settings, RowSteps(island, scratch));
 }
 
 }  // namespace handhold

@@ -124,24 +124,6 @@ void RowMatrix::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
     }
 }
 
-// The plan of this structure: a kept one, or a new one in place of the one used longest ago.
-void RowMatrix::choose_plan() {
-    ++uses_;
-    std::size_t oldest = plan_;
-    for (std::size_t i = 0; i < k_plans; ++i) {
-        const std::size_t candidate = (plan_ + i) % k_plans;
-        if (plan_used_[candidate] != 0 && plans_[candidate].fits(row_nodes_, turns_)) {
-            plan_ = candidate;
-            plan_used_[plan_] = uses_;
-            return;
-        }
-        oldest = plan_used_[candidate] < plan_used_[oldest] ? candidate : oldest;
-    }
-    plan_ = oldest;
-    plan_used_[plan_] = uses_;
-    plans_[plan_].build(row_nodes_, turns_);
-}
-
 void RowMatrix::write_jacobians(std::span<const SolverBody> bodies,
                                 std::span<const Mat3> inverse_inertia_ws,
                                 std::span<const Row> rows) {
@@ -214,7 +196,7 @@ void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
 void RowMatrix::assemble(std::span<const SolverBody> bodies,
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows) {
     group_rows(bodies, inverse_inertia_ws.size(), rows);
-    choose_plan();
+    plans_.choose(row_nodes_, turns_);
     write_jacobians(bodies, inverse_inertia_ws, rows);
     multiply_out();
     write_hubs(bodies, inverse_inertia_ws);

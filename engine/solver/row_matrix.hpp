@@ -7,6 +7,7 @@
 
 #include "engine/solver/block_factor.hpp"
 #include "engine/solver/elimination_plan.hpp"
+#include "engine/solver/plan_cache.hpp"
 #include "engine/solver/rows.hpp"
 
 namespace handhold {
@@ -49,13 +50,12 @@ class RowMatrix {
     };
     void group_rows(std::span<const SolverBody> bodies, std::size_t slot_count,
                     std::span<const Row> rows);
-    void choose_plan();
     void write_jacobians(std::span<const SolverBody> bodies,
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows);
     void multiply_out();
     void write_hubs(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws);
     void leave_out(std::uint32_t node, std::size_t row_in_node);
-    const EliminationPlan& plan() const { return plans_[plan_]; }
+    const EliminationPlan& plan() const { return plans_.current(); }
     // J of a node's side, six rows of the node's width, and W J^T, a row of six for each of its
     // rows.
     std::size_t end_begin(std::uint32_t end) const {
@@ -70,13 +70,7 @@ class RowMatrix {
     std::vector<std::uint32_t> node_of_row_;
     std::vector<std::uint32_t> unknown_of_row_;
 
-    // Structures come back: with and without contacts, with the player held still or not. Which
-    // were kept changes nothing but the cost.
-    static constexpr std::size_t k_plans = 6;
-    std::array<EliminationPlan, k_plans> plans_;
-    std::array<std::uint64_t, k_plans> plan_used_{};
-    std::uint64_t uses_ = 0;
-    std::size_t plan_ = 0;
+    PlanCache<EliminationPlan> plans_;
 
     std::vector<double> jacobians_;  // by end_begin
     std::vector<double> responses_;

@@ -32,8 +32,17 @@ Quat frame_b(std::span<const SolverBody> bodies, const RowBlock& block) {
     return bodies[block.b].pose_ws.rotation * block.rotation_b_bs;
 }
 
+// The frames' local x, a joint's axis, in the world.
+Vec3 axis_a(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return frame_a(bodies, block) * Vec3::UnitX();
+}
+Vec3 axis_b(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return frame_b(bodies, block) * Vec3::UnitX();
+}
+
 Vec3 rotation_error(std::span<const SolverBody> bodies, const RowBlock& block) {
-    return rotation_to_vector(frame_a(bodies, block) * frame_b(bodies, block).conjugate());
+    return rotation_error(bodies[block.a].pose_ws.rotation, bodies[block.b].pose_ws.rotation,
+                          block);
 }
 
 double angle_between(const Vec3& x, const Vec3& y) {
@@ -119,25 +128,27 @@ void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& bloc
 
 // The rate of the joint's coordinate as a row, per unit of the coordinate.
 void set_rate(std::span<const SolverBody> bodies, const RowBlock& block, Row& row) {
-    const Vec3 axis_a_ws = frame_a(bodies, block) * Vec3::UnitX();
-    const Ends ends(bodies, block);
     switch (block.kind) {
         case RowKind::hinge:
-            row.angular_b = axis_a_ws;
+            row.angular_b = axis_a(bodies, block);
             break;
         case RowKind::ball:
-            row.angular_b = axis_a_ws.cross(frame_b(bodies, block) * Vec3::UnitX()).normalized();
+            row.angular_b = axis_a(bodies, block).cross(axis_b(bodies, block)).normalized();
             break;
-        case RowKind::slider:
-            row.linear_a = -axis_a_ws;
+        case RowKind::slider: {
+            const Ends ends(bodies, block);
+            row.linear_a = -axis_a(bodies, block);
             row.angular_a = (ends.arm_a - ends.error).cross(row.linear_a);
             row.angular_b = -ends.arm_b.cross(row.linear_a);
             return;
-        case RowKind::distance:
+        }
+        case RowKind::distance: {
+            const Ends ends(bodies, block);
             row.linear_a = ends.error.normalized();
             row.angular_a = ends.arm_a.cross(row.linear_a);
             row.angular_b = -ends.arm_b.cross(row.linear_a);
             return;
+        }
         default:
             return;
     }
@@ -221,8 +232,7 @@ void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
             break;
         case RowKind::hinge:
             append_point_rows(ends, joint, rows);
-            append_axis_rows(frame_a(bodies, block), frame_b(bodies, block) * Vec3::UnitX(), joint,
-                             rows);
+            append_axis_rows(frame_a(bodies, block), axis_b(bodies, block), joint, rows);
             break;
         case RowKind::slider:
             append_line_rows(frame_a(bodies, block), ends, joint, rows);
@@ -269,8 +279,9 @@ std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlo
     return rows.size() - before;
 }
 
-Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block) {
-    return Ends(bodies, block).error;
+Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block) {
+    return rotation_to_vector((rotation_a_ws * block.rotation_a_bs) *
+                              (rotation_b_ws * block.rotation_b_bs).conjugate());
 }
 
 double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block) {
@@ -286,11 +297,10 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
             error = {apart.norm(), rotation_error(bodies, block).norm()};
             break;
         case RowKind::hinge:
-            error = {apart.norm(), angle_between(frame_a(bodies, block) * Vec3::UnitX(),
-                                                 frame_b(bodies, block) * Vec3::UnitX())};
+            error = {apart.norm(), angle_between(axis_a(bodies, block), axis_b(bodies, block))};
             break;
         case RowKind::slider: {
-            const Vec3 axis = frame_a(bodies, block) * Vec3::UnitX();
+            const Vec3 axis = axis_a(bodies, block);
             error = {Vec3(apart - axis * axis.dot(apart)).norm(),
                      rotation_error(bodies, block).norm()};
             break;
@@ -327,10 +337,9 @@ double joint_coordinate(std::span<const SolverBody> bodies, const RowBlock& bloc
             return angle + 2.0 * k_pi * std::round((block.joint.previous - angle) / (2.0 * k_pi));
         }
         case RowKind::ball:
-            return angle_between(frame_a(bodies, block) * Vec3::UnitX(),
-                                 frame_b(bodies, block) * Vec3::UnitX());
+            return angle_between(axis_a(bodies, block), axis_b(bodies, block));
         case RowKind::slider:
-            return -(frame_a(bodies, block) * Vec3::UnitX()).dot(Ends(bodies, block).error);
+            return -(axis_a(bodies, block)).dot(Ends(bodies, block).error);
         case RowKind::distance:
             return Ends(bodies, block).error.norm();
         default:

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solver/triad_velocities.hpp"
+
 namespace handhold {
 namespace {
 
@@ -309,6 +311,10 @@ void refine_velocities(const IslandView& island, SolveScratch& scratch) {
 
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch) {
+    if (scratch.triads.load(island, settings.touch_m)) {
+        solve_triad_velocities(island, settings.softness, scratch.triads);
+        return {};
+    }
     VelocityResult result;
     collect_velocity_rows(island, settings, scratch);
     evaluate_velocity_rows(island, scratch);

@@ -44,12 +44,18 @@ void add_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     FrameGraph& frame = io.frame;
     frame.graph.bodies.clear();
     frame.phase.assign(frame.entities.size(), {});
-    for (std::size_t i = 0; i < frame.entities.size(); ++i) {
+    frame.body_of_row.resize(io.body.size());
+    for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
         const Entity entity = frame.entities[i];
-        SolverBody body = io.player.contains(entity) ? player_body(io, entity, tuning.head)
-                                                     : rigid_body(io, entity, tuning.phases);
+        const std::size_t row = io.body.find_row(entity);
+        const bool is_rigid = row != Column<RigidBody>::k_npos;
+        if (is_rigid) {
+            frame.body_of_row[row] = i;
+        }
+        SolverBody& body =
+            frame.graph.bodies.emplace_back(is_rigid ? rigid_body(io, entity, tuning.phases)
+                                                     : player_body(io, entity, tuning.head));
         body.id = frame.proxies[i].id;
-        frame.graph.bodies.push_back(body);
     }
 }
 
@@ -204,8 +210,9 @@ JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
 void add_joints(const BuildConstraintsIo& io) {
     ConstraintGraph& graph = io.frame.graph;
     const auto body_index = [&](Entity entity) {
-        const PersistentId* const id = io.persistent_id.find(entity);
-        return id != nullptr ? find_body(graph, id->value) : graph.bodies.size();
+        const std::size_t row = io.body.find_row(entity);
+        return row != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_row[row]}
+                                                : graph.bodies.size();
     };
     const auto is_movable = [&](std::size_t index) {
         return graph.bodies[index].role != BodyRole::fixed;
@@ -219,7 +226,7 @@ void add_joints(const BuildConstraintsIo& io) {
             !(is_movable(a) || is_movable(b))) {
             continue;
         }
-        RowBlock block;
+        RowBlock& block = graph.blocks.emplace_back();
         block.kind = row_kind(joint.kind);
         block.key = io.persistent_id.at(entity).value;
         block.source = static_cast<std::uint32_t>(row);
@@ -230,7 +237,6 @@ void add_joints(const BuildConstraintsIo& io) {
         block.rotation_a_bs = joint.frame_a_bs.rotation;
         block.rotation_b_bs = joint.frame_b_bs.rotation;
         block.joint = joint_rows(joint, io.joint_state.at(entity), io.dt_s);
-        graph.blocks.push_back(block);
     }
 }
 

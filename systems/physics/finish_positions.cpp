@@ -46,12 +46,23 @@ std::optional<std::uint32_t> deepest_wall(const ConstraintGraph& graph, std::uin
     return wall;
 }
 
+// The deepest overlap in an island.
+double worst_overlap_m(const ConstraintGraph& graph, const Island& island) {
+    double worst = 0.0;
+    for (const std::uint32_t i : graph.blocks_of(island)) {
+        if (is_contact(graph.blocks[i])) {
+            worst = std::max(worst, block_error_m(graph.bodies, graph.blocks[i]));
+        }
+    }
+    return worst;
+}
+
 // Lists free bodies that are sunk, as they are.
 void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
     frame.sunk_bodies.clear();
     for (std::uint32_t i = 0; i < frame.graph.islands.size(); ++i) {
         const Island& island = frame.graph.islands[i];
-        if (island_errors(frame.graph, island).contacts_m < sunk_m) {
+        if (worst_overlap_m(frame.graph, island) < sunk_m) {
             continue;
         }
         for (const std::uint32_t index : frame.graph.bodies_of(island)) {

@@ -147,6 +147,15 @@ BlockFilter filter_of(Phase phase) {
     }
 }
 
+// What a solve tells of the island's errors: all are below its residual where it met every block.
+std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonResult& result) {
+    const auto counts = [&island](std::uint32_t i) { return takes_part(island, island.blocks[i]); };
+    if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
+        return std::nullopt;
+    }
+    return IslandErrors{result.residual_m, result.residual_m, result.residual_m};
+}
+
 // Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no
 // body: who solves which never shows.
 template <typename Wanted>
@@ -171,13 +180,12 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         set_masses(s, island, phase);
         const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
                               graph.blocks_of(island)};
+        const std::uint32_t index = frame.island_order[i];
         frame.island_results[i] =
-            frame.position_solver(view, settings, frame.island_scratch[frame.island_order[i]]);
+            frame.position_solver(view, settings, frame.island_scratch[index]);
+        frame.island_errors[index] = errors_after(view, frame.island_results[i]);
     };
     parallel_for(frame.island_order.size(), solve_one);
-    for (const std::uint32_t i : frame.island_order) {
-        frame.island_errors[i].reset();
-    }
     for (const NewtonResult& result : frame.island_results) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
         if (result.unsettled) {

@@ -279,7 +279,8 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
         const HeadTracking* const head = io.head.find(frame.entities[i]);
         valid->known = head == nullptr || head->state != TrackingState::never;
         if (frame.overlaps_with[i] == i) {
-            valid->pose_ws = body.pose_ws * Pose{body.collider_offset_bs, Quat::Identity()};
+            valid->pose_ws = {transform_point(body.pose_ws, body.collider_offset_bs),
+                              body.pose_ws.rotation};
             continue;
         }
         // Stuck: keep the way back, and let it ride along where what the body is stuck in moves.

@@ -42,7 +42,7 @@ ConstraintGraph random_graph(Random& random) {
             graph.blocks.push_back(block);
         }
     }
-    sort_blocks(graph.blocks);
+    sort_blocks(graph);
     return graph;
 }
 
@@ -141,7 +141,7 @@ RC_GTEST_PROP(Islands, AreTheSameInWhateverOrderBlocksWereFound, (std::uint64_t 
     ConstraintGraph graph = random_graph(random);
     ConstraintGraph shuffled = graph;
     std::shuffle(shuffled.blocks.begin(), shuffled.blocks.end(), random.engine());
-    sort_blocks(shuffled.blocks);
+    sort_blocks(shuffled);
     build_islands(graph);
     build_islands(shuffled);
     const auto same_block = [](const RowBlock& x, const RowBlock& y) {

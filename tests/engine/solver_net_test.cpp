@@ -60,7 +60,7 @@ SolverScene make_net(const SolverBody& first, Random& random) {
             scene.graph.blocks.push_back(again);
         }
     }
-    sort_blocks(scene.graph.blocks);
+    sort_blocks(scene.graph);
     return scene;
 }
 
@@ -119,7 +119,7 @@ TEST(Nets, HoldTogetherAfterHandsThatContradictEachOther) {
             block.key = hand;
             scene.graph.blocks.push_back(block);
         }
-        sort_blocks(scene.graph.blocks);
+        sort_blocks(scene.graph);
         scene.solve_positions();
         scene.solve_positions({}, BlockFilter::without_hands);
         EXPECT_LE(worst_joint_m(scene), 2e-5);

@@ -60,7 +60,7 @@ SolverScene random_tree(std::uint32_t count, Random& random) {
         test::meet(scene.graph.bodies, block);
         scene.graph.blocks.push_back(block);
     }
-    sort_blocks(scene.graph.blocks);
+    sort_blocks(scene.graph);
     set_random_motion(scene, random);
     return scene;
 }
@@ -229,7 +229,7 @@ RC_GTEST_PROP(SolveVelocities, ContactsAloneGiveNoEnergy, (std::uint64_t seed)) 
         block.restitution = restitution;
         scene.graph.blocks.push_back(block);
     }
-    sort_blocks(scene.graph.blocks);
+    sort_blocks(scene.graph);
     const double before = energy_of(scene.body(1));
     scene.solve_velocities();
     RC_ASSERT(energy_of(scene.body(1)) <= 1.01 * before);
@@ -246,7 +246,7 @@ TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
     RowBlock hand = test::row_block(RowKind::hand_point, 2, 1);
     hand.drive_velocity_ws_mps = Vec3(-0.2, -0.02, 0.0);
     scene.graph.blocks = {contact, hand};
-    sort_blocks(scene.graph.blocks);
+    sort_blocks(scene.graph);
     build_islands(scene.graph);
     const Island& island = scene.graph.islands.front();
     const VelocityResult result = solve_velocities(scene.view(island), {}, scene.scratch);
@@ -271,7 +271,7 @@ RC_GTEST_PROP(SolveVelocities, NoContactApproachesAndNonePulls, (std::uint64_t s
         block.restitution = random.between(0.0, 0.9);
         scene.graph.blocks.push_back(block);
     }
-    sort_blocks(scene.graph.blocks);
+    sort_blocks(scene.graph);
     set_random_motion(scene, random);
     scene.solve_velocities();
     const std::vector<Row> rows = scene.rows();

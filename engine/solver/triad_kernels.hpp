@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "engine/math/four.hpp"
+#include "engine/solver/triad_plan.hpp"
+
+// The arithmetic of TriadSystem, over packed arrays: once for any processor, once for AVX2, with
+// equal bits.
+namespace handhold {
+
+// Three rows, one a world axis: a point held on a point, or a rotation on a rotation.
+struct Triad {
+    std::uint32_t block = 0;       // into the graph's blocks
+    std::uint32_t bodies[2] = {};  // into TriadArrays::bodies: a, b
+    bool turns = false;            // rotation on rotation
+    bool is_hand = false;
+    Four points[2] = {};  // of a and b, in their axes
+    Four arms[2] = {};    // from the centres, world axes; b's is negative
+    Four value = {};      // metres, angles at k_angle_m; or metres a second
+    Four lambda = {};
+};
+
+struct TriadBody {
+    Four position = {};
+    Four rotation = {};
+    Four velocity = {};
+    Four spin = {};
+    Rows3 axes{};             // by columns: its own axes in the world
+    Rows3 inverse_inertia{};  // in the world; with the stiffness
+    Four inverse_inertia_bs = {};
+    Four move = {};  // W J^T lambda of the last solve
+    Four turn = {};
+    double inverse_mass = 0.0;
+    std::uint32_t index = 0;  // into the graph's bodies
+    bool may_turn = false;
+};
+
+// A block's LDL^T: the inverse pivots and what lies below L's diagonal.
+struct TriadPivots {
+    double inverse[3];
+    double l10, l20, l21;
+};
+
+// By step of the plan: diagonals before they are divided, unknowns on their way.
+struct TriadOwn {
+    Four vector = {};
+};
+
+struct TriadArrays {
+    std::span<TriadBody> bodies;  // those that may move, then others
+    std::size_t moving = 0;
+    std::span<Triad> triads;
+    std::span<Rows3> sides;         // by end: J W of its rotation
+    std::span<Rows3> blocks;        // the plan's
+    std::span<TriadPivots> pivots;  // by step of the plan
+    std::span<TriadOwn> own;        // by step: scratch
+    const TriadPlan* plan = nullptr;
+};
+
+struct TriadKernels {
+    // Axes, arms and positional errors at the bodies' poses; rotations' errors are not its matter.
+    void (*evaluate)(const TriadArrays& arrays);
+    // What each triad's velocity lacks but for the hands' own.
+    void (*evaluate_velocities)(const TriadArrays& arrays);
+    void (*write_inertia)(const TriadArrays& arrays);
+    // J W J^T in the plan's blocks.
+    void (*multiply_out)(const TriadArrays& arrays);
+    // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.
+    void (*factorise)(const TriadArrays& arrays, double hand_alpha, double joint_alpha);
+    // lambda of the values, and the bodies' moves and turns.
+    void (*solve)(const TriadArrays& arrays);
+    // Moves and turns the bodies by so much of it.
+    void (*apply)(const TriadArrays& arrays, double scale);
+};
+
+// The fastest that this processor has; and those that every one has.
+const TriadKernels& triad_kernels();
+const TriadKernels& portable_triad_kernels();
+
+}  // namespace handhold

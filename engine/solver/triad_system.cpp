@@ -1,0 +1,283 @@
+// Sources: as row_system.cpp and newton.cpp.
+#include "engine/solver/triad_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solver/geometric_stiffness.hpp"
+
+namespace handhold {
+namespace {
+
+// True where the block's rows hold in every state: none may let go, slide, stop or give way.
+bool always_holds(const RowBlock& block) {
+    switch (block.kind) {
+        case RowKind::hand_point:
+        case RowKind::hand_weld:
+        case RowKind::hand_direction:
+            return true;
+        case RowKind::ball:
+        case RowKind::fixed:
+            return !block.joint.limited && block.joint.friction_impulse == 0.0;
+        default:
+            return false;
+    }
+}
+
+bool holds_point(RowKind kind) { return kind != RowKind::hand_direction; }
+bool holds_rotation(RowKind kind) {
+    return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
+}
+
+Mat3 to_mat3(const Rows3& rows) {
+    Mat3 out;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        out.row(i) = to_vec3(rows.row[i]).transpose();
+    }
+    return out;
+}
+Rows3 to_rows(const Mat3& m) {
+    return {{to_four(Vec3(m.row(0))), to_four(Vec3(m.row(1))), to_four(Vec3(m.row(2)))}};
+}
+
+void pack(const SolverBody& from, std::uint32_t index, TriadBody& body) {
+    body.index = index;
+    body.position = to_four(from.pose_ws.position);
+    body.rotation = to_four(from.pose_ws.rotation);
+    body.velocity = to_four(from.velocity_mps);
+    body.spin = to_four(from.spin_radps);
+    body.inverse_mass = from.inverse_mass;
+    body.inverse_inertia_bs = to_four(from.inverse_inertia_bs);
+    body.may_turn = from.inverse_mass > 0.0 && !from.inverse_inertia_bs.isZero(0.0);
+}
+
+}  // namespace
+
+bool TriadSystem::serves(const IslandView& island, double touch_m) const {
+    return std::ranges::all_of(island.island_blocks, [&](std::uint32_t index) {
+        const RowBlock& block = island.blocks[index];
+        if (!takes_part(island, block)) {
+            return true;
+        }
+        return is_contact(block) ? contact_separation_m(island.bodies, block) >= touch_m
+                                 : always_holds(block);
+    });
+}
+
+void TriadSystem::load_bodies(const IslandView& island) {
+    const std::size_t count = island.island_bodies.size();
+    bodies_.clear();
+    may_turn_.clear();
+    for (const std::uint32_t index : island.island_bodies) {
+        pack(island.bodies[index], index, bodies_.emplace_back());
+        may_turn_.push_back(bodies_.back().may_turn ? 1 : 0);
+    }
+    arrays_.moving = count;
+    uses_.assign(count, 0);
+}
+
+// False where more meet in one body than are served.
+bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns) {
+    const RowBlock& block = island.blocks[index];
+    Triad& triad = triads_.emplace_back();
+    RowNode& node = nodes_.emplace_back();
+    node.width = 3;
+    triad.block = index;
+    triad.turns = turns;
+    triad.is_hand = is_hand(block);
+    has_hand_ = has_hand_ || triad.is_hand;
+    has_turn_ = has_turn_ || turns;
+    bool fits = true;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const std::uint32_t body_index = side == 0 ? block.a : block.b;
+        const SolverBody& body = island.bodies[body_index];
+        triad.points[side] = to_four(side == 0 ? block.point_a_bs : block.point_b_bs);
+        if (body.inverse_mass > 0.0) {
+            triad.bodies[side] = node.slots[side] = body.slot;
+            fits = fits && ++uses_[body.slot] <= k_hub_nodes;
+            continue;
+        }
+        // What nothing moves is beside the others, once for each that it holds.
+        triad.bodies[side] = static_cast<std::uint32_t>(bodies_.size());
+        pack(body, body_index, bodies_.emplace_back());
+        bodies_.back().axes = to_rows(body.pose_ws.rotation.conjugate().toRotationMatrix());
+    }
+    return fits;
+}
+
+bool TriadSystem::load(const IslandView& island, double touch_m) {
+    if (!serves(island, touch_m)) {
+        return false;
+    }
+    load_bodies(island);
+    triads_.clear();
+    nodes_.clear();
+    has_hand_ = has_turn_ = is_stiff_ = false;
+    for (const std::uint32_t index : island.island_blocks) {
+        const RowBlock& block = island.blocks[index];
+        if (is_contact(block) || !takes_part(island, block)) {
+            continue;
+        }
+        if ((holds_point(block.kind) && !add(island, index, false)) ||
+            (holds_rotation(block.kind) && !add(island, index, true))) {
+            return false;
+        }
+    }
+    plan_nodes();
+    return true;
+}
+
+void TriadSystem::plan_nodes() {
+    const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
+    sides_.resize(2 * triads_.size());
+    blocks_.resize(plan.block_count());
+    pivots_.resize(triads_.size());
+    own_.resize(triads_.size());
+    arrays_.bodies = bodies_;
+    arrays_.triads = triads_;
+    arrays_.sides = sides_;
+    arrays_.blocks = blocks_;
+    arrays_.pivots = pivots_;
+    arrays_.own = own_;
+    arrays_.plan = &plan;
+}
+
+void TriadSystem::store_poses(const IslandView& island) const {
+    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+        if (body.inverse_mass > 0.0) {
+            island.bodies[body.index].pose_ws = {to_vec3(body.position), to_quat(body.rotation)};
+        }
+    }
+}
+
+void TriadSystem::store_velocities(const IslandView& island) const {
+    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+        if (body.inverse_mass > 0.0) {
+            island.bodies[body.index].velocity_mps = to_vec3(body.velocity);
+            island.bodies[body.index].spin_radps = to_vec3(body.spin);
+        }
+    }
+}
+
+void TriadSystem::evaluate(const IslandView& island) {
+    kernels_->evaluate(arrays_);
+    if (!has_turn_) {
+        return;
+    }
+    for (Triad& triad : triads_) {
+        if (triad.turns) {
+            const RowBlock& block = island.blocks[triad.block];
+            triad.value = to_four(Vec3(
+                k_angle_m * rotation_error(to_quat(bodies_[triad.bodies[0]].rotation),
+                                           to_quat(bodies_[triad.bodies[1]].rotation), block)));
+        }
+    }
+}
+
+void TriadSystem::evaluate_velocities(const IslandView& island) {
+    kernels_->evaluate_velocities(arrays_);
+    if (!has_hand_) {
+        return;
+    }
+    for (Triad& triad : triads_) {
+        if (triad.is_hand) {
+            const RowBlock& block = island.blocks[triad.block];
+            triad.value += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
+                                       : to_four(block.drive_velocity_ws_mps);
+        }
+    }
+}
+
+double TriadSystem::worst_value() const {
+    double square = 0.0;
+    for (const Triad& triad : triads_) {
+        square = std::max(square, dot3(triad.value, triad.value));
+    }
+    return std::sqrt(square);
+}
+
+void TriadSystem::gather_stiffness() {
+    is_stiff_ = true;
+    stiffness_.assign(arrays_.moving, Mat3::Zero());
+    for (const Triad& triad : triads_) {
+        if (triad.turns) {
+            continue;
+        }
+        for (std::size_t side = 0; side < 2; ++side) {
+            const TriadBody& body = bodies_[triad.bodies[side]];
+            if (body.may_turn) {
+                const double sign = side == 0 ? 1.0 : -1.0;
+                stiffness_[triad.bodies[side]] += positive_stiffness(
+                    to_vec3(triad.lambda), to_vec3(sign * triad.arms[side]), sign);
+            }
+        }
+    }
+}
+
+// The harmonic mean of the diagonal, by triads: what one hand holds weighs as much as the other's.
+double TriadSystem::hand_size() const {
+    double inverse_sum = 0.0;
+    double count = 0.0;
+    for (const TriadPlan::Step& step : arrays_.plan->steps()) {
+        const Rows3& block = blocks_[step.own];
+        const double sum = (block.row[0][0] + block.row[1][1]) + block.row[2][2];
+        if (sum > 0.0) {
+            inverse_sum += 9.0 / sum;
+            count += 3.0;
+        }
+    }
+    return inverse_sum > 0.0 ? count / inverse_sum : 0.0;
+}
+
+void TriadSystem::factorise(const Softness& softness, double factor) {
+    kernels_->write_inertia(arrays_);
+    if (is_stiff_) {
+        for (std::size_t slot = 0; slot < arrays_.moving; ++slot) {
+            Rows3& inverse = bodies_[slot].inverse_inertia;
+            inverse = to_rows(stiffened(to_mat3(inverse), stiffness_[slot]));
+        }
+    }
+    kernels_->multiply_out(arrays_);
+    const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
+    kernels_->factorise(arrays_, hand_alpha, factor * softness.joint);
+}
+
+void TriadSystem::solve() { kernels_->solve(arrays_); }
+
+double TriadSystem::longest_move() const {
+    double square = 0.0;
+    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+        square = std::max(square, dot3(body.move, body.move));
+    }
+    return std::sqrt(square);
+}
+
+double TriadSystem::longest_turn() const {
+    double square = 0.0;
+    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+        square = std::max(square, dot3(body.turn, body.turn));
+    }
+    return std::sqrt(square);
+}
+
+double TriadSystem::apply_moves(double scale) {
+    kernels_->apply(arrays_, scale);
+    return scale * std::max(longest_move(), k_angle_m * longest_turn());
+}
+
+void TriadSystem::apply_impulses(const IslandView& island) {
+    for (TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+        body.velocity += body.move;
+        body.spin += body.turn;
+    }
+    for (const Triad& triad : triads_) {
+        RowBlock& block = island.blocks[triad.block];
+        if (triad.turns) {
+            block.couple_ws_nms += k_angle_m * to_vec3(triad.lambda);
+        } else {
+            block.impulse_ws_ns += to_vec3(triad.lambda);
+        }
+    }
+}
+
+}  // namespace handhold

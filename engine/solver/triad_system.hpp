@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/solver/island_view.hpp"
+#include "engine/solver/plan_cache.hpp"
+#include "engine/solver/triad_kernels.hpp"
+#include "engine/solver/triad_plan.hpp"
+
+namespace handhold {
+
+// The rows of an island that all hold, always, in threes: ropes, chains, rings, things in hands.
+// The same equations as RowSystem's in a tenth of the instructions: nothing is asked of a row,
+// every block is three by three, and bodies and rows are packed copies that are read in once a
+// solve.
+class TriadSystem {
+  public:
+    explicit TriadSystem(const TriadKernels& kernels = triad_kernels()) : kernels_(&kernels) {}
+
+    // Takes over the bodies of the island and its blocks that take part. False where one of them
+    // may let go, slide or stop, or where so many meet in one body that RowSystem's hubs serve
+    // better: nothing else may be called then. `touch_m`: contacts farther apart do not count.
+    bool load(const IslandView& island, double touch_m);
+    // The bodies back, where the solves have brought them. Velocities and impulses too.
+    void store_poses(const IslandView& island) const;
+    void store_velocities(const IslandView& island) const;
+
+    // What the triads lack at the present poses: `worst_value` metres. Angles at k_angle_m.
+    void evaluate(const IslandView& island);
+    // The same of the velocities, m/s, against what drives the hands.
+    void evaluate_velocities(const IslandView& island);
+    double worst_value() const;
+
+    void clear_stiffness() { is_stiff_ = false; }
+    // From the last multipliers and the present arms.
+    void gather_stiffness();
+    // J W J^T + diag(alpha) at the present arms, and its factor. Alpha as `regularise` has it.
+    void factorise(const Softness& softness, double factor);
+    // Multipliers against the values with the last factor, and how they move the bodies.
+    void solve();
+    double longest_move() const;
+    double longest_turn() const;
+
+    // Moves the bodies by so much of the last solve. Returns the longest step, metres.
+    double apply_moves(double scale);
+    // Adds the last solve to velocities and impulses.
+    void apply_impulses(const IslandView& island);
+
+  private:
+    bool serves(const IslandView& island, double touch_m) const;
+    void load_bodies(const IslandView& island);
+    bool add(const IslandView& island, std::uint32_t block, bool turns);
+    void plan_nodes();
+    double hand_size() const;
+
+    const TriadKernels* kernels_;
+    TriadArrays arrays_;
+    std::vector<TriadBody> bodies_;
+    std::vector<Triad> triads_;
+    std::vector<Rows3> sides_;
+    std::vector<Rows3> blocks_;
+    std::vector<TriadPivots> pivots_;
+    std::vector<TriadOwn> own_;
+
+    PlanCache<TriadPlan> plans_;
+    std::vector<RowNode> nodes_;
+    std::vector<std::uint8_t> may_turn_;  // by slot
+    std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
+    std::vector<Mat3> stiffness_;         // by slot
+    bool is_stiff_ = false;
+    bool has_hand_ = false;
+    bool has_turn_ = false;
+};
+
+}  // namespace handhold

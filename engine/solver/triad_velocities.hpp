@@ -1,0 +1,12 @@
+#pragma once
+
+#include "engine/solver/island_view.hpp"
+#include "engine/solver/triad_system.hpp"
+
+namespace handhold {
+
+// solve_velocities for the island that `triads` has loaded.
+void solve_triad_velocities(const IslandView& island, const Softness& softness,
+                            TriadSystem& triads);
+
+}  // namespace handhold
