@@ -23,7 +23,7 @@ inline constexpr std::uint32_t k_value_count<HandSide> = 2;
 template <>
 inline constexpr std::uint32_t k_value_count<GrabEdge> = 3;
 template <>
-inline constexpr std::uint32_t k_value_count<GripKind> = 3;
+inline constexpr std::uint32_t k_value_count<GripKind> = 5;
 template <>
 inline constexpr std::uint32_t k_value_count<GrabPhase> = 4;
 template <>

@@ -41,8 +41,10 @@ struct FrameGraph {
         double forward_share =
             0.0;            // players: 1/kappa; how much of 1/mass the forward phase grants
         bool held = false;  // in a hand, or tied to what is
-        bool grips_surface = false;  // players: a hand holds on to something fixed, driven or heavy
-        bool pushed = false;         // the backward or contradiction phase ran on its island
+        // players: a hand holds on to something fixed, driven or heavy, or two players to each
+        // other
+        bool grips_surface = false;
+        bool pushed = false;  // the backward or contradiction phase ran on its island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
         double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
     };

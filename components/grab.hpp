@@ -26,6 +26,8 @@ enum class GripKind : std::uint8_t {
     none = 0,
     surface = 1,  // a point of something fixed, driven or heavy: three rows, the hand may turn
     held = 2,     // a free object: six rows, or three where it hangs on joints
+    player = 4,   // another player's head: three rows, and both move by their masses. 3 is an
+                  // authored grip's, which is yet to come
 };
 
 enum class GrabPhase : std::uint8_t {
@@ -42,7 +44,8 @@ struct Grab {
     GripKind kind = GripKind::none;
     GrabPhase phase = GrabPhase::none;
     Entity body = k_no_entity;
-    Vec3 hit_bs = Vec3::Zero();  // where the palm's ray met the surface, in the body's frame
+    Vec3 hit_bs = Vec3::Zero();  // where the palm's ray met the surface, in the body's frame; a
+                                 // player's is his head's
     Vec3 hit_normal_bs = Vec3::UnitY();  // unit, out of the solid
     Pose anchor_bs;  // the tracked hand at the instant of the grab, in the body's frame: no jump
     Pose target_ps;  // where the constraint wants the hand at the end of the frame

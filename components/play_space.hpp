@@ -1,7 +1,10 @@
 #pragma once
 
+#include "components/body.hpp"
+#include "components/player.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
+#include "engine/ecs/column.hpp"
 #include "engine/math/math.hpp"
 
 // Small geometry of head and hands that more than one stage needs.
@@ -21,6 +24,13 @@ inline PalmRay palm_ray(const Pose& hand_ws, HandSide side, const HandTuning& tu
     const Vec3 palm_ws = transform_point(hand_ws, palm);
     const Vec3 from_ws = palm_ws - tuning.ray_back_m * inward_ws;
     return {from_ws, from_ws + tuning.ray_length_m * inward_ws, palm_ws};
+}
+
+// Where what a hand holds on to is: a body, or a player's head.
+inline Pose gripped_pose_ws(const Column<BodyPose>& body_pose, const Column<PlayerOrigin>& origin,
+                            const Column<HeadTracking>& head, Entity gripped) {
+    const BodyPose* const body = body_pose.find(gripped);
+    return body != nullptr ? body->pose_ws : origin.at(gripped).pose_ws * head.at(gripped).pose_ps;
 }
 
 // The centre of the head's collider.

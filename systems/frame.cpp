@@ -73,7 +73,7 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
         place(w, caches, tuning);
         update_grabs(
             {caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
-             w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
+             w.head_tracking, w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
             tuning, stats);
     }
     {
@@ -96,7 +96,7 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     {
         const StageTimer timer(Stage::settle_grabs, stats);
         settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start,
-                      w.player_origin, w.body_start, w.body_pose, w.grab},
+                      w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.grab},
                      stats);
     }
     {

@@ -195,6 +195,9 @@ class BreachFinder {
             const Grab& grab = w_.grab.rows()[row];
             check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
                   w_.grab.owners()[row], ".phase", "a phase where there is a grip, and none else");
+            constexpr auto k_authored = static_cast<GripKind>(3);
+            check(grab.kind != k_authored, "grab", w_.grab.owners()[row], ".kind",
+                  "a kind of grip that this build knows");
         }
     }
 

@@ -204,10 +204,10 @@ class TriadSteps {
 
     void evaluate() { system_.evaluate(island_); }
     double worst_m() const { return system_.worst_value(); }
-    double overlap_m() const { return 0.0; }
-    bool has_contact() const { return false; }
-    bool is_unsettled() const { return false; }
-    bool keeps_factor() const { return true; }
+    static double overlap_m() { return 0.0; }
+    static bool has_contact() { return false; }
+    static bool is_unsettled() { return false; }
+    static bool keeps_factor() { return true; }
     void stiffen(bool stiff) {
         if (stiff) {
             system_.gather_stiffness();

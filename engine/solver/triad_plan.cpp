@@ -6,6 +6,7 @@ namespace handhold {
 namespace {
 
 constexpr std::uint32_t k_rows = 3;
+constexpr std::size_t k_block_size = 9;
 
 // A panel's rows are `stride` long, its blocks lie beside each other; here they follow each other.
 std::uint32_t block_at(const EliminationPlan::Panel& panel, std::uint32_t value) {
@@ -42,7 +43,7 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
         couplings_.push_back(
             {coupling.panel_end, coupling.later_end, block_at(panel, coupling.target)});
     }
-    block_count_ = plan_.value_count() / (k_rows * k_rows);
+    block_count_ = plan_.value_count() / k_block_size;
 }
 
 }  // namespace handhold

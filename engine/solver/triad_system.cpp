@@ -29,6 +29,18 @@ bool holds_rotation(RowKind kind) {
     return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
 }
 
+// True where every block that takes part holds, or is a contact that does not count.
+bool serves(const IslandView& island, double touch_m) {
+    return std::ranges::all_of(island.island_blocks, [&](std::uint32_t index) {
+        const RowBlock& block = island.blocks[index];
+        if (!takes_part(island, block)) {
+            return true;
+        }
+        return is_contact(block) ? contact_separation_m(island.bodies, block) >= touch_m
+                                 : always_holds(block);
+    });
+}
+
 Mat3 to_mat3(const Rows3& rows) {
     Mat3 out;
     for (Eigen::Index i = 0; i < 3; ++i) {
@@ -52,17 +64,6 @@ void pack(const SolverBody& from, std::uint32_t index, TriadBody& body) {
 }
 
 }  // namespace
-
-bool TriadSystem::serves(const IslandView& island, double touch_m) const {
-    return std::ranges::all_of(island.island_blocks, [&](std::uint32_t index) {
-        const RowBlock& block = island.blocks[index];
-        if (!takes_part(island, block)) {
-            return true;
-        }
-        return is_contact(block) ? contact_separation_m(island.bodies, block) >= touch_m
-                                 : always_holds(block);
-    });
-}
 
 void TriadSystem::load_bodies(const IslandView& island) {
     const std::size_t count = island.island_bodies.size();

@@ -49,9 +49,8 @@ class TriadSystem {
     void apply_impulses(const IslandView& island);
 
   private:
-    bool serves(const IslandView& island, double touch_m) const;
     void load_bodies(const IslandView& island);
-    bool add(const IslandView& island, std::uint32_t block, bool turns);
+    bool add(const IslandView& island, std::uint32_t index, bool turns);
     void plan_nodes();
     double hand_size() const;
 

@@ -22,9 +22,9 @@ void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
         out.tracked_ws = io.origin.at(owner.player).pose_ws * io.hand.at(entity).pose_ps;
         out.shown_ws = out.tracked_ws;
         out.grip = grab.kind;
-        if (const BodyPose* const body = io.body_pose.find(grab.body);
-            body != nullptr && grab.kind != GripKind::none) {
-            out.shown_ws = body->pose_ws * grab.anchor_bs;
+        if (grab.kind != GripKind::none) {
+            out.shown_ws =
+                gripped_pose_ws(io.body_pose, io.origin, io.head, grab.body) * grab.anchor_bs;
         }
         const PalmRay ray = palm_ray(out.tracked_ws, owner.side, tuning.hand);
         out.ray_from_ws = ray.from_ws;

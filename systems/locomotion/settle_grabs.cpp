@@ -13,8 +13,13 @@ struct Instant {
     const SettleGrabsIo& io;
     double t = 0.0;
 
+    // Of a player his head's.
     Pose body_ws(Entity body) const {
-        return interpolate(io.body_start.at(body).pose_ws, io.body_pose.at(body).pose_ws, t);
+        if (const BodyStart* const start = io.body_start.find(body)) {
+            return interpolate(start->pose_ws, io.body_pose.at(body).pose_ws, t);
+        }
+        const HeadTracking& head = io.head.at(body);
+        return origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
     }
     Pose origin_ws(Entity player) const {
         return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);

@@ -16,6 +16,7 @@ struct SettleGrabsIo {
     const Column<HandTracking>& hand;         // in
     const Column<PlayerStart>& player_start;  // in
     const Column<PlayerOrigin>& origin;       // in: predicted
+    const Column<HeadTracking>& head;         // in
     const Column<BodyStart>& body_start;      // in
     const Column<BodyPose>& body_pose;        // in: predicted
     Column<Grab>& grab;                       // in/out: anchor, target, phase, two_handed

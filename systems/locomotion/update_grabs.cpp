@@ -18,52 +18,45 @@ struct Surface {
 };
 
 Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
-    for (std::size_t row = 0; row < io.body.size(); ++row) {
-        const Entity entity = io.body.owners()[row];
-        if (io.persistent_id.at(entity).value == id) {
-            return entity;
+    for (const std::span<const Entity> owners : {io.body.owners(), io.origin.owners()}) {
+        for (const Entity entity : owners) {
+            if (io.persistent_id.at(entity).value == id) {
+                return entity;
+            }
         }
     }
     return k_no_entity;
 }
 
-// The first body that a query finds. Heads are colliders too, but nothing to hold on to: it is
-// asked again without them.
-template <typename Query>
-std::optional<Surface> first_body(const UpdateGrabsIo& io, Query&& query) {
-    std::array<std::uint64_t, 8> heads{};
-    for (std::size_t count = 0;; ++count) {
-        const auto found = query(std::span<const std::uint64_t>(heads).first(count));
-        if (!found) {
-            return std::nullopt;
-        }
-        const Entity body = owner_of_id(io, found->id);
-        if (!is_null(body)) {
-            return Surface{body, found->point_ws, found->normal_ws};
-        }
-        if (count == heads.size()) {
-            return std::nullopt;
-        }
-        heads[count] = found->id;
-    }
-}
-
-std::optional<Surface> find_surface(const UpdateGrabsIo& io, const PalmRay& ray,
+// Anybody's head may be gripped but one's own.
+std::optional<Surface> find_surface(const UpdateGrabsIo& io, Entity player, const PalmRay& ray,
                                     const HandTuning& tuning) {
-    auto hit = first_body(io, [&](std::span<const std::uint64_t> skip) {
-        return io.collision.cast_ray(ray.from_ws, ray.to_ws, skip);
-    });
-    if (hit) {
-        return hit;
-    }
-    return first_body(io, [&](std::span<const std::uint64_t> skip) {
-        return io.collision.closest_point(ray.palm_ws, tuning.reach_m, skip);
-    });
+    const std::array own_head = {io.persistent_id.at(player).value};
+    const auto surface_of = [&io](const auto& found) -> std::optional<Surface> {
+        const Entity body = found ? owner_of_id(io, found->id) : k_no_entity;
+        if (is_null(body)) {
+            return std::nullopt;
+        }
+        return Surface{body, found->point_ws, found->normal_ws};
+    };
+    const auto hit = surface_of(io.collision.cast_ray(ray.from_ws, ray.to_ws, own_head));
+    return hit ? hit
+               : surface_of(io.collision.closest_point(ray.palm_ws, tuning.reach_m, own_head));
 }
 
-GripKind grip_kind(const RigidBody& body, const PhaseTuning& tuning) {
-    return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg ? GripKind::held
-                                                                              : GripKind::surface;
+GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& tuning) {
+    const RigidBody* const body = io.body.find(gripped);
+    if (body == nullptr) {
+        return GripKind::player;
+    }
+    const bool is_light = body->kind == BodyKind::free && body->mass_kg < tuning.heavy_body_kg;
+    return is_light ? GripKind::held : GripKind::surface;
+}
+
+// True where what is gripped is still there.
+bool is_there(const UpdateGrabsIo& io, const Grab& grab) {
+    return grab.kind == GripKind::player ? io.origin.contains(grab.body)
+                                         : io.body.contains(grab.body);
 }
 
 void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
@@ -83,15 +76,16 @@ void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTrack
                 Grab& grab, const Tuning& tuning, StageStats& stats) {
     ++stats.grab_onsets;
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
-    const auto surface = find_surface(io, palm_ray(hand_ws, owner.side, tuning.hand), tuning.hand);
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+    const auto surface = find_surface(io, owner.player, ray, tuning.hand);
     if (!surface) {
         stats.count(Fallback::grab_no_surface);
         return;
     }
     ++stats.grabs_gripped;
-    const Pose& body_ws = io.body_pose.at(surface->body).pose_ws;
+    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, surface->body);
     grab = {};
-    grab.kind = grip_kind(io.body.at(surface->body), tuning.phases);
+    grab.kind = grip_kind(io, surface->body, tuning.phases);
     grab.jointed =
         grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(surface->body));
     grab.phase = GrabPhase::fresh;
@@ -130,7 +124,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         Grab& grab = io.grab.rows()[row];
         const Entity entity = io.grab.owners()[row];
         const HandTracking& hand = io.hand.at(entity);
-        if (grab.kind != GripKind::none && !io.body.contains(grab.body)) {
+        if (grab.kind != GripKind::none && !is_there(io, grab)) {
             stats.count(Fallback::grip_body_gone);
             grab = {};
         }

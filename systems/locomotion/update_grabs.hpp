@@ -18,6 +18,7 @@ struct UpdateGrabsIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in: edges
     const Column<PlayerOrigin>& origin;         // in: at the start of the frame
+    const Column<HeadTracking>& head;           // in: as the colliders have it
     const Column<RigidBody>& body;              // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const JointGroups& joint_groups;            // in
@@ -27,9 +28,9 @@ struct UpdateGrabsIo {
 
 // Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
 // it; where that meets nothing, for the nearest surface within reach of the palm: any surface, from
-// any angle. Hands that open, that are stretched too far, or whose body is gone let go; of a
-// player's two stretched hands only the worse, of two alike the one that grips for the shorter
-// time. Talk rows 2, 3.
+// any angle, and any other player's head. Hands that open, that are stretched too far, or whose
+// body is gone let go; of a player's two stretched hands only the worse, of two alike the one that
+// grips for the shorter time. Talk rows 2, 3.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

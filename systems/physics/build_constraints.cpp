@@ -73,6 +73,17 @@ RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand
     return block;
 }
 
+// A hand on a player's head: the head's place in his play space, which is what the solver moves,
+// and the head's own motion there, which is not the play space's.
+void hold_head(const Grab& grab, const HeadTracking& head, const Quat& play_space, double dt_s,
+               RowBlock& block) {
+    const Pose anchor_ps = head.pose_ps * grab.anchor_bs;
+    const Vec3 way = anchor_ps.position - transform_point(head.start_ps, grab.anchor_bs.position);
+    block.point_b_bs = anchor_ps.position;
+    block.rotation_b_bs = anchor_ps.rotation;
+    block.drive_velocity_ws_mps -= play_space * (way / dt_s);
+}
+
 // Where a hand's target was at the start of the frame, by its mean velocity.
 Pose target_before(const Grab& grab, double dt_s) {
     return {grab.target_ps.position - dt_s * grab.target_velocity_ps_mps,
@@ -137,6 +148,10 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         block.a = static_cast<std::uint32_t>(a);
         block.b = static_cast<std::uint32_t>(b);
         block.source = static_cast<std::uint32_t>(row);
+        if (grab.kind == GripKind::player) {
+            hold_head(grab, io.head.at(grab.body), frame.graph.bodies[b].pose_ws.rotation, io.dt_s,
+                      block);
+        }
         if (!share_rows(io, row, block)) {
             continue;
         }
@@ -149,8 +164,11 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
                 smooth_step(frame.graph.bodies[b].mass_kg, tuning.kappa_light_kg,
                             std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
             frame.phase[a].forward_share = std::max(frame.phase[a].forward_share, share);
-        } else if (grab.kind == GripKind::surface) {
+        } else if (grab.kind != GripKind::held) {
             frame.phase[a].grips_surface = true;
+        }
+        if (grab.kind == GripKind::player) {
+            frame.phase[b].grips_surface = true;  // he holds his holder as much as he is held
         }
     }
 }

@@ -231,7 +231,7 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
             continue;
         }
         bool clamped = false;
-        if (grab.kind == GripKind::surface) {
+        if (grab.kind != GripKind::held) {
             clamped = clamp_speed(reference, tuning.release_speed_max_mps,
                                   io.player_velocity.at(player).linear_mps);
         } else if (!grab.jointed) {

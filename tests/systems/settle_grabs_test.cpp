@@ -31,6 +31,7 @@ struct Settling {
     Column<HandTracking> hand;
     Column<PlayerStart> player_start;
     Column<PlayerOrigin> origin;
+    Column<HeadTracking> head;
     Column<BodyStart> body_start;
     Column<BodyPose> body_pose;
     Column<Grab> grab;
@@ -78,9 +79,9 @@ struct Settling {
     }
     void run() {
         stats = {};
-        settle_grabs(
-            {k_start_s, k_end_s, owner, hand, player_start, origin, body_start, body_pose, grab},
-            stats);
+        settle_grabs({k_start_s, k_end_s, owner, hand, player_start, origin, head, body_start,
+                      body_pose, grab},
+                     stats);
     }
 };
 

@@ -34,6 +34,7 @@ struct Grabs {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
     Column<PlayerOrigin> origin;
+    Column<HeadTracking> head;
     Column<RigidBody> body;
     Column<BodyPose> body_pose;
     JointGroups joint_groups;
@@ -89,8 +90,8 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs({collision, persistent_id, owner, hand, origin, body, body_pose, joint_groups,
-                      grab, head_ignores},
+        update_grabs({collision, persistent_id, owner, hand, origin, head, body, body_pose,
+                      joint_groups, grab, head_ignores},
                      tuning, stats);
     }
 };
