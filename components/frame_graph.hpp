@@ -75,8 +75,9 @@ struct FrameGraph {
         Vec3 spin_radps = Vec3::Zero();
     };
     std::vector<SunkBody> sunk_bodies;  // by island
-    std::vector<std::optional<IslandErrors>>
-        island_errors;  // by island; none once a phase moved something in it
+    // By island. After a solve that met all its blocks: what none exceeds; after any other, until
+    // asked for: none.
+    std::vector<std::optional<IslandErrors>> island_errors;
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
     std::vector<double> overlap_m;  // by body

@@ -4,8 +4,8 @@
 
 // Four doubles that are added and multiplied at once: vectors with a fourth number that is 0, or
 // quaternions as (x, y, z, w). GCC's and Clang's vector types: with AVX one register, without two,
-// and the same bits, for no operation here rounds across lanes. All is inlined, so that a function
-// built for AVX gets it built for AVX.
+// and the same bits: lanes are computed alike, and sums across them have their order. All is
+// inlined, so that a function built for AVX gets it built for AVX.
 namespace handhold {
 
 // GCC gives it less alignment where it does not build for AVX: it must be the same for both.

@@ -10,7 +10,10 @@
 namespace handhold {
 
 inline constexpr std::uint32_t k_widest_node = 12;  // rows: four contacts with friction
-inline constexpr std::uint32_t k_hub_nodes = 4;     // bodies with more row nodes are hubs
+// Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
+// tells apart.
+inline constexpr double k_smallest_pivot = 1e-14;
+inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
 // Rows between the same two bodies: one block of unknowns, their multipliers.

@@ -7,6 +7,7 @@
 #include "engine/solver/island_view.hpp"
 #include "engine/solver/row_system.hpp"
 #include "engine/solver/rows.hpp"
+#include "engine/solver/softness.hpp"
 #include "engine/solver/triad_system.hpp"
 
 // One island as linear equations: what the solve of positions and that of velocities share.

@@ -77,11 +77,12 @@ std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id) {
                : graph.bodies.size();
 }
 
-// Blocks are large: their places are sorted, and each is moved once.
+// Blocks are large: their places are sorted, and each is copied once, or not at all.
 void sort_blocks(ConstraintGraph& graph) {
     using Place = ConstraintGraph::BlockPlace;
     const auto is_before = [](const Place& x, const Place& y) {
-        return std::tie(x.a, x.b, x.kind, x.key) < std::tie(y.a, y.b, y.kind, y.key);
+        return std::tie(x.a, x.b, x.kind, x.key, x.index) <
+               std::tie(y.a, y.b, y.kind, y.key, y.index);
     };
     std::vector<RowBlock>& blocks = graph.blocks;
     graph.places.clear();

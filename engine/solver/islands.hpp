@@ -62,7 +62,7 @@ void build_islands(ConstraintGraph& graph);
 // wait least for each other.
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands);
 
-// The worst error of each kind of row at the present poses, metres.
+// The worst error of each kind of row at the present poses, or a bound on it, metres.
 struct IslandErrors {
     double hands_m = 0.0;
     double joints_m = 0.0;

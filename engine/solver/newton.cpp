@@ -119,20 +119,28 @@ class RowSteps {
         clear_stiffness(island_, scratch_);
     }
 
-    void evaluate() {
-        std::swap(scratch_.rows, scratch_.previous_rows);
-        collect_rows(island_, scratch_.rows);
+    // Where all rows hold points and the step before was whole, the errors alone: directions stay
+    // those of the factor at hand until `renew`.
+    void evaluate(bool was_whole) {
+        has_old_directions_ = was_whole && holds_only_points_;
+        if (has_old_directions_) {
+            update_point_values();
+        } else {
+            collect();
+        }
+    }
+    void renew() {
+        if (has_old_directions_) {
+            collect();
+        }
     }
     double worst_m() const { return worst_of(scratch_.rows); }
     double overlap_m() const { return worst_overlap_of(scratch_.rows); }
     bool has_contact() const { return handhold::has_contact(scratch_.rows); }
     bool is_unsettled() const { return scratch_.system.is_unsettled(); }
 
-    // True where the factor of the rows before serves these: all of them hold, none may let go.
-    bool keeps_factor() const {
-        return scratch_.rows.size() == scratch_.previous_rows.size() &&
-               std::ranges::none_of(scratch_.rows, [](const Row& row) { return row.unilateral; });
-    }
+    // True where the factor of the rows before serves these.
+    bool keeps_factor() const { return holds_only_points_ || are_alike(); }
     void stiffen(bool stiff) {
         clear_stiffness(island_, scratch_);
         if (stiff) {
@@ -141,6 +149,7 @@ class RowSteps {
     }
 
     void solve(const Softness& softness, double factor) {
+        holds_only_points_ = has_only_points();
         prepare_inertia(island_, scratch_);
         scratch_.system.assemble(island_.bodies, scratch_.inverse_inertia_ws, scratch_.rows);
         regularise(scratch_.rows, softness, factor, scratch_.system);
@@ -159,6 +168,35 @@ class RowSteps {
     void finish() {}
 
   private:
+    // All of them hold, none may let go.
+    bool are_alike() const {
+        return scratch_.rows.size() == scratch_.previous_rows.size() &&
+               std::ranges::none_of(scratch_.rows, [](const Row& row) { return row.unilateral; });
+    }
+    void collect() {
+        std::swap(scratch_.rows, scratch_.previous_rows);
+        collect_rows(island_, scratch_.rows);
+    }
+    // True where every row, now and after a step, holds a point on a point.
+    bool has_only_points() const {
+        if (has_loose_block(island_)) {
+            return false;
+        }
+        for (std::size_t i = 0; i < scratch_.rows.size(); i += 3) {
+            if (!begins_point(scratch_.rows[i])) {
+                return false;
+            }
+        }
+        return true;
+    }
+    void update_point_values() {
+        for (std::size_t i = 0; i < scratch_.rows.size(); i += 3) {
+            const Vec3 error = point_error(island_.bodies, island_.blocks[scratch_.rows[i].block]);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                scratch_.rows[i + axis].value_m = error[static_cast<Eigen::Index>(axis)];
+            }
+        }
+    }
     void take(std::span<const double> lambda) {
         longest_turn_ = gather_moves(scratch_);
         scratch_.lambda.assign(lambda.begin(), lambda.end());
@@ -193,6 +231,8 @@ class RowSteps {
     const IslandView& island_;
     SolveScratch& scratch_;
     double longest_turn_ = 0.0;
+    bool holds_only_points_ = false;
+    bool has_old_directions_ = false;
 };
 
 // --- Rows that all hold ------------------------------------------------------------------------
@@ -202,7 +242,8 @@ class TriadSteps {
   public:
     TriadSteps(const IslandView& island, TriadSystem& system) : island_(island), system_(system) {}
 
-    void evaluate() { system_.evaluate(island_); }
+    void evaluate(bool /*was_whole*/) { system_.evaluate(island_); }
+    static void renew() {}
     double worst_m() const { return system_.worst_value(); }
     static double overlap_m() { return 0.0; }
     static bool has_contact() { return false; }
@@ -294,7 +335,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
     double least = previous;
     StepResult step{previous, false};
     for (;;) {
-        steps.evaluate();
+        steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
         if (result.converged || result.iterations == settings.max_iterations ||
@@ -305,6 +346,9 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
         const double overlap = steps.overlap_m();
         const bool repeats = step.whole && steps.keeps_factor() &&
                              is_good_step(result.residual_m, previous, settings.stiffness_from_m);
+        if (!repeats) {
+            steps.renew();
+        }
         if (result.iterations > 0 && !repeats) {
             adapt(result.residual_m, least, overlap, previous_overlap, settings.softness.contact,
                   softness);

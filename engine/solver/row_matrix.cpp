@@ -6,10 +6,6 @@
 namespace handhold {
 namespace {
 
-// Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
-// tells apart.
-constexpr double k_smallest_pivot = 1e-14;
-
 // Nodes are three rows wide nearly always: loops of a length known to the compiler cost half. 0:
 // known at run time only. The order of operations is the same.
 template <std::size_t KnownWidth>

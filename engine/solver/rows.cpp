@@ -91,12 +91,16 @@ void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
     const double sine = axis_a_ws.cross(axis_b_ws).norm();
     const double angle = arc_tangent2(sine, axis_a_ws.dot(axis_b_ws));
     const double stretch = sine > 1e-9 ? angle / sine : 1.0;
+    const bool is_opposed = sine <= 1e-9 && angle > 1.0;  // any way back is as short
     row.linear_a.setZero();
     for (int axis = 1; axis < 3; ++axis) {
         const Vec3 side = frame_a_ws * Vec3::Unit(axis);
         row.angular_a = (k_angle_m * stretch) * side.cross(axis_b_ws);
         row.angular_b = -row.angular_a;
         row.value_m = k_angle_m * stretch * side.dot(axis_b_ws);
+        if (is_opposed) {
+            row.value_m = axis == 1 ? k_angle_m * angle : 0.0;
+        }
         row.width = axis == 1 ? 2 : 0;
         rows.push_back(row);
     }
@@ -196,7 +200,7 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
 
 // How far the coordinate is outside of its limits, in its own unit.
 double limit_excess(std::span<const SolverBody> bodies, const RowBlock& block) {
-    if (!block.joint.limited) {
+    if (!block.joint.limited || block.kind == RowKind::fixed) {
         return 0.0;
     }
     const double coordinate = joint_coordinate(bodies, block);
@@ -277,6 +281,10 @@ std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlo
         rows.push_back(row);
     }
     return rows.size() - before;
+}
+
+Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return Ends(bodies, block).error;
 }
 
 Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block) {

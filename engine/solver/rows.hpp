@@ -140,6 +140,8 @@ void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                  std::uint32_t block_index, std::vector<Row>& rows,
                  double reach_m = std::numeric_limits<double>::infinity());
 
+// From b's point to a's in the world: the values of the rows that hold one on the other.
+Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block);
 // From b's rotation to a's in the world, radians: the values, at their lever, of the rows that hold
 // one on the other.
 Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block);

@@ -9,8 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_smallest_pivot = 1e-14;  // of the diagonal: smaller ones repeat other rows
-
 HH_INLINE Rows3 axes_of(const Four& rotation) {
     const double x = rotation[0];
     const double y = rotation[1];
@@ -172,11 +170,11 @@ HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double jo
     // Pivots are compared with the diagonal before others take their share of it.
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Rows3& block = arrays.blocks[steps[i].own];
-        arrays.own[i].vector = Four{block.row[0][0], block.row[1][1], block.row[2][2], 0.0};
+        arrays.unknowns[i].vector = Four{block.row[0][0], block.row[1][1], block.row[2][2], 0.0};
     }
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const TriadPlan::Step& step = steps[i];
-        const Four diagonal = arrays.own[i].vector;
+        const Four diagonal = arrays.unknowns[i].vector;
         const Four alpha =
             arrays.triads[step.node].is_hand
                 ? Four{diagonal[0] > 0.0 ? hand_alpha : 0.0, diagonal[1] > 0.0 ? hand_alpha : 0.0,
@@ -206,10 +204,10 @@ HH_INLINE void substitute(const TriadArrays& arrays) {
         for (const std::uint32_t later : plan.later(steps[i])) {
             arrays.triads[later].lambda -= combine(*carried++, own);
         }
-        arrays.own[i].vector = divide(arrays.pivots[i], own);
+        arrays.unknowns[i].vector = divide(arrays.pivots[i], own);
     }
     for (std::size_t i = steps.size(); i-- > 0;) {
-        Four own = arrays.own[i].vector;
+        Four own = arrays.unknowns[i].vector;
         const Rows3* carried = arrays.blocks.data() + steps[i].own + 1;
         for (const std::uint32_t later : plan.later(steps[i])) {
             const Four& lambda = arrays.triads[later].lambda;
@@ -265,7 +263,7 @@ HH_INLINE void apply(const TriadArrays& arrays, double scale) {
         if (body.inverse_mass > 0.0) {
             body.position += scale * body.move;
         }
-        if (body.may_turn) {
+        if (body.may_turn && dot3(body.turn, body.turn) > 0.0) {
             body.rotation = turned(body.rotation, scale * body.turn);
         }
     }

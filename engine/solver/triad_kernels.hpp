@@ -43,8 +43,9 @@ struct TriadPivots {
     double l10, l20, l21;
 };
 
-// By step of the plan: diagonals before they are divided, unknowns on their way.
-struct TriadOwn {
+// Scratch by step of the plan: the diagonals while it is factorised, what is not yet solved for
+// afterwards. A struct, for a template's argument would forget the alignment.
+struct TriadUnknown {
     Four vector = {};
 };
 
@@ -52,10 +53,10 @@ struct TriadArrays {
     std::span<TriadBody> bodies;  // those that may move, then others
     std::size_t moving = 0;
     std::span<Triad> triads;
-    std::span<Rows3> sides;         // by end: J W of its rotation
-    std::span<Rows3> blocks;        // the plan's
-    std::span<TriadPivots> pivots;  // by step of the plan
-    std::span<TriadOwn> own;        // by step: scratch
+    std::span<Rows3> sides;            // by end: J W of its rotation
+    std::span<Rows3> blocks;           // the plan's
+    std::span<TriadPivots> pivots;     // by step of the plan
+    std::span<TriadUnknown> unknowns;  // by step: scratch
     const TriadPlan* plan = nullptr;
 };
 

@@ -73,7 +73,7 @@ void TriadSystem::load_bodies(const IslandView& island) {
         pack(island.bodies[index], index, bodies_.emplace_back());
         may_turn_.push_back(bodies_.back().may_turn ? 1 : 0);
     }
-    arrays_.moving = count;
+    moving_ = count;
     uses_.assign(count, 0);
 }
 
@@ -133,18 +133,15 @@ void TriadSystem::plan_nodes() {
     sides_.resize(2 * triads_.size());
     blocks_.resize(plan.block_count());
     pivots_.resize(triads_.size());
-    own_.resize(triads_.size());
-    arrays_.bodies = bodies_;
-    arrays_.triads = triads_;
-    arrays_.sides = sides_;
-    arrays_.blocks = blocks_;
-    arrays_.pivots = pivots_;
-    arrays_.own = own_;
-    arrays_.plan = &plan;
+    unknowns_.resize(triads_.size());
+}
+
+TriadArrays TriadSystem::arrays() {
+    return {bodies_, moving_, triads_, sides_, blocks_, pivots_, unknowns_, &plans_.current()};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
-    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+    for (const TriadBody& body : moving()) {
         if (body.inverse_mass > 0.0) {
             island.bodies[body.index].pose_ws = {to_vec3(body.position), to_quat(body.rotation)};
         }
@@ -152,7 +149,7 @@ void TriadSystem::store_poses(const IslandView& island) const {
 }
 
 void TriadSystem::store_velocities(const IslandView& island) const {
-    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+    for (const TriadBody& body : moving()) {
         if (body.inverse_mass > 0.0) {
             island.bodies[body.index].velocity_mps = to_vec3(body.velocity);
             island.bodies[body.index].spin_radps = to_vec3(body.spin);
@@ -161,7 +158,7 @@ void TriadSystem::store_velocities(const IslandView& island) const {
 }
 
 void TriadSystem::evaluate(const IslandView& island) {
-    kernels_->evaluate(arrays_);
+    kernels_->evaluate(arrays());
     if (!has_turn_) {
         return;
     }
@@ -176,7 +173,7 @@ void TriadSystem::evaluate(const IslandView& island) {
 }
 
 void TriadSystem::evaluate_velocities(const IslandView& island) {
-    kernels_->evaluate_velocities(arrays_);
+    kernels_->evaluate_velocities(arrays());
     if (!has_hand_) {
         return;
     }
@@ -199,7 +196,7 @@ double TriadSystem::worst_value() const {
 
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
-    stiffness_.assign(arrays_.moving, Mat3::Zero());
+    stiffness_.assign(moving_, Mat3::Zero());
     for (const Triad& triad : triads_) {
         if (triad.turns) {
             continue;
@@ -219,7 +216,7 @@ void TriadSystem::gather_stiffness() {
 double TriadSystem::hand_size() const {
     double inverse_sum = 0.0;
     double count = 0.0;
-    for (const TriadPlan::Step& step : arrays_.plan->steps()) {
+    for (const TriadPlan::Step& step : plans_.current().steps()) {
         const Rows3& block = blocks_[step.own];
         const double sum = (block.row[0][0] + block.row[1][1]) + block.row[2][2];
         if (sum > 0.0) {
@@ -231,23 +228,23 @@ double TriadSystem::hand_size() const {
 }
 
 void TriadSystem::factorise(const Softness& softness, double factor) {
-    kernels_->write_inertia(arrays_);
+    kernels_->write_inertia(arrays());
     if (is_stiff_) {
-        for (std::size_t slot = 0; slot < arrays_.moving; ++slot) {
+        for (std::size_t slot = 0; slot < moving_; ++slot) {
             Rows3& inverse = bodies_[slot].inverse_inertia;
             inverse = to_rows(stiffened(to_mat3(inverse), stiffness_[slot]));
         }
     }
-    kernels_->multiply_out(arrays_);
+    kernels_->multiply_out(arrays());
     const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
-    kernels_->factorise(arrays_, hand_alpha, factor * softness.joint);
+    kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
 }
 
-void TriadSystem::solve() { kernels_->solve(arrays_); }
+void TriadSystem::solve() { kernels_->solve(arrays()); }
 
 double TriadSystem::longest_move() const {
     double square = 0.0;
-    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+    for (const TriadBody& body : moving()) {
         square = std::max(square, dot3(body.move, body.move));
     }
     return std::sqrt(square);
@@ -255,19 +252,19 @@ double TriadSystem::longest_move() const {
 
 double TriadSystem::longest_turn() const {
     double square = 0.0;
-    for (const TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+    for (const TriadBody& body : moving()) {
         square = std::max(square, dot3(body.turn, body.turn));
     }
     return std::sqrt(square);
 }
 
 double TriadSystem::apply_moves(double scale) {
-    kernels_->apply(arrays_, scale);
+    kernels_->apply(arrays(), scale);
     return scale * std::max(longest_move(), k_angle_m * longest_turn());
 }
 
 void TriadSystem::apply_impulses(const IslandView& island) {
-    for (TriadBody& body : arrays_.bodies.first(arrays_.moving)) {
+    for (TriadBody& body : std::span(bodies_).first(moving_)) {
         body.velocity += body.move;
         body.spin += body.turn;
     }

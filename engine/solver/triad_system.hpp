@@ -6,15 +6,15 @@
 
 #include "engine/solver/island_view.hpp"
 #include "engine/solver/plan_cache.hpp"
+#include "engine/solver/softness.hpp"
 #include "engine/solver/triad_kernels.hpp"
 #include "engine/solver/triad_plan.hpp"
 
 namespace handhold {
 
 // The rows of an island that all hold, always, in threes: ropes, chains, rings, things in hands.
-// The same equations as RowSystem's in a tenth of the instructions: nothing is asked of a row,
-// every block is three by three, and bodies and rows are packed copies that are read in once a
-// solve.
+// RowSystem's equations in a quarter of its instructions: every block is three by three, and bodies
+// and rows are packed copies that are read in once a solve.
 class TriadSystem {
   public:
     explicit TriadSystem(const TriadKernels& kernels = triad_kernels()) : kernels_(&kernels) {}
@@ -54,14 +54,18 @@ class TriadSystem {
     void plan_nodes();
     double hand_size() const;
 
+    // Made for each call: it points into this.
+    TriadArrays arrays();
+    std::span<const TriadBody> moving() const { return std::span(bodies_).first(moving_); }
+
     const TriadKernels* kernels_;
-    TriadArrays arrays_;
+    std::size_t moving_ = 0;  // of the bodies, the first
     std::vector<TriadBody> bodies_;
     std::vector<Triad> triads_;
     std::vector<Rows3> sides_;
     std::vector<Rows3> blocks_;
     std::vector<TriadPivots> pivots_;
-    std::vector<TriadOwn> own_;
+    std::vector<TriadUnknown> unknowns_;
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;

@@ -288,14 +288,13 @@ double worst_speed(std::span<const Row> rows, const RowSystem& system) {
 
 // Takes the error of regularisation down, by a factor that long levers make small, until the rows
 // are met or cannot be: more would only press contradicting rows against each other.
-void refine_velocities(const IslandView& island, SolveScratch& scratch) {
-    constexpr double k_speed_tolerance_mps = 1e-10;
-    constexpr int k_refinements = 8;
+void refine_velocities(const IslandView& island, const VelocitySettings& settings,
+                       SolveScratch& scratch) {
     double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < k_refinements; ++i) {
+    for (int i = 0; i < settings.refinements; ++i) {
         evaluate_velocity_rows(island, scratch);
         const double worst = worst_speed(scratch.rows, scratch.system);
-        if (worst < k_speed_tolerance_mps || worst > 0.5 * previous) {
+        if (worst < settings.tolerance_mps || worst > 0.5 * previous) {
             return;
         }
         previous = worst;
@@ -312,7 +311,7 @@ void refine_velocities(const IslandView& island, SolveScratch& scratch) {
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch) {
     if (scratch.triads.load(island, settings.touch_m)) {
-        solve_triad_velocities(island, settings.softness, scratch.triads);
+        solve_triad_velocities(island, settings, scratch.triads);
         return {};
     }
     VelocityResult result;
@@ -344,7 +343,7 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     result.unsettled = scratch.system.is_unsettled();
     apply_impulses(island, scratch.lambda, scratch);
     if (softness.contact == settings.softness.contact && !result.unsettled) {
-        refine_velocities(island, scratch);
+        refine_velocities(island, settings, scratch);
     }
     return result;
 }

@@ -10,6 +10,8 @@ struct VelocitySettings {
     double restitution_speed_mps = 0.2;  // slower impacts do not bounce
     Softness softness{};                 // at first
     int friction_passes = 16;            // at most, to find who sticks and who slides
+    double tolerance_mps = 1e-10;        // refined until nothing lacks more
+    int refinements = 8;                 // at most
 };
 // What an island's friction had no answer to in one frame.
 struct VelocityResult {

@@ -22,7 +22,8 @@ void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
         out.tracked_ws = io.origin.at(owner.player).pose_ws * io.hand.at(entity).pose_ps;
         out.shown_ws = out.tracked_ws;
         out.grip = grab.kind;
-        if (grab.kind != GripKind::none) {
+        const bool is_there = io.body_pose.contains(grab.body) || io.origin.contains(grab.body);
+        if (grab.kind != GripKind::none && is_there) {
             out.shown_ws =
                 gripped_pose_ws(io.body_pose, io.origin, io.head, grab.body) * grab.anchor_bs;
         }

@@ -9,8 +9,9 @@
 namespace handhold {
 namespace {
 
-constexpr double k_violated_m =
-    2e-7;  // 20 times the solver's tolerance: what a solved phase leaves is no violation
+// Twice the solver's tolerance, and never less than this: what a solved phase leaves, and rounding,
+// is no violation.
+constexpr double k_violated_m = 2e-7;
 constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
 
 enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
@@ -20,6 +21,7 @@ struct Solve {
     const Tuning& tuning;
     StageStats& stats;
 
+    double violated_m() const { return std::max(k_violated_m, 2.0 * tuning.solver.tolerance_m); }
     ConstraintGraph& graph() const { return io.frame.graph; }
     FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
 };
@@ -242,7 +244,7 @@ void forward(const Solve& s) {
 }
 
 bool wants_backward(const Solve& s, const Island& island) {
-    return errors_of(s, island).worst_m() > k_violated_m && may_push(s, island);
+    return errors_of(s, island).worst_m() > s.violated_m() && may_push(s, island);
 }
 
 // Marks the islands to push, and puts players and held objects back to where the hands want them.
@@ -272,14 +274,14 @@ void backward(const Solve& s) {
     HH_DETAIL_ZONE("backward");
     prepare_backward(s);
     solve_rounds(s, Phase::backward, [&](const Island& island) {
-        return is_pushed(s, island) && errors_of(s, island).worst_m() > k_violated_m;
+        return is_pushed(s, island) && errors_of(s, island).worst_m() > s.violated_m();
     });
 }
 
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return errors_of(s, island).without_hands_m() > k_violated_m;
+        return errors_of(s, island).without_hands_m() > s.violated_m();
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {

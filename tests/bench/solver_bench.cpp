@@ -59,7 +59,9 @@ struct Step {
         for (const Island& island : graph.islands) {
             const IslandView view{BlockFilter::all, graph.bodies, graph.blocks,
                                   graph.bodies_of(island), graph.blocks_of(island)};
-            const NewtonResult result = solve_positions(view, {}, scratch);
+            NewtonSettings settings;
+            settings.tolerance_m = 1e-7;  // the game's
+            const NewtonResult result = solve_positions(view, settings, scratch);
             iterations += result.iterations;
             residual_m = std::max(residual_m, result.residual_m);
             solve_velocities(view, {}, scratch);

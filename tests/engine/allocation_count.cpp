@@ -28,6 +28,18 @@ void* operator new(std::size_t size) {
     }
     throw std::bad_alloc();
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    ++t_allocations;
+    t_bytes += size;
+    const auto boundary = static_cast<std::size_t>(alignment);
+    const std::size_t whole = (size + boundary - 1) / boundary * boundary;
+    if (void* const memory = std::aligned_alloc(boundary, whole == 0 ? boundary : whole)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 #endif

@@ -4,10 +4,10 @@
 
 namespace handhold {
 
-// How often the calling thread has called operator new, in any form but the over-aligned ones,
-// since it began. The whole test executable counts: allocation_count.cpp, which all of them have,
-// replaces the global operators. Only equality of two counts means anything, and nothing where
-// counts_allocations() is false: the sanitizers bring operators of their own.
+// How often the calling thread has called operator new, in any form, since it began. The whole test
+// executable counts: allocation_count.cpp, which all of them have, replaces the global operators.
+// Only equality of two counts means anything, and nothing where counts_allocations() is false: the
+// sanitizers bring operators of their own.
 std::size_t allocation_count();
 // How many bytes it has asked for so; what was given back counts too.
 std::size_t allocated_bytes();

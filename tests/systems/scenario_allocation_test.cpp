@@ -1,10 +1,12 @@
 // A warm frame takes no memory: neither from malloc nor from Bullet's allocator.
 #include <atomic>
 #include <cstdlib>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/collision/collision_world.hpp"
+#include "engine/solver/triad_kernels.hpp"
 #include "tests/systems/scenario.hpp"
 
 #if defined(__has_feature)
@@ -24,6 +26,8 @@ extern "C" {
 void* __libc_malloc(std::size_t);               // NOLINT(bugprone-reserved-identifier)
 void* __libc_calloc(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
 void* __libc_realloc(void*, std::size_t);       // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t, std::size_t);
 void* malloc(std::size_t size) {
     allocations.fetch_add(1, std::memory_order_relaxed);
     return __libc_malloc(size);
@@ -35,6 +39,10 @@ void* calloc(std::size_t count, std::size_t size) {
 void* realloc(void* old, std::size_t size) {
     allocations.fetch_add(1, std::memory_order_relaxed);
     return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+    allocations.fetch_add(1, std::memory_order_relaxed);
+    return __libc_memalign(alignment, size);
 }
 }
 #endif
@@ -50,6 +58,9 @@ TEST(WarmFrame, AllocatesNothing) {
     const auto* const probe = new std::uint64_t(at_start);  // the hook sees what it should see
     ASSERT_GT(allocations.load(), at_start);
     delete probe;
+    const std::uint64_t before_aligned = allocations.load();
+    const std::vector<TriadBody> aligned(1);
+    ASSERT_GT(allocations.load(), before_aligned);
 
     Scenario s;
     s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
