@@ -49,9 +49,9 @@ const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
 SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
-    script.duration_s = 16.0;
-    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, and a
-    // catch at its far hatch.
+    script.duration_s = 20.5;
+    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, a catch
+    // at its far hatch, and a look out of the cupola behind it.
     script.body = {{0.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {2.0, Vec3(-0.52, 0.50, 5.35), 0.5 * ahead},
@@ -62,7 +62,9 @@ SessionScript station_script() {
                    {11.5, Vec3(0.02, 0.30, 0.86), ahead},
                    {12.9, Vec3(0.02, 0.30, -0.54), ahead},
                    {13.9, Vec3(0.02, 0.34, -0.84), Vec3::Zero()},
-                   {16.0, Vec3(0.02, 0.34, -0.84), Vec3::Zero()}};
+                   {15.2, Vec3(0.02, 0.34, -0.84), Vec3::Zero()},
+                   {17.6, Vec3(0.02, 0.32, -1.28), Vec3::Zero()},
+                   {20.5, Vec3(0.05, 0.34, -1.32), Vec3::Zero()}};
     ScriptedCrawl crawl;
     crawl.bar_start = k_hab_rail;
     crawl.along = ahead;
@@ -82,8 +84,13 @@ SessionScript station_script() {
     hold(HandSide::left, 8.7, 9.6, Vec3(-0.18, 0.885, 1.893));
     hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.885, 1.178));
     hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.885, 1.178));
-    hold(HandSide::right, 12.9, 16.0, Vec3(0.18, 0.885, -1.178));
-    hold(HandSide::left, 13.6, 16.0, Vec3(-0.18, 0.885, -1.178));
+    hold(HandSide::right, 12.9, 20.5, Vec3(0.18, 0.885, -1.178));
+    hold(HandSide::left, 13.6, 17.4, Vec3(-0.18, 0.885, -1.178));
+    // Towards the pane: the eyes follow the hands.
+    const Vec3 back = Vec3::UnitZ();
+    script.reaches.push_back(
+        {HandSide::left, 18.6, Vec3(-0.16, -0.06, -1.74), back, Vec3::UnitY()});
+    script.reaches.push_back({HandSide::left, 20.5, Vec3(-0.20, 0.00, -1.76), back, Vec3::UnitY()});
     return script;
 }
 
@@ -112,7 +119,7 @@ constexpr double k_ship_speed_mps = 20.0;
 constexpr double k_ship_spin_radps = 0.06;
 constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
-constexpr double k_pick_s = 6.6;              // when the session takes the rock
+constexpr double k_pick_s = 8.6;              // when the session takes the rock
 const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // then, in the ship's frame
 const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper, along z
 constexpr double k_ship_wall_x = -1.65;       // about: the session shoves well into it
@@ -121,14 +128,14 @@ SessionScript ship_script() {
     SessionScript script;
     script.play_space = rotation_about(
         Vec3::UnitY(), k_half_pi);  // facing the wall, -x; the right hand is towards -z
-    script.duration_s = 14.0;
+    script.duration_s = 20.0;
     const Vec3 along = -Vec3::UnitZ();
-    script.body = {{0.0, Vec3(-1.02, 0.72, 1.60), Vec3::Zero()},
-                   {0.8, Vec3(-1.02, 0.72, 1.60), Vec3::Zero()},
-                   {1.6, Vec3(-1.02, 0.72, 1.40), 0.45 * along},
-                   {5.0, Vec3(-1.02, 0.72, -0.13), 0.45 * along},
-                   {6.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()},
-                   {14.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()}};
+    script.body = {{0.0, Vec3(-1.02, 0.72, 2.50), Vec3::Zero()},
+                   {0.8, Vec3(-1.02, 0.72, 2.50), Vec3::Zero()},
+                   {1.6, Vec3(-1.02, 0.72, 2.30), 0.45 * along},
+                   {7.0, Vec3(-1.02, 0.72, -0.13), 0.45 * along},
+                   {8.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()},
+                   {20.0, Vec3(-1.02, 0.72, -0.35), Vec3::Zero()}};
     ScriptedCrawl crawl;
     crawl.bar_start = k_ship_rail;
     crawl.along = along;
@@ -136,26 +143,30 @@ SessionScript ship_script() {
     crawl.fingers = Vec3::UnitY();
     crawl.speed_mps = 0.45;
     crawl.from_s = 0.35;
-    crawl.until_s = 4.9;
+    crawl.until_s = 6.9;
     add_crawl(crawl, script);
-    script.holds.push_back({HandSide::left, 5.2, 10.2, k_ship_rail + Vec3(0.02, 0.0, -0.10),
+    script.holds.push_back({HandSide::left, 7.2, 15.6, k_ship_rail + Vec3(0.02, 0.0, -0.10),
                             Vec3::UnitX(), Vec3::UnitY()});
     // The rock: taken from above, waved about, then shoved into the wall; the wall shoves back.
     const Vec3 up = Vec3::UnitY();
     const Vec3 fingers = -Vec3::UnitX();
     const Vec3 on_rock = k_rock_place + (k_rock_radius_m + 0.005) * up;
-    script.holds.push_back({HandSide::right, k_pick_s, 11.9, on_rock, up, fingers});
+    script.holds.push_back({HandSide::right, k_pick_s, 17.3, on_rock, up, fingers});
     const auto move = [&](double t_s, const Vec3& by, double roll) {
         const Quat turn = rotation_about(Vec3::UnitX(), roll);
         script.reaches.push_back({HandSide::right, t_s, on_rock + by, turn * up, fingers});
     };
-    move(7.2, Vec3(0.15, 0.25, 0.10), 0.5);
-    move(7.8, Vec3(0.25, 0.10, -0.20), -0.6);
-    move(8.4, Vec3(0.05, 0.30, -0.10), 0.7);
-    move(9.0, Vec3(0.25, 0.25, 0.15), -0.3);
-    move(9.8, Vec3(0.20, 0.10, 0.0), 0.0);
-    move(10.6, Vec3(0.20, 0.10, 0.0), 0.0);
-    move(11.4, Vec3(k_ship_wall_x - k_rock_place.x() - 0.25, 0.10, 0.0), 0.0);
+    move(9.2, Vec3(0.15, 0.25, 0.10), 0.5);
+    move(9.8, Vec3(0.25, 0.10, -0.20), -0.6);
+    move(10.4, Vec3(0.05, 0.30, -0.10), 0.7);
+    move(11.0, Vec3(0.25, 0.25, 0.15), -0.3);
+    move(11.8, Vec3(0.10, 0.35, 0.05), -0.6);
+    move(12.6, Vec3(0.30, 0.05, -0.25), 0.8);
+    move(13.4, Vec3(0.15, 0.30, 0.20), -0.6);
+    move(14.3, Vec3(0.05, 0.15, -0.10), 0.3);
+    move(15.2, Vec3(0.20, 0.10, 0.0), 0.0);
+    move(16.0, Vec3(0.20, 0.10, 0.0), 0.0);
+    move(16.8, Vec3(k_ship_wall_x - k_rock_place.x() - 0.25, 0.10, 0.0), 0.0);
     return script;
 }
 

@@ -75,7 +75,7 @@ SessionScript robot_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
     const Vec3 up = Vec3::UnitY();
-    script.duration_s = 18.0;
+    script.duration_s = 20.0;
     // From tail to head along the left rail, then two hands on the first rung, into the bend.
     const double height = 0.78;
     script.body = {{0.0, Vec3(-0.10, height, 1.00), Vec3::Zero()},
@@ -83,7 +83,7 @@ SessionScript robot_script() {
                    {1.6, Vec3(-0.10, height, 0.92), 0.25 * ahead},
                    {6.6, Vec3(-0.10, height, -0.33), 0.25 * ahead},
                    {7.8, Vec3(-0.02, height, -0.40), Vec3::Zero()},
-                   {18.0, Vec3(-0.02, height, -0.40), Vec3::Zero()}};
+                   {20.0, Vec3(-0.02, height, -0.40), Vec3::Zero()}};
     ScriptedCrawl crawl;
     crawl.bar_start = k_left_rail;
     crawl.along = ahead;
@@ -100,7 +100,8 @@ SessionScript robot_script() {
     hold(HandSide::right, 7.3, 12.0, 0.06);
     hold(HandSide::left, 8.6, 14.5, -0.07);
     hold(HandSide::right, 13.2, 17.6, 0.07);
-    hold(HandSide::left, 15.6, 18.0, -0.06);
+    hold(HandSide::left, 15.6, 20.0, -0.06);
+    hold(HandSide::right, 18.2, 20.0, 0.06);
     return script;
 }
 
