@@ -7,7 +7,8 @@
 #include "engine/solver/triad_plan.hpp"
 
 // The arithmetic of TriadSystem, over packed arrays: once for any processor, once for AVX2, with
-// equal bits.
+// equal bits. TriadSystem fills the arrays and calls the kernels in turn; nothing here fails or
+// allocates. Metres, seconds, kilograms, radians; the world's axes where nothing else is said.
 namespace handhold {
 
 // Three rows, one a world axis: a point held on a point, or a rotation on a rotation.
@@ -19,18 +20,18 @@ struct Triad {
     Four points[2] = {};  // of a and b, in their axes
     Four arms[2] = {};    // from the centres, world axes; b's is negative
     Four value = {};      // metres, angles at k_angle_m; or metres a second
-    Four lambda = {};
+    Four lambda = {};     // of the last solve: on a, b's is the opposite
 };
 
 struct TriadBody {
-    Four position = {};
-    Four rotation = {};
+    Four position = {};  // of the centre
+    Four rotation = {};  // unit, (x, y, z, w)
     Four velocity = {};
     Four spin = {};
-    Rows3 axes{};             // by columns: its own axes in the world
-    Rows3 inverse_inertia{};  // in the world; with the stiffness
-    Four inverse_inertia_bs = {};
-    Four move = {};  // W J^T lambda of the last solve
+    Rows3 axes{};                  // by columns: its own axes in the world
+    Rows3 inverse_inertia{};       // in the world; with the stiffness
+    Four inverse_inertia_bs = {};  // principal, body axes
+    Four move = {};                // W J^T lambda of the last solve
     Four turn = {};
     double inverse_mass = 0.0;
     std::uint32_t index = 0;  // into the graph's bodies

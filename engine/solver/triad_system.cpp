@@ -240,27 +240,21 @@ void TriadSystem::factorise(const Softness& softness, double factor) {
     kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
 }
 
-void TriadSystem::solve() { kernels_->solve(arrays()); }
-
-double TriadSystem::longest_move() const {
-    double square = 0.0;
+void TriadSystem::solve() {
+    kernels_->solve(arrays());
+    double move = 0.0;
+    double turn = 0.0;
     for (const TriadBody& body : moving()) {
-        square = std::max(square, dot3(body.move, body.move));
+        move = std::max(move, dot3(body.move, body.move));
+        turn = std::max(turn, dot3(body.turn, body.turn));
     }
-    return std::sqrt(square);
-}
-
-double TriadSystem::longest_turn() const {
-    double square = 0.0;
-    for (const TriadBody& body : moving()) {
-        square = std::max(square, dot3(body.turn, body.turn));
-    }
-    return std::sqrt(square);
+    longest_move_ = std::sqrt(move);
+    longest_turn_ = std::sqrt(turn);
 }
 
 double TriadSystem::apply_moves(double scale) {
     kernels_->apply(arrays(), scale);
-    return scale * std::max(longest_move(), k_angle_m * longest_turn());
+    return scale * std::max(longest_move_, k_angle_m * longest_turn_);
 }
 
 void TriadSystem::apply_impulses(const IslandView& island) {

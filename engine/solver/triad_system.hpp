@@ -23,7 +23,7 @@ class TriadSystem {
     // may let go, slide or stop, or where so many meet in one body that RowSystem's hubs serve
     // better: nothing else may be called then. `touch_m`: contacts farther apart do not count.
     bool load(const IslandView& island, double touch_m);
-    // The bodies back, where the solves have brought them. Velocities and impulses too.
+    // Writes the bodies back, those that something moves: poses, or velocities.
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
 
@@ -40,12 +40,13 @@ class TriadSystem {
     void factorise(const Softness& softness, double factor);
     // Multipliers against the values with the last factor, and how they move the bodies.
     void solve();
-    double longest_move() const;
-    double longest_turn() const;
+    // Of the last solve: metres, radians.
+    double longest_move() const { return longest_move_; }
+    double longest_turn() const { return longest_turn_; }
 
     // Moves the bodies by so much of the last solve. Returns the longest step, metres.
     double apply_moves(double scale);
-    // Adds the last solve to velocities and impulses.
+    // Adds the last solve to the velocities here, and to the impulses of the island's blocks.
     void apply_impulses(const IslandView& island);
 
   private:
@@ -72,6 +73,8 @@ class TriadSystem {
     std::vector<std::uint8_t> may_turn_;  // by slot
     std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
     std::vector<Mat3> stiffness_;         // by slot
+    double longest_move_ = 0.0;
+    double longest_turn_ = 0.0;
     bool is_stiff_ = false;
     bool has_hand_ = false;
     bool has_turn_ = false;
