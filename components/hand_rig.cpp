@@ -15,4 +15,62 @@ std::array<Pose, k_most_links> finger_link_frames(const FingerRig& finger,
     return frames;
 }
 
+std::array<Vec3, k_most_links + 1> finger_points(const FingerRig& finger,
+                                                 const FingerAngles& angles) {
+    const std::array<Pose, k_most_links> frames = finger_link_frames(finger, angles);
+    std::array<Vec3, k_most_links + 1> points;
+    points.fill(finger.base_hs.position);
+    for (std::size_t link = 0; link < finger.link_count; ++link) {
+        points[link + 1] = transform_point(frames[link], Vec3(0.0, 0.0, -finger.length_m[link]));
+    }
+    return points;
+}
+
+FingerAngles coupled_angles(const FingerRig& finger, double share) {
+    FingerAngles angles;
+    for (std::size_t link = 0; link < finger.link_count; ++link) {
+        angles.curl_rad[link] =
+            finger.lower_rad[link] + share * (finger.upper_rad[link] - finger.lower_rad[link]);
+    }
+    return angles;
+}
+
+FingerAngles relaxed_angles(const FingerRig& finger) {
+    FingerAngles angles;
+    angles.curl_rad = finger.relaxed_rad;
+    return angles;
+}
+
+Pose mirror_hand_pose(const Pose& pose_hs) {
+    const Quat& turn = pose_hs.rotation;
+    return {Vec3(-pose_hs.position.x(), pose_hs.position.y(), pose_hs.position.z()),
+            Quat(turn.w(), turn.x(), -turn.y(), -turn.z())};
+}
+
+HandRig mirror_hand_rig(const HandRig& rig) {
+    HandRig mirrored = rig;
+    mirrored.side = rig.side == HandSide::left ? HandSide::right : HandSide::left;
+    for (FingerRig& finger : mirrored.fingers) {
+        finger.base_hs = mirror_hand_pose(finger.base_hs);
+        // A mirror turns the sense of a rotation: so the axis is mirrored and reversed.
+        finger.opposition_axis_hs.y() *= -1.0;
+        finger.opposition_axis_hs.z() *= -1.0;
+    }
+    for (PalmCapsule& capsule : mirrored.palm) {
+        capsule.a_hs.x() *= -1.0;
+        capsule.b_hs.x() *= -1.0;
+    }
+    mirrored.palm_center_hs.x() *= -1.0;
+    mirrored.palm_normal_hs.x() *= -1.0;
+    for (RigJoint& joint : mirrored.joints) {
+        joint.joint_in_link = mirror_hand_pose(joint.joint_in_link);
+    }
+    return mirrored;
+}
+
+const char* finger_text(FingerName name) {
+    constexpr std::array k_names = {"thumb", "index", "middle", "ring", "little"};
+    return k_names[static_cast<std::size_t>(name)];
+}
+
 }  // namespace handhold

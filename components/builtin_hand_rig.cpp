@@ -1,0 +1,176 @@
+// Figures of our own, after the proportions of an adult's hand: bones 44/27/18 mm in the middle
+// finger, knuckles 20 mm apart. The thumb's axis of opposition leans to the little finger's side,
+// so that a flexed thumb comes back below the index and middle fingers instead of beside them.
+#include "components/builtin_hand_rig.hpp"
+
+#include <numbers>
+#include <span>
+#include <string>
+
+namespace handhold {
+namespace {
+
+constexpr double k_degree = std::numbers::pi / 180.0;
+constexpr double k_mm = 1e-3;
+
+using Links = std::array<double, k_most_links>;
+
+Links scaled(const Links& values, double scale) {
+    return {values[0] * scale, values[1] * scale, values[2] * scale};
+}
+
+// A finger of the right hand, as figures.
+struct FingerFigures {
+    FingerName name;
+    const char* joints;          // what the names of its joints begin with
+    std::array<double, 3> base;  // mm
+    double spread_deg;           // to the thumb's side
+    Links length, radius;        // mm
+};
+constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
+                                                      "index-finger",
+                                                      {-29.5, 0.0, -88.0},
+                                                      4.0,
+                                                      {42.0, 25.0, 18.0},
+                                                      {8.8, 8.0, 7.2}},
+                                                     {FingerName::middle,
+                                                      "middle-finger",
+                                                      {-9.0, 2.0, -92.0},
+                                                      0.5,
+                                                      {44.0, 27.0, 18.5},
+                                                      {9.0, 8.2, 7.4}},
+                                                     {FingerName::ring,
+                                                      "ring-finger",
+                                                      {11.5, 1.0, -88.0},
+                                                      -3.0,
+                                                      {41.0, 25.0, 18.0},
+                                                      {8.6, 7.8, 7.0}},
+                                                     {FingerName::little,
+                                                      "pinky-finger",
+                                                      {30.5, -2.0, -80.0},
+                                                      -7.0,
+                                                      {33.0, 19.0, 16.5},
+                                                      {7.6, 6.9, 6.2}}}};
+constexpr Links k_finger_lower_deg = {-10.0, 0.0, 0.0};
+constexpr Links k_finger_upper_deg = {115.0, 105.0, 75.0};
+constexpr Links k_finger_relaxed_deg = {20.0, 30.0, 15.0};
+
+constexpr std::array<double, 3> k_thumb_base = {-24.0, -6.0, -26.0};  // mm
+constexpr Links k_thumb_length = {46.0, 34.0, 25.0};                  // mm
+constexpr Links k_thumb_radius = {10.0, 9.2, 8.4};                    // mm
+constexpr Links k_thumb_lower_deg = {-10.0, -10.0, -10.0};
+constexpr Links k_thumb_upper_deg = {28.0, 50.0, 65.0};
+constexpr Links k_thumb_relaxed_deg = {10.0, 12.0, 10.0};
+constexpr double k_opposition_lower_deg = -50.0;
+constexpr double k_opposition_upper_deg = 70.0;
+constexpr double k_opposition_lean = 0.25;  // of the axis, to the little finger, for 1 forward
+// Of the first link at curl 0 and opposition 0: from the axis, and about it from the thumb's side
+// to the palm's.
+constexpr double k_thumb_away_deg = 52.0;
+constexpr double k_thumb_below_deg = 60.0;
+
+Vec3 from_mm(const std::array<double, 3>& mm) { return k_mm * Vec3(mm[0], mm[1], mm[2]); }
+
+FingerRig make_finger(const FingerFigures& figures) {
+    FingerRig finger;
+    finger.name = figures.name;
+    finger.base_hs = {from_mm(figures.base),
+                      rotation_about(Vec3::UnitY(), figures.spread_deg * k_degree)};
+    finger.length_m = scaled(figures.length, k_mm);
+    finger.radius_m = scaled(figures.radius, k_mm);
+    finger.lower_rad = scaled(k_finger_lower_deg, k_degree);
+    finger.upper_rad = scaled(k_finger_upper_deg, k_degree);
+    finger.relaxed_rad = scaled(k_finger_relaxed_deg, k_degree);
+    return finger;
+}
+
+FingerRig make_thumb() {
+    FingerRig thumb;
+    thumb.name = FingerName::thumb;
+    thumb.length_m = scaled(k_thumb_length, k_mm);
+    thumb.radius_m = scaled(k_thumb_radius, k_mm);
+    thumb.lower_rad = scaled(k_thumb_lower_deg, k_degree);
+    thumb.upper_rad = scaled(k_thumb_upper_deg, k_degree);
+    thumb.relaxed_rad = scaled(k_thumb_relaxed_deg, k_degree);
+    thumb.lower_opposition_rad = k_opposition_lower_deg * k_degree;
+    thumb.upper_opposition_rad = k_opposition_upper_deg * k_degree;
+    // The thumb's plane holds the axis: a curl turns the links from their side of it to the other.
+    const Vec3 axis = Vec3(k_opposition_lean, 0.0, -1.0).normalized();
+    thumb.opposition_axis_hs = -axis;  // so that a positive angle goes from the side to the palm
+    double below_sine = 0.0, below_cosine = 1.0, away_sine = 0.0, away_cosine = 1.0;
+    sin_cos(k_thumb_below_deg * k_degree, below_sine, below_cosine);
+    sin_cos(k_thumb_away_deg * k_degree, away_sine, away_cosine);
+    const Vec3 below(-below_cosine, -below_sine, 0.0);
+    const Vec3 out = (below - axis * axis.dot(below)).normalized();
+    Mat3 axes;
+    axes.col(2) = -(away_cosine * axis + away_sine * out);  // +Z: back along the link
+    axes.col(1) = away_cosine * out - away_sine * axis;     // +Y: away from where it curls to
+    axes.col(0) = axes.col(1).cross(axes.col(2));
+    thumb.base_hs = {from_mm(k_thumb_base), Quat(axes).normalized()};
+    return thumb;
+}
+
+// Flush with the palm's centre, 14 mm below the wrist, so that a flat hand lies on a flat wall.
+std::vector<PalmCapsule> make_palm() {
+    const auto capsule = [](const std::array<double, 3>& a, const std::array<double, 3>& b,
+                            double radius_mm) {
+        return PalmCapsule{from_mm(a), from_mm(b), k_mm * radius_mm};
+    };
+    return {capsule({-27.0, -4.0, -80.0}, {27.0, -4.0, -80.0}, 10.0),   // knuckles
+            capsule({-13.0, -1.5, -18.0}, {-28.0, -2.0, -78.0}, 11.0),  // metacarpals
+            capsule({-4.0, -1.0, -16.0}, {-9.0, -0.5, -82.0}, 11.5),
+            capsule({5.0, -1.5, -16.0}, {11.0, -1.0, -78.0}, 11.5),
+            capsule({13.0, -2.5, -18.0}, {28.5, -3.5, -70.0}, 10.5),
+            capsule({-13.0, -3.0, -12.0}, {14.0, -3.0, -12.0}, 11.5),    // heel
+            capsule({21.0, -4.0, -26.0}, {25.0, -4.0, -56.0}, 10.5),     // edge below the little
+            capsule({-20.0, -4.5, -28.0}, {-24.0, -4.0, -52.0}, 11.0)};  // ball of the thumb
+}
+
+// Frames of joints are those of the hinges; the tip's stands at the end of the last link.
+void add_finger_joints(const std::string& prefix, std::span<const char* const> names,
+                       std::int32_t place, HandRig& rig) {
+    const FingerRig& finger = rig.fingers[static_cast<std::size_t>(place)];
+    for (std::uint32_t link = 0; link < finger.link_count; ++link) {
+        rig.joints.push_back({prefix + names[link], place, link, {}});
+    }
+    const std::uint32_t last = finger.link_count - 1;
+    rig.joints.push_back(
+        {prefix + "-tip", place, last, {Vec3(0.0, 0.0, -finger.length_m[last]), Quat::Identity()}});
+}
+
+void add_joints(HandRig& rig) {
+    constexpr std::array k_thumb_joints = {"-metacarpal", "-phalanx-proximal", "-phalanx-distal"};
+    constexpr std::array k_finger_joints = {"-phalanx-proximal", "-phalanx-intermediate",
+                                            "-phalanx-distal"};
+    rig.joints.push_back({"wrist", RigJoint::k_palm, 0, {}});
+    add_finger_joints("thumb", k_thumb_joints, 0, rig);
+    for (std::size_t i = 0; i < k_fingers.size(); ++i) {
+        const std::string prefix = k_fingers[i].joints;
+        const Vec3 knuckle = rig.fingers[i + 1].base_hs.position;
+        const Vec3 root(0.45 * knuckle.x(), 0.0, -0.022);
+        rig.joints.push_back(
+            {prefix + "-metacarpal",
+             RigJoint::k_palm,
+             0,
+             {root, rotation_between(-Vec3::UnitZ(), (knuckle - root).normalized())}});
+        add_finger_joints(prefix, k_finger_joints, static_cast<std::int32_t>(i) + 1, rig);
+    }
+}
+
+}  // namespace
+
+HandRig builtin_hand_rig(HandSide side) {
+    HandRig rig;
+    rig.side = HandSide::right;
+    rig.fingers.push_back(make_thumb());
+    for (const FingerFigures& figures : k_fingers) {
+        rig.fingers.push_back(make_finger(figures));
+    }
+    rig.palm = make_palm();
+    rig.palm_center_hs = Vec3(0.0, -0.014, -0.080);
+    rig.palm_normal_hs = -Vec3::UnitY();
+    add_joints(rig);
+    return side == HandSide::right ? rig : mirror_hand_rig(rig);
+}
+
+}  // namespace handhold
