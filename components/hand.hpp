@@ -7,17 +7,53 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// How hands are shown: fitted to what they hold. None of it ever moves the player.
+// How hands are shown: fitted to what they hold. None of it ever moves the player. Every hand
+// entity has all of these.
 namespace handhold {
+
+// Surface under one palm, chosen for the least movement of the palm. Written by search_grip; read
+// by constrain_palms, sweep_fingers, pose_thumb.
+struct GripSurface {
+    static constexpr std::uint32_t k_none = ~0U;
+
+    Entity body = k_no_entity;     // owner of the triangle; null: the hand is empty
+    std::uint32_t triangle = k_none;  // of the body's search detail
+    Vec3 point_bs = Vec3::Zero();  // on the surface itself, in the body's frame
+    Vec3 normal_bs = Vec3::UnitY();  // unit, towards the back of the hand: the surface's mean
+                                     // around the point
+};
+
+// How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
+// (_hs), so that it travels with the hand. Written by constrain_palms; lift_m also by
+// sweep_fingers.
+struct PalmOffset {
+    Vec3 shown_m = Vec3::Zero();         // follows target_m no faster than PalmTuning::rate_mps
+    Vec3 shown_turn_rad = Vec3::Zero();  // rotation vector
+    Vec3 target_m = Vec3::Zero();
+    Vec3 target_turn_rad = Vec3::Zero();
+    double lift_m = 0.0;  // off the surface, because fingers did not fit
+    Pose lifted_at_bs;    // where the tracked hand was then: elsewhere it is tried anew
+};
 
 // The wrist as it is shown, at the end of the frame. Arms reach for it. Written by constrain_palms.
 struct PalmPose {
     Pose pose_ws;
 };
 
-// How the hand's fingers are shown. Written by sweep_fingers and pose_thumb.
+// How the hand's fingers are shown, by place in HandRig::fingers. Written by sweep_fingers and
+// pose_thumb.
 struct FingerPose {
-    std::array<FingerAngles, k_finger_count> fingers;  // by place in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> shown;
+    std::array<FingerAngles, k_finger_count> target;  // shown follows: opens at once, closes at
+                                                      // FingerTuning::close_radps
+    // Where each finger's search ended, on the gripped body's search detail: where it begins next.
+    std::array<std::uint32_t, k_finger_count> seed_triangle = {~0U, ~0U, ~0U, ~0U, ~0U};
+    // What the targets were found for: nothing is solved again while it stays.
+    Entity solved_body = k_no_entity;
+    Pose solved_wrist_bs;
+    bool solved = false;
+    Pose thumb_wrist_bs;  // the same of the thumb
+    bool thumb_solved = false;
 };
 
 }  // namespace handhold

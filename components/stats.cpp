@@ -28,6 +28,16 @@ const char* name_of(Stage stage) {
             return "update_velocities";
         case Stage::update_joints:
             return "update_joints";
+        case Stage::gather_surroundings:
+            return "gather_surroundings";
+        case Stage::search_grip:
+            return "search_grip";
+        case Stage::constrain_palms:
+            return "constrain_palms";
+        case Stage::sweep_fingers:
+            return "sweep_fingers";
+        case Stage::pose_thumb:
+            return "pose_thumb";
         case Stage::publish_pose:
             return "publish_pose";
         case Stage::count:
@@ -82,6 +92,16 @@ const char* name_of(Fallback reason) {
             return "object_speed_clamped";
         case Fallback::head_ignores_full:
             return "head_ignores_full";
+        case Fallback::finger_searched_all:
+            return "finger_searched_all";
+        case Fallback::finger_opened:
+            return "finger_opened";
+        case Fallback::finger_touches_nothing:
+            return "finger_touches_nothing";
+        case Fallback::palm_lifted:
+            return "palm_lifted";
+        case Fallback::palm_no_surface:
+            return "palm_no_surface";
         case Fallback::count:
             break;
     }

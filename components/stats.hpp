@@ -23,6 +23,11 @@ enum class Stage : std::uint8_t {
     solve_phases,
     update_velocities,
     update_joints,
+    gather_surroundings,
+    search_grip,
+    constrain_palms,
+    sweep_fingers,
+    pose_thumb,
     publish_pose,
     count
 };
@@ -52,6 +57,11 @@ enum class Fallback : std::uint8_t {
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,
+    finger_searched_all,     // a finger whose searches did not do looked at all within its reach
+    finger_opened,           // and opened a little, since it was sunk still
+    finger_touches_nothing,  // a finger or thumb of a gripping hand rests in the air
+    palm_lifted,             // a hand was lifted off its surface, since its fingers did not fit
+    palm_no_surface,         // a gripping hand with nothing under its palm is shown as tracked
     count
 };
 

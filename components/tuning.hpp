@@ -25,6 +25,40 @@ struct HandTuning {
     double max_arm_m = 2.0;
 };
 
+// How the palm that is shown keeps to the surface it grips.
+struct PalmTuning {
+    double min_height_m = 0.001;
+    double max_height_m = 0.012;
+    double max_angle_rad = 0.35;
+    double tilt_cost_m_per_rad = 0.08;
+    double back_cost_m = 0.02;
+    double reach_m = 0.12;
+    double normal_radius_m = 0.03;
+    double rate_mps = 0.25;
+    double lift_m = 0.005;
+    double lift_from_depth_m = 0.0015;
+};
+
+// How fingers close.
+struct FingerTuning {
+    double plane_offset = 0.62;
+    double search_depth_m = 1.2e-3;
+    double open_depth_m = 8e-4;
+    double open_step_rad = 0.0436;
+    std::int32_t open_steps = 6;
+    double close_radps = 9.42;
+    double stroll_m = 1e-6;
+};
+
+struct ThumbTuning {
+    std::int32_t opposition_steps = 5;
+    double rest_opposition_rad = 0.26;
+    double sunk_cost = 4.0;
+    double open_cost_m = 0.012;
+    double gap_cost = 0.5;
+    double turn_cost_m_per_rad = 0.004;
+};
+
 struct HeadTuning {
     double radius_m = 0.11;
     Vec3 center_m = Vec3(0.0, 0.0, 0.05);  // of the collider, in the tracked head's frame
@@ -77,6 +111,9 @@ struct SolverTuning {
 struct Tuning {
     TrackingTuning tracking;
     HandTuning hand;
+    PalmTuning palm;
+    FingerTuning finger;
+    ThumbTuning thumb;
     HeadTuning head;
     LocomotionTuning locomotion;
     PhaseTuning phases;
@@ -122,6 +159,50 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "a hand farther than this from its anchor lets go");
     see("hand.max_arm_m", t.hand.max_arm_m, "m", 0.5, 1000.0,
         "a hand that is said to be farther than this from its head is not believed");
+    see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
+        "a gripping palm is shown at least this high over the surface");
+    see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,
+        "and at most this high; above palm.min_height_m");
+    see("palm.max_angle_rad", t.palm.max_angle_rad, "rad", 0.0, 3.2,
+        "and tilted against the surface by at most this");
+    see("palm.tilt_cost_m_per_rad", t.palm.tilt_cost_m_per_rad, "m/rad", 0.0, 10.0,
+        "what tilting the palm counts against moving it when a surface is chosen");
+    see("palm.back_cost_m", t.palm.back_cost_m, "m", 0.0, 1.0,
+        "what a surface whose outside is turned away from the palm counts more");
+    see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,
+        "surfaces farther from the palm than this are not looked at");
+    see("palm.normal_radius_m", t.palm.normal_radius_m, "m", 1e-3, 0.2,
+        "the palm lies against the mean of the surface within this");
+    see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,
+        "how fast the hand that is shown leaves or joins the tracked one");
+    see("palm.lift_m", t.palm.lift_m, "m", 0.0, 0.1,
+        "a hand whose fingers do not fit is lifted by this, at most three times");
+    see("palm.lift_from_depth_m", t.palm.lift_from_depth_m, "m", 0.0, 0.1,
+        "fingers that are sunk deeper lift the hand");
+    see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
+        "outer planes of a finger from its middle, in its radius");
+    see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
+        "a finger sunk deeper looks at every surface within its reach");
+    see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
+        "a finger that is still sunk deeper opens");
+    see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,
+        "by this at a time");
+    see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0, "and at most so often");
+    see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
+        "fingers are shown closing no faster; they open at once");
+    see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
+        "a hand that moved less on its surface keeps its fingers");
+    see("thumb.opposition_steps", t.thumb.opposition_steps, "", 1.0, 32.0,
+        "angles of opposition that are tried");
+    see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,
+        "opposition of a thumb at ease");
+    see("thumb.sunk_cost", t.thumb.sunk_cost, "", 0.0, 1e3, "a thumb's cost per depth");
+    see("thumb.open_cost_m", t.thumb.open_cost_m, "m", 0.0, 1.0,
+        "a thumb's cost where it touches nothing");
+    see("thumb.gap_cost", t.thumb.gap_cost, "", 0.0, 1e3,
+        "a thumb's cost per distance of its tip from the surface");
+    see("thumb.turn_cost_m_per_rad", t.thumb.turn_cost_m_per_rad, "m/rad", 0.0, 10.0,
+        "a thumb's cost per angle of opposition away from rest");
     see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
         "centre of the head's collider in the tracked head's frame");

@@ -25,6 +25,8 @@ add_library(handhold_bullet_dynamics INTERFACE)
 add_library(handhold::bullet_dynamics ALIAS handhold_bullet_dynamics)
 target_link_libraries(handhold_bullet_dynamics INTERFACE BulletDynamics-float64 handhold_bullet)
 
+find_package(box2d REQUIRED)
+
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(TinyGLTF REQUIRED)

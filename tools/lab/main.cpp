@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lab/grip_command.hpp"
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/solve_command.hpp"
 
@@ -39,6 +40,24 @@ void add_solve_options(CLI::App& solve, lab::SolveOptions& options) {
     solve.add_option("--csv", options.csv, "Every pose of every frame");
 }
 
+void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
+    const auto one_of = [](std::vector<std::string> names) { return CLI::IsMember(std::move(names)); };
+    grip.add_option("--mesh", options.mesh, "glTF of what is gripped")->required();
+    grip.add_option("--rig", options.rig, "\"builtin\", or a skinned hand with WebXR's joint names");
+    grip.add_option("--hand", options.hand, "Which one")->check(one_of({"left", "right"}));
+    grip.add_option("--placements", options.placements, "Tracked wrists, JSON lines")->required();
+    grip.add_option("--out", options.out, "Posed hands, JSON lines")->required();
+    grip.add_option("--sync", options.sync, "Whether the palm moves to its limits")
+        ->check(one_of({"on", "off"}));
+    grip.add_option("--search", options.search, "How a finger's disc finds the surface")
+        ->check(one_of({"astar", "bfs"}));
+    grip.add_option("--palm", options.palm, "Which surface the palm is held to")
+        ->check(one_of({"least", "ray"}));
+    grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edges of the search detail")
+        ->check(CLI::Range(1.0, 1000.0));
+    grip.add_option("--rig-json", options.rig_json, "Also write the rig's figures");
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -49,15 +68,19 @@ int main(int argc, char** argv) {
     CLI::App* const solve =
         app.add_subcommand("solve", "Errors, cost and momentum of one scene under one solver");
     add_solve_options(*solve, options);
+    lab::GripOptions grip_options;
+    CLI::App* const grip =
+        app.add_subcommand("grip", "Hands posed on a mesh, one for each placement");
+    add_grip_options(*grip, grip_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& asked = solve->parsed() ? *solve : app;
+        const CLI::App& asked = solve->parsed() ? *solve : (grip->parsed() ? *grip : app);
         std::fprintf(stderr, "%s\n%s", error.what(), asked.help().c_str());
         return k_exit_usage;
     }
-    return lab::solve_command(options);
+    return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

@@ -1,0 +1,57 @@
+#include "components/finger_chain.hpp"
+
+#include <algorithm>
+
+#include "engine/collision/closest_point.hpp"
+
+namespace handhold {
+
+HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist) {
+    HingeChain chain;
+    Pose base = finger.base_hs;
+    base.rotation = rotation_about(finger.opposition_axis_hs, opposition_rad) * base.rotation;
+    chain.base = wrist * base;
+    chain.link_count = finger.link_count;
+    chain.length_m = finger.length_m;
+    chain.radius_m = finger.radius_m;
+    chain.open_rad = finger.lower_rad;
+    chain.closed_rad = finger.upper_rad;
+    chain.relaxed_rad = finger.relaxed_rad;
+    return chain;
+}
+
+ChainFitSettings chain_settings(const FingerTuning& tuning) {
+    ChainFitSettings settings;
+    settings.plane_offset = tuning.plane_offset;
+    settings.search_depth_m = tuning.search_depth_m;
+    settings.open_depth_m = tuning.open_depth_m;
+    settings.open_step_rad = tuning.open_step_rad;
+    settings.open_steps = tuning.open_steps;
+    return settings;
+}
+
+ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
+                     std::uint32_t last_triangle, const Vec3& base_bs) {
+    const PlacedMesh& placed = hand.meshes.front();
+    const SurfaceGraph& graph = placed.mesh->search;
+    const bool has_last = last_triangle < graph.triangles.size();
+    const std::uint32_t triangle = has_last ? last_triangle : surface.triangle;
+    if (triangle >= graph.triangles.size()) {
+        return {};
+    }
+    const auto& [a, b, c] = graph.triangles[triangle];
+    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const Vec3 from =
+        inverse_transform_point(placed.pose, has_last ? base_bs : surface.point_bs);
+    return {triangle, closest_on_triangle(from, corners)};
+}
+
+void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown) {
+    for (std::size_t i = 0; i < k_most_links; ++i) {
+        shown.curl_rad[i] = std::min(target.curl_rad[i], shown.curl_rad[i] + step_rad);
+    }
+    shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - step_rad,
+                                      shown.opposition_rad + step_rad);
+}
+
+}  // namespace handhold

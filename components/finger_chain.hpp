@@ -1,0 +1,25 @@
+#pragma once
+
+#include "components/hand.hpp"
+#include "components/hand_rig.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/tuning.hpp"
+#include "engine/geometry/chain_fit.hpp"
+
+// Fingers and thumbs as chains of hinged capsules: what sweep_fingers and pose_thumb share.
+namespace handhold {
+
+// In the frame that `wrist` is in.
+HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
+
+ChainFitSettings chain_settings(const FingerTuning& tuning);
+
+// Where a finger's searches begin: at the triangle where they ended last time, nearest to the
+// finger's base, or, where that is none, under the palm. The triangle may be of an older mesh.
+ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
+                     std::uint32_t last_triangle, const Vec3& base_bs);
+
+// Opens at once, closes by at most `step_rad` a hinge; opposition turns by as much either way.
+void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown);
+
+}  // namespace handhold

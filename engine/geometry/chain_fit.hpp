@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/disc_contact.hpp"
+#include "engine/geometry/disc_trace.hpp"
+#include "engine/geometry/grip_mesh.hpp"
+#include "engine/math/math.hpp"
+
+// Closes a chain of hinged capsules over meshes until it touches them.
+//
+// Three planes cut the meshes: the chain's own and one on each side, where its capsules are
+// thinner; in each a search over the surface finds the cut (disc_trace.hpp), and in all of them at
+// once the chain closes (disc_contact.hpp). What came out is looked at in space, and mended where
+// it is sunk: the planes see neither what lies between them nor a second surface that no neighbour
+// leads to.
+// All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
+namespace handhold {
+
+// Link i begins at hinge i. At angle 0 all of them lie along the base's -Z; a positive angle turns
+// from -Z towards -Y.
+struct HingeChain {
+    Pose base;
+    std::uint32_t link_count = 3;  // 1 to k_most_disc_links
+    std::array<double, k_most_disc_links> length_m = {};
+    std::array<double, k_most_disc_links> radius_m = {};
+    std::array<double, k_most_disc_links> open_rad = {};
+    std::array<double, k_most_disc_links> closed_rad = {};
+    std::array<double, k_most_disc_links> relaxed_rad = {};  // where nothing is touched
+};
+
+struct Capsule {
+    std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};
+    double radius_m = 0.0;
+};
+std::array<Capsule, k_most_disc_links> chain_capsules(
+    const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad);
+
+// A mesh, and where it is in the chain's frame.
+struct PlacedMesh {
+    const GripMesh* mesh = nullptr;
+    Pose pose;
+};
+
+// Where the searches begin: a triangle of the first mesh's search detail, and a point on it.
+struct ChainSeed {
+    std::uint32_t triangle = k_no_triangle;  // none: every cut is looked for
+    Vec3 point = Vec3::Zero();
+};
+
+struct ChainFitSettings {
+    double plane_offset = 0.62;   // of the outer planes from the middle one, in mean link radii
+    double search_depth_m = 1.2e-3;  // sunk deeper: all cuts are looked for
+    double open_depth_m = 8e-4;      // still sunk deeper: opened
+    double open_step_rad = 0.0436;   // at a time
+    std::int32_t open_steps = 6;
+    SearchOrder order = SearchOrder::best_first;
+};
+
+enum class ChainFallback : std::uint8_t {
+    none,
+    all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
+    opened,    // and still sunk: opened a little
+    relaxed,   // nothing to touch
+};
+
+struct ChainFit {
+    std::array<double, k_most_disc_links> angle_rad = {};
+    std::int32_t contact_link = DiscClosure::k_none;
+    std::uint32_t contact_triangle = k_no_triangle;  // of the first mesh's search detail, where the
+                                                     // middle plane's search ended: next time's seed
+    double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0
+    ChainFallback fallback = ChainFallback::none;
+    std::uint32_t discs = 0;   // planes searched
+    std::uint32_t pops = 0;    // triangles that the searches looked at
+    std::uint32_t walked = 0;  // triangles that the walks passed
+};
+
+// Keeps its memory between calls.
+struct ChainFitScratch {
+    TraceScratch trace;
+    DiscScratch disc;
+    std::vector<DiscSegment> segments;
+};
+
+// Never fails: where nothing fits, the fit that is sunk least. `meshes` may be empty.
+ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
+                   const ChainSeed& seed, const ChainFitSettings& settings,
+                   ChainFitScratch& scratch);
+
+// How deep the capsule is sunk in the surfaces, at least 0: its radius less the distance of its
+// middle, which is 0 where the surface passes through it.
+double capsule_depth(const Capsule& capsule, std::span<const PlacedMesh> meshes);
+
+}  // namespace handhold

@@ -1,0 +1,265 @@
+#include "engine/geometry/disc_trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/triangle_set.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_prune_m = 0.03;     // beyond the disc's edge nothing leads back in
+constexpr double k_straight_m = 2.5e-4;  // a corner nearer to the line is left out
+
+double height(const Disc& disc, const Vec3& point) {
+    return disc.normal.dot(point - disc.center);
+}
+
+double distance_to_origin(const Vec2& a, const Vec2& b) {
+    const Vec2 along = b - a;
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp(-a.dot(along) / length2, 0.0, 1.0) : 0.0;
+    return (a + t * along).norm();
+}
+
+// One triangle and a disc's plane: the two edges that the plane cuts, where it does.
+struct Cut {
+    std::array<std::uint32_t, 2> edge = {};  // from corner i to i + 1
+    std::array<Vec3, 2> point;
+};
+
+Vec3 crossing(const Vec3& a, double height_a, const Vec3& b, double height_b) {
+    return a + height_a / (height_a - height_b) * (b - a);
+}
+
+std::array<double, 3> corner_heights(const SurfaceGraph& graph, const Disc& disc,
+                                     std::uint32_t triangle) {
+    const auto& corners = graph.triangles[triangle];
+    return {height(disc, graph.positions[corners[0]]), height(disc, graph.positions[corners[1]]),
+            height(disc, graph.positions[corners[2]])};
+}
+
+std::optional<Cut> cut_triangle(const SurfaceGraph& graph, const Disc& disc,
+                                std::uint32_t triangle) {
+    const std::array<double, 3> heights = corner_heights(graph, disc, triangle);
+    const auto& corners = graph.triangles[triangle];
+    Cut cut;
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t j = (i + 1) % 3;
+        if ((heights[i] >= 0.0) != (heights[j] >= 0.0)) {
+            // Always from the same end: neighbours find the very same point on their edge.
+            const bool forward = corners[i] < corners[j];
+            const std::uint32_t a = forward ? i : j;
+            const std::uint32_t b = forward ? j : i;
+            cut.edge[found] = i;
+            cut.point[found++] = crossing(graph.positions[corners[a]], heights[a],
+                                          graph.positions[corners[b]], heights[b]);
+        }
+    }
+    return found == 2 ? std::optional<Cut>(cut) : std::nullopt;
+}
+
+bool reaches_disc(const Disc& disc, const Cut& cut) {
+    return distance_to_origin(to_disc(disc, cut.point[0]), to_disc(disc, cut.point[1])) <=
+           disc.radius_m;
+}
+
+class CrossingSearcher {
+  public:
+    CrossingSearcher(const SurfaceGraph& graph, const Disc& disc, SearchOrder order,
+                     TraceScratch& scratch)
+        : graph_(graph), disc_(disc), order_(order), open_(scratch.open), seen_(scratch.seen) {
+        open_.clear();
+    }
+
+    CrossingSearch run(std::uint32_t start, const Vec3& from) {
+        CrossingSearch found;
+        push(start, from, 0.0);
+        while (!open_.empty() && found.pops < k_most_pops) {
+            std::pop_heap(open_.begin(), open_.end(), later);
+            const TraceScratch::Node node = open_.back();
+            open_.pop_back();
+            ++found.pops;
+            const std::optional<Cut> cut = cut_triangle(graph_, disc_, node.triangle);
+            if (cut && reaches_disc(disc_, *cut)) {
+                found.triangle = node.triangle;
+                found.point = closest_on_segment(node.point, cut->point[0], cut->point[1]);
+                break;
+            }
+            expand(node);
+        }
+        return found;
+    }
+
+  private:
+    static bool later(const TraceScratch::Node& a, const TraceScratch::Node& b) {
+        return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.order > b.order;
+    }
+
+    void push(std::uint32_t triangle, const Vec3& point, double way_m) {
+        if (!seen_.insert(triangle)) {
+            return;
+        }
+        const std::array<double, 3> heights = corner_heights(graph_, disc_, triangle);
+        const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});
+        const double to_go_m = low >= 0.0 ? low : (high < 0.0 ? -high : 0.0);
+        const double cost_m = order_ == SearchOrder::best_first ? way_m + 2.0 * to_go_m : 0.0;
+        open_.push_back({cost_m, way_m, triangle, pushed_++, point});
+        std::push_heap(open_.begin(), open_.end(), later);
+    }
+
+    void expand(const TraceScratch::Node& node) {
+        const auto& corners = graph_.triangles[node.triangle];
+        const double far_m = disc_.radius_m + k_prune_m;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const std::uint32_t next = graph_.neighbours[node.triangle][i];
+            if (next == k_no_triangle) {
+                continue;
+            }
+            const Vec3& a = graph_.positions[corners[i]];
+            const Vec3& b = graph_.positions[corners[(i + 1) % 3]];
+            if ((closest_on_segment(disc_.center, a, b) - disc_.center).squaredNorm() <=
+                far_m * far_m) {
+                const Vec3 point = closest_on_segment(node.point, a, b);
+                push(next, point, node.way_m + (point - node.point).norm());
+            }
+        }
+    }
+
+    const SurfaceGraph& graph_;
+    const Disc& disc_;
+    SearchOrder order_;
+    std::vector<TraceScratch::Node>& open_;
+    TriangleSet<1024> seen_;
+    static_assert(1024 > 2 * 3 * k_most_pops);
+    std::uint32_t pushed_ = 0;
+};
+
+// Follows a cut from `triangle` over its cut edge `side`; appends points beyond the first edge.
+// Returns true where it came back to the start.
+class CutWalk {
+  public:
+    CutWalk(const SurfaceGraph& graph, const Disc& disc, TraceScratch& scratch)
+        : graph_(graph), disc_(disc), scratch_(scratch) {}
+
+    bool run(std::uint32_t start, const Cut& start_cut, std::size_t side) {
+        std::uint32_t from = start;
+        std::uint32_t at = graph_.neighbours[start][start_cut.edge[side]];
+        Vec2 point = to_disc(disc_, start_cut.point[side]);
+        while (at != k_no_triangle && steps_ < k_most_steps) {
+            if (at == start) {
+                return true;
+            }
+            const std::optional<Cut> cut = cut_triangle(graph_, disc_, at);
+            if (!cut) {
+                break;  // a fold: both triangles lie on one side
+            }
+            const std::size_t in = graph_.neighbours[at][cut->edge[0]] == from ? 0 : 1;
+            const std::size_t out = 1 - in;
+            const Vec2 next = to_disc(disc_, cut->point[out]);
+            ++steps_;
+            if (distance_to_origin(point, next) > disc_.radius_m) {
+                break;
+            }
+            scratch_.line.push_back(next);
+            scratch_.line_triangle.push_back(at);
+            point = next;
+            from = at;
+            at = graph_.neighbours[at][cut->edge[out]];
+        }
+        return false;
+    }
+
+    std::uint32_t steps() const { return steps_; }
+
+  private:
+    const SurfaceGraph& graph_;
+    const Disc& disc_;
+    TraceScratch& scratch_;
+    std::uint32_t steps_ = 0;
+};
+
+// True where all points between `first` and `last` are nearly on the line between them.
+bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t last) {
+    const Vec2 along = line[last] - line[first];
+    const double length2 = along.squaredNorm();
+    for (std::size_t i = first + 1; i < last; ++i) {
+        const Vec2 from = line[i] - line[first];
+        const double t = length2 > 0.0 ? std::clamp(from.dot(along) / length2, 0.0, 1.0) : 0.0;
+        if ((from - t * along).squaredNorm() > k_straight_m * k_straight_m) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void add_segment(const Disc& disc, const Vec2& a, const Vec2& b, std::uint32_t triangle,
+                 std::vector<DiscSegment>& segments) {
+    if (distance_to_origin(a, b) <= disc.radius_m) {
+        segments.push_back({a, b, disc.plane, triangle});
+    }
+}
+
+// `line_triangle[i]` is that of the piece from point i to the next one.
+void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
+    constexpr std::size_t k_most_merged = 16;  // is_straight looks at all again for every point
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < scratch.line.size(); ++i) {
+        const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_most_merged &&
+                             is_straight(scratch.line, first, i + 1);
+        if (!goes_on) {
+            add_segment(disc, scratch.line[first], scratch.line[i], scratch.line_triangle[first],
+                        segments);
+            first = i;
+        }
+    }
+}
+
+}  // namespace
+
+CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
+                             const Vec3& from, SearchOrder order, TraceScratch& scratch) {
+    return CrossingSearcher(graph, disc, order, scratch).run(start, from);
+}
+
+std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
+                            TraceScratch& scratch, std::vector<DiscSegment>& segments) {
+    const std::optional<Cut> cut = cut_triangle(graph, disc, triangle);
+    if (!cut) {
+        return 0;
+    }
+    // One way out, turned round, then the start's own piece, then the other way.
+    scratch.line.clear();
+    scratch.line_triangle.clear();
+    CutWalk walk(graph, disc, scratch);
+    const bool is_closed = walk.run(triangle, *cut, 0);
+    std::reverse(scratch.line.begin(), scratch.line.end());
+    std::reverse(scratch.line_triangle.begin(), scratch.line_triangle.end());
+    scratch.line.push_back(to_disc(disc, cut->point[0]));
+    scratch.line_triangle.push_back(triangle);
+    scratch.line.push_back(to_disc(disc, cut->point[1]));
+    scratch.line_triangle.push_back(triangle);
+    if (!is_closed) {
+        // The piece from point i to i + 1 belongs to the triangle that point i + 1 was found in.
+        scratch.line_triangle.pop_back();
+        walk.run(triangle, *cut, 1);
+        scratch.line_triangle.push_back(triangle);
+    }
+    add_line(disc, scratch, segments);
+    return walk.steps() + 1;
+}
+
+void cut_all(const SurfaceGraph& graph, const TriangleBvh& bvh, const Disc& disc,
+             std::vector<DiscSegment>& segments) {
+    bvh.visit_in_sphere(disc.center, disc.radius_m, [&](std::uint32_t triangle) {
+        if (const std::optional<Cut> cut = cut_triangle(graph, disc, triangle)) {
+            add_segment(disc, to_disc(disc, cut->point[0]), to_disc(disc, cut->point[1]), triangle,
+                        segments);
+        }
+    });
+}
+
+}  // namespace handhold

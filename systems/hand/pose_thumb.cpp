@@ -1,0 +1,136 @@
+#include "systems/hand/pose_thumb.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/finger_chain.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_gap_seen_m = 0.05;  // a tip farther from every surface counts as this far
+
+double tip_gap_m(const Capsule& tip, std::span<const PlacedMesh> meshes) {
+    double gap_m = k_gap_seen_m;
+    for (const PlacedMesh& placed : meshes) {
+        const Vec3 point = inverse_transform_point(placed.pose, tip.ends[1]);
+        const auto near =
+            placed.mesh->contact_bvh.closest_point(point, gap_m + tip.radius_m);
+        if (near) {
+            gap_m = std::min(gap_m, std::max(0.0, near->distance_m - tip.radius_m));
+        }
+    }
+    return gap_m;
+}
+
+struct ThumbFit {
+    double cost_m = std::numeric_limits<double>::infinity();
+    double opposition_rad = 0.0;
+    ChainFit fit;
+};
+
+class ThumbPoser {
+  public:
+    ThumbPoser(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats)
+        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {}
+
+    void pose(std::size_t place, std::size_t f) {
+        const HandSurroundings& hand = io_.hands[place];
+        FingerPose& pose = io_.fingers.at(hand.hand);
+        const FingerRig& thumb = hand.rig->fingers[f];
+        if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
+            pose.target[f] = {thumb.relaxed_rad, tuning_.thumb.rest_opposition_rad};
+            pose.thumb_solved = false;
+            return;
+        }
+        if (pose.thumb_solved && same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+            return;
+        }
+        const ThumbFit best = find_best(hand, thumb, f, pose);
+        pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
+        pose.seed_triangle[f] = best.fit.contact_triangle;
+        pose.thumb_wrist_bs = pose.solved_wrist_bs;
+        pose.thumb_solved = true;
+        if (best.fit.fallback == ChainFallback::relaxed) {
+            stats_.count(Fallback::finger_touches_nothing);
+        }
+        if (!io_.traces.empty()) {
+            io_.traces[place][f] = {best.fit.discs,        best.fit.pops,     best.fit.walked,
+                                    best.fit.contact_link, best.fit.fallback, best.fit.depth_m};
+        }
+    }
+
+  private:
+    static bool same_place(const Pose& a, const Pose& b) {
+        return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
+    }
+
+    ThumbFit find_best(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                       const FingerPose& pose) const {
+        const std::int32_t steps = tuning_.thumb.opposition_steps;
+        ThumbFit best;
+        ChainFit counted;
+        for (std::int32_t step = 0; step < steps; ++step) {
+            const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
+            const double opposition_rad =
+                thumb.lower_opposition_rad +
+                share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
+            const ThumbFit tried = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
+            counted.discs += tried.fit.discs;
+            counted.pops += tried.fit.pops;
+            counted.walked += tried.fit.walked;
+            if (tried.cost_m < best.cost_m) {
+                best = tried;
+            }
+        }
+        best.fit.discs = counted.discs;
+        best.fit.pops = counted.pops;
+        best.fit.walked = counted.walked;
+        return best;
+    }
+
+    ThumbFit try_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
+                    std::uint32_t last_triangle) const {
+        const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
+        const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
+        const ChainSeed seed = chain_seed(hand, io_.surface.at(hand.hand), last_triangle,
+                                          chain.base.position);
+        ThumbFit tried;
+        tried.opposition_rad = opposition_rad;
+        tried.fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        const auto capsules = chain_capsules(chain, tried.fit.angle_rad);
+        const bool touches = tried.fit.contact_link != DiscClosure::k_none &&
+                             tried.fit.fallback != ChainFallback::relaxed;
+        tried.cost_m =
+            tuning_.thumb.sunk_cost * tried.fit.depth_m +
+            (touches ? 0.0 : tuning_.thumb.open_cost_m) +
+            tuning_.thumb.gap_cost * tip_gap_m(capsules[chain.link_count - 1], hand.meshes) +
+            tuning_.thumb.turn_cost_m_per_rad *
+                std::abs(opposition_rad - tuning_.thumb.rest_opposition_rad);
+        return tried;
+    }
+
+    const PoseThumbIo& io_;
+    const Tuning& tuning_;
+    const ChainFitSettings settings_;
+    StageStats& stats_;
+};
+
+}  // namespace
+
+void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats) {
+    ThumbPoser poser(io, tuning, stats);
+    for (std::size_t place = 0; place < io.hands.size(); ++place) {
+        const HandSurroundings& hand = io.hands[place];
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            if (hand.rig->fingers[f].name == FingerName::thumb) {
+                poser.pose(place, f);
+                FingerPose& pose = io.fingers.at(hand.hand);
+                follow_target(pose.target[f], io.dt_s * tuning.finger.close_radps, pose.shown[f]);
+            }
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/stats.hpp"
+#include "components/tuning.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct PoseThumbIo {
+    double dt_s = 0.0;                        // of the frame; infinity: shown is target at once
+    std::span<const HandSurroundings> hands;  // in
+    const Column<GripSurface>& surface;       // in
+    const Column<PalmPose>& palm;             // in
+    Column<FingerPose>& fingers;              // in/out: thumbs only
+    std::span<std::array<FingerTrace, k_finger_count>> traces;  // out, by place in hands; may be
+                                                                // empty
+    ChainFitScratch& scratch;
+};
+
+// Thumbs: no simple hinge, for the plane in which one bends turns about its base. A few angles of
+// opposition are tried, each closed like a finger, and the cheapest stays: sunk little, touching,
+// its tip near the surface, near to where a thumb rests. Comes after sweep_fingers and is solved
+// where that was. Talk row 15.
+void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats);
+
+}  // namespace handhold

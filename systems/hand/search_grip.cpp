@@ -1,0 +1,217 @@
+#include "systems/hand/search_grip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "engine/collision/closest_point.hpp"
+#include "engine/geometry/triangle_set.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::uint32_t k_most_pops = 160;
+constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
+
+struct Palm {
+    Vec3 center;
+    Vec3 up;  // unit: towards the back of the hand
+};
+
+Palm palm_in(const Pose& frame, const HandSurroundings& hand) {
+    const Pose wrist = inverse(frame) * hand.wrist_bs;
+    return {transform_point(wrist, hand.rig->palm_center_hs),
+            wrist.rotation * -hand.rig->palm_normal_hs};
+}
+
+struct Candidate {
+    double cost_m = std::numeric_limits<double>::infinity();
+    Vec3 point = Vec3::Zero();
+};
+
+// What it takes to hold the palm to one triangle, in closed form: along the triangle's normal into
+// the range of heights, then about the palm's own centre, which keeps its height, into the range of
+// angles.
+Candidate cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const Palm& palm,
+                  const PalmTuning& tuning) {
+    const auto& [a, b, c] = graph.triangles[triangle];
+    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const bool turned_away = graph.normals[triangle].dot(palm.up) < 0.0;
+    const Vec3 normal = turned_away ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
+    const double height_m = (palm.center - corners[0]).dot(normal);
+    const Vec3 point = closest_on_triangle(palm.center - height_m * normal, corners);
+    const Vec3 moved =
+        point + std::clamp(height_m, tuning.min_height_m, tuning.max_height_m) * normal;
+    const double angle_rad = arc_tangent2(palm.up.cross(normal).norm(), palm.up.dot(normal));
+    return {(moved - palm.center).norm() +
+                tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
+                (turned_away ? tuning.back_cost_m : 0.0),
+            point};
+}
+
+class GripSearcher {
+  public:
+    GripSearcher(const SurfaceGraph& graph, const Palm& palm, const PalmTuning& tuning,
+                 SearchGripScratch& scratch)
+        : graph_(graph), palm_(palm), tuning_(tuning), open_(scratch.open), seen_(scratch.seen) {
+        open_.clear();
+    }
+
+    void add_seed(std::uint32_t triangle) {
+        if (triangle < graph_.triangles.size()) {
+            push(triangle);
+        }
+    }
+
+    struct Found {
+        std::uint32_t triangle = GripSurface::k_none;
+        Vec3 point = Vec3::Zero();
+        double cost_m = std::numeric_limits<double>::infinity();
+    };
+    Found run() {
+        std::uint32_t idle = 0;
+        for (std::uint32_t pops = 0; pops < k_most_pops && idle < k_patience && !open_.empty();
+             ++pops) {
+            std::pop_heap(open_.begin(), open_.end(), later);
+            const SearchGripScratch::Node node = open_.back();
+            open_.pop_back();
+            ++idle;
+            if (node.cost_m < best_.cost_m) {
+                best_ = {node.triangle, cost_of(graph_, node.triangle, palm_, tuning_).point,
+                         node.cost_m};
+                idle = 0;
+            }
+            for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
+                if (next != k_no_triangle) {
+                    push(next);
+                }
+            }
+        }
+        return best_;
+    }
+
+  private:
+    static bool later(const SearchGripScratch::Node& a, const SearchGripScratch::Node& b) {
+        return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.order > b.order;
+    }
+
+    void push(std::uint32_t triangle) {
+        if (!seen_.insert(triangle)) {
+            return;
+        }
+        const Candidate candidate = cost_of(graph_, triangle, palm_, tuning_);
+        if ((candidate.point - palm_.center).squaredNorm() > tuning_.reach_m * tuning_.reach_m) {
+            return;
+        }
+        open_.push_back({candidate.cost_m, triangle, pushed_++});
+        std::push_heap(open_.begin(), open_.end(), later);
+    }
+
+    const SurfaceGraph& graph_;
+    const Palm& palm_;
+    const PalmTuning& tuning_;
+    std::vector<SearchGripScratch::Node>& open_;
+    TriangleSet<1024> seen_;
+    std::uint32_t pushed_ = 0;
+    Found best_;
+};
+
+// The mean of the surface around the point, by area, of what is wound so that it looks towards
+// `outward`; unit.
+Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
+                 const Vec3& outward, double radius_m) {
+    Vec3 sum = Vec3::Zero();
+    const SurfaceGraph& surface = mesh.contact;
+    mesh.contact_bvh.visit_in_sphere(point, radius_m, [&](std::uint32_t triangle) {
+        const auto& [a, b, c] = surface.triangles[triangle];
+        const Corners corners = {surface.positions[a], surface.positions[b], surface.positions[c]};
+        Vec3 area = area_vector(corners);
+        const double facing = area.dot(outward);
+        // A triangle that reaches far out counts no more than the sphere's cut can.
+        const double most = 2.0 * radius_m * radius_m;
+        if (area.norm() > most) {
+            area *= most / area.norm();
+        }
+        if (facing > 0.0) {
+            sum += area;
+        }
+    });
+    const double length = sum.norm();
+    return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
+}
+
+class PalmHolder {
+  public:
+    PalmHolder(const HandSurroundings& hand, const Tuning& tuning, GripSearch search,
+               SearchGripScratch& scratch)
+        : hand_(hand), tuning_(tuning), search_(search), scratch_(scratch) {}
+
+    void run(GripSurface& surface) {
+        const PlacedMesh& placed = hand_.meshes.front();
+        const GripMesh& mesh = *placed.mesh;
+        const Palm palm = palm_in(placed.pose, hand_);
+        const auto hit = mesh.search_bvh.cast_ray(
+            palm.center + tuning_.hand.ray_back_m * palm.up,
+            palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
+        const auto near = mesh.search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
+        const std::uint32_t before = surface.body == hand_.body ? surface.triangle : ~0U;
+        GripSearcher searcher(mesh.search, palm, tuning_.palm, scratch_);
+        if (hit) {
+            searcher.add_seed(hit->triangle);
+        }
+        GripSearcher::Found found;
+        if (search_ == GripSearch::ray_only) {
+            if (hit) {
+                found = {hit->triangle, hit->point, 0.0};
+            }
+        } else {
+            if (near) {
+                searcher.add_seed(near->triangle);
+            }
+            searcher.add_seed(before);
+            found = searcher.run();
+        }
+        surface = {};
+        if (found.triangle != GripSurface::k_none) {
+            take(placed, palm, found, surface);
+        }
+    }
+
+  private:
+    void take(const PlacedMesh& placed, const Palm& palm, const GripSearcher::Found& found,
+              GripSurface& surface) const {
+        const GripMesh& mesh = *placed.mesh;
+        const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.palm.reach_m);
+        const Vec3 point = on_contact ? on_contact->point : found.point;
+        // Where the triangle is wound the other way, so is what counts around it.
+        const Vec3 wound = mesh.search.normals[found.triangle];
+        const double side = wound.dot(palm.up) < 0.0 ? -1.0 : 1.0;
+        surface.body = hand_.body;
+        surface.triangle = found.triangle;
+        surface.point_bs = transform_point(placed.pose, point);
+        surface.normal_bs =
+            placed.pose.rotation * Vec3(side * mean_normal(mesh, point, wound, side * palm.up,
+                                                           tuning_.palm.normal_radius_m));
+    }
+
+    const HandSurroundings& hand_;
+    const Tuning& tuning_;
+    GripSearch search_;
+    SearchGripScratch& scratch_;
+};
+
+}  // namespace
+
+void search_grip(const SearchGripIo& io, const Tuning& tuning, GripSearch search) {
+    for (const HandSurroundings& hand : io.hands) {
+        GripSurface& surface = io.surface.at(hand.hand);
+        if (is_null(hand.body) || hand.meshes.empty()) {
+            surface = {};
+            continue;
+        }
+        PalmHolder(hand, tuning, search, io.scratch).run(surface);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/tuning.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct SearchGripScratch {
+    struct Node {
+        double cost_m = 0.0;
+        std::uint32_t triangle = 0;
+        std::uint32_t order = 0;
+    };
+    std::vector<Node> open;
+    std::vector<std::uint32_t> seen;
+};
+
+// Which surface the palm is held to where the ray's is not the only one.
+enum class GripSearch : std::uint8_t {
+    least_sync,  // the one that moves the palm least
+    ray_only,    // where the palm's ray ends; for comparison
+};
+
+struct SearchGripIo {
+    std::span<const HandSurroundings> hands;  // in
+    Column<GripSurface>& surface;             // in/out: last frame's is where the search begins too
+    SearchGripScratch& scratch;
+};
+
+// Finds the triangle under each gripping palm that needs the least movement of the palm to meet its
+// limits: best first over the surface's neighbours, from where the palm's ray ends, from the
+// nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
+// PalmTuning::tilt_cost_m_per_rad apart. Hands with nothing within PalmTuning::reach_m are left
+// without a surface. Talk rows 2, 11, 17.
+void search_grip(const SearchGripIo& io, const Tuning& tuning,
+                 GripSearch search = GripSearch::least_sync);
+
+}  // namespace handhold

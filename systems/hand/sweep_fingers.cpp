@@ -1,0 +1,132 @@
+#include "systems/hand/sweep_fingers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/finger_chain.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_fist = 0.85;  // of the way from open to curled
+constexpr double k_most_lifts = 3.0;
+
+bool stands(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs,
+            double stroll_m) {
+    if (!pose.solved || pose.solved_body != hand.body) {
+        return false;
+    }
+    constexpr double k_arm_m = 0.1;  // a turn moves fingers by its angle times this
+    const Pose moved = inverse(pose.solved_wrist_bs) * wrist_bs;
+    return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm() < stroll_m;
+}
+
+void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        const FingerRig& finger = rig.fingers[f];
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            const double fist = finger.lower_rad[i] +
+                                k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
+            pose.target[f].curl_rad[i] = is_fist ? fist : finger.relaxed_rad[i];
+        }
+    }
+    pose.solved = false;
+}
+
+void count_fallback(ChainFallback fallback, StageStats& stats) {
+    if (fallback == ChainFallback::all_cuts) {
+        stats.count(Fallback::finger_searched_all);
+    } else if (fallback == ChainFallback::opened) {
+        stats.count(Fallback::finger_opened);
+    } else if (fallback == ChainFallback::relaxed) {
+        stats.count(Fallback::finger_touches_nothing);
+    }
+}
+
+class HandCloser {
+  public:
+    HandCloser(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order,
+               StageStats& stats)
+        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {
+        settings_.order = order;
+    }
+
+    void close(std::size_t place) {
+        const HandSurroundings& hand = io_.hands[place];
+        const GripSurface& surface = io_.surface.at(hand.hand);
+        FingerPose& pose = io_.fingers.at(hand.hand);
+        if (surface.triangle == GripSurface::k_none) {
+            rest_fingers(*hand.rig, io_.hand.at(hand.hand).pressed, pose);
+            return;
+        }
+        const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
+        if (stands(pose, hand, wrist_bs, tuning_.finger.stroll_m)) {
+            return;
+        }
+        double depth_m = 0.0;
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            if (hand.rig->fingers[f].name != FingerName::thumb) {
+                depth_m = std::max(depth_m, close_finger(place, f, wrist_bs, pose));
+            }
+        }
+        lift_if_sunk(hand, depth_m);
+        pose.solved = true;
+        pose.solved_body = hand.body;
+        pose.solved_wrist_bs = wrist_bs;
+    }
+
+  private:
+    double close_finger(std::size_t place, std::size_t f, const Pose& wrist_bs, FingerPose& pose) {
+        const HandSurroundings& hand = io_.hands[place];
+        const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
+        const ChainSeed seed = chain_seed(hand, io_.surface.at(hand.hand),
+                                          pose.solved && pose.solved_body == hand.body
+                                              ? pose.seed_triangle[f]
+                                              : GripSurface::k_none,
+                                          chain.base.position);
+        const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        pose.target[f].curl_rad = fit.angle_rad;
+        pose.target[f].opposition_rad = 0.0;
+        pose.seed_triangle[f] = fit.contact_triangle;
+        count_fallback(fit.fallback, stats_);
+        if (!io_.traces.empty()) {
+            io_.traces[place][f] = {fit.discs, fit.pops, fit.walked, fit.contact_link, fit.fallback,
+                                    fit.depth_m};
+        }
+        return fit.depth_m;
+    }
+
+    void lift_if_sunk(const HandSurroundings& hand, double depth_m) {
+        PalmOffset& offset = io_.offset.at(hand.hand);
+        const double most_m = k_most_lifts * tuning_.palm.lift_m;
+        if (depth_m > tuning_.palm.lift_from_depth_m && offset.lift_m < most_m) {
+            offset.lift_m = std::min(offset.lift_m + tuning_.palm.lift_m, most_m);
+            offset.lifted_at_bs = hand.wrist_bs;
+            stats_.count(Fallback::palm_lifted);
+        }
+    }
+
+    const SweepFingersIo& io_;
+    const Tuning& tuning_;
+    ChainFitSettings settings_;
+    StageStats& stats_;
+};
+
+}  // namespace
+
+void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats,
+                   SearchOrder order) {
+    HandCloser closer(io, tuning, order, stats);
+    for (std::size_t place = 0; place < io.hands.size(); ++place) {
+        closer.close(place);
+        const HandSurroundings& hand = io.hands[place];
+        FingerPose& pose = io.fingers.at(hand.hand);
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            if (hand.rig->fingers[f].name != FingerName::thumb) {
+                follow_target(pose.target[f], io.dt_s * tuning.finger.close_radps, pose.shown[f]);
+            }
+        }
+    }
+}
+
+}  // namespace handhold

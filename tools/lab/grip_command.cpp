@@ -1,0 +1,101 @@
+#include "tools/lab/grip_command.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "components/builtin_hand_rig.hpp"
+#include "engine/core/profile.hpp"
+#include "engine/io/gltf.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/progress.hpp"
+#include "tools/lab/grip_files.hpp"
+
+namespace handhold::lab {
+namespace {
+
+constexpr int k_exit_file = 2;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "handhold-lab: %s\n", error.message().c_str());
+    return k_exit_file;
+}
+
+// All parts of a file as one mesh, in the frame of its scene.
+Result<Mesh> load_mesh(const std::filesystem::path& path) {
+    const Result<GltfLevel> level = load_gltf_level(path);
+    if (!level) {
+        return level.error();
+    }
+    Mesh whole;
+    for (const LevelPart& part : level.value().parts) {
+        const auto first = static_cast<std::uint32_t>(whole.positions.size());
+        whole.positions.insert(whole.positions.end(), part.mesh.positions.begin(),
+                               part.mesh.positions.end());
+        for (const auto& [a, b, c] : part.mesh.triangles) {
+            whole.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    if (whole.triangles.empty()) {
+        return FileError{path.string(), "", "expected a mesh, found no triangle"};
+    }
+    return whole;
+}
+
+Result<HandRig> load_rig(const GripOptions& options) {
+    const HandSide side = options.hand == "left" ? HandSide::left : HandSide::right;
+    if (options.rig == "builtin") {
+        return builtin_hand_rig(side);
+    }
+    return FileError{options.rig, "", "expected \"builtin\""};
+}
+
+std::string pose_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
+                     const std::vector<Placement>& placements) {
+    GripVariant variant;
+    variant.sync = options.sync == "on";
+    variant.order =
+        options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
+    variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
+    const Tuning tuning;
+    Progress progress("grip");
+    std::string text;
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const PosedHand posed = pose_cold_hand(mesh, rig, placements[i].wrist, tuning, variant);
+        text += posed_hand_line(placements[i].id, rig, posed);
+        progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
+    }
+    return text;
+}
+
+}  // namespace
+
+int grip_command(const GripOptions& options) {
+    const Result<HandRig> rig = load_rig(options);
+    if (!rig) {
+        return refuse(rig.error());
+    }
+    if (!options.rig_json.empty()) {
+        if (const auto error =
+                write_file_atomically(options.rig_json, hand_rig_json(rig.value()))) {
+            return refuse(*error);
+        }
+    }
+    const Result<Mesh> mesh = load_mesh(options.mesh);
+    if (!mesh) {
+        return refuse(mesh.error());
+    }
+    const Result<std::vector<Placement>> placements = load_placements(options.placements);
+    if (!placements) {
+        return refuse(placements.error());
+    }
+    set_stage_clock(StageClock::thread_cpu);
+    const GripMesh grip_mesh = build_grip_mesh(mesh.value(), {});
+    const std::string text = pose_all(options, grip_mesh, rig.value(), placements.value());
+    if (const auto error = write_file_atomically(options.out, text)) {
+        return refuse(*error);
+    }
+    return 0;
+}
+
+}  // namespace handhold::lab

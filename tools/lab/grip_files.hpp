@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "components/hand_rig.hpp"
+#include "engine/io/result.hpp"
+#include "tools/lab/grip_run.hpp"
+
+// What `handhold-lab grip` reads and writes.
+namespace handhold::lab {
+
+struct Placement {
+    std::int64_t id = 0;
+    Pose wrist;  // in the mesh's frame
+};
+
+// One JSON object a line: {"id": 0, "wrist": {"position_m": [3], "rotation_xyzw": [4]}}. Other
+// members are passed over. Errors name the line.
+Result<std::vector<Placement>> load_placements(const std::filesystem::path& path);
+
+// One line of the output, with its line break.
+std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand& posed);
+
+// The rig as JSON, for those who measure: every field of HandRig but its skin's joints.
+std::string hand_rig_json(const HandRig& rig);
+
+}  // namespace handhold::lab
