@@ -163,6 +163,9 @@ Result<HandBones> find_hand_bones(const SkinnedMesh& skin) {
 Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
     const Pose& wrist = skin.joints[bones.wrist].bind_ms;
     const Quat from_knuckles = axes_from_knuckles(skin, bones, side);
+    const HandSide other = side == HandSide::right ? HandSide::left : HandSide::right;
+    bool is_other = !are_near(wrist.rotation, from_knuckles) &&
+                    are_near(wrist.rotation, axes_from_knuckles(skin, bones, other));
     const Pose hand = {wrist.position,
                        are_near(wrist.rotation, from_knuckles) ? wrist.rotation : from_knuckles};
     double reach_m = 0.0;
@@ -190,10 +193,11 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
     }
     const bool has_thumb = bones.fingers.front().name == FingerName::thumb;
     fingers_x /= static_cast<double>(bones.fingers.size() - (has_thumb ? 1 : 0));
-    if (has_thumb && (thumb_x > fingers_x) == (side == HandSide::right)) {
+    is_other = is_other || (has_thumb && (thumb_x > fingers_x) == (side == HandSide::right));
+    if (is_other) {
         return FileError{skin.file, "/skins",
                          std::string("expected a ") + (side == HandSide::right ? "right" : "left") +
-                             " hand, found the thumb on the other side"};
+                             " hand, found one of the other side"};
     }
     return hand;
 }

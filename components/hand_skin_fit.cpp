@@ -12,6 +12,8 @@ constexpr double k_least_radius_m = 0.003;
 constexpr double k_most_radius_m = 0.03;
 // Where a hand's skin is looked for around a capsule of the palm, to either side.
 constexpr double k_half_width_m = 0.011;
+// The radius of a thumb's first link, of the next one's.
+constexpr double k_most_ball = 1.3;
 // Of the knuckles' distance from the wrist.
 constexpr double k_palm_center_share = 0.88;
 
@@ -83,6 +85,10 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
         finger.radius_m[link] = clamp_radius(percentile(distances_m[link], 0.5, before_m));
         before_m = finger.radius_m[link];
     }
+    if (finger.name ==
+        FingerName::thumb) {  // whose first link lies in the ball, which is not round
+        finger.radius_m[0] = std::min(finger.radius_m[0], k_most_ball * finger.radius_m[1]);
+    }
     const std::size_t last = finger.link_count - 1;
     const double end_m = percentile(ends_m, 0.99, finger.length_m[last] + finger.radius_m[last]);
     finger.length_m[last] = std::max(end_m - finger.radius_m[last], 0.25 * finger.length_m[last]);
@@ -98,10 +104,8 @@ PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& position
     constexpr double k_facing = 0.4;
     PalmSkin palm;
     for (std::size_t i = 0; i < positions_hs.size(); ++i) {
-        const bool is_ball =
-            parts[i].finger >= 0 && parts[i].link == 0 &&
-            fit.rig.fingers[static_cast<std::size_t>(parts[i].finger)].name == FingerName::thumb;
-        if (parts[i].finger != RigJoint::k_palm && !is_ball) {
+        // The ball of the thumb goes with the thumb: a flat hand lies flat.
+        if (parts[i].finger != RigJoint::k_palm) {
             continue;
         }
         const double up = (fit.hand_ms.rotation.conjugate() * skin.normals[i]).y();
