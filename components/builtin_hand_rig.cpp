@@ -1,11 +1,12 @@
 // Figures of our own, after the proportions of an adult's hand: bones 44/27/18 mm in the middle
-// finger, knuckles 20 mm apart. The thumb's axis of opposition leans to the little finger's side,
-// so that a flexed thumb comes back below the index and middle fingers instead of beside them.
+// finger, knuckles 20 mm apart.
 #include "components/builtin_hand_rig.hpp"
 
 #include <numbers>
 #include <span>
 #include <string>
+
+#include "components/hand_limits.hpp"
 
 namespace handhold {
 namespace {
@@ -51,23 +52,12 @@ constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
                                                       -7.0,
                                                       {33.0, 19.0, 16.5},
                                                       {7.6, 6.9, 6.2}}}};
-constexpr Links k_finger_lower_deg = {-10.0, 0.0, 0.0};
-constexpr Links k_finger_upper_deg = {115.0, 105.0, 75.0};
-constexpr Links k_finger_relaxed_deg = {20.0, 30.0, 15.0};
 
 constexpr std::array<double, 3> k_thumb_base = {-24.0, -6.0, -26.0};  // mm
 constexpr Links k_thumb_length = {46.0, 34.0, 25.0};                  // mm
 constexpr Links k_thumb_radius = {10.0, 9.2, 8.4};                    // mm
-constexpr Links k_thumb_lower_deg = {-10.0, -10.0, -10.0};
-constexpr Links k_thumb_upper_deg = {28.0, 50.0, 65.0};
-constexpr Links k_thumb_relaxed_deg = {10.0, 12.0, 10.0};
-constexpr double k_opposition_lower_deg = -50.0;
-constexpr double k_opposition_upper_deg = 70.0;
-constexpr double k_opposition_lean = 0.25;  // of the axis, to the little finger, for 1 forward
-// Of the first link at curl 0 and opposition 0: from the axis, and about it from the thumb's side
-// to the palm's.
+// Of the first link at curl 0: from the opposition axis.
 constexpr double k_thumb_away_deg = 52.0;
-constexpr double k_thumb_below_deg = 60.0;
 
 Vec3 from_mm(const std::array<double, 3>& mm) { return k_mm * Vec3(mm[0], mm[1], mm[2]); }
 
@@ -78,9 +68,7 @@ FingerRig make_finger(const FingerFigures& figures) {
                       rotation_about(Vec3::UnitY(), figures.spread_deg * k_degree)};
     finger.length_m = scaled(figures.length, k_mm);
     finger.radius_m = scaled(figures.radius, k_mm);
-    finger.lower_rad = scaled(k_finger_lower_deg, k_degree);
-    finger.upper_rad = scaled(k_finger_upper_deg, k_degree);
-    finger.relaxed_rad = scaled(k_finger_relaxed_deg, k_degree);
+    set_hand_limits(HandSide::right, finger);
     return finger;
 }
 
@@ -89,16 +77,11 @@ FingerRig make_thumb() {
     thumb.name = FingerName::thumb;
     thumb.length_m = scaled(k_thumb_length, k_mm);
     thumb.radius_m = scaled(k_thumb_radius, k_mm);
-    thumb.lower_rad = scaled(k_thumb_lower_deg, k_degree);
-    thumb.upper_rad = scaled(k_thumb_upper_deg, k_degree);
-    thumb.relaxed_rad = scaled(k_thumb_relaxed_deg, k_degree);
-    thumb.lower_opposition_rad = k_opposition_lower_deg * k_degree;
-    thumb.upper_opposition_rad = k_opposition_upper_deg * k_degree;
+    set_hand_limits(HandSide::right, thumb);
     // The thumb's plane holds the axis: a curl turns the links from their side of it to the other.
-    const Vec3 axis = Vec3(k_opposition_lean, 0.0, -1.0).normalized();
-    thumb.opposition_axis_hs = -axis;  // so that a positive angle goes from the side to the palm
+    const Vec3 axis = -thumb.opposition_axis_hs;  // to the fingers, on a right hand
     double below_sine = 0.0, below_cosine = 1.0, away_sine = 0.0, away_cosine = 1.0;
-    sin_cos(k_thumb_below_deg * k_degree, below_sine, below_cosine);
+    sin_cos(k_thumb_below_rad, below_sine, below_cosine);
     sin_cos(k_thumb_away_deg * k_degree, away_sine, away_cosine);
     const Vec3 below(-below_cosine, -below_sine, 0.0);
     const Vec3 out = (below - axis * axis.dot(below)).normalized();

@@ -224,6 +224,25 @@ void check_nodes(const JsonValue& root) {
     }
 }
 
+// Of what a skin hangs on; geometry alone never looks at it.
+void check_skins(const JsonValue& root) {
+    for (const JsonValue& mesh : root["meshes"].optional_items()) {
+        for (const JsonValue& primitive : mesh["primitives"].items()) {
+            check_integers(primitive["attributes"], {"NORMAL", "JOINTS_0", "JOINTS_1", "WEIGHTS_0"},
+                           k_max_index);
+        }
+    }
+    for (const JsonValue& skin : root["skins"].optional_items()) {
+        check_integers(skin, {"inverseBindMatrices", "skeleton"}, k_max_index);
+        for (const JsonValue& joint : skin["joints"].items()) {
+            joint.integer(0, k_max_index);
+        }
+    }
+    for (const JsonValue& node : root["nodes"].optional_items()) {
+        node["name"].text_or("");
+    }
+}
+
 }  // namespace
 
 std::string join_glb(std::string json, std::string_view binary) {
@@ -249,7 +268,8 @@ std::string join_glb(std::string json, std::string_view binary) {
     return glb;
 }
 
-Result<std::string> extract_geometry_glb(std::string_view bytes, const std::string& file) {
+Result<std::string> extract_geometry_glb(std::string_view bytes, const std::string& file,
+                                         GltfUse use) {
     const Result<GltfSource> source = split_container(bytes, file);
     if (!source) {
         return source.error();
@@ -267,11 +287,15 @@ Result<std::string> extract_geometry_glb(std::string_view bytes, const std::stri
     check_data(root);
     check_meshes(root);
     check_nodes(root);
+    if (use == GltfUse::skinned) {
+        check_skins(root);
+    }
     if (document.value().failed()) {
         return document.value().error();
     }
-    return join_glb(root.dump_without({"images", "textures", "samplers", "animations", "skins",
-                                       "cameras", "extensions"}),
+    const char* skins = use == GltfUse::rigid ? "skins" : "images";
+    return join_glb(root.dump_without({"images", "textures", "samplers", "animations", "cameras",
+                                       "extensions", skins}),
                     source.value().binary);
 }
 

@@ -1,0 +1,43 @@
+// The opposition axis leans to the little finger's side, so that a flexed thumb comes back below
+// the index and middle fingers instead of beside them.
+#include "components/hand_limits.hpp"
+
+#include <numbers>
+
+namespace handhold {
+namespace {
+
+constexpr double k_degree = std::numbers::pi / 180.0;
+
+struct CurlLimits {
+    std::array<double, k_most_links> lower_deg, upper_deg, relaxed_deg;
+};
+constexpr CurlLimits k_finger = {{-10.0, 0.0, 0.0}, {115.0, 105.0, 75.0}, {20.0, 30.0, 15.0}};
+constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.0, 35.0, 0.0}};
+constexpr CurlLimits k_thumb = {{-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}};
+constexpr double k_opposition_lower_deg = -50.0;
+constexpr double k_opposition_upper_deg = 70.0;
+constexpr double k_opposition_lean = 0.25;  // for 1 forward
+
+}  // namespace
+
+void set_hand_limits(HandSide side, FingerRig& finger) {
+    const bool is_thumb = finger.name == FingerName::thumb;
+    const CurlLimits& limits = is_thumb ? k_thumb : finger.link_count == 2 ? k_two_bones : k_finger;
+    for (std::size_t link = 0; link < k_most_links; ++link) {
+        finger.lower_rad[link] = limits.lower_deg[link] * k_degree;
+        finger.upper_rad[link] = limits.upper_deg[link] * k_degree;
+        finger.relaxed_rad[link] = limits.relaxed_deg[link] * k_degree;
+    }
+    if (!is_thumb) {
+        return;
+    }
+    finger.lower_opposition_rad = k_opposition_lower_deg * k_degree;
+    finger.upper_opposition_rad = k_opposition_upper_deg * k_degree;
+    // A positive turn goes from the thumb's side to the palm's, on either hand.
+    const Vec3 right_axis = -Vec3(k_opposition_lean, 0.0, -1.0).normalized();
+    const double sign = side == HandSide::right ? 1.0 : -1.0;
+    finger.opposition_axis_hs = Vec3(right_axis.x(), sign * right_axis.y(), sign * right_axis.z());
+}
+
+}  // namespace handhold

@@ -1,0 +1,235 @@
+#include "engine/geometry/bvh_builder.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::uint32_t k_small_leaf = 2;      // never divided
+constexpr std::uint32_t k_large_leaf = 8;      // always divided beyond this
+constexpr double k_node_cost = 0.5;            // in triangles looked at
+constexpr std::uint32_t k_planned_depth = 30;  // halved beyond this: the stack of a query ends
+constexpr double k_padding = 0x1p-22;          // of the reach: four times what a float rounds off
+
+}  // namespace
+
+BvhBuilder::Box BvhBuilder::Box::none() {
+    constexpr float k_far = std::numeric_limits<float>::infinity();
+    return {{k_far, k_far, k_far}, {-k_far, -k_far, -k_far}};
+}
+
+void BvhBuilder::Box::join(const Box& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], other.low[axis]);
+        high[axis] = std::max(high[axis], other.high[axis]);
+    }
+}
+
+double BvhBuilder::Box::half_area() const {
+    const auto side = [&](std::size_t axis) -> double {
+        return static_cast<double>(high[axis]) - static_cast<double>(low[axis]);
+    };
+    return side(0) * side(1) + side(1) * side(2) + side(2) * side(0);
+}
+
+BvhBuilder::BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
+                       std::span<const std::array<std::uint32_t, 3>> triangles)
+    : bvh_(bvh), positions_(positions), triangles_(triangles) {}
+
+// The boxes of all triangles that are finite, about the middle of the whole.
+void BvhBuilder::gather() {
+    std::vector<std::uint32_t> finite;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+        bool whole = true;
+        for (const std::uint32_t index : triangles_[t]) {
+            HH_CHECK(index < positions_.size(), "an index is out of range in triangle", t);
+            whole = whole && is_finite(positions_[index]);
+        }
+        if (whole) {
+            finite.push_back(t);
+            for (const std::uint32_t index : triangles_[t]) {
+                low = low.cwiseMin(positions_[index]);
+                high = high.cwiseMax(positions_[index]);
+            }
+        }
+    }
+    if (finite.empty()) {
+        return;
+    }
+    bvh_.origin_ = 0.5 * low + 0.5 * high;
+    padding_ = static_cast<float>(k_padding * (high - low).maxCoeff());
+    items_.reserve(finite.size());
+    for (const std::uint32_t t : finite) {
+        Item item = {Box::none(), t};
+        for (const std::uint32_t index : triangles_[t]) {
+            const Vec3 local = positions_[index] - bvh_.origin_;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto value = static_cast<float>(local[static_cast<Eigen::Index>(axis)]);
+                item.box.low[axis] = std::min(item.box.low[axis], value - padding_);
+                item.box.high[axis] = std::max(item.box.high[axis], value + padding_);
+            }
+        }
+        items_.push_back(item);
+    }
+}
+
+std::uint32_t BvhBuilder::bin_of(const Item& item, const Box& middles, std::size_t axis) const {
+    const float width = middles.high[axis] - middles.low[axis];
+    const float share = (item.box.middle(axis) - middles.low[axis]) / width;
+    return std::min(static_cast<std::uint32_t>(share * static_cast<float>(k_bins)),
+                    static_cast<std::uint32_t>(k_bins - 1));
+}
+
+BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& work,
+                                               const Box& middles) const {
+    std::array<Box, k_bins> boxes;
+    std::array<std::uint32_t, k_bins> counts = {};
+    boxes.fill(Box::none());
+    for (std::uint32_t i = work.first; i < work.last; ++i) {
+        const std::uint32_t bin = bin_of(items_[i], middles, axis);
+        boxes[bin].join(items_[i].box);
+        ++counts[bin];
+    }
+    std::array<double, k_bins> upper_cost = {};  // of the bins from here on
+    Box upper = Box::none();
+    std::uint32_t upper_count = 0;
+    for (std::size_t bin = k_bins - 1; bin > 0; --bin) {
+        upper.join(boxes[bin]);
+        upper_count += counts[bin];
+        upper_cost[bin] = upper_count > 0 ? upper.half_area() * upper_count : 0.0;
+    }
+    Split best;
+    Box lower = Box::none();
+    std::uint32_t lower_count = 0;
+    const std::uint32_t all = work.last - work.first;
+    for (std::uint32_t bin = 1; bin < k_bins; ++bin) {
+        lower.join(boxes[bin - 1]);
+        lower_count += counts[bin - 1];
+        if (lower_count == 0 || lower_count == all) {
+            continue;
+        }
+        const double cost = lower.half_area() * lower_count + upper_cost[bin];
+        if (!best.found || cost < best.cost) {
+            best = {axis, bin, cost, true};
+        }
+    }
+    return best;
+}
+
+BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& box,
+                                         const Box& middles) const {
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(middles.high[axis] > middles.low[axis])) {
+            continue;
+        }
+        const Split split = best_split_along(axis, work, middles);
+        if (split.found && (!best.found || split.cost < best.cost)) {
+            best = split;
+        }
+    }
+    best.cost = k_node_cost + best.cost / box.half_area();
+    return best;
+}
+
+// Where the upper side begins once the items are parted.
+std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& middles) {
+    const auto first = items_.begin() + work.first;
+    const auto last = items_.begin() + work.last;
+    if (split.found && work.depth < k_planned_depth) {
+        const auto middle = std::partition(first, last, [&](const Item& item) {
+            return bin_of(item, middles, split.axis) < split.bin;
+        });
+        return static_cast<std::uint32_t>(middle - items_.begin());
+    }
+    // All in one place, or the tree is growing into a list: halves, by place and number.
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+        if (middles.high[axis] - middles.low[axis] > middles.high[widest] - middles.low[widest]) {
+            widest = axis;
+        }
+    }
+    const std::uint32_t half = work.first + (work.last - work.first) / 2;
+    std::nth_element(first, items_.begin() + half, last, [&](const Item& a, const Item& b) {
+        const float middle_a = a.box.middle(widest);
+        const float middle_b = b.box.middle(widest);
+        return middle_a < middle_b || (middle_a == middle_b && a.triangle < b.triangle);
+    });
+    return half;
+}
+
+void BvhBuilder::make_leaf(const Work& work) {
+    std::sort(items_.begin() + work.first, items_.begin() + work.last,
+              [](const Item& a, const Item& b) { return a.triangle < b.triangle; });
+    bvh_.nodes_[work.node].first = work.first;
+    bvh_.nodes_[work.node].count = work.last - work.first;
+}
+
+// Corners in the order in which the leaves need them.
+void BvhBuilder::copy_corners() {
+    constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> copied(positions_.size(), k_not_copied);
+    bvh_.slots_.reserve(items_.size());
+    bvh_.numbers_.reserve(items_.size());
+    for (const Item& item : items_) {
+        std::array<std::uint32_t, 3> slot = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::uint32_t& place = copied[triangles_[item.triangle][i]];
+            if (place == k_not_copied) {
+                place = static_cast<std::uint32_t>(bvh_.positions_.size());
+                bvh_.positions_.push_back(positions_[triangles_[item.triangle][i]]);
+            }
+            slot[i] = place;
+        }
+        bvh_.slots_.push_back(slot);
+        bvh_.numbers_.push_back(item.triangle);
+    }
+}
+
+void BvhBuilder::build() {
+    gather();
+    if (items_.empty()) {
+        return;
+    }
+    bvh_.nodes_.emplace_back();
+    std::vector<Work> open = {{0, 0, static_cast<std::uint32_t>(items_.size()), 0}};
+    while (!open.empty()) {
+        const Work work = open.back();
+        open.pop_back();
+        const std::uint32_t count = work.last - work.first;
+        Box box = Box::none();
+        Box middles = Box::none();
+        for (std::uint32_t i = work.first; i < work.last; ++i) {
+            box.join(items_[i].box);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const float middle = items_[i].box.middle(axis);
+                middles.low[axis] = std::min(middles.low[axis], middle);
+                middles.high[axis] = std::max(middles.high[axis], middle);
+            }
+        }
+        bvh_.nodes_[work.node].low = box.low;
+        bvh_.nodes_[work.node].high = box.high;
+        const Split split = count > k_small_leaf ? best_split(work, box, middles) : Split{};
+        const bool worth_it = split.found && split.cost < static_cast<double>(count);
+        if (count <= k_small_leaf || (count <= k_large_leaf && !worth_it)) {
+            make_leaf(work);
+            continue;
+        }
+        const std::uint32_t middle = part(work, split, middles);
+        const auto child = static_cast<std::uint32_t>(bvh_.nodes_.size());
+        bvh_.nodes_[work.node].first = child;
+        bvh_.nodes_.resize(child + 2);
+        open.push_back({child + 1, middle, work.last, work.depth + 1});
+        open.push_back({child, work.first, middle, work.depth + 1});
+    }
+    copy_corners();
+    bvh_.nodes_.shrink_to_fit();
+    bvh_.positions_.shrink_to_fit();
+}
+
+}  // namespace handhold

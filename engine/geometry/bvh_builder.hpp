@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/triangle_bvh.hpp"
+
+namespace handhold {
+
+// Builds the nodes of a TriangleBvh: top down, each time the cheapest of k_bins planes along each
+// axis by the surface area heuristic. Order of the triangles within a set decides nothing, so the
+// tree is the same on every compiler and library.
+class BvhBuilder {
+  public:
+    BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
+               std::span<const std::array<std::uint32_t, 3>> triangles);
+    void build();
+
+  private:
+    struct Box {
+        std::array<float, 3> low;
+        std::array<float, 3> high;
+        static Box none();
+        void join(const Box& other);
+        double half_area() const;
+        float middle(std::size_t axis) const { return 0.5F * (low[axis] + high[axis]); }
+    };
+    struct Item {
+        Box box;
+        std::uint32_t triangle;
+    };
+    struct Work {
+        std::uint32_t node;
+        std::uint32_t first;
+        std::uint32_t last;
+        std::uint32_t depth;
+    };
+    struct Split {
+        std::size_t axis = 0;
+        std::uint32_t bin = 0;  // the first of the upper side
+        double cost = 0.0;      // in triangles looked at
+        bool found = false;
+    };
+    static constexpr std::size_t k_bins = 16;
+
+    void gather();
+    std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis) const;
+    Split best_split(const Work& work, const Box& box, const Box& middles) const;
+    Split best_split_along(std::size_t axis, const Work& work, const Box& middles) const;
+    std::uint32_t part(const Work& work, const Split& split, const Box& middles);
+    void make_leaf(const Work& work);
+    void copy_corners();
+
+    TriangleBvh& bvh_;
+    std::span<const Vec3> positions_;
+    std::span<const std::array<std::uint32_t, 3>> triangles_;
+    float padding_ = 0.0F;
+    std::vector<Item> items_;
+};
+
+}  // namespace handhold

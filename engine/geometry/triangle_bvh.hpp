@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/math/math.hpp"
+
+// Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:
+// every answer comes from a closed form in double precision on the triangle itself.
+// Sources: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (the build);
+// Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013 (rays slip through no shared
+// edge); closest_point.hpp.
+namespace handhold {
+
+struct TriangleHit {
+    std::uint32_t triangle = 0;  // as numbered at construction
+    Vec3 point = Vec3::Zero();   // on the triangle
+    double distance_m = 0.0;     // from the ray's start, or from the query point
+};
+
+// Refers to nothing outside of itself, copies what it needs. No query allocates; all may run on any
+// number of threads at once. A query that is not finite meets nothing.
+class TriangleBvh {
+  public:
+    TriangleBvh() = default;  // of no triangle
+    // Precondition: indices in range. Triangles with a corner that is not finite are never found.
+    // The same input makes the same tree on every compiler.
+    TriangleBvh(std::span<const Vec3> positions,
+                std::span<const std::array<std::uint32_t, 3>> triangles);
+
+    // The first triangle that the segment meets, whichever of its sides is turned to it. No segment
+    // slips between two triangles with a common edge. What is seen exactly from the edge is missed:
+    // its neighbours are met. Of several at one distance the lowest number.
+    std::optional<TriangleHit> cast_ray(const Vec3& from, const Vec3& to) const;
+    // The nearest triangle, of those as near as max_distance_m (infinity: of all). Of several
+    // at one distance the lowest number.
+    std::optional<TriangleHit> closest_point(const Vec3& point, double max_distance_m) const;
+    // visit(triangle) for each triangle with a point as near as radius_m: in the tree's order,
+    // neighbours together, ascending within a leaf; always the same order.
+    template <typename Visit>
+    void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
+
+    std::size_t triangle_count() const { return numbers_.size(); }  // that can be found
+    std::size_t memory_bytes() const;
+
+  private:
+    friend class BvhBuilder;
+
+    // Children of an inner node lie side by side. Boxes are about origin_, with k_padding of the
+    // mesh's reach to spare, so that rounding hides nothing.
+    struct Node {
+        std::array<float, 3> low = {};
+        std::uint32_t first = 0;  // inner: its first child; leaf: its first slot
+        std::array<float, 3> high = {};
+        std::uint32_t count = 0;  // of the leaf's slots; 0: inner
+    };
+    static constexpr std::size_t k_most_depth = 64;
+
+    static double squared_distance(const Node& node, const Vec3& point_about_origin) {
+        double sum = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const double below = static_cast<double>(node.low[i]) - point_about_origin[axis];
+            const double above = point_about_origin[axis] - static_cast<double>(node.high[i]);
+            const double out = below > above ? below : above;
+            sum += out > 0.0 ? out * out : 0.0;
+        }
+        return sum;
+    }
+    std::array<Vec3, 3> corners(std::uint32_t slot) const {
+        const auto& [a, b, c] = slots_[slot];
+        return {positions_[a], positions_[b], positions_[c]};
+    }
+    bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
+
+    Vec3 origin_ = Vec3::Zero();
+    std::vector<Node> nodes_;  // the root first
+    std::vector<Vec3> positions_;
+    std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles in leaf order
+    std::vector<std::uint32_t> numbers_;               // of the triangles in leaf order
+};
+
+template <typename Visit>
+void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const {
+    const double squared_radius = radius_m * radius_m;
+    if (nodes_.empty() || !is_finite(center) || !(radius_m >= 0.0)) {
+        return;
+    }
+    const Vec3 local = center - origin_;
+    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        if (!(squared_distance(node, local) <= squared_radius)) {
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.first + 1;
+            stack[depth++] = node.first;
+            continue;
+        }
+        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+            if (meets_sphere(slot, center, squared_radius)) {
+                visit(numbers_[slot]);
+            }
+        }
+    }
+}
+
+}  // namespace handhold

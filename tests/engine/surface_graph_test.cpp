@@ -1,0 +1,230 @@
+#include "engine/geometry/surface_graph.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "collision_scene.hpp"
+#include "data_meshes.hpp"
+#include "graph_claims.hpp"
+
+namespace handhold {
+namespace {
+
+using test::expect_sound_graph;
+using test::Random;
+
+Mesh unwelded(const Mesh& mesh, double jitter_m, Random& random) {
+    Mesh soup;
+    for (const auto& triangle : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        for (const std::uint32_t corner : triangle) {
+            soup.positions.push_back(mesh.positions[corner] + random.vector(jitter_m));
+        }
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+void expect_closed(const SurfaceGraph& graph) {
+    EXPECT_EQ(graph.report.border_edges, 0U);
+    EXPECT_EQ(graph.report.non_manifold_edges, 0U);
+    EXPECT_EQ(graph.report.flipped_links, 0U);
+    EXPECT_EQ(graph.report.parts, 1U);
+}
+
+TEST(SurfaceGraph, OfASoupIsThatOfTheWhole) {
+    Random random(810);
+    // The ball's seam and poles have their points twice, and triangles without an area.
+    const auto ball = test::make_wavy_ball(0.5, 20, 30);
+    const Mesh soup = unwelded(*ball, 1e-6, random);
+    const SurfaceGraph graph = build_surface_graph(soup);
+    expect_sound_graph(graph, soup);
+    expect_closed(graph);
+    EXPECT_EQ(graph.positions.size(), 19U * 30U + 2U);
+    EXPECT_EQ(graph.triangles.size(), 2U * 19U * 30U);
+    EXPECT_EQ(graph.report.degenerate, 2U * 30U);
+}
+
+TEST(SurfaceGraph, SewsJitteredSoupButKeepsFineDetail) {
+    Random random(811);
+    const auto ball = test::make_wavy_ball(0.1, 20, 30);
+    Mesh clean;  // without the poles' triangles that have no area
+    const SurfaceGraph whole = build_surface_graph(*ball);
+    clean.positions = whole.positions;
+    clean.triangles = whole.triangles;
+    const SurfaceGraph graph = build_surface_graph(unwelded(clean, 3e-5, random));
+    expect_closed(graph);
+    EXPECT_EQ(graph.positions.size(), 19U * 30U + 2U);
+    // The same ball at 2 mm: its edges are as short as the seam's tolerance, its points are not
+    // one.
+    Mesh small = *ball;
+    for (Vec3& position : small.positions) {
+        position *= 0.02;
+    }
+    const SurfaceGraph fine = build_surface_graph(small);
+    expect_closed(fine);
+    EXPECT_EQ(fine.positions.size(), 19U * 30U + 2U);
+}
+
+TEST(SurfaceGraph, KeepsTwoSolidsThatTouchInAnEdgeOnTheirOuterSides) {
+    // Two boxes with one edge in common, at x = y = 0: four triangles lie on it. What bounds one
+    // open wedge is linked, so a link joins faces of different boxes.
+    const auto box = test::make_box_mesh({0.5, 0.5, 0.5});
+    Mesh two;
+    for (const double side : {0.5, -0.5}) {
+        const auto first = static_cast<std::uint32_t>(two.positions.size());
+        for (const Vec3& position : box->positions) {
+            two.positions.push_back(position + Vec3(side, side, 0.0));
+        }
+        for (const auto& [a, b, c] : box->triangles) {
+            two.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    const SurfaceGraph graph = build_surface_graph(two);
+    expect_sound_graph(graph, two);
+    EXPECT_EQ(graph.report.non_manifold_edges, 1U);
+    EXPECT_EQ(graph.report.border_edges, 0U);
+    EXPECT_EQ(graph.report.parts, 1U);
+    int across = 0;
+    for (std::uint32_t t = 0; t < 12; ++t) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t n = graph.neighbours[t][i];
+            if (n >= 12) {
+                ++across;
+                // Both look into the same quarter of space.
+                const Vec3 middle = graph.normals[t] + graph.normals[n];
+                EXPECT_NEAR(middle.norm(), std::sqrt(2.0), 1e-12);
+                EXPECT_LT(middle.x() * middle.y(), 0.0);  // neither box is there
+            }
+        }
+    }
+    EXPECT_EQ(across, 2);
+}
+
+TEST(SurfaceGraph, KeepsTheSidesOfADoubledSheetApartButAtItsRim) {
+    const auto floor = test::make_floor(1.0, 4);
+    Mesh sheet = *floor;
+    for (const auto& [a, b, c] : floor->triangles) {
+        sheet.triangles.push_back({a, c, b});
+    }
+    const SurfaceGraph graph = build_surface_graph(sheet);
+    expect_sound_graph(graph, sheet);
+    EXPECT_EQ(graph.report.duplicate, 0U);
+    EXPECT_EQ(graph.report.border_edges, 0U);
+    EXPECT_EQ(graph.report.flipped_links, 0U);
+    int around_rim = 0;
+    for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
+        for (const std::uint32_t n : graph.neighbours[t]) {
+            around_rim += graph.normals[t].dot(graph.normals[n]) < 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(around_rim, 2 * 16);
+}
+
+TEST(SurfaceGraph, LinksNeighboursOfMixedWinding) {
+    const auto floor = test::make_floor(1.0, 6, test::Winding::mixed);
+    const SurfaceGraph graph = build_surface_graph(*floor);
+    expect_sound_graph(graph, *floor);
+    EXPECT_EQ(graph.report.border_edges, 24U);
+    EXPECT_EQ(graph.report.parts, 1U);
+}
+
+TEST(SurfaceGraph, DropsWhatIsNoTriangle) {
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double k_infinity = std::numeric_limits<double>::infinity();
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},         {0, 1, 0},
+                      {1, 0, 0}, {2, 0, 0}, {k_nan, 0.0, 0.0}, {0.0, -k_infinity, 0.0}};
+    mesh.triangles = {{0, 1, 2},
+                      {0, 2, 3},
+                      {2, 0, 1} /* again */,
+                      {0, 2, 1} /* its other side */,
+                      {1, 4, 2} /* one point twice */,
+                      {0, 1, 5} /* on a line */,
+                      {0, 1, 6},
+                      {7, 1, 2},
+                      {3, 0, 2} /* again */};
+    const SurfaceGraph graph = build_surface_graph(mesh);
+    expect_sound_graph(graph, mesh);
+    EXPECT_EQ(graph.source_triangle, (std::vector<std::uint32_t>{0, 1, 3}));
+    EXPECT_EQ(graph.report.not_finite, 2U);
+    EXPECT_EQ(graph.report.degenerate, 2U);
+    EXPECT_EQ(graph.report.duplicate, 2U);
+    EXPECT_EQ(graph.positions.size(), 4U);
+}
+
+TEST(SurfaceGraph, OfNothingIsEmpty) {
+    const SurfaceGraph graph = build_surface_graph(Mesh{});
+    EXPECT_TRUE(graph.triangles.empty());
+    EXPECT_EQ(graph.report.parts, 0U);
+}
+
+TEST(SurfaceGraph, RefusesIndicesOutOfRange) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}};
+    mesh.triangles = {{0, 0, 1}};
+    EXPECT_THROW(build_surface_graph(mesh), PreconditionError);
+}
+
+TEST(SurfaceGraph, OfEveryRealMeshIsSound) {
+    int meshes = 0;
+    for (const char* folder : {"objects", "nasty", "level"}) {
+        for (const auto& path : test::data_files(folder)) {
+            SCOPED_TRACE(path);
+            const Mesh mesh = test::load_whole(path);
+            expect_sound_graph(build_surface_graph(mesh), mesh);
+            meshes += mesh.triangles.empty() ? 0 : 1;
+        }
+    }
+    if (meshes == 0) {
+        GTEST_SKIP() << "no mesh data";
+    }
+}
+
+// Few places, so that corners, edges and whole triangles meet by chance, in every winding.
+Mesh crowded_mesh(std::uint64_t seed, std::size_t triangles) {
+    Random random(seed);
+    Mesh mesh;
+    const auto places = static_cast<std::size_t>(random.between(4.0, 12.0));
+    for (std::size_t i = 0; i < places; ++i) {
+        mesh.positions.push_back(random.vector(1.0));
+        if (random.between(0.0, 1.0) < 0.3) {
+            mesh.positions.push_back(mesh.positions.back() + random.vector(2e-6));
+        }
+    }
+    const auto any = [&]() {
+        return static_cast<std::uint32_t>(
+            random.between(0.0, static_cast<double>(mesh.positions.size())));
+    };
+    for (std::size_t t = 0; t < triangles; ++t) {
+        const std::uint32_t a = any();
+        const std::uint32_t b = any();
+        mesh.triangles.push_back({a, b, any()});
+    }
+    return mesh;
+}
+
+RC_GTEST_PROP(SurfaceGraph, OfAnyCrowdedMeshIsSound, (std::uint64_t seed)) {
+    const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
+    expect_sound_graph(build_surface_graph(mesh), mesh);
+    RC_ASSERT(!::testing::Test::HasFailure());
+}
+
+RC_GTEST_PROP(SurfaceGraph, LinksDoNotDependOnHowTheMeshLies, (std::uint64_t seed)) {
+    const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
+    const SurfaceGraph graph = build_surface_graph(mesh);
+    Random random(seed + 1);
+    const Pose pose = test::at(random.vector(2.0), random.rotation());
+    Mesh moved = mesh;
+    for (Vec3& position : moved.positions) {
+        position = transform_point(pose, position);
+    }
+    const SurfaceGraph again = build_surface_graph(moved);
+    RC_ASSERT(graph.triangles == again.triangles);
+    RC_ASSERT(graph.neighbours == again.neighbours);
+}
+
+}  // namespace
+}  // namespace handhold

@@ -1,0 +1,274 @@
+#include "components/hand_rig_fit.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "components/builtin_hand_rig.hpp"
+#include "components/hand_joint_names.hpp"
+#include "tests/systems/tube_hand.hpp"
+
+namespace handhold {
+namespace {
+
+using test::make_tube_hand;
+using Angles = std::array<FingerAngles, k_finger_count>;
+
+const Pose k_somewhere{Vec3(3.0, -1.0, 2.0), rotation_about(Vec3(1.0, 2.0, -2.0) / 3.0, 1.1)};
+
+Angles relaxed(const HandRig& rig) {
+    Angles angles;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        angles[i] = relaxed_angles(rig.fingers[i]);
+    }
+    return angles;
+}
+
+Result<HandRigFit> fit_file(const char* name, HandSide side) {
+    const Result<SkinnedMesh> skin =
+        load_gltf_skin(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands" / name);
+    return skin.ok() ? fit_hand_rig(skin.value(), side) : Result<HandRigFit>(skin.error());
+}
+bool has_real_hands() {
+    return std::filesystem::exists(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands");
+}
+
+// How far the rig's joints at the bind angles are off those of the file, at most.
+void expect_bind_pose(const HandRigFit& fit, const SkinnedMesh& skin) {
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        const RigJoint& joint = fit.rig.joints[i];
+        ASSERT_EQ(joint.name, skin.joints[i].name);
+        Pose carrier;
+        if (joint.finger != RigJoint::k_palm) {
+            const auto place = static_cast<std::size_t>(joint.finger);
+            carrier = finger_link_frames(fit.rig.fingers[place], fit.bind[place])[joint.link];
+        }
+        const Pose found = fit.hand_ms * carrier * joint.joint_in_link;
+        EXPECT_NEAR((found.position - skin.joints[i].bind_ms.position).norm(), 0.0, 1e-12);
+        EXPECT_LT(found.rotation.angularDistance(skin.joints[i].bind_ms.rotation), 1e-7);
+    }
+}
+
+TEST(HandRigFit, FindsTheRigThatASkinWasMadeOf) {
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const HandRig rig = builtin_hand_rig(side);
+        const Result<HandRigFit> fit =
+            fit_hand_rig(make_tube_hand(rig, relaxed(rig), k_somewhere), side);
+        ASSERT_TRUE(fit.ok()) << fit.error().message();
+        const HandRig& found = fit.value().rig;
+        EXPECT_NEAR((fit.value().hand_ms.position - k_somewhere.position).norm(), 0.0, 1e-12);
+        ASSERT_EQ(found.fingers.size(), rig.fingers.size());
+        for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+            const FingerRig& made = rig.fingers[i];
+            const FingerRig& finger = found.fingers[i];
+            EXPECT_EQ(finger.name, made.name);
+            for (std::size_t link = 0; link < 3; ++link) {
+                EXPECT_NEAR(finger.length_m[link], made.length_m[link], 1e-4);
+                EXPECT_NEAR(finger.radius_m[link], made.radius_m[link], 1e-4);
+            }
+            const auto points = finger_points(finger, fit.value().bind[i]);
+            const auto made_points = finger_points(made, relaxed_angles(made));
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                EXPECT_NEAR((points[k] - made_points[k]).norm(), 0.0, 2e-4)
+                    << finger_text(made.name);
+            }
+        }
+    }
+}
+
+TEST(HandRigFit, JointsStandAsInTheFileAtTheBindAngles) {
+    const HandRig rig = builtin_hand_rig(HandSide::left);
+    const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    const Result<HandRigFit> fit = fit_hand_rig(skin, HandSide::left);
+    ASSERT_TRUE(fit.ok());
+    expect_bind_pose(fit.value(), skin);
+}
+
+HandRig three_fingered(HandSide side) {
+    HandRig rig = builtin_hand_rig(side);
+    rig.fingers = {rig.fingers[0], rig.fingers[1], rig.fingers[4]};
+    rig.joints = {{"wrist", RigJoint::k_palm, 0, {}}};
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        FingerRig& finger = rig.fingers[i];
+        finger.link_count = 2;
+        finger.length_m = {0.05, 0.04, 0.0};
+        const auto place = static_cast<std::int32_t>(i);
+        rig.joints.push_back({hand_joint_text({finger.name, HandBone::proximal}), place, 0, {}});
+        rig.joints.push_back({hand_joint_text({finger.name, HandBone::distal}), place, 1, {}});
+        rig.joints.push_back({hand_joint_text({finger.name, HandBone::tip}),
+                              place,
+                              1,
+                              {Vec3(0, 0, -0.04), Quat::Identity()}});
+    }
+    return rig;
+}
+
+TEST(HandRigFit, ThreeFingersOfTwoBonesAreAHand) {
+    const HandRig rig = three_fingered(HandSide::right);
+    const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    const Result<HandRigFit> fit = fit_hand_rig(skin, HandSide::right);
+    ASSERT_TRUE(fit.ok()) << fit.error().message();
+    ASSERT_EQ(fit.value().rig.fingers.size(), 3U);
+    for (const FingerRig& finger : fit.value().rig.fingers) {
+        EXPECT_EQ(finger.link_count, 2U);
+        EXPECT_NEAR(finger.length_m[0], 0.05, 1e-4);
+        EXPECT_NEAR(finger.length_m[1], 0.04, 1e-4);
+        EXPECT_GT(finger.upper_rad[1], 0.8);
+    }
+    expect_bind_pose(fit.value(), skin);
+}
+
+TEST(HandRigFit, ReadsOpenXrNames) {
+    HandRig rig = three_fingered(HandSide::right);
+    const std::array<const char*, 10> names = {
+        "XR_HAND_JOINT_WRIST_EXT",          "XR_HAND_JOINT_THUMB_PROXIMAL_EXT",
+        "XR_HAND_JOINT_THUMB_DISTAL_EXT",   "XR_HAND_JOINT_THUMB_TIP_EXT",
+        "XR_HAND_JOINT_INDEX_PROXIMAL_EXT", "XR_HAND_JOINT_INDEX_DISTAL_EXT",
+        "XR_HAND_JOINT_INDEX_TIP_EXT",      "XR_HAND_JOINT_LITTLE_PROXIMAL_EXT",
+        "XR_HAND_JOINT_LITTLE_DISTAL_EXT",  "XR_HAND_JOINT_LITTLE_TIP_EXT"};
+    ASSERT_EQ(rig.joints.size(), names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        rig.joints[i].name = names[i];
+    }
+    const Result<HandRig> found =
+        hand_rig_from_skin(make_tube_hand(rig, relaxed(rig), {}), HandSide::right);
+    ASSERT_TRUE(found.ok()) << found.error().message();
+    EXPECT_EQ(found.value().fingers[2].name, FingerName::little);
+}
+
+// Axes as an exporter may leave them: the same joints, all turned by the same strange rotation.
+TEST(HandRigFit, TakesTheHandsAxesFromItsKnucklesWhereTheWristsAreStrange) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    skin.joints[0].bind_ms.rotation =
+        skin.joints[0].bind_ms.rotation * rotation_about(Vec3::UnitX(), 1.9);
+    const Result<HandRigFit> fit = fit_hand_rig(skin, HandSide::right);
+    ASSERT_TRUE(fit.ok()) << fit.error().message();
+    EXPECT_LT(fit.value().hand_ms.rotation.angularDistance(k_somewhere.rotation), 0.1);
+    expect_bind_pose(fit.value(), skin);
+}
+
+struct BadHand {
+    const char* what;
+    const char* says;  // a part of the error
+    std::function<void(SkinnedMesh&)> spoil;
+};
+void PrintTo(const BadHand& hand, std::ostream* stream) { *stream << hand.what; }
+
+void rename(SkinnedMesh& skin, const std::string& from, const char* to) {
+    for (SkinJoint& joint : skin.joints) {
+        if (joint.name == from) {
+            joint.name = to;
+            return;
+        }
+    }
+    FAIL() << from;
+}
+
+const BadHand k_bad_hands[] = {
+    {"no wrist", "missing: wrist", [](SkinnedMesh& s) { rename(s, "wrist", "root"); }},
+    {"two tips gone", "missing: index-finger-tip, pinky-finger-tip",
+     [](SkinnedMesh& s) {
+         rename(s, "index-finger-tip", "a");
+         rename(s, "pinky-finger-tip", "b");
+     }},
+    {"one bone", "missing: ring-finger-phalanx-distal",
+     [](SkinnedMesh& s) {
+         rename(s, "ring-finger-phalanx-intermediate", "a");
+         rename(s, "ring-finger-phalanx-distal", "b");
+     }},
+    {"a joint twice", "found \"thumb-tip\" again",
+     [](SkinnedMesh& s) { rename(s, "index-finger-tip", "thumb-tip"); }},
+    {"no names", "missing: wrist",
+     [](SkinnedMesh& s) {
+         for (SkinJoint& joint : s.joints) {
+             joint.name.clear();
+         }
+     }},
+    {"a bone of no length", "expected bones of at least 4 mm",
+     [](SkinnedMesh& s) { s.joints[3].bind_ms = s.joints[2].bind_ms; }},
+    {"a giant", "expected a hand of 0.05 to 1 m",
+     [](SkinnedMesh& s) {
+         for (SkinJoint& joint : s.joints) {
+             joint.bind_ms.position *= 100.0;
+         }
+     }},
+};
+
+class MalformedHand : public ::testing::TestWithParam<BadHand> {};
+
+TEST_P(MalformedHand, IsRefusedWithItsReason) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), {});
+    GetParam().spoil(skin);
+    const Result<HandRig> found = hand_rig_from_skin(skin, HandSide::right);
+    ASSERT_FALSE(found.ok());
+    EXPECT_NE(found.error().message().find(GetParam().says), std::string::npos)
+        << found.error().message();
+}
+INSTANTIATE_TEST_SUITE_P(Hands, MalformedHand, ::testing::ValuesIn(k_bad_hands));
+
+TEST(HandRigFit, RefusesAHandOfTheOtherSide) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    const Result<HandRig> found = hand_rig_from_skin(skin, HandSide::left);
+    ASSERT_FALSE(found.ok());
+    EXPECT_NE(found.error().expected.find("expected a left hand"), std::string::npos);
+}
+
+TEST(HandRigFitRealData, SharedHandsStandAsInTheirFilesAtTheBindAngles) {
+    if (!has_real_hands()) {
+        GTEST_SKIP() << "no such data";
+    }
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const char* name =
+            side == HandSide::left ? "generic_hand_left.glb" : "generic_hand_right.glb";
+        const Result<SkinnedMesh> skin =
+            load_gltf_skin(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands" / name);
+        ASSERT_TRUE(skin.ok());
+        const Result<HandRigFit> fit = fit_hand_rig(skin.value(), side);
+        ASSERT_TRUE(fit.ok()) << fit.error().message();
+        expect_bind_pose(fit.value(), skin.value());
+        // SOURCE.md of the data: 0.178 m from the wrist to the middle finger's tip joint.
+        EXPECT_NEAR(finger_points(fit.value().rig.fingers[2], fit.value().bind[2])[3].norm(), 0.178,
+                    0.006);
+    }
+}
+
+// The right index finger's metacarpal and proximal bones are 3 to 4 mm longer than the left one's
+// (SOURCE.md of the data): straight, that cancels; curled, the two lie across each other.
+TEST(HandRigFitRealData, SharedHandsMirrorEachOther) {
+    if (!has_real_hands()) {
+        GTEST_SKIP() << "no such data";
+    }
+    const Result<HandRigFit> left = fit_file("generic_hand_left.glb", HandSide::left);
+    const Result<HandRigFit> right = fit_file("generic_hand_right.glb", HandSide::right);
+    ASSERT_TRUE(left.ok() && right.ok());
+    const HandRig mirrored = mirror_hand_rig(left.value().rig);
+    const HandRig& rig = right.value().rig;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        for (const double share : {0.0, 0.3, 0.6, 1.0}) {
+            const auto a =
+                finger_points(mirrored.fingers[i], coupled_angles(rig.fingers[i], share));
+            const auto b = finger_points(rig.fingers[i], coupled_angles(rig.fingers[i], share));
+            for (std::size_t k = 0; k < a.size(); ++k) {
+                EXPECT_LT((a[k] - b[k]).norm(), share < 0.5 ? 5e-3 : 6e-3)
+                    << finger_text(rig.fingers[i].name);
+            }
+        }
+        for (std::size_t link = 0; link < 3; ++link) {
+            EXPECT_NEAR(mirrored.fingers[i].radius_m[link], rig.fingers[i].radius_m[link], 1e-3);
+        }
+    }
+    EXPECT_LT((mirrored.palm_center_hs - rig.palm_center_hs).norm(), 5e-3);
+    for (std::size_t i = 0; i < rig.palm.size(); ++i) {
+        EXPECT_LT((mirrored.palm[i].a_hs - rig.palm[i].a_hs).norm(), 5e-3);
+        EXPECT_LT((mirrored.palm[i].b_hs - rig.palm[i].b_hs).norm(), 5e-3);
+        EXPECT_NEAR(mirrored.palm[i].radius_m, rig.palm[i].radius_m, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace handhold
