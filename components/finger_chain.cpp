@@ -41,8 +41,7 @@ ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
     }
     const auto& [a, b, c] = graph.triangles[triangle];
     const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
-    const Vec3 from =
-        inverse_transform_point(placed.pose, has_last ? base_bs : surface.point_bs);
+    const Vec3 from = inverse_transform_point(placed.pose, has_last ? base_bs : surface.point_bs);
     return {triangle, closest_on_triangle(from, corners)};
 }
 

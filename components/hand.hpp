@@ -16,11 +16,11 @@ namespace handhold {
 struct GripSurface {
     static constexpr std::uint32_t k_none = ~0U;
 
-    Entity body = k_no_entity;     // owner of the triangle; null: the hand is empty
+    Entity body = k_no_entity;        // owner of the triangle; null: the hand is empty
     std::uint32_t triangle = k_none;  // of the body's search detail
-    Vec3 point_bs = Vec3::Zero();  // on the surface itself, in the body's frame
-    Vec3 normal_bs = Vec3::UnitY();  // unit, towards the back of the hand: the surface's mean
-                                     // around the point
+    Vec3 point_bs = Vec3::Zero();     // on the surface itself, in the body's frame
+    Vec3 normal_bs = Vec3::UnitY();   // unit, towards the back of the hand: the surface's mean
+                                      // around the point
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space

@@ -15,7 +15,7 @@ struct CurlLimits {
 constexpr CurlLimits k_finger = {{-10.0, 0.0, 0.0}, {115.0, 105.0, 75.0}, {20.0, 30.0, 15.0}};
 constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.0, 35.0, 0.0}};
 constexpr CurlLimits k_thumb = {{-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}};
-constexpr double k_opposition_lower_deg = -50.0;
+constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
 constexpr double k_opposition_lean = 0.25;  // for 1 forward
 

@@ -94,6 +94,8 @@ const char* name_of(Fallback reason) {
             return "head_ignores_full";
         case Fallback::finger_searched_all:
             return "finger_searched_all";
+        case Fallback::finger_bent:
+            return "finger_bent";
         case Fallback::finger_opened:
             return "finger_opened";
         case Fallback::finger_touches_nothing:

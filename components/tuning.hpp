@@ -28,8 +28,8 @@ struct HandTuning {
 // How the palm that is shown keeps to the surface it grips.
 struct PalmTuning {
     double min_height_m = 0.001;
-    double max_height_m = 0.012;
-    double max_angle_rad = 0.35;
+    double max_height_m = 0.015;
+    double max_angle_rad = 0.44;
     double tilt_cost_m_per_rad = 0.08;
     double back_cost_m = 0.02;
     double reach_m = 0.12;
@@ -51,7 +51,7 @@ struct FingerTuning {
 };
 
 struct ThumbTuning {
-    std::int32_t opposition_steps = 5;
+    std::int32_t opposition_steps = 6;
     double rest_opposition_rad = 0.26;
     double sunk_cost = 4.0;
     double open_cost_m = 0.012;
@@ -185,8 +185,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "a finger sunk deeper looks at every surface within its reach");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
         "a finger that is still sunk deeper opens");
-    see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0,
-        "by this at a time");
+    see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0, "by this at a time");
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0, "and at most so often");
     see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
         "fingers are shown closing no faster; they open at once");

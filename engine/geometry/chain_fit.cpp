@@ -73,7 +73,8 @@ class ChainFitter {
 
     ChainFit run(const ChainSeed& seed) {
         if (meshes_.empty()) {
-            return relax();
+            relax();
+            return fit_;
         }
         bool is_complete = false;
         if (seed.triangle != k_no_triangle) {
@@ -84,10 +85,16 @@ class ChainFitter {
         if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
             close_over_all_cuts(touches);
         }
+        if (fit_.contact_link == DiscClosure::k_none) {
+            relax();
+        }
+        if (fit_.depth_m > settings_.search_depth_m) {
+            bend_clear();
+        }
         if (fit_.depth_m > settings_.open_depth_m) {
             open();
         }
-        return fit_.contact_link != DiscClosure::k_none ? fit_ : relax();
+        return fit_;
     }
 
   private:
@@ -123,9 +130,8 @@ class ChainFitter {
         if (!near) {
             return;
         }
-        const CrossingSearch onto =
-            find_crossing(mesh.contact, disc, near->triangle, near->point, SearchOrder::best_first,
-                          scratch_.trace);
+        const CrossingSearch onto = find_crossing(mesh.contact, disc, near->triangle, near->point,
+                                                  SearchOrder::best_first, scratch_.trace);
         fit_.walked += onto.pops;
         if (onto.triangle == k_no_triangle) {
             return;
@@ -163,6 +169,61 @@ class ChainFitter {
         }
     }
 
+    // Straight, it reaches into what is before it, and may be clear when it is bent: at the first
+    // hinge, at the others, or at all. Closes from the first pose that is clear, the straightest
+    // first; where none is, stays at the one that is sunk least.
+    void bend_clear() {
+        const ChainFit before = fit_;
+        DiscChain bent = flat_;
+        double least_m = fit_.depth_m;
+        constexpr int k_bends = 5;
+        for (int sum = 0; sum <= 2 * (k_bends - 1); ++sum) {
+            for (int first = std::max(0, sum - k_bends + 1); first <= std::min(sum, k_bends - 1);
+                 ++first) {
+                const std::array<double, k_most_disc_links> angle_rad =
+                    bend(static_cast<double>(first) / k_bends,
+                         static_cast<double>(sum - first) / (k_bends - 1));
+                const double depth_m = depth_of(angle_rad).depth_m;
+                if (depth_m < least_m) {
+                    least_m = depth_m;
+                    bent.open_rad = angle_rad;
+                }
+                if (depth_m <= settings_.open_depth_m) {
+                    close_from(bent, before);
+                    return;
+                }
+            }
+        }
+        if (least_m < before.depth_m) {
+            fit_.angle_rad = bent.open_rad;
+            fit_.depth_m = least_m;
+            fit_.fallback = ChainFallback::bent;
+        }
+    }
+
+    std::array<double, k_most_disc_links> bend(double first, double others) const {
+        std::array<double, k_most_disc_links> angle_rad = {};
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            angle_rad[i] = chain_.open_rad[i] +
+                           (i == 0 ? first : others) * (chain_.closed_rad[i] - chain_.open_rad[i]);
+        }
+        return angle_rad;
+    }
+
+    void close_from(const DiscChain& bent, const ChainFit& before) {
+        const DiscClosure closure = close_chain(bent, scratch_.segments, {}, scratch_.disc);
+        fit_.angle_rad = closure.angle_rad;
+        fit_.contact_link = closure.contact_link;
+        fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+        fit_.fallback = ChainFallback::bent;
+        if (closure.contact_link == DiscClosure::k_none || fit_.depth_m >= before.depth_m) {
+            fit_.angle_rad = bent.open_rad;
+            fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+        }
+    }
+
+    // What is beyond the place where a surface goes through the chain is taken for sunk as well:
+    // whether it is, only a solid could tell.
     struct Depth {
         double depth_m = 0.0;
         std::size_t link = 0;
@@ -171,9 +232,19 @@ class ChainFitter {
         Depth deepest;
         const auto capsules = chain_capsules(chain_, angle_rad);
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            const double depth_m = capsule_depth(capsules[i], meshes_);
+            const SunkCapsule sunk = find_sunk(capsules[i], meshes_);
+            double depth_m = sunk.depth_m;
+            if (sunk.crossed_at) {
+                depth_m += (1.0 - *sunk.crossed_at) * chain_.length_m[i];
+                for (std::size_t rest = i + 1; rest < chain_.link_count; ++rest) {
+                    depth_m += chain_.length_m[rest];
+                }
+            }
             if (depth_m > deepest.depth_m) {
                 deepest = {depth_m, i};
+            }
+            if (sunk.crossed_at) {
+                break;
             }
         }
         return deepest;
@@ -185,8 +256,7 @@ class ChainFitter {
         Depth depth = depth_of(angle_rad);
         for (std::int32_t step = 0; step < settings_.open_steps; ++step) {
             for (std::size_t i = 0; i <= depth.link; ++i) {
-                angle_rad[i] =
-                    std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
+                angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
             }
             depth = depth_of(angle_rad);
             if (depth.depth_m < fit_.depth_m) {
@@ -200,11 +270,10 @@ class ChainFitter {
         }
     }
 
-    ChainFit relax() {
+    void relax() {
         fit_.angle_rad = chain_.relaxed_rad;
         fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
         fit_.fallback = ChainFallback::relaxed;
-        return fit_;
     }
 
     static constexpr double k_detail_apart_m = 0.02;  // the search detail never errs so much
@@ -232,24 +301,33 @@ std::array<Capsule, k_most_disc_links> chain_capsules(
     return capsules;
 }
 
-double capsule_depth(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
+SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
     double nearest_m = capsule.radius_m;
+    SunkCapsule sunk;
     for (const PlacedMesh& placed : meshes) {
         const std::array<Vec3, 2> ends = {inverse_transform_point(placed.pose, capsule.ends[0]),
                                           inverse_transform_point(placed.pose, capsule.ends[1])};
         const SurfaceGraph& surface = placed.mesh->contact;
-        const double reach_m = 0.5 * (ends[1] - ends[0]).norm() + capsule.radius_m;
+        const double length_m = (ends[1] - ends[0]).norm();
         placed.mesh->contact_bvh.visit_in_sphere(
-            0.5 * (ends[0] + ends[1]), reach_m, [&](std::uint32_t triangle) {
+            0.5 * (ends[0] + ends[1]), 0.5 * length_m + capsule.radius_m,
+            [&](std::uint32_t triangle) {
                 const auto& [a, b, c] = surface.triangles[triangle];
                 const Corners corners = {surface.positions[a], surface.positions[b],
                                          surface.positions[c]};
-                if (least_distance(ends, corners) < nearest_m) {
-                    nearest_m = std::min(nearest_m, nearest_between(ends, corners).distance_m);
+                if (least_distance(ends, corners) > nearest_m) {
+                    return;
+                }
+                const SegmentTriangle found = nearest_between(ends, corners);
+                nearest_m = std::min(nearest_m, found.distance_m);
+                if (found.distance_m == 0.0 && length_m > 0.0) {
+                    const double share = (found.on_segment - ends[0]).norm() / length_m;
+                    sunk.crossed_at = std::min(sunk.crossed_at.value_or(1.0), share);
                 }
             });
     }
-    return capsule.radius_m - nearest_m;
+    sunk.depth_m = capsule.radius_m - nearest_m;
+    return sunk;
 }
 
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct ChainSeed {
 };
 
 struct ChainFitSettings {
-    double plane_offset = 0.62;   // of the outer planes from the middle one, in mean link radii
+    double plane_offset = 0.62;      // of the outer planes from the middle one, in mean link radii
     double search_depth_m = 1.2e-3;  // sunk deeper: all cuts are looked for
     double open_depth_m = 8e-4;      // still sunk deeper: opened
     double open_step_rad = 0.0436;   // at a time
@@ -63,16 +64,19 @@ struct ChainFitSettings {
 enum class ChainFallback : std::uint8_t {
     none,
     all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
-    opened,    // and still sunk: opened a little
     relaxed,   // nothing to touch
+    bent,      // sunk where it is straight: closed from where it is clear
+    opened,    // and still sunk: opened a little
 };
 
 struct ChainFit {
     std::array<double, k_most_disc_links> angle_rad = {};
     std::int32_t contact_link = DiscClosure::k_none;
-    std::uint32_t contact_triangle = k_no_triangle;  // of the first mesh's search detail, where the
-                                                     // middle plane's search ended: next time's seed
-    double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0
+    std::uint32_t contact_triangle =
+        k_no_triangle;     // of the first mesh's search detail, where the
+                           // middle plane's search ended: next time's seed
+    double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0; where a surface goes
+                           // through the chain's middle, with what is beyond
     ChainFallback fallback = ChainFallback::none;
     std::uint32_t discs = 0;   // planes searched
     std::uint32_t pops = 0;    // triangles that the searches looked at
@@ -91,8 +95,12 @@ ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);
 
-// How deep the capsule is sunk in the surfaces, at least 0: its radius less the distance of its
-// middle, which is 0 where the surface passes through it.
-double capsule_depth(const Capsule& capsule, std::span<const PlacedMesh> meshes);
+// How deep a capsule is sunk in the surfaces.
+struct SunkCapsule {
+    double depth_m = 0.0;              // at least 0: its radius less the distance of its middle
+    std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
+                                       // through its middle
+};
+SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 
 }  // namespace handhold

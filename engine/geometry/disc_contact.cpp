@@ -9,10 +9,11 @@
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 2e-5;      // nearer counts as touching
-constexpr double k_least_move_m = 4e-5; // a step moves no point of a link farther than its
-                                        // distance, or than this: what an advance may sink
-constexpr double k_clear_m = 1e-4;      // what left an overlap by this much can touch again
+constexpr double k_touch_m = 2e-5;         // nearer counts as touching
+constexpr double k_least_move_m = 4e-5;    // a step moves no point of a link farther than its
+                                           // distance, or than this: what an advance may sink
+constexpr double k_clear_m = 1e-4;         // what left an overlap by this much can touch again
+constexpr double k_surely_apart_m = 2e-3;  // up to here a bound does instead of the distance
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
 
@@ -34,20 +35,20 @@ class ClosingChain {
         return chain_.open_rad[hinge] + at * (chain_.closed_rad[hinge] - chain_.open_rad[hinge]);
     }
 
-    Link link_at(std::size_t link, double at) const {
+    std::array<Link, k_most_disc_links> links_at(double at) const {
+        std::array<Link, k_most_disc_links> links;
         Vec2 begin = Vec2::Zero();
         double angle = 0.0;
-        for (std::size_t i = 0;; ++i) {
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
             angle += i < first_free_ ? angle_rad_[i] : angle_at(i, at);
             double sine = 0.0;
             double cosine = 1.0;
             sin_cos(angle, sine, cosine);
             const Vec2 end = begin + chain_.length_m[i] * Vec2(cosine, sine);
-            if (i == link) {
-                return {begin, end};
-            }
+            links[i] = {begin, end};
             begin = end;
         }
+        return links;
     }
 
     // No point of the link's middle moves faster, metres for the whole closing.
@@ -114,71 +115,88 @@ class Closing {
 
   private:
     using Pair = DiscScratch::Pair;
-    static bool later(const Pair& a, const Pair& b) {
-        // Ties by link, then segment: the answer does not depend on how a heap is built.
-        return a.next != b.next ? a.next > b.next
-                                : (a.link != b.link ? a.link > b.link : a.segment > b.segment);
+    using Links = std::array<Link, k_most_disc_links>;
+
+    static double distance_to(const Vec2& point, const Vec2& a, const Vec2& b) {
+        const Vec2 along = b - a;
+        const double length2 = along.squaredNorm();
+        const double t =
+            length2 > 0.0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+        return (a + t * along - point).norm();
     }
 
-    // A lower bound from the two segments' circles: most pairs never come nearer than it says.
-    static double apart_m(const Link& link, const DiscSegment& segment) {
-        const double between_m =
-            0.5 * (link.begin + link.end - segment.a_ds - segment.b_ds).norm();
-        return between_m - 0.5 * (link.end - link.begin).norm() -
-               0.5 * (segment.b_ds - segment.a_ds).norm();
+    // No more than the distance: what each is from a circle about the other.
+    static double least_distance(const Link& link, const DiscSegment& segment) {
+        const Vec2 half_segment = 0.5 * (segment.b_ds - segment.a_ds);
+        const Vec2 half_link = 0.5 * (link.end - link.begin);
+        return std::max(
+            distance_to(segment.a_ds + half_segment, link.begin, link.end) - half_segment.norm(),
+            distance_to(link.begin + half_link, segment.a_ds, segment.b_ds) - half_link.norm());
     }
 
     void gather_pairs(double at) {
         pairs_.clear();
+        const Links places = links_.links_at(at);
         for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
-            const Link place = links_.link_at(link, at);
-            const double speed_m = links_.speed_m(link);
+            speed_m_[link] = links_.speed_m(link);
             for (std::uint32_t i = 0; i < segments_.size(); ++i) {
                 const double radius_m = chain_.radius_m[segments_[i].plane][link];
                 if (radius_m < 0.0) {
                     continue;
                 }
-                const double free_m = apart_m(place, segments_[i]) - radius_m - k_touch_m;
-                const double next = at + std::max(free_m, 0.0) / speed_m;
+                const double free_m =
+                    least_distance(places[link], segments_[i]) - radius_m - k_touch_m;
+                const double next = at + std::max(free_m, 0.0) / speed_m_[link];
                 if (next <= sweep_.to) {
-                    pairs_.push_back({next, 0.0, static_cast<std::uint32_t>(link), i, false,
-                                      free_m > 0.0});
+                    pairs_.push_back(
+                        {next, 0.0, static_cast<std::uint32_t>(link), i, false, free_m > 0.0});
                 }
             }
         }
-        std::make_heap(pairs_.begin(), pairs_.end(), later);
     }
 
+    // Always the pair whose turn is next, and with it those whose turn is nearly there: where the
+    // links are is found once for all of them. Ties go to the first link and segment.
     std::optional<Touch> first_touch(double from) {
+        constexpr double k_together = 0.01;
         gather_pairs(from);
         while (!pairs_.empty()) {
-            std::pop_heap(pairs_.begin(), pairs_.end(), later);
-            Pair& pair = pairs_.back();
-            if (touches(pair)) {
-                return Touch{pair.next, pair.link, pair.segment};
+            double at = pairs_.front().next;
+            for (const Pair& pair : pairs_) {
+                at = std::min(at, pair.next);
             }
-            if (pair.next > sweep_.to) {
-                pairs_.pop_back();
-            } else {
-                std::push_heap(pairs_.begin(), pairs_.end(), later);
+            if (at > sweep_.to) {
+                break;
+            }
+            const Links places = links_.links_at(at);
+            for (Pair& pair : pairs_) {
+                const bool is_early = pair.next > at;
+                if (pair.next <= at + k_together && !(is_early && pair.leaving) &&
+                    touches(pair, places, at)) {
+                    return Touch{at, pair.link, pair.segment};
+                }
             }
         }
         return std::nullopt;
     }
 
-    double separation_m(const Pair& pair, double at) {
-        ++closure_.distances;
-        const Link link = links_.link_at(pair.link, at);
+    double separation_m(const Pair& pair, const Links& places) {
+        const Link& link = places[pair.link];
         const DiscSegment& segment = segments_[pair.segment];
-        return disc_distance(link.begin, link.end, segment.a_ds, segment.b_ds) -
-               chain_.radius_m[segment.plane][pair.link];
+        const double radius_m = chain_.radius_m[segment.plane][pair.link];
+        const double least_m = least_distance(link, segment) - radius_m;
+        if (least_m > k_surely_apart_m) {
+            return least_m;
+        }
+        ++closure_.distances;
+        return disc_distance(link.begin, link.end, segment.a_ds, segment.b_ds) - radius_m;
     }
 
-    // True where the pair touches at pair.next; else moves pair.next on to where it may.
-    bool touches(Pair& pair) {
+    // True where the pair touches at `at`; else moves pair.next on to where it may.
+    bool touches(Pair& pair, const Links& places, double at) {
         const double before_m = pair.separation_m;
         const bool was_seen = pair.seen;
-        pair.separation_m = separation_m(pair, pair.next);
+        pair.separation_m = separation_m(pair, places);
         pair.seen = true;
         if (pair.leaving) {
             if (pair.separation_m < before_m - k_leave_noise_m) {
@@ -186,14 +204,15 @@ class Closing {
             }
             pair.leaving = pair.separation_m < k_clear_m;
         } else if (pair.separation_m <= k_touch_m) {
-            if (was_seen || separation_m(pair, pair.next + k_leave_step) < pair.separation_m) {
+            if (was_seen ||
+                separation_m(pair, links_.links_at(at + k_leave_step)) < pair.separation_m) {
                 return true;
             }
             pair.leaving = true;
         }
-        pair.next += pair.leaving ? k_leave_step
-                                  : std::max(pair.separation_m - k_touch_m, k_least_move_m) /
-                                        links_.speed_m(pair.link);
+        pair.next = at + (pair.leaving ? k_leave_step
+                                       : std::max(pair.separation_m - k_touch_m, k_least_move_m) /
+                                             speed_m_[pair.link]);
         return false;
     }
 
@@ -202,6 +221,7 @@ class Closing {
     const DiscSweep& sweep_;
     std::vector<Pair>& pairs_;
     ClosingChain links_;
+    std::array<double, k_most_disc_links> speed_m_ = {};
     DiscClosure closure_;
 };
 

@@ -10,12 +10,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_prune_m = 0.03;     // beyond the disc's edge nothing leads back in
+constexpr double k_prune_m = 0.03;       // beyond the disc's edge nothing leads back in
 constexpr double k_straight_m = 2.5e-4;  // a corner nearer to the line is left out
 
-double height(const Disc& disc, const Vec3& point) {
-    return disc.normal.dot(point - disc.center);
-}
+double height(const Disc& disc, const Vec3& point) { return disc.normal.dot(point - disc.center); }
 
 double distance_to_origin(const Vec2& a, const Vec2& b) {
     const Vec2 along = b - a;

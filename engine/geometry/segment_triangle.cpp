@@ -16,8 +16,7 @@ std::optional<Vec3> find_passage(const std::array<Vec3, 2>& segment, const Corne
     if ((height_a > 0.0) == (height_b > 0.0) || height_a == height_b) {
         return std::nullopt;
     }
-    const Vec3 point =
-        segment[0] + height_a / (height_a - height_b) * (segment[1] - segment[0]);
+    const Vec3 point = segment[0] + height_a / (height_a - height_b) * (segment[1] - segment[0]);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3& corner = triangle[i];
         if (area.dot((triangle[(i + 1) % 3] - corner).cross(point - corner)) < 0.0) {

@@ -10,11 +10,11 @@
 namespace handhold {
 
 struct ConstrainPalmsIo {
-    double dt_s = 0.0;                      // of the frame; infinity: shown is target at once
+    double dt_s = 0.0;                        // of the frame; infinity: shown is target at once
     std::span<const HandSurroundings> hands;  // in
-    const Column<GripSurface>& surface;     // in
-    Column<PalmOffset>& offset;             // in/out
-    Column<PalmPose>& palm;                 // out
+    const Column<GripSurface>& surface;       // in
+    Column<PalmOffset>& offset;               // in/out
+    Column<PalmPose>& palm;                   // out
 };
 
 // Holds each gripping palm over its surface: not lower than one height, not higher than another,

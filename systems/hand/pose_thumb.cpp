@@ -15,8 +15,7 @@ double tip_gap_m(const Capsule& tip, std::span<const PlacedMesh> meshes) {
     double gap_m = k_gap_seen_m;
     for (const PlacedMesh& placed : meshes) {
         const Vec3 point = inverse_transform_point(placed.pose, tip.ends[1]);
-        const auto near =
-            placed.mesh->contact_bvh.closest_point(point, gap_m + tip.radius_m);
+        const auto near = placed.mesh->contact_bvh.closest_point(point, gap_m + tip.radius_m);
         if (near) {
             gap_m = std::min(gap_m, std::max(0.0, near->distance_m - tip.radius_m));
         }
@@ -94,8 +93,8 @@ class ThumbPoser {
                     std::uint32_t last_triangle) const {
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
-        const ChainSeed seed = chain_seed(hand, io_.surface.at(hand.hand), last_triangle,
-                                          chain.base.position);
+        const ChainSeed seed =
+            chain_seed(hand, io_.surface.at(hand.hand), last_triangle, chain.base.position);
         ThumbFit tried;
         tried.opposition_rad = opposition_rad;
         tried.fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);

@@ -1,17 +1,21 @@
 #include "systems/hand/search_grip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "components/palm_fit.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/triangle_set.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_most_pops = 160;
+constexpr std::uint32_t k_most_pops = 300;
 constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
 
 struct Palm {
@@ -54,8 +58,14 @@ class GripSearcher {
   public:
     GripSearcher(const SurfaceGraph& graph, const Palm& palm, const PalmTuning& tuning,
                  SearchGripScratch& scratch)
-        : graph_(graph), palm_(palm), tuning_(tuning), open_(scratch.open), seen_(scratch.seen) {
+        : graph_(graph),
+          palm_(palm),
+          tuning_(tuning),
+          open_(scratch.open),
+          seen_(scratch.seen),
+          found_(scratch.found) {
         open_.clear();
+        found_.clear();
     }
 
     void add_seed(std::uint32_t triangle) {
@@ -64,31 +74,46 @@ class GripSearcher {
         }
     }
 
-    struct Found {
-        std::uint32_t triangle = GripSurface::k_none;
-        Vec3 point = Vec3::Zero();
-        double cost_m = std::numeric_limits<double>::infinity();
-    };
-    Found run() {
+    using Found = SearchGripScratch::Found;
+    // Goes on until `patience` pops in a row found nothing cheaper; may be called again.
+    void run(std::uint32_t patience) {
         std::uint32_t idle = 0;
-        for (std::uint32_t pops = 0; pops < k_most_pops && idle < k_patience && !open_.empty();
-             ++pops) {
+        while (pops_ < k_most_pops && idle < patience && !open_.empty()) {
+            ++pops_;
             std::pop_heap(open_.begin(), open_.end(), later);
             const SearchGripScratch::Node node = open_.back();
             open_.pop_back();
             ++idle;
-            if (node.cost_m < best_.cost_m) {
-                best_ = {node.triangle, cost_of(graph_, node.triangle, palm_, tuning_).point,
-                         node.cost_m};
+            if (found_.empty() || node.cost_m < best_m_) {
+                best_m_ = node.cost_m;
                 idle = 0;
             }
+            found_.push_back(
+                {node.triangle, cost_of(graph_, node.triangle, palm_, tuning_).point, node.cost_m});
             for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
                 if (next != k_no_triangle) {
                     push(next);
                 }
             }
         }
-        return best_;
+    }
+
+    // The cheapest of those found that is not near any of `tried` and alike; none where there is
+    // none.
+    std::optional<Found> cheapest_beside(std::span<const Found> tried) const {
+        std::optional<Found> best;
+        for (const Found& found : found_) {
+            const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Found& other) {
+                constexpr double k_near_m = 0.025;
+                constexpr double k_alike = 0.7;
+                return (found.point - other.point).squaredNorm() < k_near_m * k_near_m &&
+                       graph_.normals[found.triangle].dot(graph_.normals[other.triangle]) > k_alike;
+            });
+            if (is_new && (!best || found.cost_m < best->cost_m)) {
+                best = found;
+            }
+        }
+        return best;
     }
 
   private:
@@ -112,9 +137,11 @@ class GripSearcher {
     const Palm& palm_;
     const PalmTuning& tuning_;
     std::vector<SearchGripScratch::Node>& open_;
-    TriangleSet<1024> seen_;
+    TriangleSet<2048> seen_;
     std::uint32_t pushed_ = 0;
-    Found best_;
+    std::vector<Found>& found_;
+    double best_m_ = 0.0;
+    std::uint32_t pops_ = 0;
 };
 
 // The mean of the surface around the point, by area, of what is wound so that it looks towards
@@ -156,44 +183,85 @@ class PalmHolder {
             palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
         const auto near = mesh.search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
         const std::uint32_t before = surface.body == hand_.body ? surface.triangle : ~0U;
-        GripSearcher searcher(mesh.search, palm, tuning_.palm, scratch_);
-        if (hit) {
-            searcher.add_seed(hit->triangle);
-        }
-        GripSearcher::Found found;
+        surface = {};
         if (search_ == GripSearch::ray_only) {
             if (hit) {
-                found = {hit->triangle, hit->point, 0.0};
+                surface = surface_at(placed, palm, {hit->triangle, hit->point, 0.0});
             }
-        } else {
-            if (near) {
-                searcher.add_seed(near->triangle);
-            }
-            searcher.add_seed(before);
-            found = searcher.run();
+            return;
         }
-        surface = {};
-        if (found.triangle != GripSurface::k_none) {
-            take(placed, palm, found, surface);
-        }
+        GripSearcher searcher(mesh.search, palm, tuning_.palm, scratch_);
+        searcher.add_seed(hit ? hit->triangle : GripSurface::k_none);
+        searcher.add_seed(near ? near->triangle : GripSurface::k_none);
+        searcher.add_seed(before);
+        searcher.run(k_patience);
+        surface = roomiest(placed, palm, searcher);
     }
 
   private:
-    void take(const PlacedMesh& placed, const Palm& palm, const GripSearcher::Found& found,
-              GripSurface& surface) const {
+    // The cheapest surface, if it leaves room for the palm. Else the first that does, of those that
+    // are found by looking farther; else the one where cost and what stays sunk are least.
+    GripSurface roomiest(const PlacedMesh& placed, const Palm& palm, GripSearcher& searcher) const {
+        std::array<GripSearcher::Found, k_most_tries> tried;
+        GripSurface best;
+        double best_cost_m = std::numeric_limits<double>::infinity();
+        for (std::size_t tries = 0; tries < k_most_tries; ++tries) {
+            const auto way = searcher.cheapest_beside({tried.data(), tries});
+            if (!way || way->cost_m >= best_cost_m) {
+                break;
+            }
+            tried[tries] = *way;
+            const GripSurface surface = surface_at(placed, palm, *way);
+            const double sunk_m = fit_palm(hand_, surface, 0.0, tuning_.palm).sunk_m;
+            if (sunk_m <= k_roomy_m) {
+                return surface;
+            }
+            const double cost_m = way->cost_m + k_sunk_cost * sunk_m;
+            if (cost_m < best_cost_m) {
+                best = surface;
+                best_cost_m = cost_m;
+            }
+            if (tries == 0) {
+                look_around(*placed.mesh, palm, searcher);
+            }
+        }
+        return best;
+    }
+
+    // From the nearest triangles to places around the palm, as long as there is anything to see.
+    void look_around(const GripMesh& mesh, const Palm& palm, GripSearcher& searcher) const {
+        const double apart_m = 0.5 * tuning_.palm.reach_m;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double side : {-1.0, 1.0}) {
+                const Vec3 place = palm.center + side * apart_m * Vec3::Unit(axis);
+                const auto near = mesh.search_bvh.closest_point(place, apart_m);
+                searcher.add_seed(near ? near->triangle : GripSurface::k_none);
+            }
+        }
+        searcher.run(k_most_pops);
+    }
+
+    GripSurface surface_at(const PlacedMesh& placed, const Palm& palm,
+                           const GripSearcher::Found& found) const {
         const GripMesh& mesh = *placed.mesh;
         const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.palm.reach_m);
         const Vec3 point = on_contact ? on_contact->point : found.point;
         // Where the triangle is wound the other way, so is what counts around it.
         const Vec3 wound = mesh.search.normals[found.triangle];
         const double side = wound.dot(palm.up) < 0.0 ? -1.0 : 1.0;
+        GripSurface surface;
         surface.body = hand_.body;
         surface.triangle = found.triangle;
         surface.point_bs = transform_point(placed.pose, point);
         surface.normal_bs =
             placed.pose.rotation * Vec3(side * mean_normal(mesh, point, wound, side * palm.up,
                                                            tuning_.palm.normal_radius_m));
+        return surface;
     }
+
+    static constexpr std::size_t k_most_tries = 6;
+    static constexpr double k_roomy_m = 1e-3;
+    static constexpr double k_sunk_cost = 8.0;  // of a metre that a palm stays sunk
 
     const HandSurroundings& hand_;
     const Tuning& tuning_;

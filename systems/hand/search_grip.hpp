@@ -16,7 +16,13 @@ struct SearchGripScratch {
         std::uint32_t triangle = 0;
         std::uint32_t order = 0;
     };
+    struct Found {
+        std::uint32_t triangle = GripSurface::k_none;
+        Vec3 point = Vec3::Zero();  // under the palm, on the search detail
+        double cost_m = 0.0;
+    };
     std::vector<Node> open;
+    std::vector<Found> found;
     std::vector<std::uint32_t> seen;
 };
 

@@ -25,8 +25,8 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const FingerRig& finger = rig.fingers[f];
         for (std::size_t i = 0; i < finger.link_count; ++i) {
-            const double fist = finger.lower_rad[i] +
-                                k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
+            const double fist =
+                finger.lower_rad[i] + k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
             pose.target[f].curl_rad[i] = is_fist ? fist : finger.relaxed_rad[i];
         }
     }
@@ -36,6 +36,8 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
 void count_fallback(ChainFallback fallback, StageStats& stats) {
     if (fallback == ChainFallback::all_cuts) {
         stats.count(Fallback::finger_searched_all);
+    } else if (fallback == ChainFallback::bent) {
+        stats.count(Fallback::finger_bent);
     } else if (fallback == ChainFallback::opened) {
         stats.count(Fallback::finger_opened);
     } else if (fallback == ChainFallback::relaxed) {
@@ -45,8 +47,7 @@ void count_fallback(ChainFallback fallback, StageStats& stats) {
 
 class HandCloser {
   public:
-    HandCloser(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order,
-               StageStats& stats)
+    HandCloser(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order, StageStats& stats)
         : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {
         settings_.order = order;
     }
@@ -79,19 +80,19 @@ class HandCloser {
     double close_finger(std::size_t place, std::size_t f, const Pose& wrist_bs, FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[place];
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
-        const ChainSeed seed = chain_seed(hand, io_.surface.at(hand.hand),
-                                          pose.solved && pose.solved_body == hand.body
-                                              ? pose.seed_triangle[f]
-                                              : GripSurface::k_none,
-                                          chain.base.position);
+        const ChainSeed seed =
+            chain_seed(hand, io_.surface.at(hand.hand),
+                       pose.solved && pose.solved_body == hand.body ? pose.seed_triangle[f]
+                                                                    : GripSurface::k_none,
+                       chain.base.position);
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
         pose.seed_triangle[f] = fit.contact_triangle;
         count_fallback(fit.fallback, stats_);
         if (!io_.traces.empty()) {
-            io_.traces[place][f] = {fit.discs, fit.pops, fit.walked, fit.contact_link, fit.fallback,
-                                    fit.depth_m};
+            io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
+                                    fit.contact_link, fit.fallback, fit.depth_m};
         }
         return fit.depth_m;
     }

@@ -54,8 +54,7 @@ std::string pose_all(const GripOptions& options, const GripMesh& mesh, const Han
                      const std::vector<Placement>& placements) {
     GripVariant variant;
     variant.sync = options.sync == "on";
-    variant.order =
-        options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
+    variant.order = options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
     const Tuning tuning;
     Progress progress("grip");

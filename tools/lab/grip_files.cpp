@@ -19,7 +19,8 @@ Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json json_of(const Pose& pose) {
     const Quat& q = pose.rotation;
-    return {{"position_m", json_of(pose.position)}, {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+    return {{"position_m", json_of(pose.position)},
+            {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
 Json json_of(const std::array<double, k_most_links>& values, std::size_t count) {
@@ -32,6 +33,7 @@ const char* fallback_text(ChainFallback fallback) {
             return "none";
         case ChainFallback::all_cuts:
             return "bvh";
+        case ChainFallback::bent:
         case ChainFallback::opened:
             return "open";
         case ChainFallback::relaxed:
@@ -42,8 +44,11 @@ const char* fallback_text(ChainFallback fallback) {
 
 Json capsule_json(std::string_view finger, std::size_t link, const Vec3& a, const Vec3& b,
                   double radius_m) {
-    return {{"finger", finger},     {"link", link},     {"a_m", json_of(a)},
-            {"b_m", json_of(b)},    {"radius_m", radius_m}};
+    return {{"finger", finger},
+            {"link", link},
+            {"a_m", json_of(a)},
+            {"b_m", json_of(b)},
+            {"radius_m", radius_m}};
 }
 
 Json capsules_json(const HandRig& rig, const PosedHand& posed) {
@@ -52,9 +57,9 @@ Json capsules_json(const HandRig& rig, const PosedHand& posed) {
         const FingerRig& finger = rig.fingers[f];
         const auto points = finger_points(finger, posed.angles[f]);
         for (std::size_t i = 0; i < finger.link_count; ++i) {
-            capsules.push_back(capsule_json(
-                finger_text(finger.name), i, transform_point(posed.wrist, points[i]),
-                transform_point(posed.wrist, points[i + 1]), finger.radius_m[i]));
+            capsules.push_back(
+                capsule_json(finger_text(finger.name), i, transform_point(posed.wrist, points[i]),
+                             transform_point(posed.wrist, points[i + 1]), finger.radius_m[i]));
         }
     }
     for (std::size_t i = 0; i < rig.palm.size(); ++i) {
@@ -69,16 +74,16 @@ Json fingers_json(const HandRig& rig, const PosedHand& posed) {
     Json fingers = Json::array();
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const FingerTrace& trace = posed.traces[f];
-        fingers.push_back({{"name", finger_text(rig.fingers[f].name)},
-                           {"discs", trace.discs},
-                           {"visited", trace.pops},
-                           {"walked", trace.walked},
-                           {"contact_link", trace.contact_link},
-                           {"fallback", fallback_text(trace.fallback)},
-                           {"depth_mm", k_mm_per_m * trace.depth_m},
-                           {"curl_rad", json_of(posed.angles[f].curl_rad,
-                                                rig.fingers[f].link_count)},
-                           {"opposition_rad", posed.angles[f].opposition_rad}});
+        fingers.push_back(
+            {{"name", finger_text(rig.fingers[f].name)},
+             {"discs", trace.discs},
+             {"visited", trace.pops},
+             {"walked", trace.walked},
+             {"contact_link", trace.contact_link},
+             {"fallback", fallback_text(trace.fallback)},
+             {"depth_mm", k_mm_per_m * trace.depth_m},
+             {"curl_rad", json_of(posed.angles[f].curl_rad, rig.fingers[f].link_count)},
+             {"opposition_rad", posed.angles[f].opposition_rad}});
     }
     return fingers;
 }

@@ -49,9 +49,9 @@ class OneHand {
             }
         }
         timed(us.fingers_us, [&] {
-            pose_thumb({k_at_once_s, surroundings_, surface_, palm_, fingers_, traces_,
-                        fit_scratch_},
-                       tuning, stats_);
+            pose_thumb(
+                {k_at_once_s, surroundings_, surface_, palm_, fingers_, traces_, fit_scratch_},
+                tuning, stats_);
         });
     }
 

@@ -41,9 +41,12 @@ void add_solve_options(CLI::App& solve, lab::SolveOptions& options) {
 }
 
 void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
-    const auto one_of = [](std::vector<std::string> names) { return CLI::IsMember(std::move(names)); };
+    const auto one_of = [](std::vector<std::string> names) {
+        return CLI::IsMember(std::move(names));
+    };
     grip.add_option("--mesh", options.mesh, "glTF of what is gripped")->required();
-    grip.add_option("--rig", options.rig, "\"builtin\", or a skinned hand with WebXR's joint names");
+    grip.add_option("--rig", options.rig,
+                    "\"builtin\", or a skinned hand with WebXR's joint names");
     grip.add_option("--hand", options.hand, "Which one")->check(one_of({"left", "right"}));
     grip.add_option("--placements", options.placements, "Tracked wrists, JSON lines")->required();
     grip.add_option("--out", options.out, "Posed hands, JSON lines")->required();

@@ -1,0 +1,129 @@
+#include "components/palm_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/collision/closest_point.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_most_pushes = 6;
+constexpr double k_sunk_m = 2e-4;        // what is sunk less is not pushed out
+constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
+
+// How far beside the found triangle the palm is: along the triangle's plane, zero over it.
+Vec3 slide_onto(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
+    const SurfaceGraph& graph = placed.mesh->search;
+    const auto& [a, b, c] = graph.triangles[triangle];
+    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const Vec3 center = inverse_transform_point(placed.pose, center_bs);
+    const Vec3& normal = graph.normals[triangle];
+    const Vec3 flat = center - (center - corners[0]).dot(normal) * normal;
+    return placed.pose.rotation * Vec3(closest_on_triangle(flat, corners) - flat);
+}
+
+// Height first, tilt second: tilting about the palm's centre keeps its height.
+Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
+                    const PalmTuning& tuning) {
+    const HandRig& rig = *hand.rig;
+    const Vec3& normal = surface.normal_bs;
+    Vec3 center = transform_point(hand.wrist_bs, rig.palm_center_hs);
+    center += slide_onto(hand.meshes.front(), surface.triangle, center);
+    const double height_m = (center - surface.point_bs).dot(normal);
+    const double lowest_m = tuning.min_height_m + lift_m;
+    center += (std::clamp(height_m, lowest_m, std::max(tuning.max_height_m, lowest_m)) - height_m) *
+              normal;
+
+    Pose wrist = hand.wrist_bs;
+    const Vec3 up = wrist.rotation * -rig.palm_normal_hs;
+    const Vec3 across = up.cross(normal);
+    const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
+    if (angle_rad > tuning.max_angle_rad && across.norm() > 1e-9) {
+        wrist.rotation =
+            (rotation_about(across.normalized(), angle_rad - tuning.max_angle_rad) * wrist.rotation)
+                .normalized();
+    }
+    wrist.position = center - wrist.rotation * rig.palm_center_hs;
+    return wrist;
+}
+
+// Looks at the palm as spheres along its capsules; which side of a surface is out follows from its
+// winding, and from which side the palm is held to.
+class SunkPalm {
+  public:
+    SunkPalm(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
+        const PlacedMesh& placed = hand.meshes.front();
+        const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
+        side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
+    }
+
+    // How the deepest of the palm's spheres gets out; zero where none is sunk.
+    Vec3 way_out(const Pose& wrist) const {
+        Vec3 deepest = Vec3::Zero();
+        for (const PalmCapsule& capsule : hand_.rig->palm) {
+            constexpr int k_spheres = 3;
+            for (int i = 0; i < k_spheres; ++i) {
+                const double share = static_cast<double>(i) / (k_spheres - 1);
+                const Vec3 center =
+                    transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
+                for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
+                    const Vec3 way =
+                        way_out_of(hand_.meshes[m], m == 0 ? side_ : 1.0, center, capsule.radius_m);
+                    deepest = way.squaredNorm() > deepest.squaredNorm() ? way : deepest;
+                }
+            }
+        }
+        return deepest;
+    }
+
+  private:
+    static Vec3 way_out_of(const PlacedMesh& placed, double side, const Vec3& center_bs,
+                           double radius_m) {
+        const Vec3 center = inverse_transform_point(placed.pose, center_bs);
+        const auto near =
+            placed.mesh->contact_bvh.closest_point(center, std::max(radius_m, k_far_inside_m));
+        if (!near) {
+            return Vec3::Zero();
+        }
+        const Vec3 outward = side * placed.mesh->contact.normals[near->triangle];
+        const Vec3 from_surface = center - near->point;
+        const double height_m = outward.dot(from_surface);
+        // Beyond an edge a sphere is high over neither side, but not inside either.
+        constexpr double k_surely_below = 0.5;
+        const bool is_inside = height_m < -k_surely_below * near->distance_m;
+        const double depth_m =
+            is_inside ? radius_m + near->distance_m : radius_m - near->distance_m;
+        if (depth_m <= 0.0) {
+            return Vec3::Zero();
+        }
+        constexpr double k_on_surface_m = 1e-9;
+        const Vec3 away = near->distance_m > k_on_surface_m
+                              ? Vec3((is_inside ? -1.0 : 1.0) / near->distance_m * from_surface)
+                              : outward;
+        return depth_m * (placed.pose.rotation * away);
+    }
+
+    const HandSurroundings& hand_;
+    double side_ = 1.0;
+};
+
+}  // namespace
+
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
+                 const PalmTuning& tuning) {
+    const SunkPalm palm(hand, surface);
+    Pose wrist = hold_to_limits(hand, surface, lift_m, tuning);
+    Vec3 way = palm.way_out(wrist);
+    PalmFit best = {wrist, way.norm()};
+    for (int i = 0; i < k_most_pushes && way.norm() > k_sunk_m; ++i) {
+        wrist.position += way;
+        way = palm.way_out(wrist);
+        if (way.norm() < best.sunk_m) {
+            best = {wrist, way.norm()};
+        }
+    }
+    return best;
+}
+
+}  // namespace handhold

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/tuning.hpp"
+
+// A palm held over a surface: what search_grip judges surfaces by, and constrain_palms holds to.
+namespace handhold {
+
+struct PalmFit {
+    Pose wrist_bs;        // within the limits, and out of what it was sunk in as far as that goes
+    double sunk_m = 0.0;  // how deep the palm still is, at least 0
+};
+
+// The least move of the tracked wrist that holds the palm over `surface`, lift_m higher than else:
+// along the surface's normal into the range of heights, tilted into the range of angles about the
+// palm's own centre, then pushed off whatever the palm's capsules are sunk in, the deepest first.
+// Precondition: the hand has meshes, and the surface is of the first one.
+PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
+                 const PalmTuning& tuning);
+
+}  // namespace handhold
