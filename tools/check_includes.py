@@ -44,6 +44,8 @@ LIBRARIES = [
     library("TBB", r"tbb/|oneapi/", r"\btbb::", r"engine/core/parallel\.cpp", "engine/core/parallel.cpp"),
     library("tinygltf", r"tiny_?gltf", r"\btinygltf::", r"engine/io/gltf(_model|_skin)?\.cpp|engine/io/gltf_model\.hpp",
             "engine/io/gltf.cpp, gltf_model, gltf_skin.cpp"),
+    library("meshoptimizer", r"meshoptimizer", r"\bmeshopt_\w+",
+            r"engine/geometry/simplify_meshopt\.cpp", "engine/geometry/simplify_meshopt.cpp"),
     library("Eigen", r"(unsupported/)?Eigen/", None, r"engine/math/math\.hpp", "engine/math/math.hpp"),
     library("OpenXR", r"openxr/", r"\b[xX]r[A-Z]\w+", r"game/platform/xr\.cpp", "game/platform/xr.cpp"),
     library("SDL", r"SDL", r"\bSDL_\w+", r"game/platform/window\.cpp", "game/platform/window.cpp"),

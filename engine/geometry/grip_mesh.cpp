@@ -1,20 +1,69 @@
 #include "engine/geometry/grip_mesh.hpp"
 
+#include <utility>
+
+#include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/shape_surface.hpp"
 
 namespace handhold {
+namespace {
+
+double size_of(const SurfaceGraph& graph) {
+    if (graph.positions.empty()) {
+        return 0.0;
+    }
+    Vec3 low = graph.positions[0];
+    Vec3 high = low;
+    for (const Vec3& position : graph.positions) {
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+    }
+    return (high - low).norm();
+}
+
+std::size_t memory_bytes(const SurfaceGraph& graph) {
+    constexpr std::size_t k_per_triangle =
+        2 * sizeof(graph.triangles[0]) + sizeof(Vec3) + sizeof(graph.source_triangle[0]);
+    return graph.positions.size() * sizeof(Vec3) + graph.triangles.size() * k_per_triangle;
+}
+
+}  // namespace
 
 GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     GripMesh grip;
-    grip.contact = build_surface_graph(mesh, settings.weld);
+    SurfaceGraph full = build_surface_graph(mesh, settings.weld);
+    grip.full_triangles = static_cast<std::uint32_t>(full.triangles.size());
+    grip.turned = wind_alike(full);
+    if (size_of(full) < settings.turned_below_m) {
+        grip.turned += turn_outside_out(full);
+    }
+    // The search detail is made of the contact detail: both are within their limits of it.
+    grip.contact = std::move(full);
+    if (settings.contact.deviation_m > 0.0) {
+        SurfaceGraph coarse = coarser(grip.contact, settings.contact);
+        const double most = settings.contact_share * static_cast<double>(grip.full_triangles);
+        if (static_cast<double>(coarse.triangles.size()) <= most) {
+            grip.contact = std::move(coarse);
+        }
+    }
     grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
-    grip.search = grip.contact;
-    grip.search_bvh = grip.contact_bvh;
+    grip.search = coarser(grip.contact, settings.search);
+    grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
     return grip;
 }
 
 GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings) {
-    return build_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), settings);
+    GripMeshSettings own = settings;
+    if (shape.kind != ShapeKind::mesh) {
+        own.contact.deviation_m = 0.0;
+        own.weld.seam_m = own.weld.seam_per_size = 0.0;  // surfaces of ours are closed
+    }
+    return build_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), own);
+}
+
+std::size_t memory_bytes(const GripMesh& grip) {
+    return memory_bytes(grip.contact) + grip.contact_bvh.memory_bytes() +
+           memory_bytes(grip.search) + grip.search_bvh.memory_bytes();
 }
 
 }  // namespace handhold

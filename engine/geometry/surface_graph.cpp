@@ -6,7 +6,9 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
+#include "engine/geometry/border_seams.hpp"
 #include "engine/geometry/edge_pairs.hpp"
+#include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/weld.hpp"
 
 namespace handhold {
@@ -87,13 +89,6 @@ void compact(SurfaceGraph& graph) {
     replace_corners(graph, place);
 }
 
-void weld_points(SurfaceGraph& graph, const WeldLimits& limits) {
-    const std::vector<double> reaches(graph.positions.size(), limits.point_m);
-    replace_corners(graph, find_representatives(graph.positions, reaches));
-    drop_degenerate(graph);
-    compact(graph);
-}
-
 void drop_duplicates(SurfaceGraph& graph) {
     std::vector<bool> duplicate(graph.triangles.size(), false);
     for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
@@ -114,104 +109,9 @@ void drop_duplicates(SurfaceGraph& graph) {
     filter(graph, graph.report.duplicate, [&](std::size_t t) { return !duplicate[t]; });
 }
 
-double size_of(const SurfaceGraph& graph) {
-    if (graph.positions.empty()) {
-        return 0.0;
-    }
-    Vec3 low = graph.positions[0];
-    Vec3 high = low;
-    for (const Vec3& position : graph.positions) {
-        low = low.cwiseMin(position);
-        high = high.cwiseMax(position);
-    }
-    return (high - low).norm();
-}
-
-// How far each vertex of an open border may be sewn to; -1 for all others.
-std::vector<double> seam_reaches(const SurfaceGraph& graph, const WeldLimits& limits) {
-    const double most_m = std::max(limits.seam_m, limits.seam_per_size * size_of(graph));
-    std::vector<double> shortest(graph.positions.size(), most_m / limits.seam_per_edge);
-    std::vector<bool> open(graph.positions.size(), false);
-    for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
-                  [&](std::span<const HalfEdge> edge) {
-                      const auto [low, high] = std::pair(edge[0].low, edge[0].high);
-                      const double length_m = (graph.positions[low] - graph.positions[high]).norm();
-                      for (const std::uint32_t v : {low, high}) {
-                          shortest[v] = std::min(shortest[v], length_m);
-                          open[v] = open[v] || edge.size() == 1;
-                      }
-                  });
-    for (std::size_t v = 0; v < shortest.size(); ++v) {
-        shortest[v] = open[v] ? limits.seam_per_edge * shortest[v] : -1.0;
-    }
-    return shortest;
-}
-
-void sew_borders(SurfaceGraph& graph, const WeldLimits& limits) {
-    const std::vector<std::uint32_t> by =
-        find_representatives(graph.positions, seam_reaches(graph, limits));
-    // What is sewn together lies in the middle of what it was.
-    std::vector<Vec3> sums(graph.positions.size(), Vec3::Zero());
-    std::vector<double> counts(graph.positions.size(), 0.0);
-    for (std::size_t v = 0; v < by.size(); ++v) {
-        sums[by[v]] += graph.positions[v];
-        counts[by[v]] += 1.0;
-        graph.report.sewn_vertices += by[v] != v ? 1U : 0U;
-    }
-    if (graph.report.sewn_vertices == 0) {
-        return;
-    }
-    for (std::size_t v = 0; v < by.size(); ++v) {
-        if (counts[v] > 1.0) {
-            graph.positions[v] = sums[v] / counts[v];
-        }
-    }
-    replace_corners(graph, by);
+void clean(SurfaceGraph& graph) {
     drop_degenerate(graph);
-    compact(graph);
-}
-
-void link_neighbours(SurfaceGraph& graph) {
-    graph.neighbours.assign(graph.triangles.size(), {k_no_triangle, k_no_triangle, k_no_triangle});
-    std::vector<EdgePair> pairs;
-    for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
-                  [&](std::span<const HalfEdge> edge) {
-                      pairs.clear();
-                      pair_half_edges(edge, graph.positions, pairs);
-                      for (const EdgePair& pair : pairs) {
-                          graph.neighbours[pair.a / 3][pair.a % 3] = pair.b / 3;
-                          graph.neighbours[pair.b / 3][pair.b % 3] = pair.a / 3;
-                          graph.report.flipped_links += pair.opposed ? 0U : 1U;
-                      }
-                      graph.report.border_edges +=
-                          static_cast<std::uint32_t>(edge.size() - 2 * pairs.size());
-                      graph.report.non_manifold_edges += edge.size() > 2 ? 1U : 0U;
-                  });
-}
-
-std::uint32_t count_parts(const SurfaceGraph& graph) {
-    std::vector<bool> seen(graph.triangles.size(), false);
-    std::vector<std::uint32_t> open;
-    std::uint32_t parts = 0;
-    for (std::uint32_t seed = 0; seed < graph.triangles.size(); ++seed) {
-        if (seen[seed]) {
-            continue;
-        }
-        ++parts;
-        seen[seed] = true;
-        open.push_back(seed);
-        while (!open.empty()) {
-            const std::uint32_t t = open.back();
-            open.pop_back();
-            for (const std::uint32_t n : graph.neighbours[t]) {
-                if (n != k_no_triangle && !seen[n]) {
-                    seen[n] = true;
-                    open.push_back(n);
-                }
-            }
-        }
-    }
-    return parts;
+    drop_duplicates(graph);
 }
 
 }  // namespace
@@ -219,16 +119,15 @@ std::uint32_t count_parts(const SurfaceGraph& graph) {
 SurfaceGraph build_surface_graph(const Mesh& mesh, const WeldLimits& limits) {
     SurfaceGraph graph;
     copy_finite(mesh, graph);
-    weld_points(graph, limits);
-    drop_duplicates(graph);  // before: they would hide borders
+    const std::vector<double> reaches(graph.positions.size(), limits.point_m);
+    replace_corners(graph, find_representatives(graph.positions, reaches));
+    clean(graph);  // before: what is twice would hide borders
     sew_borders(graph, limits);
-    drop_duplicates(graph);
-    link_neighbours(graph);
-    for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
-        graph.normals.push_back(area_vector(corners_of(graph, t)).normalized());
-    }
-    graph.report.kept = static_cast<std::uint32_t>(graph.triangles.size());
-    graph.report.parts = count_parts(graph);
+    clean(graph);
+    cut_borders(graph, limits);
+    clean(graph);
+    compact(graph);
+    link_graph(graph);
     return graph;
 }
 

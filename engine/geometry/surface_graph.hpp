@@ -21,15 +21,16 @@ struct WeldLimits {
     double seam_per_edge = 0.25;
 };
 
-// What became of the mesh; the numbers of triangles sum up to what it had.
+// What became of the mesh: kept + not_finite + degenerate + duplicate == triangles + cut_in.
 struct SurfaceReport {
     std::uint32_t triangles = 0;   // of the source
     std::uint32_t not_finite = 0;  // dropped: a corner is NaN or infinite
     std::uint32_t degenerate = 0;  // dropped: no area, or two corners are one after welding
     std::uint32_t duplicate = 0;   // dropped: the same corners in the same order as an earlier one
     std::uint32_t kept = 0;
-    std::uint32_t sewn_vertices = 0;       // of open borders, joined to another
-    std::uint32_t border_edges = 0;        // of the graph: edges without a neighbour
+    std::uint32_t cut_in = 0;         // more triangles by cuts where a vertex lay on an open edge
+    std::uint32_t sewn_vertices = 0;  // of open borders, joined to another
+    std::uint32_t border_edges = 0;   // of the graph: edges without a neighbour
     std::uint32_t non_manifold_edges = 0;  // of more than two triangles
     std::uint32_t flipped_links = 0;       // neighbours that are wound against each other
     std::uint32_t parts = 0;               // that hang together over neighbours
@@ -43,7 +44,7 @@ struct SurfaceGraph {
     std::vector<std::array<std::uint32_t, 3>>
         neighbours;             // over the edge from corner i to i + 1; k_no_triangle at a border
     std::vector<Vec3> normals;  // unit, by the triangle's winding
-    std::vector<std::uint32_t> source_triangle;  // in the mesh it was built from
+    std::vector<std::uint32_t> source_triangle;  // in the mesh it was built from, ascending
     SurfaceReport report;
 };
 

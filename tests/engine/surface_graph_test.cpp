@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "collision_scene.hpp"
+#include "broken_meshes.hpp"
 #include "data_meshes.hpp"
+#include "engine/geometry/graph_links.hpp"
 #include "graph_claims.hpp"
 
 namespace handhold {
@@ -14,18 +15,6 @@ namespace {
 
 using test::expect_sound_graph;
 using test::Random;
-
-Mesh unwelded(const Mesh& mesh, double jitter_m, Random& random) {
-    Mesh soup;
-    for (const auto& triangle : mesh.triangles) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        for (const std::uint32_t corner : triangle) {
-            soup.positions.push_back(mesh.positions[corner] + random.vector(jitter_m));
-        }
-        soup.triangles.push_back({first, first + 1, first + 2});
-    }
-    return soup;
-}
 
 void expect_closed(const SurfaceGraph& graph) {
     EXPECT_EQ(graph.report.border_edges, 0U);
@@ -38,7 +27,7 @@ TEST(SurfaceGraph, OfASoupIsThatOfTheWhole) {
     Random random(810);
     // The ball's seam and poles have their points twice, and triangles without an area.
     const auto ball = test::make_wavy_ball(0.5, 20, 30);
-    const Mesh soup = unwelded(*ball, 1e-6, random);
+    const Mesh soup = test::as_soup(*ball, 1e-6, random);
     const SurfaceGraph graph = build_surface_graph(soup);
     expect_sound_graph(graph, soup);
     expect_closed(graph);
@@ -50,11 +39,8 @@ TEST(SurfaceGraph, OfASoupIsThatOfTheWhole) {
 TEST(SurfaceGraph, SewsJitteredSoupButKeepsFineDetail) {
     Random random(811);
     const auto ball = test::make_wavy_ball(0.1, 20, 30);
-    Mesh clean;  // without the poles' triangles that have no area
-    const SurfaceGraph whole = build_surface_graph(*ball);
-    clean.positions = whole.positions;
-    clean.triangles = whole.triangles;
-    const SurfaceGraph graph = build_surface_graph(unwelded(clean, 3e-5, random));
+    // The poles' triangles without an area tremble too.
+    const SurfaceGraph graph = build_surface_graph(test::as_soup(*ball, 3e-5, random));
     expect_closed(graph);
     EXPECT_EQ(graph.positions.size(), 19U * 30U + 2U);
     // The same ball at 2 mm: its edges are as short as the seam's tolerance, its points are not
@@ -155,6 +141,48 @@ TEST(SurfaceGraph, DropsWhatIsNoTriangle) {
     EXPECT_EQ(graph.positions.size(), 4U);
 }
 
+TEST(SurfaceGraph, CutsTrianglesAtVerticesOnTheirOpenEdges) {
+    Random random(812);
+    const Mesh ball = test::make_clean_ball(0.3, 20, 30);
+    const Mesh broken = test::with_t_junctions(ball, 0.3, random);
+    const std::size_t split = broken.triangles.size() - ball.triangles.size();
+    ASSERT_GT(split, 100U);
+    const SurfaceGraph graph = build_surface_graph(broken);
+    expect_sound_graph(graph, broken);
+    expect_closed(graph);
+    EXPECT_EQ(graph.report.cut_in, split);  // one at each: the neighbour's side
+    const auto area = [](const auto& positions, const auto& triangles) {
+        double sum = 0.0;
+        for (const auto& [a, b, c] : triangles) {
+            sum += (positions[b] - positions[a]).cross(positions[c] - positions[a]).norm();
+        }
+        return sum;
+    };
+    EXPECT_NEAR(area(graph.positions, graph.triangles), area(ball.positions, ball.triangles), 1e-9);
+}
+
+TEST(SurfaceGraph, LeavesBordersThatAreApart) {
+    // Two floors beside each other with a slit of 0.4 mm, of another fineness each.
+    Mesh two = *test::make_floor(0.5, 4);
+    const auto other = test::make_floor(0.5, 7);
+    const auto first = static_cast<std::uint32_t>(two.positions.size());
+    for (const Vec3& position : other->positions) {
+        two.positions.push_back(position + Vec3(0.5004, 0.0, 0.0));
+    }
+    for (const auto& [a, b, c] : other->triangles) {
+        two.triangles.push_back({first + a, first + b, first + c});
+    }
+    EXPECT_EQ(build_surface_graph(two).report.parts, 2U);
+    for (std::size_t v = first; v < two.positions.size(); ++v) {
+        two.positions[v].x() -= 0.0003;
+    }
+    const SurfaceGraph sewn = build_surface_graph(two);
+    expect_sound_graph(sewn, two);
+    EXPECT_EQ(sewn.report.parts, 1U);
+    // What was a border of 4 and one of 7 is one of 10 now, linked; the outer ones stay.
+    EXPECT_EQ(sewn.report.border_edges, 3U * 4U + 3U * 7U);
+}
+
 TEST(SurfaceGraph, OfNothingIsEmpty) {
     const SurfaceGraph graph = build_surface_graph(Mesh{});
     EXPECT_TRUE(graph.triangles.empty());
@@ -209,6 +237,29 @@ Mesh crowded_mesh(std::uint64_t seed, std::size_t triangles) {
 RC_GTEST_PROP(SurfaceGraph, OfAnyCrowdedMeshIsSound, (std::uint64_t seed)) {
     const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
     expect_sound_graph(build_surface_graph(mesh), mesh);
+    RC_ASSERT(!::testing::Test::HasFailure());
+}
+
+RC_GTEST_PROP(SurfaceGraph, OfAnyBrokenMeshIsSound, (std::uint64_t seed)) {
+    Random random(seed);
+    Mesh mesh = test::make_clean_ball(0.1, 8, 12);
+    for (int i = 0; i < 4; ++i) {
+        const auto kind = static_cast<int>(random.between(0.0, 8.0));
+        const double share = random.between(0.0, 0.3);
+        mesh = kind == 0   ? test::as_soup(mesh, random.between(0.0, 2e-4), random)
+               : kind == 1 ? test::with_holes(mesh, share, random)
+               : kind == 2 ? test::with_flips(mesh, share, random)
+               : kind == 3 ? test::with_t_junctions(mesh, share, random)
+               : kind == 4 ? test::with_slivers(mesh, share, random)
+               : kind == 5 ? test::doubled(mesh)
+               : kind == 6 ? test::with_duplicates(mesh, share, random)
+                           : test::with_wild_vertices(mesh, 0.1 * share, random);
+    }
+    SurfaceGraph graph = build_surface_graph(mesh);
+    expect_sound_graph(graph, mesh);
+    wind_alike(graph);
+    turn_outside_out(graph);
+    expect_sound_graph(graph, mesh);
     RC_ASSERT(!::testing::Test::HasFailure());
 }
 

@@ -33,6 +33,7 @@ find_package(TinyGLTF REQUIRED)
 add_library(handhold_tinygltf INTERFACE)
 add_library(handhold::tinygltf ALIAS handhold_tinygltf)
 target_link_libraries(handhold_tinygltf INTERFACE TinyGLTF::TinyGLTF)
+find_package(meshoptimizer REQUIRED)
 
 if(HANDHOLD_BUILD_GAME)
   find_package(CLI11 REQUIRED)

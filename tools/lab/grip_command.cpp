@@ -89,7 +89,9 @@ int grip_command(const GripOptions& options) {
         return refuse(placements.error());
     }
     set_stage_clock(StageClock::thread_cpu);
-    const GripMesh grip_mesh = build_grip_mesh(mesh.value(), {});
+    GripMeshSettings settings;
+    settings.search.edge_m = 1e-3 * options.grip_edge_mm;
+    const GripMesh grip_mesh = build_grip_mesh(mesh.value(), settings);
     const std::string text = pose_all(options, grip_mesh, rig.value(), placements.value());
     if (const auto error = write_file_atomically(options.out, text)) {
         return refuse(*error);

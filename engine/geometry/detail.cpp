@@ -1,0 +1,118 @@
+#include "engine/geometry/detail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/collision/closest_point.hpp"
+#include "engine/core/check.hpp"
+#include "engine/geometry/graph_links.hpp"
+#include "engine/geometry/simplify.hpp"
+#include "engine/geometry/surface_distance.hpp"
+
+namespace handhold {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t k_smallest_part = 8;  // fewer triangles are not worth a look
+constexpr int k_tries = 5;                  // each with half the error of the last
+
+// One part with its own vertices.
+struct Part {
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> vertex;  // in the graph
+    std::vector<Triangle> triangles;
+};
+
+// How many equilateral triangles of the wanted size the part would be, each of its own counted as
+// one at most.
+std::size_t wanted_count(const Part& part, double edge_m) {
+    if (!(edge_m > 0.0)) {
+        return 0;
+    }
+    const double full = std::sqrt(3.0) / 4.0 * edge_m * edge_m;
+    double sum = 0.0;
+    for (const auto& [a, b, c] : part.triangles) {
+        const double area =
+            0.5 * area_vector({part.positions[a], part.positions[b], part.positions[c]}).norm();
+        sum += std::min(1.0, area / full);
+    }
+    return static_cast<std::size_t>(sum);
+}
+
+bool is_within(const Part& part, const std::vector<Triangle>& coarse, double limit_m) {
+    const TriangleBvh fine_bvh(part.positions, part.triangles);
+    const TriangleBvh coarse_bvh(part.positions, coarse);
+    const TriangleSet fine_set = {part.positions, part.triangles, fine_bvh};
+    const TriangleSet coarse_set = {part.positions, coarse, coarse_bvh};
+    return is_covered(fine_set, coarse_set, limit_m) && is_covered(coarse_set, fine_set, limit_m);
+}
+
+std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits) {
+    const std::size_t wanted = wanted_count(part, limits.edge_m);
+    if (part.triangles.size() < k_smallest_part || wanted >= part.triangles.size()) {
+        return part.triangles;
+    }
+    double error_m = 0.5 * limits.deviation_m;
+    for (int i = 0; i < k_tries; ++i, error_m *= 0.5) {
+        std::vector<Triangle> coarse = simplify(part.positions, part.triangles, error_m, wanted);
+        if (coarse.size() < part.triangles.size() && !coarse.empty() &&
+            is_within(part, coarse, limits.deviation_m)) {
+            return coarse;
+        }
+    }
+    return part.triangles;
+}
+
+// The parts of a graph, each with its triangles in their order.
+std::vector<Part> take_apart(const SurfaceGraph& graph) {
+    const GraphParts numbers = find_parts(graph);
+    std::vector<Part> parts(numbers.count);
+    for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
+        parts[numbers.of_triangle[t]].triangles.push_back(graph.triangles[t]);
+    }
+    constexpr std::uint32_t k_unused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> place(graph.positions.size(), k_unused);
+    for (Part& part : parts) {
+        for (Triangle& triangle : part.triangles) {
+            for (std::uint32_t& corner : triangle) {
+                if (place[corner] == k_unused) {
+                    place[corner] = static_cast<std::uint32_t>(part.vertex.size());
+                    part.vertex.push_back(corner);
+                    part.positions.push_back(graph.positions[corner]);
+                }
+                corner = place[corner];
+            }
+        }
+        for (const std::uint32_t vertex : part.vertex) {
+            place[vertex] = k_unused;
+        }
+    }
+    return parts;
+}
+
+}  // namespace
+
+SurfaceGraph coarser(const SurfaceGraph& graph, const DetailLimits& limits) {
+    HH_CHECK(limits.deviation_m > 0.0, "a deviation must be above 0", limits.deviation_m);
+    Mesh mesh;
+    mesh.positions = graph.positions;
+    for (const Part& part : take_apart(graph)) {
+        for (const auto& [a, b, c] : coarser_part(part, limits)) {
+            mesh.triangles.push_back({part.vertex[a], part.vertex[b], part.vertex[c]});
+        }
+    }
+    // Nothing is welded any more; what collapsed onto a line or another triangle goes.
+    SurfaceGraph result = build_surface_graph(mesh, {0.0, 0.0, 0.0, 0.0});
+    const TriangleBvh bvh(graph.positions, graph.triangles);
+    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+        const auto& [a, b, c] = result.triangles[t];
+        const Vec3 middle = (result.positions[a] + result.positions[b] + result.positions[c]) / 3.0;
+        const auto hit = bvh.closest_point(middle, std::numeric_limits<double>::infinity());
+        result.source_triangle[t] = graph.source_triangle[hit->triangle];
+    }
+    return result;
+}
+
+}  // namespace handhold

@@ -1,0 +1,269 @@
+#include "engine/geometry/grip_mesh_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <vector>
+
+#include "engine/collision/closest_point.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/geometry/shape_surface.hpp"
+
+namespace handhold {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One more with each change of the format, or of what a build makes of the same input.
+constexpr std::uint64_t k_version = 1;
+constexpr std::uint64_t k_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
+constexpr std::size_t k_header_words = 4;                 // magic, key, words, sum
+
+static_assert(std::endian::native == std::endian::little, "files are little-endian");
+
+// Words of eight bytes: nothing is out of line, and the sum runs over all of them.
+class WordWriter {
+  public:
+    void add(std::uint64_t word) { words_.push_back(word); }
+    void add(const Vec3& v) {
+        for (const double x : v) {
+            add(std::bit_cast<std::uint64_t>(x));
+        }
+    }
+    const std::vector<std::uint64_t>& words() const { return words_; }
+
+  private:
+    std::vector<std::uint64_t> words_;
+};
+
+// Gives zeros once it has run out, and says so.
+class WordReader {
+  public:
+    explicit WordReader(const std::vector<std::uint64_t>& words) : words_(words) {}
+    std::uint64_t take() {
+        whole_ = whole_ && next_ < words_.size();
+        return whole_ ? words_[next_++] : 0;
+    }
+    Vec3 take_vector() {
+        Vec3 v;
+        for (double& x : v) {
+            x = std::bit_cast<double>(take());
+        }
+        return v;
+    }
+    // How many rows follow; none where fewer words are left than that many take.
+    std::size_t take_count(std::size_t words_each) {
+        const std::uint64_t count = take();
+        whole_ = whole_ && count <= (words_.size() - next_) / words_each;
+        return whole_ ? static_cast<std::size_t>(count) : 0;
+    }
+    bool at_end() const { return whole_ && next_ == words_.size(); }
+
+  private:
+    const std::vector<std::uint64_t>& words_;
+    std::size_t next_ = 0;
+    bool whole_ = true;
+};
+
+std::uint64_t pair_of(std::uint32_t low, std::uint32_t high) {
+    return low | (static_cast<std::uint64_t>(high) << 32U);
+}
+std::uint32_t low_of(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
+std::uint32_t high_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32U); }
+
+template <typename Report, typename Visit>
+void visit_report(Report& report, const Visit& visit) {
+    for (auto* field :
+         {&report.triangles, &report.not_finite, &report.degenerate, &report.duplicate,
+          &report.kept, &report.cut_in, &report.sewn_vertices, &report.border_edges,
+          &report.non_manifold_edges, &report.flipped_links, &report.parts}) {
+        visit(*field);
+    }
+}
+
+void write_graph(const SurfaceGraph& graph, WordWriter& out) {
+    visit_report(graph.report, [&](std::uint32_t field) { out.add(field); });
+    out.add(graph.positions.size());
+    for (const Vec3& position : graph.positions) {
+        out.add(position);
+    }
+    out.add(graph.triangles.size());
+    for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
+        const auto& [a, b, c] = graph.triangles[t];
+        const auto& [ab, bc, ca] = graph.neighbours[t];
+        out.add(pair_of(a, b));
+        out.add(pair_of(c, ab));
+        out.add(pair_of(bc, ca));
+        out.add(graph.source_triangle[t]);
+    }
+}
+
+// False where an index is out of range; the sum has said that the words are as written.
+bool read_graph(WordReader& in, SurfaceGraph& graph) {
+    visit_report(graph.report, [&](std::uint32_t& field) { field = low_of(in.take()); });
+    graph.positions.resize(in.take_count(3));
+    for (Vec3& position : graph.positions) {
+        position = in.take_vector();
+    }
+    const std::size_t count = in.take_count(4);
+    graph.triangles.resize(count);
+    graph.neighbours.resize(count);
+    graph.source_triangle.resize(count);
+    graph.normals.resize(count);
+    for (std::size_t t = 0; t < count; ++t) {
+        const std::array<std::uint64_t, 3> words = {in.take(), in.take(), in.take()};
+        graph.triangles[t] = {low_of(words[0]), high_of(words[0]), low_of(words[1])};
+        graph.neighbours[t] = {high_of(words[1]), low_of(words[2]), high_of(words[2])};
+        graph.source_triangle[t] = low_of(in.take());
+        const auto& [a, b, c] = graph.triangles[t];
+        if (std::max({a, b, c}) >= graph.positions.size()) {
+            return false;
+        }
+        for (const std::uint32_t n : graph.neighbours[t]) {
+            if (n != k_no_triangle && n >= count) {
+                return false;
+            }
+        }
+        // As link_graph has it, bit for bit.
+        graph.normals[t] =
+            area_vector({graph.positions[a], graph.positions[b], graph.positions[c]}).normalized();
+    }
+    return true;
+}
+
+std::uint64_t sum_of(const std::vector<std::uint64_t>& words) {
+    HashStream hash;
+    for (const std::uint64_t word : words) {
+        hash.add(word);
+    }
+    return hash.value();
+}
+
+std::string read_whole(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// By a name that nobody else uses, and renamed once it is whole.
+void write_whole(const fs::path& file, const std::string& bytes) {
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    const std::uint64_t own =
+        mix64(std::bit_cast<std::uintptr_t>(&bytes)) ^ mix64(static_cast<std::uint64_t>(now));
+    const fs::path part = file.string() + "." + std::to_string(own) + ".part";
+    {
+        std::ofstream stream(part, std::ios::binary);
+        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        stream.close();
+        if (stream) {
+            fs::rename(part, file, error);
+        }
+    }
+    fs::remove(part, error);  // where it could not be written or renamed
+}
+
+std::string file_name(std::uint64_t key) {
+    constexpr std::string_view k_digits = "0123456789abcdef";
+    std::string name = "grip_";
+    for (unsigned shift = 64; shift > 0; shift -= 4) {
+        name += k_digits[(key >> (shift - 4)) & 15U];
+    }
+    return name + ".bin";
+}
+
+}  // namespace
+
+std::uint64_t grip_mesh_key(const Mesh& mesh, const GripMeshSettings& settings) {
+    HashStream hash;
+    hash.add(k_version);
+    for (const double setting :
+         {settings.weld.point_m, settings.weld.seam_m, settings.weld.seam_per_size,
+          settings.weld.seam_per_edge, settings.shape_tolerance_m, settings.search.deviation_m,
+          settings.search.edge_m, settings.contact.deviation_m, settings.contact.edge_m,
+          settings.contact_share, settings.turned_below_m}) {
+        hash.add(setting);
+    }
+    hash.add(static_cast<std::uint64_t>(mesh.positions.size()));
+    for (const Vec3& position : mesh.positions) {
+        for (const double x : position) {
+            hash.add(x);
+        }
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        hash.add(pair_of(a, b));
+        hash.add(static_cast<std::uint64_t>(c));
+    }
+    return hash.value();
+}
+
+std::string write_grip_mesh(const GripMesh& grip, std::uint64_t key) {
+    WordWriter body;
+    write_graph(grip.contact, body);
+    write_graph(grip.search, body);
+    body.add(pair_of(grip.turned, grip.full_triangles));
+    const std::array<std::uint64_t, k_header_words> header = {k_magic, key, body.words().size(),
+                                                              sum_of(body.words())};
+    std::string bytes(sizeof header + sizeof(std::uint64_t) * body.words().size(), '\0');
+    std::memcpy(bytes.data(), header.data(), sizeof header);
+    std::memcpy(bytes.data() + sizeof header, body.words().data(), bytes.size() - sizeof header);
+    return bytes;
+}
+
+std::optional<GripMesh> read_grip_mesh(std::string_view bytes, std::uint64_t key) {
+    std::array<std::uint64_t, k_header_words> header = {};
+    if (bytes.size() < sizeof header || bytes.size() % sizeof(std::uint64_t) != 0) {
+        return std::nullopt;
+    }
+    std::memcpy(header.data(), bytes.data(), sizeof header);
+    std::vector<std::uint64_t> words((bytes.size() - sizeof header) / sizeof(std::uint64_t));
+    std::memcpy(words.data(), bytes.data() + sizeof header, bytes.size() - sizeof header);
+    if (header[0] != k_magic || header[1] != key || header[2] != words.size() ||
+        header[3] != sum_of(words)) {
+        return std::nullopt;
+    }
+    WordReader in(words);
+    GripMesh grip;
+    if (!read_graph(in, grip.contact) || !read_graph(in, grip.search)) {
+        return std::nullopt;
+    }
+    const std::uint64_t counts = in.take();
+    if (!in.at_end()) {
+        return std::nullopt;
+    }
+    grip.turned = low_of(counts);
+    grip.full_triangles = high_of(counts);
+    grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
+    grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
+    return grip;
+}
+
+GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
+                          const fs::path& directory) {
+    if (directory.empty()) {
+        return build_grip_mesh(mesh, settings);
+    }
+    const std::uint64_t key = grip_mesh_key(mesh, settings);
+    const fs::path file = directory / file_name(key);
+    if (std::optional<GripMesh> found = read_grip_mesh(read_whole(file), key)) {
+        return *std::move(found);
+    }
+    GripMesh grip = build_grip_mesh(mesh, settings);
+    write_whole(file, write_grip_mesh(grip, key));
+    return grip;
+}
+
+GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
+                          const fs::path& directory) {
+    if (shape.kind != ShapeKind::mesh) {  // built as fast as read
+        return build_grip_mesh(shape, settings);
+    }
+    return cached_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), settings, directory);
+}
+
+}  // namespace handhold

@@ -1,0 +1,97 @@
+#include "engine/geometry/grip_mesh_library.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <numeric>
+
+#include "engine/core/check.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/geometry/grip_mesh_cache.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::uint32_t k_none = k_no_triangle;
+
+// Equal where two shapes have one surface. Addresses only tell shapes apart: no order follows them.
+using Likeness = std::array<std::uint64_t, 10>;
+
+Likeness likeness_of(const Shape& shape) {
+    const auto address = [](const auto& pointer) {
+        return static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(pointer.get()));
+    };
+    Likeness likeness = {static_cast<std::uint64_t>(shape.kind),
+                         address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
+                         std::bit_cast<std::uint64_t>(shape.radius_m),
+                         std::bit_cast<std::uint64_t>(shape.half_height_m)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<Eigen::Index>(axis);
+        likeness[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
+        likeness[7 + axis] = std::bit_cast<std::uint64_t>(shape.scale[i]);
+    }
+    return likeness;
+}
+
+std::size_t work_of(const Shape& shape) {
+    return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
+}
+
+std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {
+    std::vector<ShapeId> all(shapes.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+        all[i] = {i};
+    }
+    return all;
+}
+
+}  // namespace
+
+GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, const GripMeshSettings& settings,
+                                 const std::filesystem::path& cache_directory)
+    : GripMeshLibrary(shapes, all_of(shapes), settings, cache_directory) {}
+
+GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
+                                 const GripMeshSettings& settings,
+                                 const std::filesystem::path& cache_directory)
+    : mesh_of_shape_(shapes.size(), k_none) {
+    std::map<Likeness, std::uint32_t> known;
+    std::vector<ShapeId> distinct;
+    for (const ShapeId id : wanted) {
+        const auto [found, is_new] = known.try_emplace(likeness_of(shapes.at(id)),
+                                                       static_cast<std::uint32_t>(distinct.size()));
+        if (is_new) {
+            distinct.push_back(id);
+        }
+        mesh_of_shape_[id.index] = found->second;
+    }
+    meshes_.resize(distinct.size());
+    std::vector<std::size_t> order(distinct.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return work_of(shapes.at(distinct[a])) > work_of(shapes.at(distinct[b]));
+    });
+    auto build = [&](std::size_t i) {
+        const std::size_t place = order[i];
+        meshes_[place] = cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
+    };
+    parallel_for(order.size(), build);
+}
+
+bool GripMeshLibrary::has(ShapeId shape) const {
+    return shape.index < mesh_of_shape_.size() && mesh_of_shape_[shape.index] != k_none;
+}
+
+const GripMesh& GripMeshLibrary::at(ShapeId shape) const {
+    HH_CHECK(has(shape), "no grip mesh was made for this shape", shape.index);
+    return meshes_[mesh_of_shape_[shape.index]];
+}
+
+std::size_t GripMeshLibrary::memory_bytes() const {
+    return std::accumulate(
+        meshes_.begin(), meshes_.end(), std::size_t{0},
+        [](std::size_t sum, const GripMesh& grip) { return sum + handhold::memory_bytes(grip); });
+}
+
+}  // namespace handhold

@@ -1,0 +1,149 @@
+#include "engine/geometry/detail.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "broken_meshes.hpp"
+#include "data_meshes.hpp"
+#include "engine/geometry/surface_distance.hpp"
+#include "graph_claims.hpp"
+
+// Oracle: distances of points spread over one surface to the other, by number only; what is claimed
+// is proven in the code by other means.
+namespace handhold {
+namespace {
+
+using test::Random;
+
+double farthest_sample_m(const SurfaceGraph& from, const SurfaceGraph& to, Random& random) {
+    const TriangleBvh bvh(to.positions, to.triangles);
+    double worst = 0.0;
+    for (const auto& [a, b, c] : from.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            double u = random.between(0.0, 1.0);
+            double v = random.between(0.0, 1.0);
+            if (u + v > 1.0) {
+                u = 1.0 - u;
+                v = 1.0 - v;
+            }
+            const Vec3 point =
+                (1.0 - u - v) * from.positions[a] + u * from.positions[b] + v * from.positions[c];
+            worst = std::max(worst, bvh.closest_point(point, 1e9)->distance_m);
+        }
+    }
+    return worst;
+}
+
+void expect_coarser_within(const SurfaceGraph& fine, const DetailLimits& limits, Random& random) {
+    const SurfaceGraph coarse = coarser(fine, limits);
+    ASSERT_FALSE(coarse.triangles.empty());
+    EXPECT_LE(coarse.triangles.size(), fine.triangles.size());
+    EXPECT_LE(farthest_sample_m(fine, coarse, random), limits.deviation_m);
+    EXPECT_LE(farthest_sample_m(coarse, fine, random), limits.deviation_m);
+    test::expect_mutual_links(coarse);
+    test::expect_best_pairs(coarse);
+    const std::set<std::uint32_t> sources(fine.source_triangle.begin(), fine.source_triangle.end());
+    for (const std::uint32_t source : coarse.source_triangle) {
+        ASSERT_EQ(sources.count(source), 1U);
+    }
+}
+
+TEST(Coarser, StaysWithinItsDeviationBothWaysOnBrokenMeshes) {
+    Random random(840);
+    const Mesh ball = test::make_clean_ball(0.15, 60, 90);
+    const std::vector<Mesh> meshes = {
+        ball,
+        test::as_soup(ball, 1e-5, random),
+        test::with_holes(ball, 0.06, random),
+        test::with_flips(ball, 0.15, random),
+        test::with_t_junctions(ball, 0.3, random),
+        test::with_slivers(ball, 0.2, random),
+        test::doubled(ball),
+        test::with_duplicates(ball, 0.3, random),
+        test::with_wild_vertices(ball, 0.01, random),
+    };
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        SCOPED_TRACE(i);
+        const SurfaceGraph fine = build_surface_graph(meshes[i]);
+        expect_coarser_within(fine, {5e-4, 0.0}, random);
+        expect_coarser_within(fine, {2.5e-3, 0.02}, random);
+    }
+}
+
+TEST(Coarser, StaysWithinItsDeviationOnRealMeshes) {
+    Random random(841);
+    int meshes = 0;
+    for (const char* folder : {"objects", "nasty"}) {
+        for (const auto& path : test::data_files(folder)) {
+            const SurfaceGraph fine = build_surface_graph(test::load_whole(path));
+            if (fine.triangles.empty() || fine.triangles.size() > 7000) {
+                continue;
+            }
+            SCOPED_TRACE(path);
+            expect_coarser_within(fine, {5e-4, 0.0}, random);
+            expect_coarser_within(fine, {2.5e-3, 0.02}, random);
+            ++meshes;
+        }
+    }
+    if (meshes == 0) {
+        GTEST_SKIP() << "no mesh data";
+    }
+}
+
+TEST(Coarser, LeavesFewTrianglesOfWhatIsFlatAndLargeOnesAsTheyAre) {
+    const SurfaceGraph fine = build_surface_graph(*test::make_floor(1.0, 100));
+    EXPECT_LE(coarser(fine, {5e-4, 0.0}).triangles.size(), 10U);
+    // About as many as equilateral ones of 20 mm would be.
+    const double full = 1.0 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
+    EXPECT_NEAR(static_cast<double>(coarser(fine, {2.5e-3, 0.02}).triangles.size()), full,
+                0.05 * full);
+    const SurfaceGraph large = build_surface_graph(*test::make_floor(1.0, 10));
+    EXPECT_EQ(coarser(large, {2.5e-3, 0.02}).triangles, large.triangles);
+}
+
+TEST(Coarser, MakesSearchTrianglesOfAnEdgesLengthOnABall) {
+    // A sphere of radius r and triangles of edge a deviate by a^2 / 6 r: 2.5 mm at 150 mm is 47 mm,
+    // so the edge's length decides; its count follows from the area.
+    const SurfaceGraph fine = build_surface_graph(test::make_clean_ball(0.15, 100, 200));
+    const SurfaceGraph coarse = coarser(fine, {2.5e-3, 0.02});
+    const double full = 4.0 * 3.14159 * 0.15 * 0.15 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
+    EXPECT_NEAR(static_cast<double>(coarse.triangles.size()), full, 0.1 * full);
+}
+
+TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
+    const Mesh sheet = *test::make_floor(0.3, 20);
+    const Mesh coarse = *test::make_floor(0.3, 3);
+    for (const double gap : {2e-4, 1e-3}) {
+        std::vector<Vec3> lifted = coarse.positions;
+        for (Vec3& position : lifted) {
+            position.y() += gap;
+        }
+        const TriangleBvh sheet_bvh(sheet.positions, sheet.triangles);
+        const TriangleBvh lifted_bvh(lifted, coarse.triangles);
+        const TriangleSet a = {sheet.positions, sheet.triangles, sheet_bvh};
+        const TriangleSet b = {lifted, coarse.triangles, lifted_bvh};
+        EXPECT_TRUE(is_covered(a, b, gap + 1e-4));
+        EXPECT_TRUE(is_covered(b, a, gap + 1e-4));
+        EXPECT_FALSE(is_covered(a, b, gap - 1e-6));
+        EXPECT_FALSE(is_covered(b, a, gap - 1e-6));
+    }
+}
+
+TEST(SurfaceDistance, SeesAHoleThatNoCornerIsIn) {
+    Random random(842);
+    const Mesh whole = *test::make_floor(0.3, 1);
+    Mesh holed = *test::make_floor(0.3, 30);
+    holed.triangles.erase(holed.triangles.begin() + 900, holed.triangles.begin() + 902);
+    const TriangleBvh whole_bvh(whole.positions, whole.triangles);
+    const TriangleBvh holed_bvh(holed.positions, holed.triangles);
+    const TriangleSet a = {whole.positions, whole.triangles, whole_bvh};
+    const TriangleSet b = {holed.positions, holed.triangles, holed_bvh};
+    EXPECT_TRUE(is_covered(b, a, 1e-4));
+    EXPECT_FALSE(is_covered(a, b, 4.9e-3));  // the hole is a square of 10 mm
+    EXPECT_TRUE(is_covered(a, b, 5.1e-3));
+}
+
+}  // namespace
+}  // namespace handhold
