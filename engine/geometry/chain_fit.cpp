@@ -82,11 +82,16 @@ class ChainFitter {
             close();
         }
         const bool touches = fit_.contact_link != DiscClosure::k_none;
-        if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
+        if (seed.triangle == k_no_triangle ||
+            (settings_.mends &&
+             (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m))) {
             close_over_all_cuts(touches);
         }
         if (fit_.contact_link == DiscClosure::k_none) {
             relax();
+        }
+        if (!settings_.mends) {
+            return fit_;
         }
         if (fit_.depth_m > settings_.search_depth_m) {
             bend_clear();
@@ -308,14 +313,23 @@ SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes
         const std::array<Vec3, 2> ends = {inverse_transform_point(placed.pose, capsule.ends[0]),
                                           inverse_transform_point(placed.pose, capsule.ends[1])};
         const SurfaceGraph& surface = placed.mesh->contact;
+        const TriangleBvh& bvh = placed.mesh->contact_bvh;
         const double length_m = (ends[1] - ends[0]).norm();
-        placed.mesh->contact_bvh.visit_in_sphere(
-            0.5 * (ends[0] + ends[1]), 0.5 * length_m + capsule.radius_m,
+        const Vec3 low = ends[0].cwiseMin(ends[1]) - bvh.origin();
+        const Vec3 high = ends[0].cwiseMax(ends[1]) - bvh.origin();
+        bvh.visit_boxes(
+            [&](const Vec3& box_low, const Vec3& box_high) {
+                return (box_low - high).cwiseMax(low - box_high).maxCoeff() <= nearest_m;
+            },
             [&](std::uint32_t triangle) {
                 const auto& [a, b, c] = surface.triangles[triangle];
                 const Corners corners = {surface.positions[a], surface.positions[b],
                                          surface.positions[c]};
-                if (least_distance(ends, corners) > nearest_m) {
+                const double height_0 = surface.normals[triangle].dot(ends[0] - corners[0]);
+                const double height_1 = surface.normals[triangle].dot(ends[1] - corners[0]);
+                if (std::min(height_0, height_1) > nearest_m ||
+                    std::max(height_0, height_1) < -nearest_m ||
+                    least_distance(ends, corners) > nearest_m) {
                     return;
                 }
                 const SegmentTriangle found = nearest_between(ends, corners);

@@ -59,6 +59,7 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
+    bool mends = true;  // false: takes what the searches find, sunk or not
 };
 
 enum class ChainFallback : std::uint8_t {

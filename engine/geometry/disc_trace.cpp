@@ -252,12 +252,22 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
 
 void cut_all(const SurfaceGraph& graph, const TriangleBvh& bvh, const Disc& disc,
              std::vector<DiscSegment>& segments) {
-    bvh.visit_in_sphere(disc.center, disc.radius_m, [&](std::uint32_t triangle) {
-        if (const std::optional<Cut> cut = cut_triangle(graph, disc, triangle)) {
-            add_segment(disc, to_disc(disc, cut->point[0]), to_disc(disc, cut->point[1]), triangle,
-                        segments);
-        }
-    });
+    const Vec3 center = disc.center - bvh.origin();
+    const Vec3 steepness = disc.normal.cwiseAbs();
+    bvh.visit_boxes(
+        [&](const Vec3& low, const Vec3& high) {
+            const Vec3 half = 0.5 * (high - low);
+            const Vec3 from_box = center - (low + half);
+            return std::abs(disc.normal.dot(from_box)) <= steepness.dot(half) &&
+                   (from_box.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() <=
+                       disc.radius_m * disc.radius_m;
+        },
+        [&](std::uint32_t triangle) {
+            if (const std::optional<Cut> cut = cut_triangle(graph, disc, triangle)) {
+                add_segment(disc, to_disc(disc, cut->point[0]), to_disc(disc, cut->point[1]),
+                            triangle, segments);
+            }
+        });
 }
 
 }  // namespace handhold

@@ -44,6 +44,13 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
+    // visit(triangle) for each triangle of the leaves whose boxes, and those above them, may matter:
+    // may_matter(low, high) is asked with opposite corners of a box, less origin(). More triangles
+    // than would be needed, but the cheapest way to them; in the tree's order.
+    template <typename MayMatter, typename Visit>
+    void visit_boxes(MayMatter&& may_matter, Visit&& visit) const;
+    const Vec3& origin() const { return origin_; }
+
     std::size_t triangle_count() const { return numbers_.size(); }  // that can be found
     std::size_t memory_bytes() const;
 
@@ -83,6 +90,34 @@ class TriangleBvh {
     std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles in leaf order
     std::vector<std::uint32_t> numbers_;               // of the triangles in leaf order
 };
+
+template <typename MayMatter, typename Visit>
+void TriangleBvh::visit_boxes(MayMatter&& may_matter, Visit&& visit) const {
+    if (nodes_.empty()) {
+        return;
+    }
+    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        const Vec3 low(static_cast<double>(node.low[0]), static_cast<double>(node.low[1]),
+                       static_cast<double>(node.low[2]));
+        const Vec3 high(static_cast<double>(node.high[0]), static_cast<double>(node.high[1]),
+                        static_cast<double>(node.high[2]));
+        if (!may_matter(low, high)) {
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.first + 1;
+            stack[depth++] = node.first;
+            continue;
+        }
+        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+            visit(numbers_[slot]);
+        }
+    }
+}
 
 template <typename Visit>
 void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const {

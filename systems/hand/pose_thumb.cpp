@@ -46,7 +46,10 @@ class ThumbPoser {
         if (pose.thumb_solved && same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        const ThumbFit best = find_best(hand, thumb, f, pose);
+        settings_.mends = false;
+        const double opposition_rad = find_best(hand, thumb, f, pose).opposition_rad;
+        settings_.mends = true;
+        const ThumbFit best = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         pose.seed_triangle[f] = best.fit.contact_triangle;
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
@@ -69,23 +72,16 @@ class ThumbPoser {
                        const FingerPose& pose) const {
         const std::int32_t steps = tuning_.thumb.opposition_steps;
         ThumbFit best;
-        ChainFit counted;
         for (std::int32_t step = 0; step < steps; ++step) {
             const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
             const double opposition_rad =
                 thumb.lower_opposition_rad +
                 share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
             const ThumbFit tried = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
-            counted.discs += tried.fit.discs;
-            counted.pops += tried.fit.pops;
-            counted.walked += tried.fit.walked;
             if (tried.cost_m < best.cost_m) {
                 best = tried;
             }
         }
-        best.fit.discs = counted.discs;
-        best.fit.pops = counted.pops;
-        best.fit.walked = counted.walked;
         return best;
     }
 
@@ -112,7 +108,7 @@ class ThumbPoser {
 
     const PoseThumbIo& io_;
     const Tuning& tuning_;
-    const ChainFitSettings settings_;
+    ChainFitSettings settings_;
     StageStats& stats_;
 };
 
