@@ -184,12 +184,18 @@ void visit_fields(const HeadIgnores& c, V&& visit) {
     visit("next", c.next);
 }
 template <typename V>
+void visit_fields(const FingerAngles& c, V&& visit) {
+    visit("curl_rad", c.curl_rad);
+    visit("opposition_rad", c.opposition_rad);
+}
+template <typename V>
 void visit_fields(const RenderPose::Hand& c, V&& visit) {
     visit("tracked_ws", c.tracked_ws);
     visit("shown_ws", c.shown_ws);
     visit("ray_from_ws", c.ray_from_ws);
     visit("ray_to_ws", c.ray_to_ws);
     visit("grip", c.grip);
+    visit("fingers", c.fingers);
 }
 template <typename V>
 void visit_fields(const RenderPose& c, V&& visit) {

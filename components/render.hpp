@@ -3,6 +3,7 @@
 #include <array>
 
 #include "components/grab.hpp"
+#include "components/hand_rig.hpp"
 #include "engine/math/math.hpp"
 
 // What a host draws. Written by publish_pose.
@@ -15,6 +16,7 @@ struct RenderPose {
         Vec3 ray_from_ws = Vec3::Zero();  // the palm's ray
         Vec3 ray_to_ws = Vec3::Zero();
         GripKind grip = GripKind::none;
+        std::array<FingerAngles, k_finger_count> fingers;  // by place in HandRig::fingers
     };
     Pose head_ws;
     Vec3 head_center_ws = Vec3::Zero();    // of the collider

@@ -76,6 +76,7 @@ TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
         expect_all_fields_visited<std::remove_cvref_t<decltype(column.rows()[0])>>(name);
     });
     expect_all_fields_visited<RenderPose::Hand>("RenderPose::Hand");
+    expect_all_fields_visited<FingerAngles>("FingerAngles");
     expect_all_fields_visited<HandHistory::Entry>("HandHistory::Entry");
 }
 

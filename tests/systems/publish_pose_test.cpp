@@ -155,5 +155,20 @@ TEST(PublishPose, OrderOfHandsDoesNotMatter) {
     }
 }
 
+TEST(PublishPose, GrippingHandCurlsEveryFingerMoreThanAnEmptyOne) {
+    Publishing scene(1);
+    const RenderPose::Hand open = scene.run().hands[1];
+    scene.grab.at(k_right).kind = GripKind::held;
+    scene.grab.at(k_right).body = k_rock;
+    const RenderPose::Hand closed = scene.run().hands[1];
+    for (std::size_t finger = 1; finger < k_finger_count; ++finger) {
+        for (std::size_t link = 0; link < k_most_links; ++link) {
+            EXPECT_GT(closed.fingers[finger].curl_rad[link],
+                      open.fingers[finger].curl_rad[link] + 0.3);
+        }
+    }
+    EXPECT_GT(closed.fingers[0].opposition_rad, open.fingers[0].opposition_rad);
+}
+
 }  // namespace
 }  // namespace handhold
