@@ -16,7 +16,7 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t k_smallest_part = 8;  // fewer triangles are not worth a look
-constexpr int k_tries = 5;                  // each with half the error of the last
+constexpr int k_tries = 9;  // each keeps what went astray before, every other with half the error
 
 // One part with its own vertices.
 struct Part {
@@ -41,25 +41,68 @@ std::size_t wanted_count(const Part& part, double edge_m) {
     return static_cast<std::size_t>(sum);
 }
 
-bool is_within(const Part& part, const std::vector<Triangle>& coarse, double limit_m) {
-    const TriangleBvh fine_bvh(part.positions, part.triangles);
-    const TriangleBvh coarse_bvh(part.positions, coarse);
-    const TriangleSet fine_set = {part.positions, part.triangles, fine_bvh};
-    const TriangleSet coarse_set = {part.positions, coarse, coarse_bvh};
-    return is_covered(fine_set, coarse_set, limit_m) && is_covered(coarse_set, fine_set, limit_m);
-}
+// Locks what must stay for the coarse surface to come within the limit; false where it is.
+class Locks {
+  public:
+    explicit Locks(const Part& part)
+        : part_(part),
+          bvh_(part.positions, part.triangles),
+          is_locked_(part.positions.size(), false) {}
+
+    const std::vector<std::uint32_t>& points() const { return points_; }
+
+    bool add_where_apart(const std::vector<Triangle>& coarse, double limit_m) {
+        const TriangleBvh coarse_bvh(part_.positions, coarse);
+        const TriangleSet fine_set = {part_.positions, part_.triangles, bvh_};
+        const TriangleSet coarse_set = {part_.positions, coarse, coarse_bvh};
+        const std::vector<Uncovered> lost = find_uncovered(fine_set, coarse_set, limit_m);
+        for (const Uncovered& triangle : lost) {
+            lock(triangle.triangle);
+        }
+        const std::vector<Uncovered> astray = find_uncovered(coarse_set, fine_set, limit_m);
+        for (const Uncovered& triangle : astray) {
+            bvh_.visit_in_sphere(triangle.point, k_around * limit_m,
+                                 [&](std::uint32_t near) { lock(near); });
+        }
+        return !lost.empty() || !astray.empty();
+    }
+
+  private:
+    static constexpr double k_around = 2.0;  // limits
+
+    void lock(std::uint32_t triangle) {
+        for (const std::uint32_t corner : part_.triangles[triangle]) {
+            if (!is_locked_[corner]) {
+                is_locked_[corner] = true;
+                points_.push_back(corner);
+            }
+        }
+    }
+
+    const Part& part_;
+    TriangleBvh bvh_;
+    std::vector<bool> is_locked_;
+    std::vector<std::uint32_t> points_;
+};
 
 std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits) {
     const std::size_t wanted = wanted_count(part, limits.edge_m);
     if (part.triangles.size() < k_smallest_part || wanted >= part.triangles.size()) {
         return part.triangles;
     }
+    Locks locks(part);
     double error_m = 0.5 * limits.deviation_m;
-    for (int i = 0; i < k_tries; ++i, error_m *= 0.5) {
-        std::vector<Triangle> coarse = simplify(part.positions, part.triangles, error_m, wanted);
-        if (coarse.size() < part.triangles.size() && !coarse.empty() &&
-            is_within(part, coarse, limits.deviation_m)) {
+    for (int i = 0; i < k_tries; ++i) {
+        std::vector<Triangle> coarse =
+            simplify({part.positions, part.triangles, locks.points()}, error_m, wanted);
+        if (coarse.size() >= part.triangles.size()) {
+            break;
+        }
+        if (!coarse.empty() && !locks.add_where_apart(coarse, limits.deviation_m)) {
             return coarse;
+        }
+        if (i % 4 == 3 || coarse.empty()) {
+            error_m *= 0.5;
         }
     }
     return part.triangles;

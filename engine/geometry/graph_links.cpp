@@ -5,6 +5,7 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/edge_pairs.hpp"
+#include "engine/geometry/graph_clean.hpp"
 
 namespace handhold {
 namespace {
@@ -132,7 +133,8 @@ std::uint32_t wind_alike(SurfaceGraph& graph) {
             }
         }
     }
-    link_graph(graph);  // edges of more triangles were paired by their winding
+    drop_duplicates(graph);  // what was another's other side may look its way now
+    link_graph(graph);       // edges of more triangles were paired by their winding
     return turned;
 }
 
@@ -164,6 +166,7 @@ std::uint32_t turn_outside_out(SurfaceGraph& graph) {
         }
     }
     if (turned > 0) {
+        drop_duplicates(graph);
         link_graph(graph);
     }
     return turned;

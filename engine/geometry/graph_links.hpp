@@ -20,8 +20,9 @@ struct GraphParts {
 GraphParts find_parts(const SurfaceGraph& graph);
 
 // Winds the triangles of each sheet alike (a sheet hangs together over edges of two triangles),
-// turning those that have the lesser area; links again. Where a sheet has but one side (a Moebius
-// strip) some links stay flipped. Returns how many triangles were turned.
+// turning those that have the lesser area; drops what is there twice then, links again. Where a
+// sheet has but one side (a Moebius strip) some links stay flipped. Returns how many triangles were
+// turned.
 std::uint32_t wind_alike(SurfaceGraph& graph);
 
 // Turns every triangle of the closed parts (no border, wound alike) where these together hold a

@@ -1,40 +1,86 @@
+#include <cmath>
+
 #include <meshoptimizer.h>
 
 #include "engine/geometry/simplify.hpp"
 
 namespace handhold {
+namespace {
 
-std::vector<std::array<std::uint32_t, 3>> simplify(
-    std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
-    double error_m, std::size_t least_triangles) {
-    if (triangles.empty()) {
+// What the library reads. This version cannot be told to keep a point, but keeps those at which two
+// open edges or more begin: each locked point gets two triangles of its own, left out of the
+// result.
+struct LibraryMesh {
+    std::vector<float> points;
+    std::vector<unsigned> indices;
+};
+
+// Spread over the unit box, no two alike (Roberts, The Unreasonable Effectiveness of Quasirandom
+// Sequences, 2018).
+Vec3 scattered(std::size_t i) {
+    const auto fraction = [&](double step) -> double {
+        const double x = static_cast<double>(i + 1) * step;
+        return x - std::floor(x);
+    };
+    return {fraction(0.8191725133961645), fraction(0.6710436067037893),
+            fraction(0.5497004779019703)};
+}
+
+LibraryMesh make_library_mesh(const SimplifyInput& input) {
+    LibraryMesh mesh;
+    // Floats about the first point: the library scales what it gets to a unit box.
+    const Vec3 origin = input.positions[0];
+    const auto add_point = [&](const Vec3& point) {
+        for (const double coordinate : Vec3(point - origin)) {
+            mesh.points.push_back(static_cast<float>(coordinate));
+        }
+    };
+    Vec3 low = origin;
+    Vec3 high = origin;
+    for (const Vec3& position : input.positions) {
+        add_point(position);
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+    }
+    for (const auto& triangle : input.triangles) {
+        mesh.indices.insert(mesh.indices.end(), triangle.begin(), triangle.end());
+    }
+    auto next = static_cast<unsigned>(input.positions.size());
+    for (std::size_t i = 0; i < 2 * input.locked.size(); ++i) {
+        for (const std::size_t end : {2 * i, 2 * i + 1}) {
+            add_point(low + scattered(end).cwiseProduct(high - low));
+        }
+        mesh.indices.insert(mesh.indices.end(), {input.locked[i / 2], next, next + 1});
+        next += 2;
+    }
+    return mesh;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> simplify(const SimplifyInput& input, double error_m,
+                                                   std::size_t least_triangles) {
+    if (input.triangles.empty()) {
         return {};
     }
-    // Floats about the first point: the library scales what it gets to a unit box.
-    std::vector<float> points;
-    points.reserve(3 * positions.size());
-    for (const Vec3& position : positions) {
-        for (const double coordinate : Vec3(position - positions[0])) {
-            points.push_back(static_cast<float>(coordinate));
-        }
-    }
-    std::vector<unsigned> indices;
-    indices.reserve(3 * triangles.size());
-    for (const auto& triangle : triangles) {
-        indices.insert(indices.end(), triangle.begin(), triangle.end());
-    }
+    const LibraryMesh mesh = make_library_mesh(input);
     constexpr std::size_t k_stride = 3 * sizeof(float);
-    const float scale = meshopt_simplifyScale(points.data(), positions.size(), k_stride);
+    const std::size_t point_count = mesh.points.size() / 3;
+    const float scale = meshopt_simplifyScale(mesh.points.data(), point_count, k_stride);
     if (!(scale > 0.0F)) {
-        return {triangles.begin(), triangles.end()};
+        return {input.triangles.begin(), input.triangles.end()};
     }
-    std::vector<unsigned> result(indices.size());
-    result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(), points.data(),
-                                   positions.size(), k_stride, 3 * least_triangles,
+    std::vector<unsigned> result(mesh.indices.size());
+    result.resize(meshopt_simplify(result.data(), mesh.indices.data(), mesh.indices.size(),
+                                   mesh.points.data(), point_count, k_stride,
+                                   3 * (least_triangles + 2 * input.locked.size()),
                                    static_cast<float>(error_m) / scale, 0, nullptr));
     std::vector<std::array<std::uint32_t, 3>> simplified;
     for (std::size_t i = 0; i + 2 < result.size(); i += 3) {
-        simplified.push_back({result[i], result[i + 1], result[i + 2]});
+        if (result[i] < input.positions.size() && result[i + 1] < input.positions.size() &&
+            result[i + 2] < input.positions.size()) {
+            simplified.push_back({result[i], result[i + 1], result[i + 2]});
+        }
     }
     return simplified;
 }

@@ -10,23 +10,26 @@ namespace {
 constexpr int k_most_cuts = 40;  // in a row: halves of the halves of a triangle of 1 km are below
                                  // a millimetre by then
 
+// Pieces are cut to this share of the limit: what is nearer to it than that counts as beyond.
+constexpr double k_finest = 0.02;
+
 class Cover {
   public:
     Cover(const TriangleSet& target, double limit_m)
         : target_(target), limit_m_(limit_m), squared_limit_(limit_m * limit_m) {}
 
-    // `hint`: a triangle that may be near, and then the one that was.
-    bool covers(const Corners& piece, std::uint32_t& hint, int cuts) const {
-        if (hint < target_.triangles.size() && is_near_to(piece, hint)) {
+    bool covers(const Corners& piece, int cuts) {
+        if (hint_ < target_.triangles.size() && is_near_to(piece, hint_)) {
             return true;
         }
         const Vec3 middle = (piece[0] + piece[1] + piece[2]) / 3.0;
         const auto hit = target_.bvh.closest_point(middle, limit_m_);
         if (!hit) {
+            far_point_ = middle;
             return false;
         }
-        hint = hit->triangle;
-        if (is_near_to(piece, hint)) {
+        hint_ = hit->triangle;
+        if (is_near_to(piece, hint_)) {
             return true;
         }
         double radius = 0.0;
@@ -36,10 +39,38 @@ class Cover {
         if (hit->distance_m + radius <= limit_m_) {
             return true;
         }
-        if (cuts >= k_most_cuts || radius < 1e-3 * limit_m_) {
+        if (cuts >= k_most_cuts || radius < k_finest * limit_m_) {
+            far_point_ = middle;
             return false;
         }
-        // Cut across the longest edge: pieces stay round.
+        return covers_parts(piece, cuts);
+    }
+
+    const Vec3& far_point() const { return far_point_; }  // after covers was false
+
+  private:
+    // Cut where the nearest triangle ends: what is above it keeps to it, the rest finds another.
+    bool covers_parts(const Corners& piece, int cuts) {
+        const Corners near = corners_of(hint_);
+        const Vec3 area = area_vector(near);
+        double most = 0.0;
+        std::array<double, 3> beyond = {};  // of the corners over the edge that most is over
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 outward = (near[(k + 1) % 3] - near[k]).cross(area).normalized();
+            std::array<double, 3> out = {};
+            for (std::size_t i = 0; i < 3; ++i) {
+                out[i] = outward.dot(piece[i] - near[k]);
+            }
+            const auto [low, high] = std::minmax_element(out.begin(), out.end());
+            if (*high > most && *low < -k_finest * limit_m_) {
+                most = *high;
+                beyond = out;
+            }
+        }
+        if (most > k_finest * limit_m_) {
+            return covers_clipped(piece, beyond, cuts);
+        }
+        // Across the longest edge: pieces stay round.
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i) {
             if (squared_edge(piece, i) > squared_edge(piece, longest)) {
@@ -50,16 +81,38 @@ class Cover {
         const Vec3& to = piece[(longest + 1) % 3];
         const Vec3& apex = piece[(longest + 2) % 3];
         const Vec3 cut = 0.5 * (from + to);
-        return covers({from, cut, apex}, hint, cuts + 1) && covers({cut, to, apex}, hint, cuts + 1);
+        return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-
-  private:
+    // The part on one side of the cut, and the two triangles on the other.
+    bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
+        std::size_t lone = 0;  // the corner that has a side to itself
+        for (std::size_t i = 1; i < 3; ++i) {
+            const bool side = beyond[i] > 0.0;
+            if (side != (beyond[(i + 1) % 3] > 0.0) && side != (beyond[(i + 2) % 3] > 0.0)) {
+                lone = i;
+            }
+        }
+        const auto meet = [&](std::size_t other) -> Vec3 {
+            const double share = beyond[lone] / (beyond[lone] - beyond[other]);
+            return piece[lone] + share * (piece[other] - piece[lone]);
+        };
+        const std::size_t next = (lone + 1) % 3;
+        const std::size_t last = (lone + 2) % 3;
+        const Vec3 on_next = meet(next);
+        const Vec3 on_last = meet(last);
+        return covers({piece[lone], on_next, on_last}, cuts + 1) &&
+               covers({on_next, piece[next], piece[last]}, cuts + 1) &&
+               covers({on_next, piece[last], on_last}, cuts + 1);
+    }
+    Corners corners_of(std::uint32_t triangle) const {
+        const auto& [a, b, c] = target_.triangles[triangle];
+        return {target_.positions[a], target_.positions[b], target_.positions[c]};
+    }
     static double squared_edge(const Corners& piece, std::size_t i) {
         return (piece[(i + 1) % 3] - piece[i]).squaredNorm();
     }
     bool is_near_to(const Corners& piece, std::uint32_t triangle) const {
-        const auto& [a, b, c] = target_.triangles[triangle];
-        const Corners corners = {target_.positions[a], target_.positions[b], target_.positions[c]};
+        const Corners corners = corners_of(triangle);
         return std::all_of(piece.begin(), piece.end(), [&](const Vec3& corner) {
             return (closest_on_triangle(corner, corners) - corner).squaredNorm() <= squared_limit_;
         });
@@ -68,18 +121,22 @@ class Cover {
     const TriangleSet& target_;
     double limit_m_;
     double squared_limit_;
+    std::uint32_t hint_ = ~0U;  // the triangle last found near: neighbours come one after another
+    Vec3 far_point_ = Vec3::Zero();
 };
 
 }  // namespace
 
-bool is_covered(const TriangleSet& a, const TriangleSet& b, double limit_m) {
-    const Cover cover(b, limit_m);
-    std::uint32_t hint = ~0U;  // neighbours often come one after another
-    return std::all_of(a.triangles.begin(), a.triangles.end(), [&](const auto& triangle) {
-        return cover.covers(
-            {a.positions[triangle[0]], a.positions[triangle[1]], a.positions[triangle[2]]}, hint,
-            0);
-    });
+std::vector<Uncovered> find_uncovered(const TriangleSet& a, const TriangleSet& b, double limit_m) {
+    Cover cover(b, limit_m);
+    std::vector<Uncovered> result;
+    for (std::uint32_t t = 0; t < a.triangles.size(); ++t) {
+        const auto& [i, j, k] = a.triangles[t];
+        if (!cover.covers({a.positions[i], a.positions[j], a.positions[k]}, 0)) {
+            result.push_back({t, cover.far_point()});
+        }
+    }
+    return result;
 }
 
 }  // namespace handhold

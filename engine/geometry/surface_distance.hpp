@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "engine/geometry/triangle_bvh.hpp"
 
@@ -15,10 +16,17 @@ struct TriangleSet {
     const TriangleBvh& bvh;  // of these
 };
 
-// True where every point of every triangle of `a` is proven to be as near as limit_m to `b`: the
-// one-sided Hausdorff distance. By cutting triangles until each piece has its corners near to one
-// triangle of b: the distance to a convex set is convex, so what is between them is near as well.
-// False where some point is farther, or within about a thousandth of the limit.
-bool is_covered(const TriangleSet& a, const TriangleSet& b, double limit_m);
+// A triangle with a point that is not proven to be near.
+struct Uncovered {
+    std::uint32_t triangle = 0;
+    Vec3 point = Vec3::Zero();  // farther off than the limit, or within a fiftieth of it
+};
+
+// The triangles of `a` of which not every point is proven to be as near as limit_m to `b`; none
+// where a's one-sided Hausdorff distance to b is below. By cutting triangles until each piece has
+// its corners near to one triangle of b: the distance to a convex set is convex, so what is between
+// them is near as well. Takes long where the limit is far below the triangles' size and they do not
+// lie on each other.
+std::vector<Uncovered> find_uncovered(const TriangleSet& a, const TriangleSet& b, double limit_m);
 
 }  // namespace handhold

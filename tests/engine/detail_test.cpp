@@ -1,5 +1,6 @@
 #include "engine/geometry/detail.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -7,6 +8,7 @@
 
 #include "broken_meshes.hpp"
 #include "data_meshes.hpp"
+#include "engine/geometry/simplify.hpp"
 #include "engine/geometry/surface_distance.hpp"
 #include "graph_claims.hpp"
 
@@ -112,6 +114,34 @@ TEST(Coarser, MakesSearchTrianglesOfAnEdgesLengthOnABall) {
     EXPECT_NEAR(static_cast<double>(coarse.triangles.size()), full, 0.1 * full);
 }
 
+TEST(Simplify, KeepsLockedPoints) {
+    Random random(843);
+    const Mesh ball = test::make_clean_ball(0.15, 40, 60);
+    std::vector<std::uint32_t> locked;
+    for (const auto& triangle : ball.triangles) {
+        if (test::chance(random) < 0.05) {
+            locked.push_back(triangle[0]);
+        }
+    }
+    std::sort(locked.begin(), locked.end());
+    locked.erase(std::unique(locked.begin(), locked.end()), locked.end());
+    const auto corners_of = [&](std::span<const std::uint32_t> kept) {
+        std::set<std::uint32_t> corners;
+        for (const auto& triangle : simplify({ball.positions, ball.triangles, kept}, 0.01, 0)) {
+            corners.insert(triangle.begin(), triangle.end());
+        }
+        return corners;
+    };
+    const std::set<std::uint32_t> free = corners_of({});
+    const std::set<std::uint32_t> with_locks = corners_of(locked);
+    EXPECT_LT(free.size(), ball.positions.size() / 20);
+    EXPECT_LT(with_locks.size(), ball.positions.size() / 4);
+    EXPECT_LT(*with_locks.rbegin(), ball.positions.size());
+    for (const std::uint32_t point : locked) {
+        ASSERT_EQ(with_locks.count(point), 1U);
+    }
+}
+
 TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
     const Mesh sheet = *test::make_floor(0.3, 20);
     const Mesh coarse = *test::make_floor(0.3, 3);
@@ -124,10 +154,10 @@ TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
         const TriangleBvh lifted_bvh(lifted, coarse.triangles);
         const TriangleSet a = {sheet.positions, sheet.triangles, sheet_bvh};
         const TriangleSet b = {lifted, coarse.triangles, lifted_bvh};
-        EXPECT_TRUE(is_covered(a, b, gap + 1e-4));
-        EXPECT_TRUE(is_covered(b, a, gap + 1e-4));
-        EXPECT_FALSE(is_covered(a, b, gap - 1e-6));
-        EXPECT_FALSE(is_covered(b, a, gap - 1e-6));
+        EXPECT_TRUE(find_uncovered(a, b, gap + 1e-4).empty());
+        EXPECT_TRUE(find_uncovered(b, a, gap + 1e-4).empty());
+        EXPECT_FALSE(find_uncovered(a, b, gap - 1e-6).empty());
+        EXPECT_FALSE(find_uncovered(b, a, gap - 1e-6).empty());
     }
 }
 
@@ -140,9 +170,9 @@ TEST(SurfaceDistance, SeesAHoleThatNoCornerIsIn) {
     const TriangleBvh holed_bvh(holed.positions, holed.triangles);
     const TriangleSet a = {whole.positions, whole.triangles, whole_bvh};
     const TriangleSet b = {holed.positions, holed.triangles, holed_bvh};
-    EXPECT_TRUE(is_covered(b, a, 1e-4));
-    EXPECT_FALSE(is_covered(a, b, 4.9e-3));  // the hole is a square of 10 mm
-    EXPECT_TRUE(is_covered(a, b, 5.1e-3));
+    EXPECT_TRUE(find_uncovered(b, a, 1e-4).empty());
+    EXPECT_FALSE(find_uncovered(a, b, 4.9e-3).empty());  // the hole is a square of 10 mm
+    EXPECT_TRUE(find_uncovered(a, b, 5.1e-3).empty());
 }
 
 }  // namespace
