@@ -253,6 +253,37 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("error_m", c.error_m);
 }
 template <typename V>
+void visit_fields(const GripSurface& c, V&& visit) {
+    visit("body", c.body);
+    visit("triangle", c.triangle);
+    visit("point_bs", c.point_bs);
+    visit("normal_bs", c.normal_bs);
+}
+template <typename V>
+void visit_fields(const PalmOffset& c, V&& visit) {
+    visit("shown_m", c.shown_m);
+    visit("shown_turn_rad", c.shown_turn_rad);
+    visit("target_m", c.target_m);
+    visit("target_turn_rad", c.target_turn_rad);
+    visit("lift_m", c.lift_m);
+    visit("lifted_at_bs", c.lifted_at_bs);
+}
+template <typename V>
+void visit_fields(const PalmPose& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const FingerPose& c, V&& visit) {
+    visit("shown", c.shown);
+    visit("target", c.target);
+    visit("seed_triangle", c.seed_triangle);
+    visit("solved_body", c.solved_body);
+    visit("solved_wrist_bs", c.solved_wrist_bs);
+    visit("solved", c.solved);
+    visit("thumb_wrist_bs", c.thumb_wrist_bs);
+    visit("thumb_solved", c.thumb_solved);
+}
+template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {
     visit("hand_in_controller", c.hand_in_controller);
 }

@@ -22,6 +22,23 @@ struct HandSurroundings {
     std::vector<PlacedMesh> meshes;  // the gripped body's first, then what is near
 };
 
+// What search_grip works in: keeps its memory between calls.
+struct GripSearchScratch {
+    struct Node {
+        double cost_m = 0.0;
+        std::uint32_t triangle = 0;
+        std::uint32_t order = 0;
+    };
+    struct Found {
+        std::uint32_t triangle = k_no_triangle;
+        Vec3 point = Vec3::Zero();  // under the palm, on the search detail
+        double cost_m = 0.0;
+    };
+    std::vector<Node> open;
+    std::vector<Found> found;
+    std::vector<std::uint32_t> seen;
+};
+
 // Triangle-wise figures of a frame's hands, for the measuring tools and the pictures. Not state.
 struct FingerTrace {
     std::uint32_t discs = 0;

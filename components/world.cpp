@@ -96,6 +96,10 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
         world.hand_tracking.add(hand);
         world.hand_history.add(hand);
         world.grab.add(hand);
+        world.grip_surface.add(hand);
+        world.palm_offset.add(hand);
+        world.palm_pose.add(hand);
+        world.finger_pose.add(hand);
     }
     return made;
 }

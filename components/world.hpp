@@ -5,6 +5,7 @@
 
 #include "components/body.hpp"
 #include "components/grab.hpp"
+#include "components/hand.hpp"
 #include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/render.hpp"
@@ -54,6 +55,10 @@ struct World {
     Column<HandTracking> hand_tracking;
     Column<HandHistory> hand_history;
     Column<Grab> grab;
+    Column<GripSurface> grip_surface;
+    Column<PalmOffset> palm_offset;
+    Column<PalmPose> palm_pose;
+    Column<FingerPose> finger_pose;
     Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
 };
 
@@ -86,6 +91,10 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_tracking", world.hand_tracking);
     visit("hand_history", world.hand_history);
     visit("grab", world.grab);
+    visit("grip_surface", world.grip_surface);
+    visit("palm_offset", world.palm_offset);
+    visit("palm_pose", world.palm_pose);
+    visit("finger_pose", world.finger_pose);
     visit("controller_to_hand", world.controller_to_hand);
 }
 

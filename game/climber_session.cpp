@@ -49,7 +49,7 @@ Recording record_climb(Scene& scene, const ClimbPlan& plan) {
     const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
     const ClimberTask task = task_of(plan, player);
     ClimberState state = begin_climber(scene, task, plan.seed);
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     std::vector<TrackingSample> samples;
     StageStats stats;
     Recording recording;

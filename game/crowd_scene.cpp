@@ -60,7 +60,7 @@ void fill_with_crowd(Scene& scene) {
     const Pose first_ws = scene.spawns.front().pose_ws;
     std::vector<Pose> places;
     {
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         places = spread_players(scene, caches, first_ws, 4 * k_things, k_seed);
     }
     Random random(k_seed);

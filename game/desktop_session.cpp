@@ -19,7 +19,7 @@ RecordedSample recorded(const TrackingSample& sample) {
 
 DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
     : scene_(std::move(scene)),
-      caches_(*scene_.shapes),
+      caches_(*scene_.shapes, scene_.grip_meshes.get()),
       player_(
           add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {}
 

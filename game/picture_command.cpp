@@ -23,7 +23,7 @@ int refuse(const FileError& error) {
 
 void step_to(Scene& scene, double seconds) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     StageStats stats;
     while (scene.world.clock.t_s + 0.5 * k_dt_s < seconds) {
         step_frame(scene.world, caches, scene.tuning, {k_dt_s, {}}, stats);

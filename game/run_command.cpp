@@ -330,7 +330,7 @@ int run_command(const RunOptions& options) {
                 {options.out, "", "expected a folder that can be made: " + failure.message()});
         }
     }
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const Result<Place> place = choose_place(options, scene, caches, session.value());
     if (!place) {
         return refuse(place.error());

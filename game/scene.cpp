@@ -351,6 +351,7 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     if (std::optional<FileError> error = SceneBuilder(file, path, levels, scene).build()) {
         return *error;
     }
+    *scene.grip_meshes = GripMeshLibrary(*scene.shapes);
     return scene;
 }
 

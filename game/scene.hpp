@@ -11,6 +11,7 @@
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 #include "engine/collision/shape_library.hpp"
+#include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/geometry/mesh.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/result.hpp"
@@ -54,6 +55,8 @@ struct Scene {
     World world;
     std::unique_ptr<ShapeLibrary> shapes =
         std::make_unique<ShapeLibrary>();  // its address stays: caches refer to it
+    // What hands are fitted to: of every shape; its address stays as well.
+    std::unique_ptr<GripMeshLibrary> grip_meshes = std::make_unique<GripMeshLibrary>();
     Tuning tuning;
     ShapeId head_shape;  // a sphere of the tuning's head radius
     std::vector<SceneVisual> visuals;

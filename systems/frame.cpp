@@ -3,6 +3,11 @@
 #include "engine/core/check.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/body/publish_pose.hpp"
+#include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/gather_surroundings.hpp"
+#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/search_grip.hpp"
+#include "systems/hand/sweep_fingers.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/locomotion/locomote_players.hpp"
 #include "systems/locomotion/settle_grabs.hpp"
@@ -57,6 +62,7 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     const double start_s = w.clock.t_s;
     const double end_s = start_s + input.dt_s;
     FrameGraph& graph = caches.graph;
+    HandScratch& hands = caches.hands;
     stats = {};
     {
         const StageTimer timer(Stage::read_tracking, stats);
@@ -130,9 +136,37 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
         update_joints({input.dt_s, graph, w.joint, w.joint_state});
     }
     {
+        const StageTimer timer(Stage::gather_surroundings, stats);
+        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, graph, w.hand_owner,
+                             w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose,
+                             w.collider, hands.surroundings});
+        hands.traces.assign(hands.surroundings.size(), {});
+    }
+    {
+        const StageTimer timer(Stage::search_grip, stats);
+        search_grip({hands.surroundings, w.grip_surface, hands.search}, tuning, stats);
+    }
+    {
+        const StageTimer timer(Stage::constrain_palms, stats);
+        constrain_palms(
+            {input.dt_s, hands.surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, tuning);
+    }
+    {
+        const StageTimer timer(Stage::sweep_fingers, stats);
+        sweep_fingers({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.palm_pose,
+                       w.palm_offset, w.finger_pose, hands.traces, hands.fit},
+                      tuning, stats);
+    }
+    {
+        const StageTimer timer(Stage::pose_thumb, stats);
+        pose_thumb({input.dt_s, hands.surroundings, w.grip_surface, w.palm_pose, w.finger_pose,
+                    hands.traces, hands.fit},
+                   tuning, stats);
+    }
+    {
         const StageTimer timer(Stage::publish_pose, stats);
         publish_pose({graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
-                      w.hand_tracking, w.grab, w.body_pose, w.render_pose},
+                      w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.render_pose},
                      tuning);
     }
     ++w.clock.frame;

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "components/builtin_hand_rig.hpp"
 #include "components/frame_graph.hpp"
+#include "components/hand_scratch.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/shape_library.hpp"
+#include "engine/geometry/grip_mesh_library.hpp"
 
 // The library's front door: feed tracking samples, step, read RenderPose.
 namespace handhold {
@@ -21,11 +25,18 @@ struct FrameInput {
 // Everything that a frame keeps beside the world: caches, which may be thrown away before any frame
 // without changing one bit of the next.
 struct FrameCaches {
-    // `shapes` must outlive the caches and hold every shape that the world's colliders name.
-    explicit FrameCaches(const ShapeLibrary& shapes) : collision(shapes) {}
+    // `shapes` must outlive the caches and hold every shape that the world's colliders name; so
+    // must `grip_meshes`, to which hands are fitted. Without it, or where it lacks a shape, hands
+    // are shown as they are tracked.
+    explicit FrameCaches(const ShapeLibrary& shapes, const GripMeshLibrary* grip_meshes = nullptr)
+        : collision(shapes), meshes_for_hands(grip_meshes) {}
 
     CollisionWorld collision;
     FrameGraph graph;
+    const GripMeshLibrary* meshes_for_hands = nullptr;
+    std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
+                                                   builtin_hand_rig(HandSide::right)};
+    HandScratch hands;
 };
 
 // One frame: a straight line of stages, each a system over the columns it is given; nothing else

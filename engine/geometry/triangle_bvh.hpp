@@ -50,6 +50,11 @@ class TriangleBvh {
     template <typename MayMatter, typename Visit>
     void visit_boxes(MayMatter&& may_matter, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
+    // False where surely no triangle is as near as radius_m.
+    bool may_be_near(const Vec3& point, double radius_m) const {
+        return !nodes_.empty() &&
+               squared_distance(nodes_.front(), point - origin_) <= radius_m * radius_m;
+    }
 
     std::size_t triangle_count() const { return numbers_.size(); }  // that can be found
     std::size_t memory_bytes() const;

@@ -110,6 +110,19 @@ const char* meaning_of(Fallback reason) {
         case Fallback::head_ignores_full:
             return "The head passed through more bodies than it remembers; the oldest was "
                    "forgotten.";
+        case Fallback::finger_searched_all:
+            return "A finger looked at every surface within its reach: its searches did not do.";
+        case Fallback::finger_bent:
+            return "A finger would have reached into something straight; it closed from where it "
+                   "was clear, bent.";
+        case Fallback::finger_opened:
+            return "A finger was still sunk and opened a little.";
+        case Fallback::finger_touches_nothing:
+            return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
+        case Fallback::palm_lifted:
+            return "Fingers did not fit; the hand that is shown was lifted off its surface.";
+        case Fallback::palm_no_surface:
+            return "A gripping hand had nothing under its palm; it is shown as it is tracked.";
         case Fallback::count:
             break;
     }

@@ -3,6 +3,7 @@
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
+#include "components/hand.hpp"
 #include "components/player.hpp"
 #include "components/render.hpp"
 #include "components/tracking.hpp"
@@ -19,12 +20,12 @@ struct PublishPoseIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in
     const Column<Grab>& grab;                   // in
-    const Column<BodyPose>& body_pose;          // in
+    const Column<PalmPose>& palm;               // in
+    const Column<FingerPose>& fingers;          // in
     Column<RenderPose>& render;                 // out
 };
 
-// Stage 16. What a host draws: head and hands in the world; a gripping hand on its anchor, whatever
-// the tracking says.
+// Stage 16. What a host draws: head and hands in the world, hands fitted to what they hold.
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning);
 
 }  // namespace handhold

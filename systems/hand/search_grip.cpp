@@ -57,7 +57,7 @@ Candidate cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const Palm&
 class GripSearcher {
   public:
     GripSearcher(const SurfaceGraph& graph, const Palm& palm, const PalmTuning& tuning,
-                 SearchGripScratch& scratch)
+                 GripSearchScratch& scratch)
         : graph_(graph),
           palm_(palm),
           tuning_(tuning),
@@ -74,14 +74,14 @@ class GripSearcher {
         }
     }
 
-    using Found = SearchGripScratch::Found;
+    using Found = GripSearchScratch::Found;
     // Goes on until `patience` pops in a row found nothing cheaper; may be called again.
     void run(std::uint32_t patience) {
         std::uint32_t idle = 0;
         while (pops_ < k_most_pops && idle < patience && !open_.empty()) {
             ++pops_;
             std::pop_heap(open_.begin(), open_.end(), later);
-            const SearchGripScratch::Node node = open_.back();
+            const GripSearchScratch::Node node = open_.back();
             open_.pop_back();
             ++idle;
             if (found_.empty() || node.cost_m < best_m_) {
@@ -117,7 +117,7 @@ class GripSearcher {
     }
 
   private:
-    static bool later(const SearchGripScratch::Node& a, const SearchGripScratch::Node& b) {
+    static bool later(const GripSearchScratch::Node& a, const GripSearchScratch::Node& b) {
         return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.order > b.order;
     }
 
@@ -136,7 +136,7 @@ class GripSearcher {
     const SurfaceGraph& graph_;
     const Palm& palm_;
     const PalmTuning& tuning_;
-    std::vector<SearchGripScratch::Node>& open_;
+    std::vector<GripSearchScratch::Node>& open_;
     TriangleSet<2048> seen_;
     std::uint32_t pushed_ = 0;
     std::vector<Found>& found_;
@@ -171,7 +171,7 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
 class PalmHolder {
   public:
     PalmHolder(const HandSurroundings& hand, const Tuning& tuning, GripSearch search,
-               SearchGripScratch& scratch)
+               GripSearchScratch& scratch)
         : hand_(hand), tuning_(tuning), search_(search), scratch_(scratch) {}
 
     void run(GripSurface& surface) {
@@ -266,12 +266,13 @@ class PalmHolder {
     const HandSurroundings& hand_;
     const Tuning& tuning_;
     GripSearch search_;
-    SearchGripScratch& scratch_;
+    GripSearchScratch& scratch_;
 };
 
 }  // namespace
 
-void search_grip(const SearchGripIo& io, const Tuning& tuning, GripSearch search) {
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
+                 GripSearch search) {
     for (const HandSurroundings& hand : io.hands) {
         GripSurface& surface = io.surface.at(hand.hand);
         if (is_null(hand.body) || hand.meshes.empty()) {
@@ -279,6 +280,9 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, GripSearch search
             continue;
         }
         PalmHolder(hand, tuning, search, io.scratch).run(surface);
+        if (surface.triangle == GripSurface::k_none) {
+            stats.count(Fallback::palm_no_surface);
+        }
     }
 }
 

@@ -5,26 +5,11 @@
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
+#include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
 namespace handhold {
-
-struct SearchGripScratch {
-    struct Node {
-        double cost_m = 0.0;
-        std::uint32_t triangle = 0;
-        std::uint32_t order = 0;
-    };
-    struct Found {
-        std::uint32_t triangle = GripSurface::k_none;
-        Vec3 point = Vec3::Zero();  // under the palm, on the search detail
-        double cost_m = 0.0;
-    };
-    std::vector<Node> open;
-    std::vector<Found> found;
-    std::vector<std::uint32_t> seen;
-};
 
 // Which surface the palm is held to where the ray's is not the only one.
 enum class GripSearch : std::uint8_t {
@@ -35,7 +20,7 @@ enum class GripSearch : std::uint8_t {
 struct SearchGripIo {
     std::span<const HandSurroundings> hands;  // in
     Column<GripSurface>& surface;             // in/out: last frame's is where the search begins too
-    SearchGripScratch& scratch;
+    GripSearchScratch& scratch;
 };
 
 // Finds the triangle under each gripping palm that needs the least movement of the palm to meet its
@@ -43,7 +28,7 @@ struct SearchGripIo {
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
 // PalmTuning::tilt_cost_m_per_rad apart. Hands with nothing within PalmTuning::reach_m are left
 // without a surface. Talk rows 2, 11, 17.
-void search_grip(const SearchGripIo& io, const Tuning& tuning,
+void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::least_sync);
 
 }  // namespace handhold

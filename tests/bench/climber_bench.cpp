@@ -20,7 +20,7 @@ void climbers(benchmark::State& state) {
     double frames = 0.0;
     for (auto _ : state) {
         Scene scene = *make_built_in_scene("station");
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         std::vector<PlayerEntities> entities;
         for (const Pose& origin_ws :
              spread_players(scene, caches, scene.spawns.front().pose_ws, players, 1)) {

@@ -21,7 +21,7 @@ void run_frames(benchmark::State& state, const char* name) {
     for (auto _ : state) {
         Scene scene = *make_built_in_scene(name);
         const Recording recording = *make_built_in_session(name);
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         std::vector<PlayerEntities> entities;
         for (std::size_t i = 0; i < players; ++i) {
             entities.push_back(

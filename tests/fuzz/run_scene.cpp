@@ -21,7 +21,7 @@ void run_scene(Bytes bytes) {
     for (const ScenePlayerStart& start : scene.players) {
         add_scene_player(scene, start);
     }
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     StageStats stats;
     for (int frame = 0; frame < 3; ++frame) {
         step_frame(scene.world, caches, scene.tuning, {1.0 / 90.0, {}}, stats);

@@ -55,7 +55,7 @@ struct Solo {
     std::uint64_t gripped = 0;
 
     Solo(Scene& in, const Vec3& head_ws, std::uint64_t seed, ClimberTask what = {})
-        : scene(in), caches(*in.shapes), task(std::move(what)) {
+        : scene(in), caches(*in.shapes, in.grip_meshes.get()), task(std::move(what)) {
         const Pose origin_ws{head_ws - Vec3(0.0, 1.6, 0.0), Quat::Identity()};
         task.player = add_scene_player(scene, {"player0", origin_ws, 80.0});
         state = begin_climber(scene, task, seed);

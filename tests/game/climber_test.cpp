@@ -189,7 +189,7 @@ TEST(RecordedClimb, PlaysAgainBitForBit) {
     plan.seconds = 12.0;
     const Recording recording = record_climb(scene, plan);
     Scene again = *make_built_in_scene("station");
-    FrameCaches caches(*again.shapes);
+    FrameCaches caches(*again.shapes, again.grip_meshes.get());
     const PlayerEntities player = add_scene_player(again, {"player0", plan.origin_ws, 80.0});
     const double seconds = static_cast<double>(scene.world.clock.frame) / 90.0;
     const RunLog log = run_session(again, caches, {player}, &recording, {90.0, seconds, 1});

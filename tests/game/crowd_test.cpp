@@ -42,7 +42,7 @@ std::vector<PlayerEntities> add_climbers(Scene& scene, FrameCaches& caches, std:
 TEST(SpreadPlayers, LeavesEveryHeadClearOfSurfacesAndOfEachOther) {
     for (const char* const name : {"station", "ship"}) {
         const Scene scene = *make_built_in_scene(name);
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         const std::vector<Pose> places =
             spread_players(scene, caches, scene.spawns.front().pose_ws, 60, 3);
         ASSERT_EQ(places.size(), 60U) << name;
@@ -69,7 +69,7 @@ TEST(SpreadPlayers, GivesFewerWhereThereIsNoRoom) {
     wall.shape = scene.shapes->add_box(Vec3(0.45, 0.45, 0.45));
     wall.pose_ws.position = Vec3(0.0, 1.6, 0.0);
     add_body(scene.world, wall);
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     EXPECT_EQ(spread_players(scene, caches, {}, 10, 1).size(), 1U);
 }
 
@@ -77,7 +77,7 @@ TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
     const auto hash_with = [](int threads) {
         Scene scene = *make_built_in_scene("crowd");
         const Recording recording = *make_built_in_session("crowd");
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         const std::vector<PlayerEntities> players = add_climbers(scene, caches, 13, 5);
         RunSettings settings{90.0, 4.0, threads};
         settings.climbers_from = 1;
@@ -92,7 +92,7 @@ TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
 // The collision world is a cache: climbers see the same through a new one.
 TEST(Crowd, CarriesOnAlikeAfterACopyOfWorldAndMinds) {
     Scene scene = *make_built_in_scene("crowd");
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const std::vector<PlayerEntities> players = add_climbers(scene, caches, 8, 2);
     Crowd crowd(scene, players, 2);
     std::vector<PlayerInput> inputs(players.size());
@@ -111,7 +111,7 @@ TEST(Crowd, CarriesOnAlikeAfterACopyOfWorldAndMinds) {
     const std::uint64_t once = run(caches, 200);
     scene.world = world;
     crowd.states() = minds;
-    FrameCaches fresh(*scene.shapes);
+    FrameCaches fresh(*scene.shapes, scene.grip_meshes.get());
     EXPECT_EQ(run(fresh, 200), once);
 }
 
@@ -129,7 +129,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     const auto seed =
         static_cast<std::uint64_t>(number_from_environment("HANDHOLD_CROWD_SEED", 1.0));
     Scene scene = *make_built_in_scene("station");
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const std::vector<PlayerEntities> players = add_climbers(scene, caches, count, seed);
     ASSERT_EQ(players.size(), count);
     RunSettings settings{90.0, seconds, 1};
@@ -138,7 +138,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     settings.keep_frames = false;
     RunTally tally;
     std::uint64_t jams = 0;  // frames in which something stayed sunk into something by a millimetre
-    FrameCaches eyes(*scene.shapes);
+    FrameCaches eyes(*scene.shapes, scene.grip_meshes.get());
     const RunLog log = run_session(
         scene, caches, players, nullptr, settings, [&](const Scene& now, const FrameLog& frame) {
             tally.add(frame);

@@ -21,7 +21,7 @@ struct Desk {
 
     Desk(Scene in, const Vec3& head_ws)
         : scene(std::move(in)),
-          caches(*scene.shapes),
+          caches(*scene.shapes, scene.grip_meshes.get()),
           player(add_scene_player(
               scene, {"player0", {head_ws - Vec3(0.0, 1.6, 0.0), Quat::Identity()}, 80.0})) {}
 

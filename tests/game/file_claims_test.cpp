@@ -74,7 +74,7 @@ TEST_F(FileClaims, RecordingsOfManyYearsTakeMemoryAsTheyArePlayed) {
               }),
               k_megabyte);
     Scene scene;
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const std::size_t taken = bytes_taken([&] {
         EXPECT_THROW(run_session(scene, caches, {}, &recording, {},
                                  [](const Scene&, const FrameLog& frame) {

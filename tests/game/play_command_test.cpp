@@ -98,7 +98,7 @@ TEST(DesktopSession, WhatIsRecordedPlaysAgainToTheSameHash) {
     ASSERT_FALSE(session.used_sticks());
 
     Scene again = make_desk_scene();
-    FrameCaches caches(*again.shapes);
+    FrameCaches caches(*again.shapes, again.grip_meshes.get());
     const PlayerEntities player = add_scene_player(again, {"player0", origin_ws, 80.0});
     RunSettings settings;
     settings.hz = 90.0;

@@ -22,7 +22,7 @@ class Playground : public ::testing::Test {
         scene.emplace(*make_built_in_scene("playground"));
         const PlayerEntities player =
             add_scene_player(*scene, {"player", scene->spawns.front().pose_ws, 80.0});
-        FrameCaches caches(*scene->shapes);
+        FrameCaches caches(*scene->shapes, scene->grip_meshes.get());
         const Recording recording = *make_built_in_session("playground");
         log = run_session(*scene, caches, {player}, &recording, {},
                           [this](const Scene&, const FrameLog& frame) { watch(frame); });

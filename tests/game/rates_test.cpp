@@ -31,7 +31,7 @@ struct Path {
 // drop(frame): that frame is left out, the next is as much longer.
 Path play(const Recording& recording, double hz, const std::function<bool(int)>& drop) {
     Scene scene = make_tunnel(6.0);
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const PlayerEntities player = add_scene_player(scene, {"player0", k_start, 80.0});
     Playback playback(recording);
     StageStats stats;

@@ -73,7 +73,7 @@ TEST(RobotTorso, IsAboutThreeMetresLongWithRailsOnItsBack) {
 TEST(RobotScene, BodiesFollowTheClosedFormWhateverTheFrameRate) {
     const auto pose_after = [](int frames, const char* body) {
         Scene scene = *make_built_in_scene("robot");
-        FrameCaches caches(*scene.shapes);
+        FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
         StageStats stats;
         for (int frame = 0; frame < frames; ++frame) {
             step_frame(scene.world, caches, scene.tuning, {8.0 / frames, {}}, stats);

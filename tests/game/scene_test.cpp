@@ -35,7 +35,7 @@ TEST(BuildScene, PathIsFollowedInTheWorldAndBeginsAtItsFirstPose) {
     // The spline through four points of a unit circle passes each at 3 / (2 step) of the chord
     // between its neighbours: 1.5 * 2 / (2 * 2 s) here.
     EXPECT_NEAR(scene.world.body_velocity.at(lift).linear_mps.norm(), 0.75, 1e-12);
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     StageStats stats;
     for (int frame = 0; frame < 4; ++frame) {
         step_frame(scene.world, caches, scene.tuning, {0.5, {}}, stats);

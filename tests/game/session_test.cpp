@@ -18,7 +18,7 @@ const std::filesystem::path k_data = HANDHOLD_DATA_DIR;
 
 RunLog play(Scene& scene, const Recording& recording, const Pose& origin_ws, int threads,
             double hz = 90.0) {
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const PlayerEntities player = add_scene_player(scene, {"player0", origin_ws, 80.0});
     return run_session(scene, caches, {player}, &recording, {hz, 0.0, threads});
 }
@@ -106,7 +106,7 @@ TEST(RealRecordings, CrawlThroughARealLevel) {
     Result<Scene> loaded = load_scene(level.string());
     ASSERT_TRUE(loaded.ok()) << loaded.error().message();
     Scene& scene = loaded.value();
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     std::uint64_t onsets = 0;
     std::uint64_t gripped = 0;
     std::vector<double> paths_m;

@@ -47,7 +47,7 @@ StationScene own_station() {
 }
 
 std::uint64_t hash_after(Scene& scene, double seconds) {
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const Recording session = *make_built_in_session("station");
     const PlayerEntities player =
         add_scene_player(scene, {"player0", scene.spawns.front().pose_ws, 80.0});
@@ -115,7 +115,7 @@ TEST(StationFiles, SceneReadBackIsTheSameText) {
 
 TEST(StationTools, FloatClearOfEverythingAtFirst) {
     Scene scene = *make_built_in_scene("station");
-    FrameCaches caches(*scene.shapes);
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     std::vector<ColliderProxy> proxies;
     for (std::size_t row = 0; row < scene.world.body.size(); ++row) {
         const Entity body = scene.world.body.owners()[row];

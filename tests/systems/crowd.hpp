@@ -36,10 +36,11 @@ class Crowd {
             make();
         }
         make_ties();
+        grip_meshes_ = GripMeshLibrary(shapes);
         drop_caches();
     }
 
-    void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes); }
+    void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes, &grip_meshes_); }
 
     void step() {
         const double start_s = world.clock.t_s;
@@ -235,6 +236,7 @@ class Crowd {
     }
 
     std::vector<Actor> cast_;
+    GripMeshLibrary grip_meshes_;
     std::unique_ptr<FrameCaches> caches_;
 };
 

@@ -15,7 +15,6 @@ using test::Random;
 constexpr Entity k_player = entity(0);
 constexpr Entity k_left = entity(1);
 constexpr Entity k_right = entity(2);
-constexpr Entity k_rock = entity(3);
 
 struct Publishing {
     FrameGraph frame;
@@ -25,7 +24,8 @@ struct Publishing {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
     Column<Grab> grab;
-    Column<BodyPose> body_pose;
+    Column<PalmPose> palm;
+    Column<FingerPose> fingers;
     Column<RenderPose> render;
     Tuning tuning;
 
@@ -37,17 +37,18 @@ struct Publishing {
         head.add(k_player);
         head.at(k_player).pose_ps = random.pose(1.0);
         render.add(k_player);
-        body_pose.add(k_rock, {random.pose()});
         for (const Entity entity : hands) {
             owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
             hand.add(entity);
             grab.add(entity);
+            palm.add(entity, {random.pose()});
+            fingers.add(entity);
         }
         hand.at(k_left).pose_ps = random.pose(1.0);
         hand.at(k_right).pose_ps = random.pose(1.0);
     }
     const RenderPose& run() {
-        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, body_pose, render},
+        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, palm, fingers, render},
                      tuning);
         return render.at(k_player);
     }
@@ -65,35 +66,20 @@ RC_GTEST_PROP(PublishPose, HeadAndHandsAreTheirTrackedPosesInTheWorld, (std::uin
         const RenderPose::Hand& shown = out.hands[hand == k_left ? 0 : 1];
         RC_ASSERT(distance(shown.tracked_ws, scene.origin_ws() * scene.hand.at(hand).pose_ps) <
                   1e-7);
-        RC_ASSERT(distance(shown.shown_ws, shown.tracked_ws) == 0.0);
+        RC_ASSERT(distance(shown.shown_ws, scene.palm.at(hand).pose_ws) == 0.0);
         RC_ASSERT(shown.grip == GripKind::none);
     }
 }
 
-RC_GTEST_PROP(PublishPose, GrippingHandIsShownOnItsAnchorWhateverTheTrackingSays,
-              (std::uint64_t seed)) {
-    Publishing scene(seed);
-    Random random(seed + 1);
-    Grab& grab = scene.grab.at(k_right);
-    grab.kind = GripKind::held;
-    grab.body = k_rock;
-    grab.anchor_bs = random.pose();
-    const RenderPose& out = scene.run();
-    RC_ASSERT(distance(out.hands[1].shown_ws, scene.body_pose.at(k_rock).pose_ws * grab.anchor_bs) <
-              1e-7);
-    RC_ASSERT(distance(out.hands[1].tracked_ws,
-                       scene.origin_ws() * scene.hand.at(k_right).pose_ps) < 1e-7);
-    RC_ASSERT(out.hands[1].grip == GripKind::held);
-    RC_ASSERT(distance(out.hands[0].shown_ws, out.hands[0].tracked_ws) == 0.0);
-}
-
-TEST(PublishPose, HandWhoseBodyIsGoneIsShownWhereItIsTracked) {
+TEST(PublishPose, FingersAndGripAreTheHandsOwn) {
     Publishing scene(3);
     scene.grab.at(k_right).kind = GripKind::held;
-    scene.grab.at(k_right).body = k_rock;
-    scene.body_pose.remove(k_rock);
+    scene.fingers.at(k_right).shown[2].curl_rad[1] = 0.7;
     const RenderPose& out = scene.run();
-    EXPECT_EQ(distance(out.hands[1].shown_ws, out.hands[1].tracked_ws), 0.0);
+    EXPECT_EQ(out.hands[1].grip, GripKind::held);
+    EXPECT_EQ(out.hands[1].fingers[2].curl_rad[1], 0.7);
+    EXPECT_EQ(out.hands[0].grip, GripKind::none);
+    EXPECT_EQ(out.hands[0].fingers[2].curl_rad[1], 0.0);
 }
 
 // Through the palm along its inward normal, -Y of the hand, from ray_back_m behind the skin.
@@ -131,11 +117,7 @@ RC_GTEST_PROP(PublishPose, MovedAndRotatedWorldMovesThePictureAlong, (std::uint6
     Random random(seed + 1);
     const Pose moved = random.pose(1e3);
     there.origin.at(k_player).pose_ws = moved * here.origin_ws();
-    there.body_pose.at(k_rock).pose_ws = moved * here.body_pose.at(k_rock).pose_ws;
-    for (Publishing* const scene : {&here, &there}) {
-        scene->grab.at(k_left).kind = GripKind::surface;
-        scene->grab.at(k_left).body = k_rock;
-    }
+    there.palm.at(k_left).pose_ws = moved * here.palm.at(k_left).pose_ws;
     const RenderPose& a = here.run();
     const RenderPose& b = there.run();
     RC_ASSERT(distance(inverse(moved) * b.head_ws, a.head_ws) < 1e-6);
@@ -153,21 +135,6 @@ TEST(PublishPose, OrderOfHandsDoesNotMatter) {
         EXPECT_EQ(a.hands[side].tracked_ws.position, b.hands[side].tracked_ws.position);
         EXPECT_EQ(a.hands[side].ray_to_ws, b.hands[side].ray_to_ws);
     }
-}
-
-TEST(PublishPose, GrippingHandCurlsEveryFingerMoreThanAnEmptyOne) {
-    Publishing scene(1);
-    const RenderPose::Hand open = scene.run().hands[1];
-    scene.grab.at(k_right).kind = GripKind::held;
-    scene.grab.at(k_right).body = k_rock;
-    const RenderPose::Hand closed = scene.run().hands[1];
-    for (std::size_t finger = 1; finger < k_finger_count; ++finger) {
-        for (std::size_t link = 0; link < k_most_links; ++link) {
-            EXPECT_GT(closed.fingers[finger].curl_rad[link],
-                      open.fingers[finger].curl_rad[link] + 0.3);
-        }
-    }
-    EXPECT_GT(closed.fingers[0].opposition_rad, open.fingers[0].opposition_rad);
 }
 
 }  // namespace

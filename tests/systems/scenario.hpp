@@ -104,9 +104,10 @@ class Scenario {
         for (const Entity hand : player.hands) {
             world.controller_to_hand.add(hand, {});  // hands are scripted as hands
         }
-        caches_ = std::make_unique<FrameCaches>(shapes);
+        grip_meshes_ = GripMeshLibrary(shapes);
+        drop_caches();
     }
-    void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes); }
+    void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes, &grip_meshes_); }
 
     // One frame; samples of the devices at their own rate, with one beyond the frame's end.
     void step() {
@@ -165,6 +166,7 @@ class Scenario {
     }
 
   private:
+    GripMeshLibrary grip_meshes_;
     std::unique_ptr<FrameCaches> caches_;
     std::vector<TrackingSample> samples_;
     std::vector<PlayerInput> inputs_;

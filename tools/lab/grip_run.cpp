@@ -34,7 +34,7 @@ class OneHand {
             sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
         };
         timed(us.search_us, [&] {
-            search_grip({surroundings_, surface_, search_scratch_}, tuning, variant.palm);
+            search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
         });
         for (std::int32_t lifts = 0;; ++lifts) {
             const double lift_before_m = offset_.rows().front().lift_m;
@@ -79,7 +79,7 @@ class OneHand {
     Column<FingerPose> fingers_;
     std::vector<HandSurroundings> surroundings_;
     std::vector<std::array<FingerTrace, k_finger_count>> traces_{1};
-    SearchGripScratch search_scratch_;
+    GripSearchScratch search_scratch_;
     ChainFitScratch fit_scratch_;
     StageStats stats_;
 };

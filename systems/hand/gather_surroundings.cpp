@@ -1,0 +1,88 @@
+#include "systems/hand/gather_surroundings.hpp"
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_hand_length_m = 0.25;
+
+class Gatherer {
+  public:
+    explicit Gatherer(const GatherSurroundingsIo& io) : io_(io) {}
+
+    void gather(std::size_t row, HandSurroundings& out) const {
+        const Entity hand = io_.owner.owners()[row];
+        const HandOwner& owner = io_.owner.rows()[row];
+        const Grab& grab = io_.grab.at(hand);
+        const Pose tracked_ws = io_.origin.at(owner.player).pose_ws * io_.hand.at(hand).pose_ps;
+        out.hand = hand;
+        out.rig = &io_.rigs[index_of(owner.side)];
+        out.body = k_no_entity;
+        out.body_ws = {};
+        out.wrist_bs = tracked_ws;
+        out.meshes.clear();
+        const bool is_there =
+            io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
+        if (grab.kind == GripKind::none || !is_there) {
+            return;
+        }
+        out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body);
+        out.wrist_bs = grab.anchor_bs;
+        if (turns_on_its_grip(grab)) {
+            out.wrist_bs.rotation =
+                (out.body_ws.rotation.conjugate() * tracked_ws.rotation).normalized();
+        }
+        if (const PlacedMesh own = {mesh_of(grab.body), {}}; own.mesh != nullptr) {
+            out.body = grab.body;
+            out.meshes.push_back(own);
+            add_near(out);
+        }
+    }
+
+  private:
+    static bool turns_on_its_grip(const Grab& grab) {
+        return grab.kind != GripKind::held || grab.jointed || grab.two_handed;
+    }
+
+    const GripMesh* mesh_of(Entity body) const {
+        const Collider* const collider = io_.collider.find(body);
+        const bool is_known = io_.meshes != nullptr && collider != nullptr &&
+                              io_.body_pose.contains(body) && io_.meshes->has(collider->shape);
+        return is_known ? &io_.meshes->at(collider->shape) : nullptr;
+    }
+
+    void add_near(HandSurroundings& out) const {
+        const Vec3 palm_ws =
+            transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
+        for (std::size_t i = 0; i < io_.frame.entities.size(); ++i) {
+            const Entity body = io_.frame.entities[i];
+            if (body == out.body || !io_.body_pose.contains(body)) {
+                continue;
+            }
+            const GripMesh* const mesh = mesh_of(body);
+            if (mesh == nullptr) {
+                continue;
+            }
+            const Pose& pose_ws = io_.body_pose.at(body).pose_ws;
+            const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
+            if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
+                out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
+            }
+        }
+    }
+
+    const GatherSurroundingsIo& io_;
+};
+
+}  // namespace
+
+void gather_surroundings(const GatherSurroundingsIo& io) {
+    io.surroundings.resize(io.owner.size());
+    const Gatherer gatherer(io);
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        gatherer.gather(row, io.surroundings[row]);
+    }
+}
+
+}  // namespace handhold
