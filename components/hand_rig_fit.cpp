@@ -1,5 +1,9 @@
 #include "components/hand_rig_fit.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "components/hand_skeleton_fit.hpp"
 
 namespace handhold {
@@ -44,6 +48,76 @@ void carry_other_joints(const SkinnedMesh& skin, HandRigFit& fit) {
     }
 }
 
+const std::vector<double>* find_numbers(const SkinJoint& joint, const char* key) {
+    const auto found = joint.numbers.find(key);
+    return found == joint.numbers.end() ? nullptr : &found->second;
+}
+
+// False where there is a fault in the numbers.
+bool take_palm(const SkinJoint& wrist, HandRig& rig) {
+    constexpr double k_most_m = 1.0;
+    const auto is_good = [](double number) { return std::abs(number) <= k_most_m; };
+    if (const auto* center = find_numbers(wrist, k_palm_center_key)) {
+        if (center->size() != 3 || !std::all_of(center->begin(), center->end(), is_good)) {
+            return false;
+        }
+        rig.palm_center_hs = Vec3((*center)[0], (*center)[1], (*center)[2]);
+    }
+    if (const auto* list = find_numbers(wrist, k_palm_capsules_key)) {
+        if (list->size() % 7 != 0 || list->size() > 7 * 64 ||
+            !std::all_of(list->begin(), list->end(), is_good)) {
+            return false;
+        }
+        rig.palm.clear();
+        for (std::size_t i = 0; i < list->size(); i += 7) {
+            const double* const n = list->data() + i;
+            if (!(n[6] > 0.0)) {
+                return false;
+            }
+            rig.palm.push_back({Vec3(n[0], n[1], n[2]), Vec3(n[3], n[4], n[5]), n[6]});
+        }
+    }
+    return true;
+}
+
+// The same.
+bool take_link(const SkinJoint& joint, const char* key, double low, double high, double& value) {
+    const auto* numbers = find_numbers(joint, key);
+    if (numbers == nullptr) {
+        return true;
+    }
+    if (numbers->size() != 1 || !((*numbers)[0] >= low && (*numbers)[0] <= high)) {
+        return false;
+    }
+    value = (*numbers)[0];
+    return true;
+}
+
+// What the file says itself, over what was measured. Nothing, or what is wrong.
+std::optional<FileError> take_own_numbers(const SkinnedMesh& skin, const HandBones& bones,
+                                          HandRig& rig) {
+    const auto refuse = [&](std::size_t joint) {
+        return FileError{skin.file, "/skins",
+                         "expected a hand's sizes in the extras of \"" + skin.joints[joint].name +
+                             "\", found others"};
+    };
+    for (std::size_t i = 0; i < bones.fingers.size(); ++i) {
+        for (std::size_t link = 0; link < bones.fingers[i].hinges.size(); ++link) {
+            const std::size_t joint = bones.fingers[i].hinges[link];
+            if (!take_link(skin.joints[joint], k_link_radius_key, 1e-3, 0.1,
+                           rig.fingers[i].radius_m[link]) ||
+                !take_link(skin.joints[joint], k_link_length_key, 1e-3, 0.5,
+                           rig.fingers[i].length_m[link])) {
+                return refuse(joint);
+            }
+        }
+    }
+    if (!take_palm(skin.joints[bones.wrist], rig)) {
+        return refuse(bones.wrist);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side) {
@@ -79,6 +153,9 @@ Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side) {
         positions_hs.push_back(transform_point(to_hand, position));
     }
     fit_hand_skin(skin, positions_hs, fit);
+    if (std::optional<FileError> error = take_own_numbers(skin, bones.value(), fit.rig)) {
+        return *std::move(error);
+    }
     return fit;
 }
 

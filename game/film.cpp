@@ -134,7 +134,8 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
     auto impl = std::make_unique<Impl>(scene, settings);
     impl->session_s = session_s;
     impl->next_shot_s = std::min(1.0, 0.1 * session_s);
-    impl->still = PlayerView::open(scene, settings.width_px, settings.height_px, why_not);
+    impl->still =
+        PlayerView::open(scene, settings.hands, settings.width_px, settings.height_px, why_not);
     if (!impl->still) {
         return nullptr;
     }
@@ -145,8 +146,8 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
         video.frames_per_s = settings.video_fps;
         impl->video = VideoWriter::open(settings.video.string(), video, impl->video_failure);
         if (impl->video != nullptr) {
-            impl->moving =
-                PlayerView::open(scene, settings.video_width_px, settings.video_height_px, why_not);
+            impl->moving = PlayerView::open(scene, settings.hands, settings.video_width_px,
+                                            settings.video_height_px, why_not);
             if (!impl->moving) {
                 return nullptr;
             }

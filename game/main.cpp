@@ -7,6 +7,7 @@
 #include "game/build_station_command.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
+#include "game/hand_export.hpp"
 #include "game/picture_command.hpp"
 #include "game/play_command.hpp"
 #include "game/run_command.hpp"
@@ -15,6 +16,14 @@
 namespace {
 
 constexpr int k_exit_usage = 1;
+
+void add_hand_rig_option(CLI::App& command, std::vector<std::string>& files) {
+    command
+        .add_option("--hand-rig", files,
+                    "Two skinned hands with WebXR's joint names (.glb), left and right; default: "
+                    "the robot's")
+        ->expected(2);
+}
 
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
@@ -47,6 +56,7 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
             ->needs(snapshot));
     run.add_option("--resume", options.resume,
                    "Go on from a saved state of the same scene and players");
+    add_hand_rig_option(run, options.hand_rig);
     run.add_flag("!--no-pictures", options.pictures,
                  "With --out: files only, no pictures and no video");
 }
@@ -68,6 +78,9 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
     pictures.add_option("--pitch", options.pitch_deg, "Degrees up");
     pictures.add_option("--seconds", options.seconds, "After so many seconds without a player")
         ->check(CLI::Range(0.0, 1e4));
+    pictures.add_option("--hands", options.hands, "Hold both hands before the eyes")
+        ->check(CLI::IsMember({"open", "fist"}));
+    add_hand_rig_option(pictures, options.hand_rig);
     pictures.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     pictures.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
@@ -81,6 +94,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     play.add_option("--picture", options.picture, "Save the last picture (.png)");
     play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
         ->check(CLI::Range(0.01, 1e6));
+    add_hand_rig_option(play, options.hand_rig);
     play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
@@ -120,6 +134,10 @@ int main(int argc, char** argv) {
     build_station->add_option("description", station_options.description,
                               "A .json; default: the game's own station");
     build_station->add_option("--out", station_options.out, "A folder")->required();
+    std::string hands_folder;
+    CLI::App* const export_hands =
+        app.add_subcommand("export-hands", "Write the robot's hands for an animation package");
+    export_hands->add_option("--out", hands_folder, "A folder")->required();
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -132,6 +150,9 @@ int main(int argc, char** argv) {
     }
     if (scenes->parsed()) {
         return list_scenes();
+    }
+    if (export_hands->parsed()) {
+        return handhold::export_hands_command(hands_folder);
     }
     if (play->parsed()) {
         return handhold::play_command(play_options);

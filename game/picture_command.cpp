@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/io/text_file.hpp"
+#include "game/render/hand_figures.hpp"
 #include "game/scene_picture.hpp"
 #include "systems/frame.hpp"
 
@@ -37,6 +38,26 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
+// Both hands before the eyes, as a player looks at them: fingers up, palms half turned to him.
+void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figures,
+               Renderer& renderer, RenderFrame& frame) {
+    figures.begin();
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const HandRig& rig = figures.rig(side);
+        const double out = side == HandSide::left ? -1.0 : 1.0;
+        const Pose wrist{Vec3(out * 0.10, -0.13, -0.36), rotation_about(Vec3::UnitY(), -out * 0.5) *
+                                                             rotation_about(Vec3::UnitX(), 1.0)};
+        std::array<FingerAngles, k_finger_count> fingers;
+        for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+            const bool is_thumb = rig.fingers[i].name == FingerName::thumb;
+            fingers[i] = shape == "fist" ? coupled_angles(rig.fingers[i], is_thumb ? 0.5 : 0.85)
+                                         : relaxed_angles(rig.fingers[i]);
+            fingers[i].opposition_rad = shape == "fist" && is_thumb ? 0.9 : 0.0;
+        }
+        figures.add(side, eyes_ws * wrist, fingers, renderer, frame);
+    }
+}
+
 }  // namespace
 
 int picture_command(const PictureOptions& options) {
@@ -45,6 +66,10 @@ int picture_command(const PictureOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
+    Result<HandModels> hands = choose_hand_models(options.hand_rig);
+    if (!hands) {
+        return refuse(hands.error());
+    }
     std::error_code failure;
     std::filesystem::create_directories(options.out, failure);
     if (failure) {
@@ -59,6 +84,7 @@ int picture_command(const PictureOptions& options) {
         return k_exit_bad_file;
     }
     const std::vector<MeshId> meshes = add_scene_meshes(scene, *renderer);
+    HandFigures figures(std::move(hands.value()), *renderer);
     Image image;
     for (const SceneSpawnPoint& spawn : scene.spawns) {
         if (!options.spawn.empty() && options.spawn != spawn.name) {
@@ -66,6 +92,9 @@ int picture_command(const PictureOptions& options) {
         }
         RenderFrame frame = make_scene_frame(scene, meshes);
         frame.camera.pose_ws = eyes_at(spawn, options);
+        if (!options.hands.empty()) {
+            add_hands(options.hands, frame.camera.pose_ws, figures, *renderer, frame);
+        }
         const auto begin = std::chrono::steady_clock::now();
         renderer->draw(frame, image);
         const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;

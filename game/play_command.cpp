@@ -156,7 +156,12 @@ int play_command(const PlayOptions& options) {
         session.record();
     }
     std::string why_not;
-    auto view = PlayerView::open(session.scene(), options.width_px, options.height_px, why_not);
+    Result<HandModels> hands = choose_hand_models(options.hand_rig);
+    if (!hands) {
+        return refuse(hands.error());
+    }
+    auto view = PlayerView::open(session.scene(), std::move(hands.value()), options.width_px,
+                                 options.height_px, why_not);
     const auto window = view ? Window::open("Handhold: " + session.scene().name, options.width_px,
                                             options.height_px, why_not)
                              : nullptr;

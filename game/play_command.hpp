@@ -1,17 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace handhold {
 
 // `handhold play`, as given on the command line.
 struct PlayOptions {
     std::string scene = "station";
-    std::string spawn;     // empty: the scene's first
-    std::string record;    // where the session is saved; empty: nowhere
-    std::string picture;   // a PNG of the last picture; empty: none
-    bool jets = false;     // the keys push as well as pull
-    double seconds = 0.0;  // 0: until the window is closed
+    std::string spawn;                  // empty: the scene's first
+    std::string record;                 // where the session is saved; empty: nowhere
+    std::string picture;                // a PNG of the last picture; empty: none
+    std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
+    bool jets = false;                  // the keys push as well as pull
+    double seconds = 0.0;               // 0: until the window is closed
     int width_px = 1280;
     int height_px = 720;
 };

@@ -21,27 +21,22 @@ std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes)
 
 }  // namespace
 
-PlayerView::PlayerView(const Scene& scene, Renderer renderer)
-    : scene_(&scene), renderer_(std::move(renderer)) {
+PlayerView::PlayerView(const Scene& scene, HandModels hands, Renderer renderer)
+    : scene_(&scene), renderer_(std::move(renderer)), hands_(std::move(hands), renderer_) {
     visuals_ = add_scene_meshes(scene, renderer_);
     head_ = add_all(renderer_, make_head());
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const FigureSide figure = side == 0 ? FigureSide::left : FigureSide::right;
-        hands_[side][0] = add_all(renderer_, make_hand(figure, HandShape::open));
-        hands_[side][1] = add_all(renderer_, make_hand(figure, HandShape::grip));
-    }
 }
 
-std::optional<PlayerView> PlayerView::open(const Scene& scene, int width_px, int height_px,
-                                           std::string& why_not) {
+std::optional<PlayerView> PlayerView::open(const Scene& scene, HandModels hands, int width_px,
+                                           int height_px, std::string& why_not) {
     std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not);
     if (!renderer) {
         return std::nullopt;
     }
-    return PlayerView(scene, std::move(*renderer));
+    return PlayerView(scene, std::move(hands), std::move(*renderer));
 }
 
-void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) const {
+void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) {
     if (with_head) {
         for (const MeshId mesh : head_) {
             frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
@@ -50,9 +45,7 @@ void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFram
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const RenderPose::Hand& hand = render.hands[side];
         const bool grips = hand.grip != GripKind::none;
-        for (const MeshId mesh : hands_[side][grips ? 1 : 0]) {
-            frame.instances.push_back({mesh, hand.shown_ws, std::nullopt, {}});
-        }
+        hands_.add(static_cast<HandSide>(side), hand.shown_ws, hand.fingers, renderer_, frame);
         frame.lines.push_back(
             {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
         if (grips) {
@@ -67,6 +60,7 @@ void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFram
 void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
                       std::optional<std::size_t> without_head, Image& out) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
+    hands_.begin();
     const auto players = scene_->world.render_pose.rows();
     for (std::size_t i = 0; i < players.size(); ++i) {
         add_figure(players[i], without_head != i, frame);

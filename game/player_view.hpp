@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/render.hpp"
+#include "game/render/hand_figures.hpp"
 #include "game/render/renderer.hpp"
 #include "game/scene.hpp"
 
@@ -17,23 +18,22 @@ class PlayerView {
   public:
     // Nothing, with the reason, where nothing can be drawn on this machine. `scene` must outlive
     // the view.
-    static std::optional<PlayerView> open(const Scene& scene, int width_px, int height_px,
-                                          std::string& why_not);
+    static std::optional<PlayerView> open(const Scene& scene, HandModels hands, int width_px,
+                                          int height_px, std::string& why_not);
 
     // As it stands now, from a camera; `without_head`: the row of the player whose eyes it is.
     void draw(const Pose& camera_ws, double vertical_fov_rad,
               std::optional<std::size_t> without_head, Image& out);
 
   private:
-    PlayerView(const Scene& scene, Renderer renderer);
-    void add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) const;
+    PlayerView(const Scene& scene, HandModels hands, Renderer renderer);
+    void add_figure(const RenderPose& render, bool with_head, RenderFrame& frame);
 
     const Scene* scene_;
     Renderer renderer_;            // each has its own meshes
     std::vector<MeshId> visuals_;  // by Scene::visuals
     std::vector<MeshId> head_;
-    std::array<std::array<std::vector<MeshId>, 2>, k_hand_count>
-        hands_;  // by side, then open or grip
+    HandFigures hands_;
 };
 
 }  // namespace handhold

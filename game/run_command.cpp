@@ -264,13 +264,14 @@ struct Film {
     ReportMedia media;
 };
 
-Film open_film(const RunOptions& options, const Scene& scene, double session_s) {
+Film open_film(const RunOptions& options, const Scene& scene, HandModels hands, double session_s) {
     Film film;
     if (options.out.empty() || !options.pictures) {
         return film;
     }
     FilmSettings settings;
     settings.video = std::filesystem::path(options.out) / "run.mp4";
+    settings.hands = std::move(hands);
     std::string why_not;
     film.camera = SessionFilm::open(scene, session_s, settings, why_not);
     if (film.camera == nullptr) {
@@ -318,6 +319,10 @@ int run_command(const RunOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
+    Result<HandModels> hands = choose_hand_models(options.hand_rig);
+    if (!hands) {
+        return refuse(hands.error());
+    }
     const Result<Session> session = load_session(options, scene);
     if (!session) {
         return refuse(session.error());
@@ -348,7 +353,8 @@ int run_command(const RunOptions& options) {
 
     const Recording* const recording =
         session.value().recording ? &*session.value().recording : nullptr;
-    Film film = open_film(options, scene, session_length_s(recording, settings));
+    Film film =
+        open_film(options, scene, std::move(hands.value()), session_length_s(recording, settings));
     if (!options.trace.empty()) {
         start_trace();
     }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace handhold {
 
@@ -21,6 +22,7 @@ struct RunOptions {
     std::uint64_t seed = 1;  // of places and climbers
     bool climbers = false;   // also the first player climbs instead of playing the session
     int threads = 1;
+    std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
     bool pictures = true;
 };
 

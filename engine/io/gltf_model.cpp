@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 #include "engine/io/text_file.hpp"
@@ -163,6 +164,66 @@ void read_gltf_material(const tinygltf::Material& material, ColorRun& run) {
     if (brightest > 0.0F) {
         run.emissive = static_cast<float>(glow / static_cast<double>(brightest) * strength);
     }
+}
+
+float read_gltf_float(const AccessorView& view, std::size_t element, std::size_t component) {
+    float value = 0.0F;
+    std::memcpy(&value, view.data + element * view.stride + component * sizeof(float),
+                sizeof(float));
+    return value;
+}
+
+Vec3 read_gltf_vector(const AccessorView& view, std::size_t element) {
+    return {static_cast<double>(read_gltf_float(view, element, 0)),
+            static_cast<double>(read_gltf_float(view, element, 1)),
+            static_cast<double>(read_gltf_float(view, element, 2))};
+}
+
+std::uint32_t read_gltf_unsigned(const AccessorView& view, std::size_t element,
+                                 std::size_t component) {
+    const std::size_t bytes = view.element_bytes / 4;  // of four components
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) {
+        value |= std::uint32_t{view.data[element * view.stride + component * bytes + i]} << (8 * i);
+    }
+    return value;
+}
+
+// Integers are shares of their greatest value (specification, 3.6.2.2).
+float read_gltf_share(const AccessorView& view, std::size_t element, std::size_t component) {
+    switch (view.component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return static_cast<float>(read_gltf_unsigned(view, element, component)) / 255.0F;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return static_cast<float>(read_gltf_unsigned(view, element, component)) / 65535.0F;
+        default:
+            return read_gltf_float(view, element, component);
+    }
+}
+
+// What is neither a number nor an array of numbers is somebody else's.
+std::map<std::string, std::vector<double>> read_gltf_numbers(const tinygltf::Value& extras) {
+    std::map<std::string, std::vector<double>> numbers;
+    if (!extras.IsObject()) {
+        return numbers;
+    }
+    for (const std::string& key : extras.Keys()) {
+        const tinygltf::Value& value = extras.Get(key);
+        std::vector<double> list;
+        bool is_numbers = value.IsNumber() || value.IsArray();
+        if (value.IsNumber()) {
+            list.push_back(value.GetNumberAsDouble());
+        }
+        for (std::size_t i = 0; value.IsArray() && i < value.ArrayLen(); ++i) {
+            const tinygltf::Value& item = value.Get(static_cast<int>(i));
+            is_numbers = is_numbers && item.IsNumber();
+            list.push_back(item.IsNumber() ? item.GetNumberAsDouble() : 0.0);
+        }
+        if (is_numbers) {
+            numbers.emplace(key, std::move(list));
+        }
+    }
+    return numbers;
 }
 
 bool GltfModelReader::refuse(std::string place, std::string expected) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,18 @@ struct AccessorView {
     std::size_t element_bytes = 0;
     int component_type = 0;
 };
+
+// One component of an element of floats, and three of them.
+float read_gltf_float(const AccessorView& view, std::size_t element, std::size_t component);
+Vec3 read_gltf_vector(const AccessorView& view, std::size_t element);
+// One of four unsigned integers.
+std::uint32_t read_gltf_unsigned(const AccessorView& view, std::size_t element,
+                                 std::size_t component);
+// One of four weights: a float, or an integer that is a share of its greatest value.
+float read_gltf_share(const AccessorView& view, std::size_t element, std::size_t component);
+
+// Of an object's extras, those that are a number or an array of numbers.
+std::map<std::string, std::vector<double>> read_gltf_numbers(const tinygltf::Value& extras);
 
 // What an accessor is asked to hold.
 enum class GltfElements { vectors, indices, joints, weights, matrices };

@@ -18,40 +18,6 @@ namespace {
 // rotation.
 constexpr double k_most_shear = 0.02;
 
-float read_float(const AccessorView& view, std::size_t element, std::size_t component) {
-    float value = 0.0F;
-    std::memcpy(&value, view.data + element * view.stride + component * sizeof(float),
-                sizeof(float));
-    return value;
-}
-
-Vec3 read_vector(const AccessorView& view, std::size_t element) {
-    return {static_cast<double>(read_float(view, element, 0)),
-            static_cast<double>(read_float(view, element, 1)),
-            static_cast<double>(read_float(view, element, 2))};
-}
-
-std::uint32_t read_unsigned(const AccessorView& view, std::size_t element, std::size_t component) {
-    const std::size_t bytes = view.element_bytes / 4;  // of four components
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < bytes; ++i) {
-        value |= std::uint32_t{view.data[element * view.stride + component * bytes + i]} << (8 * i);
-    }
-    return value;
-}
-
-// Integers are shares of their greatest value (specification, 3.6.2.2).
-float read_weight(const AccessorView& view, std::size_t element, std::size_t component) {
-    switch (view.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return static_cast<float>(read_unsigned(view, element, component)) / 255.0F;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return static_cast<float>(read_unsigned(view, element, component)) / 65535.0F;
-        default:
-            return read_float(view, element, component);
-    }
-}
-
 // The rigid part of a joint's frame; nothing where there is none.
 std::optional<Pose> rigid_part(const Affine& frame) {
     Mat3 axes = frame.linear;
@@ -159,7 +125,8 @@ bool SkinReader::read_joints() {
             return refuse(gltf_pointer("nodes", joints[i]),
                           "expected a joint that is turned, moved and evenly scaled at most");
         }
-        skin_.joints.push_back({model_.nodes[static_cast<std::size_t>(joints[i])].name, -1, *pose});
+        const tinygltf::Node& file_node = model_.nodes[static_cast<std::size_t>(joints[i])];
+        skin_.joints.push_back({file_node.name, -1, *pose, read_gltf_numbers(file_node.extras)});
         to_scene_.push_back(node->second->world);
     }
     find_parents(joint_of_node);
@@ -203,12 +170,12 @@ bool SkinReader::read_binds() {
             for (std::size_t row = 0; row < 3; ++row) {
                 inverse_bind.linear(static_cast<Eigen::Index>(row),
                                     static_cast<Eigen::Index>(column)) =
-                    static_cast<double>(read_float(view, i, 4 * column + row));
+                    static_cast<double>(read_gltf_float(view, i, 4 * column + row));
             }
         }
         for (std::size_t row = 0; row < 3; ++row) {
             inverse_bind.translation[static_cast<Eigen::Index>(row)] =
-                static_cast<double>(read_float(view, i, 12 + row));
+                static_cast<double>(read_gltf_float(view, i, 12 + row));
         }
         if (!inverse_bind.linear.allFinite() || !is_finite(inverse_bind.translation)) {
             return refuse(place,
@@ -319,7 +286,7 @@ bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const s
     SkinWeights weights;
     float sum = 0.0F;
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t joint = read_unsigned(views.joints, i, k);
+        const std::uint32_t joint = read_gltf_unsigned(views.joints, i, k);
         if (joint >= skin_.joints.size()) {
             return refuse(place + "/attributes/JOINTS_0", "expected joints below " +
                                                               std::to_string(skin_.joints.size()) +
@@ -327,7 +294,7 @@ bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const s
                                                               " at vertex " + std::to_string(i));
         }
         weights.joint[k] = static_cast<std::uint16_t>(joint);
-        weights.weight[k] = read_weight(views.weights, i, k);
+        weights.weight[k] = read_gltf_share(views.weights, i, k);
         if (!(weights.weight[k] >= 0.0F) || weights.weight[k] > 1e6F) {
             return refuse(
                 place + "/attributes/WEIGHTS_0",
@@ -356,7 +323,7 @@ bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const st
         blend.linear += weight * to_scene_[weights.joint[k]].linear;
         blend.translation += weight * to_scene_[weights.joint[k]].translation;
     }
-    const Vec3 position = blend.linear * read_vector(views.positions, i) + blend.translation;
+    const Vec3 position = blend.linear * read_gltf_vector(views.positions, i) + blend.translation;
     if (!is_finite(position) || position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
         return refuse(
             place + "/attributes/POSITION",
@@ -364,7 +331,7 @@ bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const st
     }
     Vec3 normal = Vec3::Zero();
     if (views.has_normals) {
-        normal = blend.linear * read_vector(views.normals, i);
+        normal = blend.linear * read_gltf_vector(views.normals, i);
         if (!is_finite(normal)) {
             return refuse(place + "/attributes/NORMAL",
                           "expected finite normals, found another at vertex " + std::to_string(i));

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/anim/skinning.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
@@ -16,15 +18,11 @@ namespace handhold {
 
 struct SkinJoint {
     std::string name;  // of its node; may be empty
-    std::int32_t parent =
-        -1;        // nearest joint above it, into SkinnedMesh::joints; files may be flat
+    // Nearest joint above it, into SkinnedMesh::joints; files may be flat.
+    std::int32_t parent = -1;
     Pose bind_ms;  // where it stands in the file, without its scale
-};
-
-// Up to four joints carry a vertex.
-struct SkinWeights {
-    std::array<std::uint16_t, 4> joint = {};
-    std::array<float, 4> weight = {};  // not negative; their sum is 1
+    // Of its node's extras, those that are a number or an array of numbers.
+    std::map<std::string, std::vector<double>> numbers = {};
 };
 
 // All in the frame of the file's scene (_ms), metres, as it stands there: posed by its nodes, which

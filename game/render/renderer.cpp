@@ -9,9 +9,9 @@
 #include "engine/core/check.hpp"
 #include "game/render/frame_view.hpp"
 #include "game/render/gl_objects.hpp"
+#include "game/render/gpu_mesh.hpp"
 #include "game/render/picture_passes.hpp"
 #include "game/render/shaders.hpp"
-#include "game/render/shading_mesh.hpp"
 
 namespace handhold {
 namespace {
@@ -19,16 +19,6 @@ namespace {
 constexpr int k_shadow_size_px = 1024;
 constexpr std::size_t k_max_lamps = 12;  // as in the mesh shader
 constexpr int k_shadow_unit = 3;         // texture unit; the picture passes use 0 to 2
-
-struct GpuMesh {
-    GlVertexArray layout;
-    GlBuffer vertices;
-    GlBuffer indices;
-    GLsizei index_count = 0;
-    Vec3 center = Vec3::Zero();
-    double radius_m = 0.0;
-    Color color{};
-};
 
 // An instance that has something to draw, seen from the camera.
 struct Visible {
@@ -62,6 +52,7 @@ struct Renderer::Impl {
     RenderCounters counters;
     std::vector<LineVertex> line_vertices;  // reused
     std::vector<Visible> visible;
+    std::vector<float> moving_vertices;
 
     ~Impl() {
         if (context != nullptr) {
@@ -323,32 +314,37 @@ Renderer::~Renderer() = default;
 
 MeshId Renderer::add_mesh(const Mesh& mesh) {
     impl_->context->make_current();
-    const ShadingMesh shading = make_shading_mesh(mesh);
-    GpuMesh gpu;
-    gpu.center = shading.center;
-    gpu.radius_m = shading.radius_m;
-    gpu.color = mesh.color;
-    gpu.index_count = static_cast<GLsizei>(shading.indices.size());
-    gpu.layout = make_vertex_array();
-    gpu.vertices = make_buffer();
-    gpu.indices = make_buffer();
-    glBindVertexArray(gpu.layout);
-    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(shading.vertices.size() * sizeof(float)),
-                 shading.vertices.data(), GL_STATIC_DRAW);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(shading.indices.size() * sizeof(std::uint32_t)),
-                 shading.indices.data(), GL_STATIC_DRAW);
-    constexpr GLsizei k_stride = 6 * sizeof(float);
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, k_stride, nullptr);
-    glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, k_stride,
-                          // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way of an offset
-                          reinterpret_cast<const void*>(3 * sizeof(float)));
+    impl_->meshes.push_back(make_gpu_mesh(make_shading_mesh(mesh), mesh.color));
+    return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};
+}
+
+MeshId Renderer::add_moving_mesh(std::span<const std::array<std::uint32_t, 3>> triangles,
+                                 const Color& color) {
+    impl_->context->make_current();
+    ShadingMesh shading;
+    for (const std::array<std::uint32_t, 3>& triangle : triangles) {
+        shading.indices.insert(shading.indices.end(), triangle.begin(), triangle.end());
+    }
+    GpuMesh gpu = make_gpu_mesh(shading, color);
+    gpu.vertices_named =
+        shading.indices.empty()
+            ? 0
+            : *std::max_element(shading.indices.begin(), shading.indices.end()) + 1;
+    gpu.index_count = 0;  // until there are vertices
     impl_->meshes.push_back(std::move(gpu));
     return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};
+}
+
+void Renderer::move_mesh(MeshId mesh, std::span<const Vec3> positions,
+                         std::span<const Vec3> normals) {
+    const auto index = static_cast<std::size_t>(mesh);
+    HH_CHECK(index < impl_->meshes.size(), "no such mesh", index);
+    GpuMesh& gpu = impl_->meshes[index];
+    HH_CHECK(gpu.vertices_named > 0 && positions.size() >= gpu.vertices_named &&
+                 positions.size() == normals.size(),
+             "a vertex and a normal for every index of a moving mesh", positions.size());
+    impl_->context->make_current();
+    move_gpu_mesh(positions, normals, impl_->moving_vertices, gpu);
 }
 
 void Renderer::draw(const RenderFrame& frame, Image& out) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/geometry/mesh.hpp"
@@ -38,6 +41,12 @@ class Renderer {
     // smooth, whatever the winding; both sides of a triangle are lit. An empty mesh is allowed and
     // draws nothing.
     MeshId add_mesh(const Mesh& mesh);
+    // A mesh whose vertices come with move_mesh: before that it draws nothing.
+    MeshId add_moving_mesh(std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const Color& color);
+    // Gives it its vertices and their normals, as they are until the next call. Precondition: the
+    // mesh is a moving one and its triangles name no vertex beyond.
+    void move_mesh(MeshId mesh, std::span<const Vec3> positions, std::span<const Vec3> normals);
     // The frame as a picture of the size given to create(). Instances and lines that are not finite
     // are left out. Precondition: every instance's mesh came from this renderer.
     void draw(const RenderFrame& frame, Image& out);

@@ -1,13 +1,46 @@
 #include <algorithm>
 #include <memory>
 
+#include "components/hand_rig_fit.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/gltf.hpp"
+#include "engine/io/gltf_skin.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {
+namespace {
+
+// The same bytes as a skinned hand.
+void run_skin(Bytes bytes) {
+    const Result<SkinnedMesh> skin = parse_gltf_skin(text_of(bytes), "/nonexistent/fuzz.gltf");
+    if (!skin) {
+        promise(!skin.error().expected.empty(), "a refusal says what was expected");
+        return;
+    }
+    const SkinnedMesh& mesh = skin.value();
+    promise(mesh.weights.size() == mesh.positions.size() &&
+                mesh.normals.size() == mesh.positions.size(),
+            "every vertex has a normal and weights");
+    for (const SkinWeights& weights : mesh.weights) {
+        for (const std::uint16_t joint : weights.joint) {
+            promise(joint < mesh.joints.size(), "weights name joints that are there");
+        }
+    }
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const Result<HandRigFit> fit = fit_hand_rig(mesh, side);
+        for (std::size_t i = 0; fit && i < fit.value().rig.fingers.size(); ++i) {
+            for (const Vec3& point :
+                 finger_points(fit.value().rig.fingers[i], fit.value().bind[i])) {
+                promise(is_finite(point), "a fitted rig is finite");
+            }
+        }
+    }
+}
+
+}  // namespace
 
 void run_gltf(Bytes bytes) {
+    run_skin(bytes);
     // In a folder that is not there: external buffers are never found.
     Result<GltfLevel> level = parse_gltf_level(text_of(bytes), "/nonexistent/fuzz.gltf");
     if (!level) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/lab/grip_command.hpp"
+#include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/solve_command.hpp"
 
@@ -61,6 +62,21 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--rig-json", options.rig_json, "Also write the rig's figures");
 }
 
+void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& options) {
+    picture.add_option("--mesh", options.mesh, "glTF of what is gripped")->required();
+    picture.add_option("--hands", options.hands, "Posed hands: the JSON lines of `grip`")
+        ->required();
+    picture.add_option("--out", options.out, "The sheet, as a PNG")->required();
+    picture.add_option("--ids", options.ids, "Which hands; else some spread over the file")
+        ->delimiter(',');
+    picture.add_option("--count", options.count, "How many without --ids")
+        ->check(CLI::Range(1, 400));
+    picture.add_option("--columns", options.columns, "Pictures in a row")->check(CLI::Range(1, 20));
+    picture.add_option("--width", options.width_px, "Of one picture")->check(CLI::Range(64, 4096));
+    picture.add_option("--height", options.height_px, "Of one picture")
+        ->check(CLI::Range(64, 4096));
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -75,15 +91,25 @@ int main(int argc, char** argv) {
     CLI::App* const grip =
         app.add_subcommand("grip", "Hands posed on a mesh, one for each placement");
     add_grip_options(*grip, grip_options);
+    lab::HandsPictureOptions picture_options;
+    CLI::App* const picture =
+        app.add_subcommand("hands-picture", "Posed hands on a mesh as a sheet of pictures");
+    add_hands_picture_options(*picture, picture_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& asked = solve->parsed() ? *solve : (grip->parsed() ? *grip : app);
+        const CLI::App& asked = solve->parsed()     ? *solve
+                                : grip->parsed()    ? *grip
+                                : picture->parsed() ? *picture
+                                                    : app;
         std::fprintf(stderr, "%s\n%s", error.what(), asked.help().c_str());
         return k_exit_usage;
+    }
+    if (picture->parsed()) {
+        return lab::hands_picture_command(picture_options);
     }
     return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/math/math.hpp"
+
+// Meshes that follow joints.
+namespace handhold {
+
+// Up to four joints carry a vertex.
+struct SkinWeights {
+    std::array<std::uint16_t, 4> joint = {};
+    std::array<float, 4> weight = {};  // not negative; their sum is 1
+};
+
+struct SkinVerticesInput {
+    std::span<const Vec3> positions;
+    std::span<const Vec3> normals;         // by vertex, unit
+    std::span<const SkinWeights> weights;  // by vertex; joints below the number of joints
+    std::span<const Pose> bind;            // by joint: where the vertices hang on it
+    std::span<const Pose> pose;            // by joint: where it stands now, in the same frame
+};
+
+// Linear blend skinning: each vertex goes where its joints carry it, in the mean. Sizes of the
+// outputs become those of the input; normals stay unit.
+void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
+                   std::vector<Vec3>& normals);
+
+}  // namespace handhold

@@ -1,0 +1,157 @@
+#include "game/hand_export.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "components/builtin_hand_rig.hpp"
+#include "components/hand_joint_names.hpp"
+#include "components/hand_rig_fit.hpp"
+#include "engine/core/check.hpp"
+#include "engine/io/gltf_skin_writer.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/render/robot_hand.hpp"
+#include "game/render/shading_mesh.hpp"
+
+namespace handhold {
+namespace {
+
+std::size_t joint_of(const HandRig& rig, std::int32_t finger, std::uint32_t link) {
+    const auto found = std::find_if(
+        rig.joints.begin(), rig.joints.end(),
+        [&](const RigJoint& joint) { return joint.finger == finger && joint.link == link; });
+    HH_CHECK(found != rig.joints.end(), "a joint for every link", link);
+    return static_cast<std::size_t>(found - rig.joints.begin());
+}
+
+// The joint above: the link before, the finger's metacarpal, or the wrist.
+std::int32_t parent_of(const HandRig& rig, std::size_t index) {
+    const RigJoint& joint = rig.joints[index];
+    const std::size_t wrist = joint_of(rig, RigJoint::k_palm, 0);
+    if (index == wrist) {
+        return -1;
+    }
+    if (joint.finger == RigJoint::k_palm) {
+        return static_cast<std::int32_t>(wrist);
+    }
+    const std::size_t own = joint_of(rig, joint.finger, joint.link);
+    if (own != index) {  // a tip
+        return static_cast<std::int32_t>(own);
+    }
+    if (joint.link > 0) {
+        return static_cast<std::int32_t>(joint_of(rig, joint.finger, joint.link - 1));
+    }
+    const FingerName name = rig.fingers[static_cast<std::size_t>(joint.finger)].name;
+    for (std::size_t i = 0; i < index; ++i) {
+        const auto parsed = parse_hand_joint_name(rig.joints[i].name);
+        if (rig.joints[i].finger == RigJoint::k_palm && parsed && parsed->finger == name) {
+            return static_cast<std::int32_t>(i);
+        }
+    }
+    return static_cast<std::int32_t>(wrist);
+}
+
+std::vector<double> as_numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// What hand_rig_from_skin reads back (components/hand_rig_fit.hpp).
+void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        for (std::uint32_t link = 0; link < rig.fingers[i].link_count; ++link) {
+            auto& numbers = joints[joint_of(rig, static_cast<std::int32_t>(i), link)].numbers;
+            numbers[k_link_radius_key] = {rig.fingers[i].radius_m[link]};
+            numbers[k_link_length_key] = {rig.fingers[i].length_m[link]};
+        }
+    }
+    auto& numbers = joints[joint_of(rig, RigJoint::k_palm, 0)].numbers;
+    numbers[k_palm_center_key] = as_numbers(rig.palm_center_hs);
+    std::vector<double>& capsules = numbers[k_palm_capsules_key];
+    for (const PalmCapsule& capsule : rig.palm) {
+        for (const Vec3& end : {capsule.a_hs, capsule.b_hs}) {
+            for (const double number : as_numbers(end)) {
+                capsules.push_back(number);
+            }
+        }
+        capsules.push_back(capsule.radius_m);
+    }
+}
+
+// A part in hand space, on one joint.
+void append_part(const HandPart& part, const Pose& at, std::uint16_t joint,
+                 GltfSkinSurface& surface) {
+    const ShadingMesh shading = make_shading_mesh(part.mesh);
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+    for (std::size_t i = 0; i + 5 < shading.vertices.size(); i += 6) {
+        const float* const v = shading.vertices.data() + i;
+        const Vec3 position = Eigen::Vector3f(v[0], v[1], v[2]).cast<double>() + shading.center;
+        const Vec3 normal = Eigen::Vector3f(v[3], v[4], v[5]).cast<double>();
+        const Eigen::Vector3f position_hs = transform_point(at, position).cast<float>();
+        const Eigen::Vector3f normal_hs = (at.rotation * normal).cast<float>();
+        surface.vertices.push_back({{position_hs.x(), position_hs.y(), position_hs.z()},
+                                    {normal_hs.x(), normal_hs.y(), normal_hs.z()}});
+        surface.weights.push_back({{joint, 0, 0, 0}, {1.0F, 0.0F, 0.0F, 0.0F}});
+    }
+    for (const std::uint32_t index : shading.indices) {
+        surface.indices.push_back(first + index);
+    }
+}
+
+}  // namespace
+
+std::string export_robot_hand(const HandRig& rig) {
+    std::vector<std::array<Pose, k_most_links>> frames;
+    for (const FingerRig& finger : rig.fingers) {
+        frames.push_back(finger_link_frames(finger, relaxed_angles(finger)));
+    }
+    const auto carrier = [&](std::int32_t finger, std::uint32_t link) {
+        return finger == RigJoint::k_palm ? Pose() : frames[static_cast<std::size_t>(finger)][link];
+    };
+    GltfSkin skin;
+    skin.name = rig.side == HandSide::left ? "robot_hand_left" : "robot_hand_right";
+    for (std::size_t i = 0; i < rig.joints.size(); ++i) {
+        const RigJoint& joint = rig.joints[i];
+        skin.joints.push_back({joint.name,
+                               parent_of(rig, i),
+                               carrier(joint.finger, joint.link) * joint.joint_in_link,
+                               {}});
+    }
+    add_numbers(rig, skin.joints);
+    std::vector<GltfMaterial> materials;
+    std::array<GltfSkinSurface, k_figure_material_count> surfaces;
+    for (std::size_t i = 0; i < k_figure_material_count; ++i) {
+        const auto material = static_cast<FigureMaterial>(i);
+        materials.push_back({figure_material_text(material), figure_color(material), 0.0F, 1.0F,
+                             figure_gloss(material)});
+        surfaces[i].material = i;
+    }
+    for (const HandPart& part : make_robot_hand(rig)) {
+        append_part(part, carrier(part.finger, part.link),
+                    static_cast<std::uint16_t>(joint_of(rig, part.finger, part.link)),
+                    surfaces[static_cast<std::size_t>(part.material)]);
+    }
+    for (GltfSkinSurface& surface : surfaces) {
+        if (!surface.indices.empty()) {
+            skin.surfaces.push_back(std::move(surface));
+        }
+    }
+    return write_skinned_glb(materials, skin);
+}
+
+int export_hands_command(const std::string& folder) {
+    constexpr int k_exit_bad_file = 2;
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::filesystem::path file =
+            std::filesystem::path(folder) /
+            (side == HandSide::left ? "robot_hand_left.glb" : "robot_hand_right.glb");
+        if (const auto error =
+                write_file_atomically(file, export_robot_hand(builtin_hand_rig(side)))) {
+            std::fprintf(stderr, "%s\n", error->message().c_str());
+            return k_exit_bad_file;
+        }
+    }
+    return 0;
+}
+
+}  // namespace handhold

@@ -1,0 +1,173 @@
+#include "tools/lab/hands_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "engine/io/gltf.hpp"
+#include "game/progress.hpp"
+#include "game/render/level_meshes.hpp"
+#include "game/render/primitives.hpp"
+#include "game/render/renderer.hpp"
+#include "tools/lab/posed_hands.hpp"
+
+namespace handhold::lab {
+namespace {
+
+constexpr int k_exit_bad_file = 2;
+constexpr double k_fov_rad = 0.55;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "%s\n", error.message().c_str());
+    return k_exit_bad_file;
+}
+
+Color color_of(const HandCapsule& capsule) {
+    static const std::map<std::string, Color> colors = {
+        {"thumb", {0.80F, 0.16F, 0.06F}},  {"index", {0.85F, 0.45F, 0.04F}},
+        {"middle", {0.42F, 0.55F, 0.05F}}, {"ring", {0.03F, 0.40F, 0.45F}},
+        {"little", {0.28F, 0.16F, 0.60F}}, {"palm", {0.55F, 0.50F, 0.44F}}};
+    Color color = colors.at(capsule.finger);
+    for (float& part : color) {
+        part *= capsule.link % 2 == 0 ? 1.0F : 0.72F;  // links are told apart
+    }
+    return color;
+}
+
+std::vector<PosedHand> choose_hands(std::vector<PosedHand> all,
+                                    const HandsPictureOptions& options) {
+    std::vector<PosedHand> chosen;
+    if (!options.ids.empty()) {
+        for (const std::int64_t id : options.ids) {
+            const auto found = std::find_if(all.begin(), all.end(),
+                                            [&](const PosedHand& hand) { return hand.id == id; });
+            if (found != all.end()) {
+                chosen.push_back(*found);
+            }
+        }
+        return chosen;
+    }
+    const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.count));
+    for (std::size_t i = 0; i < count; ++i) {
+        chosen.push_back(std::move(all[i * all.size() / count]));
+    }
+    return chosen;
+}
+
+// A mesh seen close: lit from over the eye's left shoulder, bright around.
+RenderFrame make_frame(const HandView& view, double distance_m) {
+    RenderFrame frame;
+    const Vec3 up = std::abs(view.towards.y()) < 0.97 ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitZ());
+    const Pose eye = look_along(view.center + distance_m * view.towards, -view.towards, up);
+    frame.camera = {eye, k_fov_rad, 0.02};
+    frame.key.towards_ws = eye.rotation * Vec3(-0.6, 0.9, 0.8);
+    frame.key.color = {0.85F, 0.82F, 0.78F};
+    frame.key.caster_reach_m = 0.3;
+    frame.key.shadow_radius_m = 0.35;
+    frame.up_ws = eye.rotation * Vec3::UnitY();
+    frame.sky_ambient = {0.42F, 0.43F, 0.45F};
+    frame.ground_ambient = {0.26F, 0.25F, 0.24F};
+    frame.head_light = 0.10F;
+    frame.haze_per_m = 0.0F;
+    frame.background = {0.30F, 0.33F, 0.37F};
+    return frame;
+}
+
+// What is drawn of one file's mesh, and the triangles themselves.
+struct Stage {
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+};
+
+Stage build_stage(GltfLevel level, Renderer& renderer) {
+    Stage stage;
+    for (const LevelMesh& part : make_level_meshes(level)) {
+        stage.instances.push_back({renderer.add_mesh(part.mesh), {}, std::nullopt, part.look});
+    }
+    for (LevelPart& part : level.parts) {
+        stage.meshes.push_back(std::move(part.mesh));
+    }
+    return stage;
+}
+
+void add_capsules(const PosedHand& hand, Renderer& renderer, RenderFrame& frame) {
+    for (const HandCapsule& capsule : hand.capsules) {
+        const Vec3 way = capsule.b_m - capsule.a_m;
+        // A sphere where both ends are one point.
+        const Vec3 b = way.norm() > 1e-6 ? way : Vec3(1e-6 * Vec3::UnitX());
+        Mesh mesh = make_capsule(Vec3::Zero(), b, capsule.radius_m, 24);
+        mesh.color = color_of(capsule);
+        frame.instances.push_back(
+            {renderer.add_mesh(mesh), {capsule.a_m, Quat::Identity()}, std::nullopt, {}});
+    }
+}
+
+void copy_into(const Image& picture, int column, int row, Image& sheet) {
+    for (int y = 0; y < picture.height_px; ++y) {
+        const auto from = picture.rgba.begin() + std::ptrdiff_t{4} * y * picture.width_px;
+        const std::ptrdiff_t to =
+            std::ptrdiff_t{4} *
+            ((row * picture.height_px + y) * sheet.width_px + column * picture.width_px);
+        std::copy(from, from + std::ptrdiff_t{4} * picture.width_px, sheet.rgba.begin() + to);
+    }
+}
+
+}  // namespace
+
+int hands_picture_command(const HandsPictureOptions& options) {
+    Result<std::vector<PosedHand>> loaded = load_posed_hands(options.hands);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    const std::vector<PosedHand> hands = choose_hands(std::move(loaded.value()), options);
+    if (hands.empty()) {
+        return refuse(
+            {options.hands.string(), "", "expected at least one hand that was asked for"});
+    }
+    Result<GltfLevel> level = load_gltf_level(options.mesh);
+    if (!level) {
+        return refuse(level.error());
+    }
+    const auto open = [&](std::string& why_not) {
+        return Renderer::create(options.width_px, options.height_px, why_not, PictureQuality::fine);
+    };
+    std::string why_not;
+    std::optional<Renderer> renderer = open(why_not);
+    if (!renderer) {
+        return refuse({options.out.string(), "", "expected pictures to be possible: " + why_not});
+    }
+    const Stage stage = build_stage(std::move(level.value()), *renderer);
+    const int columns = std::min(options.columns, static_cast<int>(hands.size()));
+    const int rows = (static_cast<int>(hands.size()) + columns - 1) / columns;
+    Image sheet{columns * options.width_px, rows * options.height_px, {}};
+    sheet.rgba.assign(std::size_t{4} * static_cast<std::size_t>(sheet.width_px) *
+                          static_cast<std::size_t>(sheet.height_px),
+                      255);
+    Progress progress("pictures");
+    Image picture;
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+        const double radius_m = 1.02 * hand_bounds(hands[i].capsules).radius_m;
+        const double distance_m = radius_m / std::sin(0.5 * k_fov_rad);
+        const HandView view = choose_hand_view(
+            hands[i].capsules, hands[i].wrist.rotation,
+            triangles_near(stage.meshes, hand_bounds(hands[i].capsules).center, distance_m),
+            distance_m);
+        RenderFrame frame = make_frame(view, distance_m);
+        frame.instances = stage.instances;
+        add_capsules(hands[i], *renderer, frame);
+        renderer->draw(frame, picture);
+        const int place = static_cast<int>(i);
+        copy_into(picture, place % columns, place / columns, sheet);
+        std::printf("%lld%c", static_cast<long long>(hands[i].id),
+                    (place + 1) % columns == 0 || i + 1 == hands.size() ? '\n' : ' ');
+        progress.show(static_cast<double>(i + 1) / static_cast<double>(hands.size()));
+    }
+    if (!save_png(sheet, options.out.string())) {
+        return refuse({options.out.string(), "", "expected a file that can be written"});
+    }
+    return 0;
+}
+
+}  // namespace handhold::lab

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "engine/io/result.hpp"
+#include "tools/lab/hand_viewpoint.hpp"
+
+namespace handhold::lab {
+
+// One line of a G.jsonl: what a picture needs of it. In the mesh's frame.
+struct PosedHand {
+    std::int64_t id = 0;
+    Pose wrist;  // as shown
+    std::vector<HandCapsule> capsules;
+};
+
+// Blank lines are skipped. Refused with the line and the JSON pointer: anything that is no such
+// hand.
+Result<std::vector<PosedHand>> parse_posed_hands(std::string_view text, const std::string& file);
+Result<std::vector<PosedHand>> load_posed_hands(const std::filesystem::path& path);
+
+}  // namespace handhold::lab
