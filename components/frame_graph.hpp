@@ -6,6 +6,7 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/entity.hpp"
+#include "engine/solver/hidden_overlaps.hpp"
 #include "engine/solver/islands.hpp"
 #include "engine/solver/newton.hpp"
 #include "engine/solver/velocities.hpp"
@@ -75,6 +76,7 @@ struct FrameGraph {
         Vec3 spin_radps = Vec3::Zero();
     };
     std::vector<SunkBody> sunk_bodies;  // by island
+    HiddenOverlaps hidden_overlaps;     // written by finish_positions; read by update_velocities
     // By island. After a solve that met all its blocks: what none exceeds; after any other, until
     // asked for: none.
     std::vector<std::optional<IslandErrors>> island_errors;

@@ -46,13 +46,21 @@ std::optional<std::uint32_t> deepest_wall(const ConstraintGraph& graph, std::uin
     return wall;
 }
 
+double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
+    return frame.hidden_overlaps.of_body[body].depth_m;
+}
+
 // The deepest overlap in an island.
-double worst_overlap_m(const ConstraintGraph& graph, const Island& island) {
+double worst_overlap_m(const FrameGraph& frame, const Island& island) {
+    const ConstraintGraph& graph = frame.graph;
     double worst = 0.0;
     for (const std::uint32_t i : graph.blocks_of(island)) {
         if (is_contact(graph.blocks[i])) {
             worst = std::max(worst, block_error_m(graph.bodies, graph.blocks[i]));
         }
+    }
+    for (const std::uint32_t i : graph.bodies_of(island)) {
+        worst = std::max(worst, hidden_overlap_m(frame, i));
     }
     return worst;
 }
@@ -62,14 +70,17 @@ void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
     frame.sunk_bodies.clear();
     for (std::uint32_t i = 0; i < frame.graph.islands.size(); ++i) {
         const Island& island = frame.graph.islands[i];
-        if (worst_overlap_m(frame.graph, island) < sunk_m) {
+        if (worst_overlap_m(frame, island) < sunk_m) {
             continue;
         }
         for (const std::uint32_t index : frame.graph.bodies_of(island)) {
             const SolverBody& body = frame.graph.bodies[index];
-            if (body.role == BodyRole::free && own_error_m(frame.graph, index, true) >= sunk_m) {
-                frame.sunk_bodies.push_back({index, i, own_error_m(frame.graph, index, false),
-                                             body.pose_ws, body.velocity_mps, body.spin_radps});
+            const double hidden_m = hidden_overlap_m(frame, index);
+            if (body.role == BodyRole::free &&
+                std::max(own_error_m(frame.graph, index, true), hidden_m) >= sunk_m) {
+                const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
+                frame.sunk_bodies.push_back(
+                    {index, i, error_m, body.pose_ws, body.velocity_mps, body.spin_radps});
             }
         }
     }
@@ -136,6 +147,9 @@ bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
         });
         if (std::all_of(first, last, is_better)) {
             stats.count(Fallback::put_back);
+            std::for_each(first, last, [&](const FrameGraph::SunkBody& body) {
+                frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
+            });
         } else {
             std::for_each(first, last,
                           [&](const FrameGraph::SunkBody& body) { undo(body, frame); });
@@ -148,6 +162,9 @@ bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
 
 void put_back(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
     FrameGraph& frame = io.frame;
+    find_hidden_overlaps(
+        {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
+        {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
     note_sunk_bodies(tuning.sunk_m, frame);
     if (frame.sunk_bodies.empty()) {
         return;
@@ -209,6 +226,9 @@ void write_errors(const FinishPositionsIo& io, StageStats& stats) {
                 stats.count(Fallback::contacts_unresolved);
             }
         }
+    }
+    for (const Overlap& hidden : io.frame.hidden_overlaps.of_body) {
+        stats.residual_m = std::max(stats.residual_m, hidden.depth_m);
     }
 }
 

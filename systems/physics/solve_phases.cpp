@@ -248,11 +248,14 @@ bool wants_backward(const Solve& s, const Island& island) {
 }
 
 // Marks the islands to push, and puts players and held objects back to where the hands want them.
-void prepare_backward(const Solve& s) {
+// False where there are none.
+bool prepare_backward(const Solve& s) {
+    bool any = false;
     for (const Island& island : s.graph().islands) {
         if (!wants_backward(s, island)) {
             continue;
         }
+        any = true;
         ++s.stats.islands_pushed;
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
@@ -263,6 +266,7 @@ void prepare_backward(const Solve& s) {
         }
         forget_errors(s, island);
     }
+    return any;
 }
 
 bool is_pushed(const Solve& s, const Island& island) {
@@ -272,10 +276,18 @@ bool is_pushed(const Solve& s, const Island& island) {
 
 void backward(const Solve& s) {
     HH_DETAIL_ZONE("backward");
-    prepare_backward(s);
-    solve_rounds(s, Phase::backward, [&](const Island& island) {
+    if (!prepare_backward(s)) {
+        return;
+    }
+    const auto wanted = [&](const Island& island) {
         return is_pushed(s, island) && errors_of(s, island).worst_m() > s.violated_m();
-    });
+    };
+    solve_rounds(s, Phase::backward, wanted);
+    // The contacts of the way that forward found may all be met where the hands want things: what
+    // else is there has been looked for only if something was solved.
+    if (refresh_contacts(s, OldPoints::kept)) {
+        solve_rounds(s, Phase::backward, wanted);
+    }
 }
 
 void contradiction(const Solve& s) {

@@ -265,6 +265,10 @@ void find_overlaps(FrameGraph& frame) {
             note(block.b, block.a, depth_m);
         }
     }
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        const Overlap& hidden = frame.hidden_overlaps.of_body[i];
+        note(i, hidden.with, hidden.depth_m);
+    }
 }
 
 void write_last_valid(const UpdateVelocitiesIo& io) {
