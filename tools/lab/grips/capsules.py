@@ -9,10 +9,10 @@ SPACING_M = 4e-3  # of the first samples
 TOLERANCE_M = 2e-5
 
 
-def axis_samples(a, b):
+def axis_samples(a, b, spacing_m):
     """Places of the first samples: capsule number and fraction of the axis, both ends with it."""
     length = np.linalg.norm(b - a, axis=1)
-    pieces = np.maximum(1, np.ceil(length / SPACING_M)).astype(int)
+    pieces = np.maximum(1, np.ceil(length / spacing_m)).astype(int)
     owner = np.repeat(np.arange(len(a)), pieces + 1)
     place = np.arange(len(owner)) - np.repeat(np.cumsum(pieces + 1) - pieces - 1, pieces + 1)
     return owner, place / pieces[owner]
@@ -38,11 +38,11 @@ def signed_between(surface, points, length, v0, v1):
     return sign * distance
 
 
-def least_signed_distance(surface, a, b):
-    """On each axis, within TOLERANCE_M. a, b: (n, 3), finite."""
-    owner, t = axis_samples(a, b)
+def least_signed_distance(surface, a, b, radius, spacing_m, tolerance_m, relative):
+    """On each axis, too high by at most tolerance_m and a relative share of the gap. a, b: (n, 3), finite."""
+    owner, t = axis_samples(a, b, spacing_m)
     length = np.linalg.norm(b - a, axis=1)
-    spacing = length / np.maximum(1, np.ceil(length / SPACING_M))
+    spacing = length / np.maximum(1, np.ceil(length / spacing_m))
     value = signed_on_axes(surface, a[owner] + t[:, None] * (b - a)[owner], owner, spacing)
     best = np.full(len(a), np.inf)
     np.minimum.at(best, owner, value)
@@ -50,12 +50,12 @@ def least_signed_distance(surface, a, b):
     who, t0, t1, v0, v1 = owner[1:][same], t[:-1][same], t[1:][same], value[:-1][same], value[1:][same]
     while len(who):
         least = 0.5 * (v0 + v1 - (t1 - t0) * length[who])
-        open_ = least < best[who] - TOLERANCE_M
+        open_ = least < best[who] - tolerance_m - relative * np.maximum(0.0, best[who] - radius[who])
         who, t0, t1, v0, v1 = who[open_], t0[open_], t1[open_], v0[open_], v1[open_]
         middle = 0.5 * (t0 + t1)
         value = signed_between(surface, a[who] + middle[:, None] * (b - a)[who], (t1 - t0) * length[who], v0, v1)
         np.minimum.at(best, who, value)
-        longer = (t1 - t0) * length[who] > TOLERANCE_M  # a step in the sign at a hole can keep no interval open for ever
+        longer = (t1 - t0) * length[who] > tolerance_m  # a step in the sign at a hole can keep no interval open for ever
         who = np.concatenate([who, who])
         t0, t1 = np.concatenate([t0, middle]), np.concatenate([middle, t1])
         v0, v1 = np.concatenate([v0, value]), np.concatenate([value, v1])
@@ -64,11 +64,11 @@ def least_signed_distance(surface, a, b):
     return best
 
 
-def clearance(surface, a, b, radius):
-    """Metres; NaN for capsules that are not finite."""
+def clearance(surface, a, b, radius, spacing_m=SPACING_M, tolerance_m=TOLERANCE_M, relative=0.0):
+    """Metres; NaN for capsules that are not finite. relative: a gap may be too large by this share of it, a depth may not."""
     a, b, radius = np.asarray(a, float).reshape(-1, 3), np.asarray(b, float).reshape(-1, 3), np.asarray(radius, float).ravel()
     result = np.full(len(a), np.nan)
     good = np.isfinite(a).all(1) & np.isfinite(b).all(1) & np.isfinite(radius)
     if good.any():
-        result[good] = least_signed_distance(surface, a[good], b[good]) - radius[good]
+        result[good] = least_signed_distance(surface, a[good], b[good], radius[good], spacing_m, tolerance_m, relative) - radius[good]
     return result

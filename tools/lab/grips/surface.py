@@ -136,3 +136,21 @@ class Surface:
 
     def signed_distance(self, points):
         return np.where(self.is_inside(points), -1.0, 1.0) * self.distance(points)
+
+    def as_sheet(self):
+        """The same surface without an inside."""
+        return Sheet(self.tree)
+
+
+class Sheet:
+    is_closed = True  # nothing to ask: no side is inside
+
+    def __init__(self, tree):
+        self.tree = tree
+
+    def distance(self, points):
+        return self.tree.closest(points)[0]
+
+    @staticmethod
+    def is_inside(points):
+        return np.zeros(len(points), bool)

@@ -6,7 +6,7 @@ and clouds" (2018); near triangles by the solid angle of van Oosterom and Strack
 import numpy as np
 from scipy.spatial import cKDTree
 
-LEAF = 4  # triangles; the last leaves hold copies, which weigh nothing
+LEAF = 2  # triangles; the last leaves hold copies, which weigh nothing
 SHORT_M = 5e-3  # edges below this are not cut
 FAR = 2.5  # a node is a dipole from this many of its radii on: 0.01 at most off, against a bar of 0.5
 AT_ONCE = 8192  # points
