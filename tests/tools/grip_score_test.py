@@ -14,6 +14,7 @@ import numpy as np
 from grips import capsules, glb, placements, primitives, scoring
 from grips.grasps import read_grasps
 from grips.surface import Surface
+from grips.tree import TriangleTree
 
 EXACT_M = capsules.TOLERANCE_M + 1e-7
 
@@ -98,6 +99,39 @@ class CapsuleAgainstSolid(unittest.TestCase):
         here = capsules.clearance(Surface(points[faces]), a, b, r)
         there = capsules.clearance(Surface((points * flip)[faces[:, ::-1]]), a * flip, b * flip, r)
         np.testing.assert_allclose(there, here, atol=2 * EXACT_M)
+
+
+def distance_to_triangle(p, a, b, c):
+    """Least over the plane, the sides and the corners, each by its own formula."""
+    n = np.cross(b - a, c - a)
+    weights = [np.cross(v - u, p - u) @ n for u, v in ((a, b), (b, c), (c, a))]
+    found = [abs((p - a) @ n) / np.linalg.norm(n)] if min(weights) >= 0 else []
+    for u, v in ((a, b), (b, c), (c, a)):
+        t = (p - u) @ (v - u) / ((v - u) @ (v - u))
+        found += [np.linalg.norm(p - u), np.linalg.norm(p - v)] + ([np.linalg.norm(p - u - t * (v - u))] if 0 <= t <= 1 else [])
+    return min(found)
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        """Triangles of edges from half a millimetre to metres, needles among them."""
+        rng = np.random.default_rng(8)
+        sizes = 10.0 ** rng.uniform(-3.3, 0.3, (300, 1, 1))
+        self.triangles = rng.uniform(-0.3, 0.3, (300, 1, 3)) + sizes * rng.uniform(-1, 1, (300, 3, 3))
+        self.triangles[::5, 2] = self.triangles[::5, 1] + 1e-3 * (self.triangles[::5, 2] - self.triangles[::5, 1])
+        self.points = rng.uniform(-0.4, 0.4, (60, 3))
+        self.tree = TriangleTree(self.triangles)
+
+    def test_the_closest_triangle_is_that_of_asking_all(self):
+        expected = [min(distance_to_triangle(point, *corners) for corners in self.triangles) for point in self.points]
+        np.testing.assert_allclose(self.tree.closest(self.points)[0], expected, atol=1e-9)
+
+    def test_the_winding_number_is_that_of_all_solid_angles(self):
+        a, b, c = (self.triangles[None, :, side] - self.points[:, None] for side in range(3))
+        la, lb, lc = (np.linalg.norm(v, axis=2) for v in (a, b, c))
+        top = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
+        below = la * lb * lc + (a * b).sum(2) * lc + (b * c).sum(2) * la + (c * a).sum(2) * lb
+        np.testing.assert_allclose(self.tree.winding(self.points), (2 * np.arctan2(top, below)).sum(1) / (4 * math.pi), atol=0.05)
 
 
 class Inside(unittest.TestCase):
@@ -185,7 +219,7 @@ class Figures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "G.jsonl"
             path.write_text("".join(json.dumps(line) + "\n" for line in lines))
-            return scoring.score(box((1.0, 1.0, 0.1), 0.1), *read_grasps(path), **options)[0]
+            return scoring.figures([scoring.Measured(box((1.0, 1.0, 0.1), 0.1), *read_grasps(path), **options)])
 
     def test_depths_shares_and_touches_are_counted(self):
         # 2 mm deep, 4 mm deep, 1 mm off, 3 mm off.

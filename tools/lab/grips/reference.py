@@ -122,3 +122,15 @@ def reached(surface, fingers, positions, rotations):
                 hit = Sweep(surface, finger, positions[todo], rotations[todo], opposition).run()
                 result[todo[hit], FINGERS.index(name)] = True
     return result
+
+
+def reached_by(surface, fingers, grasps, count):
+    """For grasps of a file: (grasps, fingers). `count` of them are asked, evenly chosen among those that can be (0: all); none of the others reach."""
+    asked = [i for i, grasp in enumerate(grasps) if grasp.gripped and grasp.is_finite() and any(grasp.rotation_xyzw)]
+    if count and len(asked) > count:
+        asked = [asked[i * len(asked) // count] for i in range(count)]
+    result = np.zeros((len(grasps), len(FINGERS)), bool)
+    if asked:
+        positions, rotations = (np.array([getattr(grasps[i], key) for i in asked]) for key in ("position_m", "rotation_xyzw"))
+        result[asked] = reached(surface, fingers, positions, rotations)
+    return result

@@ -77,32 +77,51 @@ def reference_figures(gaps, reached):
     return {"four": part(slice(1, 5)), "thumb": part(slice(0, 1)), "all": part(slice(0, 5))}
 
 
-def score(surface, grasps, capsules, kinds=None, reached=None):
-    """(figures, one dictionary a grasp). kinds: {id: kind} of the placements. reached: what the reference brings to contact, (grasps, 5)."""
-    gaps = part_gaps_mm(surface, grasps, capsules)
-    each = [score_grasp(grasp, row) for grasp, row in zip(grasps, gaps)]
-    used = np.array([one["gripped"] and one["finite"] for one in each])
+class Measured:
+    """One file's grasps with what was measured of them.
+
+    gaps_mm: (grasps, PARTS). each: one dictionary a grasp. used: gripped and finite. near: by the placements' kinds, {id: kind}; None: not known.
+    reached: (grasps, 5), what the reference brings to contact; None: not asked."""
+
+    def __init__(self, surface, grasps, capsules, kinds=None, reached=None):
+        self.grasps = grasps
+        self.gaps_mm = part_gaps_mm(surface, grasps, capsules)
+        self.each = [score_grasp(grasp, row) for grasp, row in zip(grasps, self.gaps_mm)]
+        self.used = np.array([one["gripped"] and one["finite"] for one in self.each])
+        self.near = None if kinds is None else np.array([kinds.get(grasp.id) == "near" for grasp in grasps])
+        self.reached = reached
+        if reached is not None:
+            for one, row in zip(self.each, reached):
+                one["reference_reaches"] = [name for name, hit in zip(FINGERS, row) if hit]
+
+
+def deepest_mm(measured):
+    """Of each grasp that counts, the depth of its deepest finger, thumb with it."""
+    return np.maximum(0.0, -np.concatenate([one.gaps_mm[one.used, :5] for one in measured]).min(1)) if measured else np.zeros(0)
+
+
+def figures(measured):
+    """Of all grasps of one or several files together."""
+    grasps = [grasp for one in measured for grasp in one.grasps]
     gripped = [grasp for grasp in grasps if grasp.gripped]
-    kinds = kinds or {}
-    near = [grasp for grasp in gripped if kinds.get(grasp.id) == "near"]
-    figures = {
-        "grasps": len(grasps), "gripped": len(gripped), "gripped_share": len(gripped) / len(grasps),
-        "not_finite": sum(not one["finite"] for one in each),
+    result = {
+        "grasps": len(grasps), "gripped": len(gripped), "gripped_share": share([grasp.gripped for grasp in grasps]),
+        "not_finite": sum(not one["finite"] for file in measured for one in file.each),
         "reasons": dict(sorted(collections.Counter(grasp.reason for grasp in grasps if not grasp.gripped).items())),
-        **depth_figures(gaps[used]),
+        **depth_figures(np.concatenate([one.gaps_mm[one.used] for one in measured])),
         "sync_mm": spread([grasp.sync_mm for grasp in gripped]), "sync_deg": spread([grasp.sync_deg for grasp in gripped]),
-        "sync_mm_near": spread([grasp.sync_mm for grasp in near]),
         **search_figures(gripped),
         "us": {stage: spread([grasp.us.get(stage, math.nan) for grasp in gripped]) for stage in ("search", "palm", "fingers", "total")},
     }
-    if kinds:
-        is_near = used & np.array([kinds.get(grasp.id) == "near" for grasp in grasps])
-        figures["near"] = depth_figures(gaps[is_near])
-    if reached is not None:
-        figures["of_reference"] = reference_figures(gaps[used], reached[used])
-        for one, row in zip(each, reached):
-            one["reference_reaches"] = [name for name, hit in zip(FINGERS, row) if hit]
-    return figures, each
+    known = [one for one in measured if one.near is not None]
+    if known:
+        result["sync_mm_near"] = spread([grasp.sync_mm for one in known for grasp, near in zip(one.grasps, one.near) if near and grasp.gripped])
+        result["near"] = depth_figures(np.concatenate([one.gaps_mm[one.used & one.near] for one in known]))
+    asked = [one for one in measured if one.reached is not None]
+    if asked:
+        result["of_reference"] = reference_figures(np.concatenate([one.gaps_mm[one.used] for one in asked]),
+                                                   np.concatenate([one.reached[one.used] for one in asked]))
+    return result
 
 
 def without_nan(value):
