@@ -30,10 +30,11 @@ def signed_on_axes(surface, points, owner, spacing):
 
 
 def signed_between(surface, points, length, v0, v1):
-    """Of the middles of intervals with values v0 and v1 at their ends."""
+    """Of the middles of intervals with values v0 and v1 at their ends. No surface is between ends that are farther from it together than from each
+    other; both then have one sign, but at the hole of an open surface."""
     distance = surface.distance(points)
     sign = np.where(np.abs(v0) >= np.abs(v1), np.sign(v0), np.sign(v1))
-    asked = (np.abs(v0) + np.abs(v1) <= length) | (sign == 0) | (not surface.is_closed)
+    asked = (np.abs(v0) + np.abs(v1) <= length) | (np.sign(v0) != np.sign(v1))
     sign[asked] = np.where(surface.is_inside(points[asked]), -1.0, 1.0)
     return sign * distance
 
