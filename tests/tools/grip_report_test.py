@@ -1,0 +1,71 @@
+"""What grip_report makes of figures, and what it says where nothing can be run."""
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "tools" / "lab" / "grip_report"
+sys.path.insert(0, str(ROOT / "tools" / "lab"))
+from grips import report, svg
+
+
+class Goals(unittest.TestCase):
+    def test_a_limit_is_met_at_its_value_and_missed_beyond(self):
+        self.assertEqual(report.judged("x", 3.0, 3, "%").verdict(), "met")
+        self.assertEqual(report.judged("x", 3.01, 3, "%").verdict(), "MISSED")
+        self.assertEqual(report.judged("x", 95.0, 95, "%", least=True).verdict(), "met")
+        self.assertEqual(report.judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
+
+    def test_what_was_not_measured_was_not_run(self):
+        self.assertEqual(report.judged("x", math.nan, 3, "%").verdict(), "not run")
+        self.assertEqual({goal.verdict() for goal in report.goals(None, None, None)}, {"not run"})
+
+    def test_each_goal_reads_its_own_figure(self):
+        whole = {"deep_share": {"any_finger_or_thumb": 0.04, "any_finger": 0.02, "thumb": 0.016}, "sync_mm_near": {"median": 4.5},
+                 "penetration_mm": {"mean_of_fingers": 0.2, "mean_of_deepest": 0.4}, "us": {"total": {"median": 70, "p99": 260}},
+                 "visited_per_disc": {"median": 2, "p95": 9}, "of_reference": {"four": {"touching": 0.96}, "all": {"touching": 0.94}},
+                 "not_finite": 0}
+        verdicts = [goal.verdict() for goal in report.goals(whole, None, None)]
+        self.assertEqual(verdicts[:14], ["met", "MISSED", "MISSED", "met", "not run", "MISSED", "met", "MISSED", "met", "MISSED", "MISSED",
+                                         "met", "MISSED", "met"])
+
+
+class Plots(unittest.TestCase):
+    def test_a_tail_is_the_share_above(self):
+        points = dict(svg.share_above([1.0, 2.0, 3.0, 4.0]))
+        self.assertEqual(points, {1.0: 0.75, 2.0: 0.5, 3.0: 0.25, 4.0: 0.0})
+
+    def test_drawings_are_well_formed_and_leave_out_what_is_empty(self):
+        drawing = ElementTree.fromstring(svg.tail_plot("a < b", "mm", {"one": ("#000", [1.0, 5.0]), "none": ("#111", [])}, 10.0, (3.0,)))
+        self.assertEqual(len(drawing.findall(".//polyline")), 1)
+        drawing = ElementTree.fromstring(svg.bars("a & b", [("x", 1.0), ("y", math.nan)], "%", 3.0))
+        self.assertEqual(len(drawing.findall(".//rect")), 2)
+
+
+class Runs(unittest.TestCase):
+    def run_report(self, *flags):
+        return subprocess.run([sys.executable, "-B", SCRIPT, *flags], capture_output=True, text=True)
+
+    def test_a_tool_that_cannot_be_run_ends_it_without_a_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = self.run_report("--lab", f"{folder}/none", "--out", f"{folder}/grip.html", "--only", "primitives/sphere_20")
+            self.assertEqual(run.returncode, 2)
+            self.assertIn("none", run.stderr.splitlines()[-1])
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+    def test_without_data_the_primitives_are_left(self):
+        run = self.run_report("--data", "/nowhere", "--list")
+        self.assertEqual({line.partition("/")[0] for line in run.stdout.splitlines()}, {"primitives"})
+
+    def test_unknown_variants_and_meshes_print_the_usage(self):
+        for flags in (("--variants", "what"), ("--only", "what")):
+            run = self.run_report(*flags)
+            self.assertEqual((run.returncode, run.stderr.startswith("usage")), (1, True))
+
+
+if __name__ == "__main__":
+    unittest.main()
