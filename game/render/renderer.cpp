@@ -52,6 +52,7 @@ struct Renderer::Impl {
     std::unique_ptr<GlContext> context;  // first: it must outlive every name below
     int width_px = 0;
     int height_px = 0;
+    bool casts_shadows = true;
     std::vector<GpuMesh> meshes;
     GlProgram mesh_program, depth_program, line_program, backdrop_program;
     GlTexture shadow_map;
@@ -155,7 +156,8 @@ void Renderer::Impl::draw_shadows(const ShadowView& shadow) {
     set_uniform(depth_program, "cs_to_clip", shadow.cs_to_clip);
     for (const Visible& item : visible) {
         const Look& look = item.instance->look;
-        if (look.opacity >= 1.0F && casts_shadow(shadow, item.center_cs, item.mesh->radius_m)) {
+        if (casts_shadows && look.opacity >= 1.0F &&
+            casts_shadow(shadow, item.center_cs, item.mesh->radius_m)) {
             draw_mesh(depth_program, item);
         }
     }
@@ -306,7 +308,9 @@ std::optional<Renderer> Renderer::create(int width_px, int height_px, std::strin
     }
     impl->width_px = width_px;
     impl->height_px = height_px;
-    const PictureSize size{width_px, height_px, quality == PictureQuality::fine ? 2 : 1};
+    const PictureSize size{width_px, height_px, quality == PictureQuality::fine ? 2 : 1,
+                           quality != PictureQuality::plain};
+    impl->casts_shadows = quality != PictureQuality::plain;
     if (!impl->create_programs(why_not) ||
         !impl->passes.create(impl->context->api(), size, why_not)) {
         return std::nullopt;
@@ -351,7 +355,7 @@ MeshId Renderer::add_mesh(const Mesh& mesh) {
     return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};
 }
 
-void Renderer::draw(const RenderFrame& frame, Image& out) {
+void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {
     Impl& impl = *impl_;
     impl.context->make_current();
     impl.counters = {};
@@ -371,7 +375,7 @@ void Renderer::draw(const RenderFrame& frame, Image& out) {
     impl.draw_glass(view);
     impl.draw_lines(frame, view);
     glBindVertexArray(impl.empty_layout);
-    impl.passes.finish(view, out);
+    impl.passes.finish(view, ui, out);
 }
 
 const RenderCounters& Renderer::counters() const { return impl_->counters; }

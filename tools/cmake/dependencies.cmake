@@ -13,6 +13,7 @@ if(HANDHOLD_BUILD_GAME)
   pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
   pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)  # FindOpenGL would ask for libOpenGL, which nothing here uses
   pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2)
+  pkg_check_modules(imgui REQUIRED imgui)
   find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
   add_library(handhold_stb INTERFACE)
   add_library(handhold::stb ALIAS handhold_stb)
