@@ -33,6 +33,10 @@ class FieldShower {
         begin(name);
         ImGui::Text("%.6g", value);
     }
+    static void show(const char* name, std::uint64_t id) {
+        begin(name);
+        ImGui::Text("0x%016llx", static_cast<unsigned long long>(id));
+    }
     static void show(const char* name, bool value) {
         begin(name);
         ImGui::TextUnformatted(value ? "yes" : "no");

@@ -126,7 +126,7 @@ void show_hud(const Hud& hud) {
         ImGui::End();
     }
     if (!hud.footer.empty()) {
-        begin_note("cost", ImVec2(0.5F * size.x, size.y - 4.0F), ImVec2(0.5F, 1.0F));
+        begin_note("cost", ImVec2(4.0F, size.y - 4.0F), ImVec2(0.0F, 1.0F));
         ImGui::TextUnformatted(hud.footer.c_str());
         ImGui::End();
     }

@@ -71,6 +71,7 @@ bool show_number(const TuningInfo& info, T& field) {
     const char* const short_name = info.name + name.find('.') + 1;
     ImGui::PushID(info.name);
     ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
     bool changed = false;
     if (is_default) {
         ImGui::TextUnformatted(short_name);
@@ -89,9 +90,22 @@ bool show_number(const TuningInfo& info, T& field) {
     ImGui::SetNextItemWidth(-1.0F);
     changed = edit(info, field) || changed;
     ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
     ImGui::TextColored(k_soft, "%s  [%g, %g]", info.unit, info.low, info.high);
     ImGui::PopID();
     return changed;
+}
+
+// Columns of one width in all groups.
+bool begin_group(const std::string& name) {
+    if (!ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen) ||
+        !ImGui::BeginTable(name.c_str(), 3)) {
+        return false;
+    }
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    ImGui::TableSetupColumn("range", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    return true;
 }
 
 // Every number of Tuning, in groups by the first part of its name.
@@ -107,10 +121,7 @@ bool show_numbers(Tuning& tuning) {
                 ImGui::EndTable();
             }
             group = head;
-            open =
-                ImGui::CollapsingHeader(std::string(head).c_str(),
-                                        ImGuiTreeNodeFlags_DefaultOpen) &&
-                ImGui::BeginTable(std::string(head).c_str(), 3, ImGuiTableFlags_SizingStretchProp);
+            open = begin_group(std::string(head));
         }
         if (open) {
             changed = show_number(info, field) || changed;

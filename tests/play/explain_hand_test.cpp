@@ -51,9 +51,12 @@ TEST(ExplainHand, AClosedHandNamesWhatItGripsAndItsError) {
     DesktopInput grip;
     grip.grip[0] = true;
     desk.run(grip, 0.7);
-    ASSERT_EQ(desk.scene().world.grab.at(desk.player().hands[0]).kind, GripKind::surface);
+    const Grab& grab = desk.scene().world.grab.at(desk.player().hands[0]);
+    ASSERT_EQ(grab.kind, GripKind::surface);
     const HandStory story = desk.story(HandSide::left);
-    EXPECT_TRUE(says(story, "grips bar"));
+    const std::string name = name_of_entity(desk.scene(), grab.body);
+    EXPECT_EQ(find_by_id(desk.scene().world, persistent_id_from_name(name)), grab.body);
+    EXPECT_TRUE(says(story, "grips " + name));
     EXPECT_TRUE(says(story, "It is fixed"));
     EXPECT_TRUE(says(story, "hand.max_stretch_m"));
 }

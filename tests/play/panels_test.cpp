@@ -115,13 +115,14 @@ TEST_F(Panels, HelpMarkAndPauseFitThePicture) {
 TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
     PlaySettings settings;
     std::string chosen;
-    // He clicks his way down the left side of the menu until something is chosen.
-    for (float y = 20.0F; y < 340.0F && chosen.empty(); y += 4.0F) {
+    // He clicks his way down the left side of the menu, below the heading, which would close it,
+    // and slowly, since title bars obey double clicks, until something is chosen.
+    for (float y = 64.0F; y < 340.0F && chosen.empty(); y += 4.0F) {
         for (const bool down : {false, true, false}) {
             UiInput input;
             input.mouse_px = {50.0F, y};
             input.buttons[0] = down;
-            overlay.begin(input, 0.01);
+            overlay.begin(input, 0.5);
             const MenuChoice choice = show_menu("robot", settings);
             chosen = choice.scene.empty() ? chosen : choice.scene;
             overlay.end();
