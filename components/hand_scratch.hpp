@@ -11,7 +11,7 @@ namespace handhold {
 // What the stages of the hands hand on to each other within one frame, and what they work in. Not
 // state.
 struct HandScratch {
-    std::vector<HandSurroundings> surroundings;  // by row of HandOwner
+    std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
     std::vector<std::array<FingerTrace, k_finger_count>> traces;  // the same; of the last solve
     GripSearchScratch search;
     ChainFitScratch fit;

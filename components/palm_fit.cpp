@@ -31,10 +31,9 @@ Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, do
     Vec3 center = transform_point(hand.wrist_bs, rig.palm_center_hs);
     center += slide_onto(hand.meshes.front(), surface.triangle, center);
     const double height_m = (center - surface.point_bs).dot(normal);
-    const double wanted_m =
-        std::clamp(height_m, tuning.min_height_m,
-                   std::max(tuning.min_height_m, tuning.max_height_m)) +
-        lift_m;
+    const double wanted_m = std::clamp(height_m, tuning.min_height_m,
+                                       std::max(tuning.min_height_m, tuning.max_height_m)) +
+                            lift_m;
     center += (wanted_m - height_m) * normal;
 
     Pose wrist = hand.wrist_bs;

@@ -177,6 +177,8 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
 PlayerCommands DesktopBody::commands(const DesktopInput& input) const {
     PlayerCommands commands;
     commands.brake = input.brake ? 1.0 : 0.0;
+    commands.smooth_turn = input.smooth_turn;
+    commands.snap_turns = input.snap_turns;
     commands.thrust_ps = head_ps_.rotation * input.move;  // obeyed where the tuning has jets
     return commands;
 }

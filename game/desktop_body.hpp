@@ -7,11 +7,11 @@
 #include "game/hand_pose.hpp"
 #include "game/scene.hpp"
 
-// Keyboard and mouse as a headset and two controllers: somebody without a headset who looks about,
-// reaches for what he looks at, and pulls himself along by what he grips.
+// Keyboard, mouse and gamepad as a headset and two controllers: somebody without a headset who
+// looks about, reaches for what he looks at, and pulls himself along by what he grips.
 namespace handhold {
 
-// What keys and mouse ask for in one frame.
+// What keys, mouse and gamepad ask for in one frame.
 struct DesktopInput {
     double turn_left_rad = 0.0;
     double look_up_rad = 0.0;
@@ -21,6 +21,8 @@ struct DesktopInput {
     double farther_m = 0.0;                   // what he holds or is held by; negative: nearer
     bool hurry = false;                       // pulls twice as fast
     bool brake = false;
+    double smooth_turn = 0.0;  // of the play space, [-1, 1], positive to the left
+    int snap_turns = 0;        // to the left; negative: to the right
 };
 
 class DesktopBody {

@@ -1,5 +1,8 @@
 #include "game/desktop_session.hpp"
 
+#include <algorithm>
+
+#include "engine/core/check.hpp"
 #include "game/place_scene.hpp"
 
 namespace handhold {
@@ -41,10 +44,24 @@ void DesktopSession::step(const DesktopInput& input) {
     if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
         commands.thrust_ps.setZero();  // nobody would obey, but commands are state
     }
-    used_sticks_ = used_sticks_ || input.brake || !commands.thrust_ps.isZero();
+    used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
+                   input.snap_turns != 0 || !commands.thrust_ps.isZero();
     const PlayerInput from{player_.player, samples_, commands};
-    StageStats stats;
-    step_frame(scene_.world, caches_, scene_.tuning, {k_dt_s, {&from, 1}}, stats);
+    step_frame(scene_.world, caches_, scene_.tuning, {k_dt_s, {&from, 1}}, stats_);
+}
+
+DesktopState DesktopSession::save(const SnapshotAssets& assets) const {
+    DesktopState state{{}, body_, recording_.samples.size(), used_sticks_};
+    save_snapshot(scene_.world, assets, state.world);
+    return state;
+}
+
+void DesktopSession::restore(const DesktopState& state, const SnapshotAssets& assets) {
+    const auto error = restore_snapshot(state.world, assets, scene_.world);
+    HH_CHECK(!error, "the state is another session's", state.world.size());
+    body_ = state.body;
+    recording_.samples.resize(std::min(recording_.samples.size(), state.recorded));
+    used_sticks_ = state.used_sticks;
 }
 
 }  // namespace handhold

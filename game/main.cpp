@@ -1,5 +1,6 @@
 // handhold: the prototype game's command line.
 #include <cstdio>
+#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -92,6 +93,30 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
                     "Save the session (.csv): run --input plays it again");
     play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");
     play.add_option("--picture", options.picture, "Save the last picture (.png)");
+    play.add_option("--report", options.report,
+                    "Save what was climbed and what it cost (.json) at the end");
+    play.add_option("--status", options.status,
+                    "Write a line of how it stands every tenth of a second (.jsonl)");
+    const std::map<std::string, handhold::PictureQuality> qualities = {
+        {"plain", handhold::PictureQuality::plain},
+        {"quick", handhold::PictureQuality::quick},
+        {"fine", handhold::PictureQuality::fine}};
+    play.add_option("--quality", options.settings.quality,
+                    "plain (no graphics card), quick, or fine (four samples a pixel)")
+        ->transform(CLI::CheckedTransformer(qualities));
+    const std::map<std::string, handhold::TurnKind> turns = {
+        {"snap", handhold::TurnKind::snap}, {"smooth", handhold::TurnKind::smooth}};
+    play.add_option("--turn", options.settings.turn, "snap or smooth: how Z and C turn")
+        ->transform(CLI::CheckedTransformer(turns));
+    play.add_option("--vignette", options.settings.vignette,
+                    "How much the edges darken at speed, 0 to 1")
+        ->check(CLI::Range(0.0, 1.0));
+    play.add_flag("--inspector", options.panels.inspector, "Open the inspector at once (F2)");
+    play.add_option("--page", options.page, "The inspector's page that is open")
+        ->check(CLI::IsMember({"Frame", "Hands", "Tuning", "Entities", "Gizmos"}));
+    play.add_flag_callback(
+        "--gizmos", [&options] { options.gizmos.fill(true); }, "Show what every stage did");
+    play.add_flag("--menu", options.panels.menu, "Open scenes and settings at once (F3)");
     play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
         ->check(CLI::Range(0.01, 1e6));
     add_hand_rig_option(play, options.hand_rig);
@@ -118,7 +143,8 @@ int main(int argc, char** argv) {
         app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
     handhold::PlayOptions play_options;
-    CLI::App* const play = app.add_subcommand("play", "Play in a window with keyboard and mouse");
+    CLI::App* const play =
+        app.add_subcommand("play", "Play in a window with keyboard, mouse or gamepad");
     add_play_options(*play, play_options);
     handhold::ClimbOptions climb_options;
     CLI::App* const climb =

@@ -1,99 +1,25 @@
 #include "game/play_command.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
+#include <memory>
 
-#include "engine/core/profile.hpp"
-#include "game/desktop_session.hpp"
-#include "game/platform/window.hpp"
-#include "game/player_view.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/play_loop.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/ui/hud.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr int k_exit_bad_file = 2;
 constexpr int k_exit_no_window = 3;
-constexpr double k_most_behind_s = 0.1;  // then time goes slower
-constexpr double k_fov_rad = 1.25;
 constexpr double k_jets_mps2 = 0.5;
-constexpr const char* k_help =
-    "Look about with the mouse. The mark is green where a hand can reach.\n"
-    "Left, right button: that hand reaches, and grips while you hold it.\n"
-    "W A S D, Q E: pull yourself by what you grip.\n"
-    "Wheel: farther, nearer. Shift: faster. Space: brake.\n"
-    "F1: this help. Esc: leave.";
 
 int refuse(const FileError& error) {
     std::fprintf(stderr, "%s\n", error.message().c_str());
     return k_exit_bad_file;
-}
-
-// Real time into steps of the simulation: input that happened between two of them waits.
-class Clock {
-  public:
-    // Steps that are due.
-    int advance() {
-        const std::int64_t now = now_ns();
-        behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
-        behind_s_ = std::min(behind_s_, k_most_behind_s);
-        last_ns_ = now;
-        const auto due = static_cast<int>(behind_s_ / DesktopSession::k_dt_s);
-        behind_s_ -= due * DesktopSession::k_dt_s;
-        return due;
-    }
-
-  private:
-    std::int64_t last_ns_ = 0;
-    double behind_s_ = 0.0;
-};
-
-// What came with one look at the window goes into the first of several steps, but for what is held.
-void spend(DesktopInput& input) {
-    input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
-    input.opened = {};
-}
-void gather(const DesktopInput& now, DesktopInput& input) {
-    const DesktopInput before = input;
-    input = now;
-    input.turn_left_rad += before.turn_left_rad;
-    input.look_up_rad += before.look_up_rad;
-    input.farther_m += before.farther_m;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        input.opened[side] = input.opened[side] || before.opened[side];
-    }
-}
-
-void play(const PlayOptions& options, DesktopSession& session, Window& window, PlayerView& view,
-          Image& image) {
-    Clock clock;
-    DesktopInput input;
-    bool shows_help = true;
-    const World& world = session.scene().world;
-    const double end_s = options.seconds > 0.0 ? options.seconds : HUGE_VAL;
-    for (bool quits = false; !quits && world.clock.t_s < end_s;) {
-        const WindowEvents events = window.poll();
-        gather(events.input, input);
-        shows_help = shows_help != events.help;
-        quits = events.quit;
-        const int due = clock.advance();
-        if (due == 0) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            continue;
-        }
-        for (int i = 0; i < due && world.clock.t_s < end_s; ++i) {
-            session.step(input);
-            spend(input);
-        }
-        const Entity player = session.player().player;
-        view.draw(world.render_pose.at(player).head_ws, k_fov_rad,
-                  world.render_pose.find_row(player), image);
-        window.show(image, session.body().can_reach(), shows_help ? k_help : "");
-    }
 }
 
 // Said before anything is played: a session that cannot be kept is not begun.
@@ -107,7 +33,8 @@ std::optional<FileError> check_folder(const std::filesystem::path& file) {
 }
 
 std::optional<FileError> save(const PlayOptions& options, const std::string& spawn,
-                              const DesktopSession& session, const Image& image) {
+                              const DesktopSession& session, const PlayTally& tally,
+                              const Image& image) {
     const Recording& recording = session.recording();
     if (recording.samples.size() > 1) {
         if (auto error = save_recording(options.record, recording)) {
@@ -115,68 +42,123 @@ std::optional<FileError> save(const PlayOptions& options, const std::string& spa
         }
         std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
                     recording.samples.size(),
-                    session.used_sticks() ? ", without brake and jets" : "");
+                    session.used_sticks() ? ", without turns, brake and jets" : "");
         std::printf("handhold run --scene %s%s --players 1 --input %s\n", options.scene.c_str(),
                     spawn.empty() ? "" : (" --spawn " + spawn).c_str(), options.record.c_str());
     }
     if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
         return FileError{options.picture, "", "expected a file that can be written"};
     }
+    if (!options.report.empty()) {
+        const std::string hash = format_hash(hash_state(session.scene().world));
+        return write_file_atomically(options.report, tally.report_json(session.scene().name, hash));
+    }
     return std::nullopt;
 }
 
-}  // namespace
-
-int play_command(const PlayOptions& options) {
-    for (const std::string& file : {options.record, options.picture}) {
-        if (const auto error = check_folder(file)) {
-            return refuse(*error);
-        }
-    }
-    Result<Scene> loaded = load_scene(options.scene);
-    if (!loaded) {
-        return refuse(loaded.error());
-    }
+struct LoadedScene {
+    Scene scene;
     SceneSpawnPoint place;  // the origin where the scene names none
-    const auto& spawns = loaded.value().spawns;
+};
+
+Result<LoadedScene> load(const PlayOptions& options) {
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) {
+        return scene.error();
+    }
+    LoadedScene loaded{std::move(scene.value()), {}};
+    const auto& spawns = loaded.scene.spawns;
     const auto found = std::ranges::find_if(spawns, [&](const SceneSpawnPoint& candidate) {
         return options.spawn.empty() || candidate.name == options.spawn;
     });
     if (found != spawns.end()) {
-        place = *found;
+        loaded.place = *found;
     } else if (!options.spawn.empty()) {
-        return refuse({options.scene, "/spawns",
-                       "expected a spawn \"" + options.spawn + "\", found none of that name"});
+        return FileError{options.scene, "/spawns",
+                         "expected a spawn \"" + options.spawn + "\", found none of that name"};
     }
     if (options.jets) {
-        loaded.value().tuning.locomotion.thruster_mps2 = k_jets_mps2;
+        loaded.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
     }
-    DesktopSession session(std::move(loaded.value()), place.pose_ws);
-    if (!options.record.empty()) {
-        session.record();
+    return loaded;
+}
+
+int refuse_window(const std::string& why_not) {
+    std::fprintf(stderr, "no window: %s\n", why_not.c_str());
+    return k_exit_no_window;
+}
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+
+}  // namespace
+
+int play_command(PlayOptions options) {
+    for (const std::string& file :
+         {options.record, options.picture, options.report, options.status}) {
+        if (const auto error = check_folder(file)) {
+            return refuse(*error);
+        }
     }
-    std::string why_not;
     Result<HandModels> hands = choose_hand_models(options.hand_rig);
     if (!hands) {
         return refuse(hands.error());
     }
-    auto view = PlayerView::open(session.scene(), std::move(hands.value()), options.width_px,
-                                 options.height_px, why_not);
-    const auto window = view ? Window::open("Handhold: " + session.scene().name, options.width_px,
-                                            options.height_px, why_not)
-                             : nullptr;
-    if (window == nullptr) {
-        std::fprintf(stderr, "no window: %s\n", why_not.c_str());
-        return k_exit_no_window;
+    const OpenFile status(options.status.empty() ? nullptr
+                                                 : std::fopen(options.status.c_str(), "w"));
+    if (!options.status.empty() && status == nullptr) {
+        return refuse({options.status, "", "expected a file that can be written"});
     }
-    std::printf("%s\n", k_help);
-    Image image;
-    play(options, session, *window, *view, image);
-    if (const auto error = save(options, place.name, session, image)) {
-        return refuse(*error);
+    PlayPanels panels = options.panels;
+    std::unique_ptr<Window> window;
+    Overlay overlay(options.width_px, options.height_px);
+    for (;;) {
+        Result<LoadedScene> loaded = load(options);
+        if (!loaded) {
+            return refuse(loaded.error());
+        }
+        const std::string place = loaded.value().place.name;
+        DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
+        if (!options.record.empty()) {
+            session.record();
+        }
+        std::string why_not;
+        auto view = PlayerView::open(session.scene(), hands.value(), options.width_px,
+                                     options.height_px, why_not, options.settings.quality);
+        if (!view) {
+            return refuse_window(why_not);
+        }
+        if (window == nullptr) {
+            window = Window::open("", options.width_px, options.height_px, why_not);
+            if (window == nullptr) {
+                return refuse_window(why_not);
+            }
+            std::printf("%s\n", help_text());
+        }
+        window->set_title("Handhold: " + session.scene().name);
+        Image picture;
+        PlayTally tally;
+        PlayStage stage{session,         *window,
+                        *view,           hands.value(),
+                        overlay,         options.settings,
+                        panels,          tally,
+                        picture,         {options.width_px, options.height_px},
+                        options.gizmos,  options.page,
+                        options.seconds, status.get()};
+        const PlayEnd end = play(stage);
+        std::printf("%s", tally.summary().c_str());
+        if (const auto error = save(options, place, session, tally, picture)) {
+            return refuse(*error);
+        }
+        if (end.leaves) {
+            std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
+            return 0;
+        }
+        options.scene = end.scene;
+        options.spawn.clear();
     }
-    std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
-    return 0;
 }
 
 }  // namespace handhold

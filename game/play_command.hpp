@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "game/play_loop.hpp"
+
 namespace handhold {
 
 // `handhold play`, as given on the command line.
@@ -12,16 +14,23 @@ struct PlayOptions {
     std::string record;                 // where the session is saved; empty: nowhere
     std::string picture;                // a PNG of the last picture; empty: none
     std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
-    bool jets = false;                  // the keys push as well as pull
-    double seconds = 0.0;               // 0: until the window is closed
+    std::string report;                 // figures and costs (.json) when it ends; empty: none
+    std::string status;    // a line of JSON every tenth of a second (.jsonl); empty: none
+    bool jets = false;     // the keys push as well as pull
+    double seconds = 0.0;  // 0: until the window is closed
     int width_px = 1280;
     int height_px = 720;
+    PlaySettings settings;
+    PlayPanels panels;  // that are open when it begins
+    std::string page;   // of the inspector: "Tuning"; empty: its first
+    GizmoSet gizmos = k_no_gizmos;
 };
 
-// Opens a window in which the scene is played with keyboard and mouse, in real time: where a
-// picture takes longer than the session allows it to fall behind, time goes slower. Returns the
-// exit status: 0; 2 after one line on standard error where a file is refused or cannot be written,
-// 3 where there is nothing to draw or show with. The last line is "state_hash 0x<16 hex digits>".
-int play_command(const PlayOptions& options);
+// Opens a window in which scenes are played with keyboard, mouse and gamepad, in real time: where a
+// picture takes longer than the session allows it to fall behind, time goes slower. What is kept
+// is of the scene that was played last. Returns the exit status: 0; 2 after one line on standard
+// error where a file is refused or cannot be written, 3 where there is nothing to draw or show
+// with. The last line is "state_hash 0x<16 hex digits>".
+int play_command(PlayOptions options);
 
 }  // namespace handhold

@@ -28,8 +28,9 @@ PlayerView::PlayerView(const Scene& scene, HandModels hands, Renderer renderer)
 }
 
 std::optional<PlayerView> PlayerView::open(const Scene& scene, HandModels hands, int width_px,
-                                           int height_px, std::string& why_not) {
-    std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not);
+                                           int height_px, std::string& why_not,
+                                           PictureQuality quality) {
+    std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not, quality);
     if (!renderer) {
         return std::nullopt;
     }
@@ -58,16 +59,18 @@ void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFram
 }
 
 void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
-                      std::optional<std::size_t> without_head, Image& out) {
+                      std::optional<std::size_t> without_head, Image& out,
+                      std::span<const Line> marks, const UiPicture* ui) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
     hands_.begin();
     const auto players = scene_->world.render_pose.rows();
     for (std::size_t i = 0; i < players.size(); ++i) {
         add_figure(players[i], without_head != i, frame);
     }
+    frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
     frame.camera.pose_ws = camera_ws;
     frame.camera.vertical_fov_rad = vertical_fov_rad;
-    renderer_.draw(frame, out);
+    renderer_.draw(frame, out, ui);
 }
 
 }  // namespace handhold

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,15 @@ class PlayerView {
     // Nothing, with the reason, where nothing can be drawn on this machine. `scene` must outlive
     // the view.
     static std::optional<PlayerView> open(const Scene& scene, HandModels hands, int width_px,
-                                          int height_px, std::string& why_not);
+                                          int height_px, std::string& why_not,
+                                          PictureQuality quality = PictureQuality::quick);
 
     // As it stands now, from a camera; `without_head`: the row of the player whose eyes it is.
+    // `marks` are drawn as well, and panels where there are.
     void draw(const Pose& camera_ws, double vertical_fov_rad,
-              std::optional<std::size_t> without_head, Image& out);
+              std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
+              const UiPicture* ui = nullptr);
+    const RenderCounters& counters() const { return renderer_.counters(); }
 
   private:
     PlayerView(const Scene& scene, HandModels hands, Renderer renderer);

@@ -49,6 +49,7 @@ LIBRARIES = [
     library("Eigen", r"(unsupported/)?Eigen/", None, r"engine/math/math\.hpp", "engine/math/math.hpp"),
     library("OpenXR", r"openxr/", r"\b[xX]r[A-Z]\w+", r"game/platform/xr\.cpp", "game/platform/xr.cpp"),
     library("SDL", r"SDL", r"\bSDL_\w+", r"game/platform/window\.cpp", "game/platform/window.cpp"),
+    library("Dear ImGui", r"imgui", r"\bIm(Gui|Vec2|Vec4|Draw|Font)\w*", r"game/ui/.*", "game/ui/"),
     library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/render/.*", "game/render/"),
 ]
 

@@ -44,9 +44,9 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // visit(triangle) for each triangle of the leaves whose boxes, and those above them, may matter:
-    // may_matter(low, high) is asked with opposite corners of a box, less origin(). More triangles
-    // than would be needed, but the cheapest way to them; in the tree's order.
+    // visit(triangle) for each triangle of the leaves whose boxes, and those above them, may
+    // matter: may_matter(low, high) is asked with opposite corners of a box, less origin(). More
+    // triangles than would be needed, but the cheapest way to them; in the tree's order.
     template <typename MayMatter, typename Visit>
     void visit_boxes(MayMatter&& may_matter, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }

@@ -1,25 +1,33 @@
 #include "game/platform/window.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include <SDL.h>
-
-// Its functions are defined in its header, and not all are used.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb_easy_font.h>
-#pragma GCC diagnostic pop
 
 namespace handhold {
 namespace {
 
-constexpr double k_rad_per_px = 0.0025;
 constexpr double k_wheel_m = 0.04;  // a notch
-constexpr int k_large_px = 1000;    // windows at least so wide have large letters
-constexpr SDL_Color k_ink{235, 240, 245, 255};
-constexpr SDL_Color k_lit{70, 255, 110, 255};
-constexpr SDL_Color k_shade{0, 0, 0, 190};
+
+constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 7> k_play_keys = {{
+    {SDL_SCANCODE_F1, PlayKey::help},
+    {SDL_SCANCODE_F2, PlayKey::inspector},
+    {SDL_SCANCODE_F3, PlayKey::menu},
+    {SDL_SCANCODE_TAB, PlayKey::free_mouse},
+    {SDL_SCANCODE_P, PlayKey::pause},
+    {SDL_SCANCODE_O, PlayKey::step},
+    {SDL_SCANCODE_ESCAPE, PlayKey::leave},
+}};
+// By UiKey.
+constexpr std::array<SDL_Scancode, static_cast<std::size_t>(UiKey::count)> k_ui_keys = {
+    SDL_SCANCODE_TAB,    SDL_SCANCODE_LEFT,   SDL_SCANCODE_RIGHT,     SDL_SCANCODE_UP,
+    SDL_SCANCODE_DOWN,   SDL_SCANCODE_PAGEUP, SDL_SCANCODE_PAGEDOWN,  SDL_SCANCODE_HOME,
+    SDL_SCANCODE_END,    SDL_SCANCODE_DELETE, SDL_SCANCODE_BACKSPACE, SDL_SCANCODE_RETURN,
+    SDL_SCANCODE_ESCAPE, SDL_SCANCODE_A,      SDL_SCANCODE_C,         SDL_SCANCODE_V,
+    SDL_SCANCODE_X};
 
 bool is_down(const Uint8* keys, SDL_Scancode key) { return keys[key] != 0; }
 double axis(const Uint8* keys, SDL_Scancode less, SDL_Scancode more) {
@@ -32,85 +40,165 @@ struct Window::Impl {
     SDL_Window* window = nullptr;
     SDL_Renderer* renderer = nullptr;
     SDL_Texture* texture = nullptr;
+    SDL_GameController* gamepad = nullptr;
     int texture_width = 0;
     int texture_height = 0;
-    std::vector<unsigned char> glyphs;  // reused
-    std::vector<SDL_Vertex> vertices;
-    std::vector<int> indices;
+    bool holds_mouse = false;
+    UiInput ui;  // what lasts: the mouse's place and buttons
 
     Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
     ~Impl() {
+        SDL_GameControllerClose(gamepad);
         SDL_DestroyTexture(texture);
         SDL_DestroyRenderer(renderer);
         SDL_DestroyWindow(window);
         SDL_Quit();
     }
-    void show_picture(const Image& picture);
-    int width_px() const;
-    void show_text(std::string_view text, float scale, float x, float y, SDL_Color color);
-    void show_mark(bool may_reach) const;
+    void take_event(const SDL_Event& event, const PlaySettings& settings, WindowEvents& events);
+    void take_window_event(const SDL_WindowEvent& event, WindowEvents& events);
+    void take_mouse(const SDL_Event& event, const PlaySettings& settings, WindowEvents& events);
+    void read_keys(const PlaySettings& settings, WindowEvents& events) const;
+    std::optional<GamepadState> read_gamepad_state() const;
 };
 
-void Window::Impl::show_picture(const Image& picture) {
-    if (texture == nullptr || texture_width != picture.width_px ||
-        texture_height != picture.height_px) {
-        SDL_DestroyTexture(texture);
-        texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING,
-                                    picture.width_px, picture.height_px);
-        texture_width = picture.width_px;
-        texture_height = picture.height_px;
-        SDL_SetTextureBlendMode(texture, SDL_BLENDMODE_NONE);
+void Window::Impl::take_window_event(const SDL_WindowEvent& event, WindowEvents& events) {
+    if (event.windowID != SDL_GetWindowID(window)) {
+        return;
     }
-    if (texture != nullptr) {
-        SDL_UpdateTexture(texture, nullptr, picture.rgba.data(), 4 * picture.width_px);
-        SDL_RenderCopy(renderer, texture, nullptr, nullptr);
+    switch (event.event) {
+        case SDL_WINDOWEVENT_CLOSE:
+            events.quit = true;
+            break;
+        case SDL_WINDOWEVENT_FOCUS_LOST:  // whoever looks elsewhere wants his mouse
+            SDL_SetRelativeMouseMode(SDL_FALSE);
+            ui.buttons = {};
+            break;
+        case SDL_WINDOWEVENT_FOCUS_GAINED:
+            SDL_SetRelativeMouseMode(holds_mouse ? SDL_TRUE : SDL_FALSE);
+            break;
+        default:
+            break;
     }
 }
 
-int Window::Impl::width_px() const {
-    int width = 0;
-    SDL_GetRendererOutputSize(renderer, &width, nullptr);
-    return width;
-}
-
-void Window::Impl::show_text(std::string_view text, float scale, float x, float y,
-                             SDL_Color color) {
-    constexpr std::size_t k_corner_bytes = 16;  // x, y, z as floats, then a colour
-    constexpr std::size_t k_glyph_bytes = 300;  // more than any glyph takes
-    glyphs.resize(k_glyph_bytes * (text.size() + 1));
-    std::string copy(text);
-    const int quads = stb_easy_font_print(0.0F, 0.0F, copy.data(), nullptr, glyphs.data(),
-                                          static_cast<int>(glyphs.size()));
-    vertices.clear();
-    indices.clear();
-    for (int quad = 0; quad < quads; ++quad) {
-        const auto first = static_cast<int>(vertices.size());
-        for (int corner = 0; corner < 4; ++corner) {
-            float place[2] = {};
-            const std::size_t at = k_corner_bytes * static_cast<std::size_t>(4 * quad + corner);
-            std::copy_n(glyphs.data() + at, sizeof place, reinterpret_cast<unsigned char*>(place));
-            vertices.push_back({{x + scale * place[0], y + scale * place[1]}, color, {0.0F, 0.0F}});
+void Window::Impl::take_mouse(const SDL_Event& event, const PlaySettings& settings,
+                              WindowEvents& events) {
+    DesktopInput& input = events.input;
+    const auto ui_button = [](Uint8 button) -> std::size_t {
+        return button == SDL_BUTTON_LEFT ? 0 : button == SDL_BUTTON_RIGHT ? 1 : 2;
+    };
+    if (event.type == SDL_MOUSEMOTION) {
+        ui.mouse_px = {static_cast<float>(event.motion.x), static_cast<float>(event.motion.y)};
+        if (holds_mouse) {
+            input.turn_left_rad -= settings.mouse_rad_per_px * event.motion.xrel;
+            input.look_up_rad -= settings.mouse_rad_per_px * event.motion.yrel;
         }
-        indices.insert(indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    } else if (event.type == SDL_MOUSEBUTTONDOWN) {
+        ui.buttons[ui_button(event.button.button)] = true;
+    } else if (event.type == SDL_MOUSEBUTTONUP) {
+        ui.buttons[ui_button(event.button.button)] = false;
+        input.opened[0] = input.opened[0] || event.button.button == SDL_BUTTON_LEFT;
+        input.opened[1] = input.opened[1] || event.button.button == SDL_BUTTON_RIGHT;
+    } else if (holds_mouse) {
+        input.farther_m += k_wheel_m * event.wheel.y;
+    } else {
+        events.ui.wheel += static_cast<float>(event.wheel.y);
     }
-    SDL_RenderGeometry(renderer, nullptr, vertices.data(), static_cast<int>(vertices.size()),
-                       indices.data(), static_cast<int>(indices.size()));
 }
 
-// What he looks at, and so reaches for.
-void Window::Impl::show_mark(bool may_reach) const {
-    int width = 0;
-    int height = 0;
-    SDL_GetRendererOutputSize(renderer, &width, &height);
-    const int middle_px = may_reach ? 8 : 4;
-    for (const auto& [size, color] :
-         {std::pair{middle_px + 4, k_shade}, std::pair{middle_px, may_reach ? k_lit : k_ink}}) {
-        const SDL_Rect mark{(width - size) / 2, (height - size) / 2, size, size};
-        SDL_SetRenderDrawColor(renderer, color.r, color.g, color.b, color.a);
-        SDL_RenderFillRect(renderer, &mark);
+void Window::Impl::take_event(const SDL_Event& event, const PlaySettings& settings,
+                              WindowEvents& events) {
+    switch (event.type) {
+        case SDL_QUIT:
+            events.quit = true;
+            break;
+        case SDL_WINDOWEVENT:
+            take_window_event(event.window, events);
+            break;
+        case SDL_KEYDOWN:
+            for (const auto& [scancode, key] : k_play_keys) {
+                if (event.key.repeat == 0 && event.key.keysym.scancode == scancode) {
+                    events.pressed.push_back(key);
+                }
+            }
+            break;
+        case SDL_TEXTINPUT:
+            events.ui.text += event.text.text;
+            break;
+        case SDL_MOUSEMOTION:
+        case SDL_MOUSEBUTTONDOWN:
+        case SDL_MOUSEBUTTONUP:
+        case SDL_MOUSEWHEEL:
+            take_mouse(event, settings, events);
+            break;
+        case SDL_CONTROLLERDEVICEADDED:
+            if (gamepad == nullptr) {
+                gamepad = SDL_GameControllerOpen(event.cdevice.which);
+            }
+            break;
+        case SDL_CONTROLLERDEVICEREMOVED:
+            if (gamepad != nullptr && SDL_GameControllerGetAttached(gamepad) == SDL_FALSE) {
+                SDL_GameControllerClose(gamepad);
+                gamepad = nullptr;
+            }
+            break;
+        default:
+            break;
     }
+}
+
+void Window::Impl::read_keys(const PlaySettings& settings, WindowEvents& events) const {
+    DesktopInput& input = events.input;
+    const Uint8* const keys = SDL_GetKeyboardState(nullptr);
+    if (holds_mouse) {
+        const Uint32 buttons = SDL_GetMouseState(nullptr, nullptr);
+        input.grip = {(buttons & SDL_BUTTON_LMASK) != 0, (buttons & SDL_BUTTON_RMASK) != 0};
+    }
+    input.move = {axis(keys, SDL_SCANCODE_A, SDL_SCANCODE_D),
+                  axis(keys, SDL_SCANCODE_Q, SDL_SCANCODE_E),
+                  axis(keys, SDL_SCANCODE_W, SDL_SCANCODE_S)};
+    input.hurry = is_down(keys, SDL_SCANCODE_LSHIFT) || is_down(keys, SDL_SCANCODE_RSHIFT);
+    input.brake = is_down(keys, SDL_SCANCODE_SPACE);
+    if (settings.turn == TurnKind::smooth) {
+        input.smooth_turn = axis(keys, SDL_SCANCODE_C, SDL_SCANCODE_Z);
+    }
+    events.rewinds = is_down(keys, SDL_SCANCODE_R);
+    for (std::size_t i = 0; i < k_ui_keys.size(); ++i) {
+        events.ui.keys[i] = is_down(keys, k_ui_keys[i]);
+    }
+    const SDL_Keymod held = SDL_GetModState();
+    events.ui.ctrl = (held & KMOD_CTRL) != 0;
+    events.ui.shift = (held & KMOD_SHIFT) != 0;
+    events.ui.mouse_px = ui.mouse_px;
+    events.ui.buttons = ui.buttons;
+}
+
+std::optional<GamepadState> Window::Impl::read_gamepad_state() const {
+    if (gamepad == nullptr) {
+        return std::nullopt;
+    }
+    constexpr double k_full = 32767.0;
+    const auto value = [&](SDL_GameControllerAxis axis_id) {
+        return std::max(-1.0, SDL_GameControllerGetAxis(gamepad, axis_id) / k_full);
+    };
+    const auto pressed = [&](SDL_GameControllerButton button) {
+        return SDL_GameControllerGetButton(gamepad, button) != 0;
+    };
+    GamepadState state;
+    state.left_stick = {value(SDL_CONTROLLER_AXIS_LEFTX), value(SDL_CONTROLLER_AXIS_LEFTY)};
+    state.right_stick = {value(SDL_CONTROLLER_AXIS_RIGHTX), value(SDL_CONTROLLER_AXIS_RIGHTY)};
+    state.triggers = {value(SDL_CONTROLLER_AXIS_TRIGGERLEFT),
+                      value(SDL_CONTROLLER_AXIS_TRIGGERRIGHT)};
+    state.shoulders = {pressed(SDL_CONTROLLER_BUTTON_LEFTSHOULDER),
+                       pressed(SDL_CONTROLLER_BUTTON_RIGHTSHOULDER)};
+    state.pad = {pressed(SDL_CONTROLLER_BUTTON_DPAD_UP), pressed(SDL_CONTROLLER_BUTTON_DPAD_DOWN),
+                 pressed(SDL_CONTROLLER_BUTTON_DPAD_LEFT),
+                 pressed(SDL_CONTROLLER_BUTTON_DPAD_RIGHT)};
+    state.brake = pressed(SDL_CONTROLLER_BUTTON_A);
+    state.hurry = pressed(SDL_CONTROLLER_BUTTON_LEFTSTICK);
+    return state;
 }
 
 Window::Window(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -136,6 +224,7 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
         why_not = "no display";
         return nullptr;
     }
+    SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without gamepads: played without one
     impl->window = SDL_CreateWindow(title.c_str(), k_anywhere, k_anywhere, width_px, height_px,
                                     SDL_WINDOW_RESIZABLE);
     if (impl->window == nullptr) {
@@ -145,55 +234,56 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
     if (impl->renderer == nullptr) {
         return failed();
     }
-    SDL_SetRenderDrawBlendMode(impl->renderer, SDL_BLENDMODE_BLEND);
-    SDL_SetRelativeMouseMode(SDL_TRUE);
-    return std::unique_ptr<Window>(new Window(std::move(impl)));
+    SDL_RenderSetLogicalSize(impl->renderer, width_px, height_px);
+    std::unique_ptr<Window> window(new Window(std::move(impl)));
+    window->hold_mouse(true);
+    return window;
 }
 
-WindowEvents Window::poll() {
+void Window::hold_mouse(bool held) {
+    impl_->holds_mouse = held;
+    SDL_SetRelativeMouseMode(held ? SDL_TRUE : SDL_FALSE);
+}
+
+void Window::set_title(const std::string& title) {
+    SDL_SetWindowTitle(impl_->window, title.c_str());
+}
+
+WindowEvents Window::poll(const PlaySettings& settings) {
     WindowEvents events;
-    DesktopInput& input = events.input;
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) {
-        const bool closes = event.type == SDL_WINDOWEVENT &&
-                            event.window.event == SDL_WINDOWEVENT_CLOSE &&
-                            event.window.windowID == SDL_GetWindowID(impl_->window);
-        if (event.type == SDL_QUIT || closes) {
-            events.quit = true;
-        } else if (event.type == SDL_KEYDOWN && event.key.repeat == 0) {
-            events.quit = events.quit || event.key.keysym.sym == SDLK_ESCAPE;
-            events.help = events.help != (event.key.keysym.sym == SDLK_F1);
-        } else if (event.type == SDL_MOUSEMOTION) {
-            input.turn_left_rad -= k_rad_per_px * event.motion.xrel;
-            input.look_up_rad -= k_rad_per_px * event.motion.yrel;
-        } else if (event.type == SDL_MOUSEBUTTONUP) {
-            input.opened[0] = input.opened[0] || event.button.button == SDL_BUTTON_LEFT;
-            input.opened[1] = input.opened[1] || event.button.button == SDL_BUTTON_RIGHT;
-        } else if (event.type == SDL_MOUSEWHEEL) {
-            input.farther_m += k_wheel_m * event.wheel.y;
+        if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && settings.turn == TurnKind::snap) {
+            events.input.snap_turns += event.key.keysym.scancode == SDL_SCANCODE_Z   ? 1
+                                       : event.key.keysym.scancode == SDL_SCANCODE_C ? -1
+                                                                                     : 0;
         }
+        impl_->take_event(event, settings, events);
     }
-    const Uint32 buttons = SDL_GetMouseState(nullptr, nullptr);
-    input.grip = {(buttons & SDL_BUTTON_LMASK) != 0, (buttons & SDL_BUTTON_RMASK) != 0};
-    const Uint8* const keys = SDL_GetKeyboardState(nullptr);
-    input.move = {axis(keys, SDL_SCANCODE_A, SDL_SCANCODE_D),
-                  axis(keys, SDL_SCANCODE_Q, SDL_SCANCODE_E),
-                  axis(keys, SDL_SCANCODE_W, SDL_SCANCODE_S)};
-    input.hurry = is_down(keys, SDL_SCANCODE_LSHIFT) || is_down(keys, SDL_SCANCODE_RSHIFT);
-    input.brake = is_down(keys, SDL_SCANCODE_SPACE);
+    impl_->read_keys(settings, events);
+    events.gamepad = impl_->read_gamepad_state();
     return events;
 }
 
-void Window::show(const Image& picture, bool may_reach, std::string_view text) {
+void Window::show(const Image& picture) {
     Impl& impl = *impl_;
     SDL_SetRenderDrawColor(impl.renderer, 0, 0, 0, 255);
     SDL_RenderClear(impl.renderer);
-    impl.show_picture(picture);
-    impl.show_mark(may_reach);
-    constexpr float k_margin_px = 16.0F;
-    const float scale = impl.width_px() >= k_large_px ? 2.0F : 1.0F;
-    impl.show_text(text, scale, k_margin_px + scale, k_margin_px + scale, k_shade);
-    impl.show_text(text, scale, k_margin_px, k_margin_px, k_ink);
+    if (impl.texture == nullptr || impl.texture_width != picture.width_px ||
+        impl.texture_height != picture.height_px) {
+        SDL_DestroyTexture(impl.texture);
+        impl.texture =
+            SDL_CreateTexture(impl.renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STREAMING,
+                              picture.width_px, picture.height_px);
+        impl.texture_width = picture.width_px;
+        impl.texture_height = picture.height_px;
+        SDL_SetTextureBlendMode(impl.texture, SDL_BLENDMODE_NONE);
+        SDL_RenderSetLogicalSize(impl.renderer, picture.width_px, picture.height_px);
+    }
+    if (impl.texture != nullptr) {
+        SDL_UpdateTexture(impl.texture, nullptr, picture.rgba.data(), 4 * picture.width_px);
+        SDL_RenderCopy(impl.renderer, impl.texture, nullptr, nullptr);
+    }
     SDL_RenderPresent(impl.renderer);
 }
 

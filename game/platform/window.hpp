@@ -1,24 +1,35 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "game/desktop_body.hpp"
+#include "game/gamepad.hpp"
+#include "game/play_settings.hpp"
 #include "game/render/image.hpp"
+#include "game/ui_input.hpp"
 
 namespace handhold {
 
+// Keys that mean something besides moving, in the order in which they were pressed.
+enum class PlayKey : std::uint8_t { help, inspector, menu, free_mouse, pause, step, leave };
+
 // What was done at a window since it was last asked.
 struct WindowEvents {
-    DesktopInput input;
-    bool help = false;  // asked for, or to go away
+    DesktopInput input;  // of keyboard and, while the window holds it, mouse
+    UiInput ui;
+    std::optional<GamepadState> gamepad;  // the first one that is plugged in
+    std::vector<PlayKey> pressed;
+    bool rewinds = false;  // held down
     bool quit = false;
 };
 
-// A window that shows pictures and lines of text, with the keyboard and the mouse, which it keeps
-// while it is in front. The only place that names SDL. One at a time.
+// A window that shows pictures, with the keyboard, the mouse and a gamepad. Pictures keep their
+// shape whatever the window's. The only place that names SDL. One at a time.
 class Window {
   public:
     // Nothing, with the reason, where there is no display.
@@ -28,10 +39,11 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    WindowEvents poll();
-    // The picture, as large as the window, a mark in its middle, lit where he may reach, and text
-    // (ASCII) in its upper left corner.
-    void show(const Image& picture, bool may_reach, std::string_view text);
+    WindowEvents poll(const PlaySettings& settings);
+    void show(const Image& picture);
+    // Held: it looks about and grips, unseen, from whenever the window is in front. Else it points.
+    void hold_mouse(bool held);
+    void set_title(const std::string& title);
 
   private:
     struct Impl;

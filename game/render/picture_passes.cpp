@@ -1,6 +1,7 @@
 #include "game/render/picture_passes.hpp"
 
 #include <cstddef>
+#include <utility>
 
 #include "game/render/shaders.hpp"
 
@@ -57,12 +58,24 @@ bool PicturePasses::create(GlApi api, const PictureSize& size, std::string& why_
         program = make_program(api, shaders::k_screen_vertex, fragment, why_not);
         return program != 0U;
     };
-    return compile(occlusion_program_, shaders::k_occlusion_fragment) &&
+    clear_effects();
+    return ui_painter_.create(api, why_not) &&
+           compile(occlusion_program_, shaders::k_occlusion_fragment) &&
            compile(smooth_program_, shaders::k_smooth_fragment) &&
            compile(glow_program_, shaders::k_glow_fragment) &&
            compile(blur_program_, shaders::k_blur_fragment) &&
            compile(composite_program_, shaders::k_composite_fragment) &&
            compile(edges_program_, shaders::k_edges_fragment);
+}
+
+// Without them: corners as bright as anything, nothing glows.
+void PicturePasses::clear_effects() {
+    for (const auto& [target, brightness] :
+         {std::pair{GLuint{smooth_target_}, 1.0F}, std::pair{GLuint{glow_target_}, 0.0F}}) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target);
+        glClearColor(brightness, brightness, brightness, brightness);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
 }
 
 void PicturePasses::begin() {
@@ -132,12 +145,17 @@ void PicturePasses::compose() {
     }
 }
 
-void PicturePasses::finish(const FrameView& view, Image& out) {
+void PicturePasses::finish(const FrameView& view, const UiPicture* ui, Image& out) {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    shade_occlusion(view);
-    blur_glow();
+    if (size_.effects) {
+        shade_occlusion(view);
+        blur_glow();
+    }
     compose();
+    if (ui != nullptr) {
+        ui_painter_.draw(*ui, {size_.width_px, size_.height_px});
+    }
     out.width_px = size_.width_px;
     out.height_px = size_.height_px;
     const auto pixels =

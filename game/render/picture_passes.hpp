@@ -6,6 +6,7 @@
 #include "game/render/frame_view.hpp"
 #include "game/render/gl_objects.hpp"
 #include "game/render/image.hpp"
+#include "game/render/ui_painter.hpp"
 
 namespace handhold {
 
@@ -14,26 +15,29 @@ struct PictureSize {
     int width_px = 0;
     int height_px = 0;
     int samples_across = 1;
+    bool effects = true;  // darkened corners and glow
 };
 
 // Everything that happens to a picture once its triangles are drawn: corners darken (ambient
 // occlusion), lamps glow, the samples of a pixel become one or, where there is one only, edges are
-// smoothed, and the bytes come back. Supersampling and not the card's multisampling: the software
-// rasteriser shades hidden fragments too once a target is multisampled, and 2 x 2 samples then cost
-// half of what four multisamples do.
+// smoothed, panels are drawn on top, and the bytes come back. Supersampling and not the card's
+// multisampling: the software rasteriser shades hidden fragments too once a target is multisampled,
+// and 2 x 2 samples then cost half of what four multisamples do.
 class PicturePasses {
   public:
     // False, and the reason, where the card refuses.
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
     // Binds the target that the scene is drawn into.
     void begin();
-    // What begin()'s target holds, as the finished picture. Needs any vertex array bound.
-    void finish(const FrameView& view, Image& out);
+    // What begin()'s target holds, as the finished picture, with panels where there are. Needs any
+    // vertex array bound.
+    void finish(const FrameView& view, const UiPicture* ui, Image& out);
 
   private:
     void shade_occlusion(const FrameView& view);
     void blur_glow();
     void compose();
+    void clear_effects();
 
     PictureSize size_;
     GlTexture color_, depth_, occlusion_, occlusion_smooth_, glow_, glow_spare_, composed_, final_;
@@ -41,6 +45,7 @@ class PicturePasses {
         glow_spare_target_, composed_target_, final_target_;
     GlProgram occlusion_program_, smooth_program_, glow_program_, blur_program_, composite_program_,
         edges_program_;
+    UiPainter ui_painter_;
 };
 
 }  // namespace handhold

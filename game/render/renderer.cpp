@@ -42,6 +42,7 @@ struct Renderer::Impl {
     std::unique_ptr<GlContext> context;  // first: it must outlive every name below
     int width_px = 0;
     int height_px = 0;
+    bool casts_shadows = true;
     std::vector<GpuMesh> meshes;
     GlProgram mesh_program, depth_program, line_program, backdrop_program;
     GlTexture shadow_map;
@@ -146,7 +147,8 @@ void Renderer::Impl::draw_shadows(const ShadowView& shadow) {
     set_uniform(depth_program, "cs_to_clip", shadow.cs_to_clip);
     for (const Visible& item : visible) {
         const Look& look = item.instance->look;
-        if (look.opacity >= 1.0F && casts_shadow(shadow, item.center_cs, item.mesh->radius_m)) {
+        if (casts_shadows && look.opacity >= 1.0F &&
+            casts_shadow(shadow, item.center_cs, item.mesh->radius_m)) {
             draw_mesh(depth_program, item);
         }
     }
@@ -297,7 +299,9 @@ std::optional<Renderer> Renderer::create(int width_px, int height_px, std::strin
     }
     impl->width_px = width_px;
     impl->height_px = height_px;
-    const PictureSize size{width_px, height_px, quality == PictureQuality::fine ? 2 : 1};
+    const PictureSize size{width_px, height_px, quality == PictureQuality::fine ? 2 : 1,
+                           quality != PictureQuality::plain};
+    impl->casts_shadows = quality != PictureQuality::plain;
     if (!impl->create_programs(why_not) ||
         !impl->passes.create(impl->context->api(), size, why_not)) {
         return std::nullopt;
@@ -347,7 +351,7 @@ void Renderer::move_mesh(MeshId mesh, std::span<const Vec3> positions,
     move_gpu_mesh(positions, normals, impl_->moving_vertices, gpu);
 }
 
-void Renderer::draw(const RenderFrame& frame, Image& out) {
+void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {
     Impl& impl = *impl_;
     impl.context->make_current();
     impl.counters = {};
@@ -367,7 +371,7 @@ void Renderer::draw(const RenderFrame& frame, Image& out) {
     impl.draw_glass(view);
     impl.draw_lines(frame, view);
     glBindVertexArray(impl.empty_layout);
-    impl.passes.finish(view, out);
+    impl.passes.finish(view, ui, out);
 }
 
 const RenderCounters& Renderer::counters() const { return impl_->counters; }

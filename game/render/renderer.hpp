@@ -13,6 +13,8 @@
 
 namespace handhold {
 
+struct UiPicture;  // ui_picture.hpp
+
 // What the last picture cost.
 struct RenderCounters {
     int draw_calls = 0;      // of meshes, in all passes
@@ -21,9 +23,10 @@ struct RenderCounters {
     int instances_given = 0;
 };
 
-// quick: one sample a pixel, edges smoothed afterwards; for films and crowds of pictures.
+// plain: no shadows, no darkened corners, no glow; for processors that stand in for a graphics
+// card. quick: one sample a pixel, edges smoothed afterwards; for films and crowds of pictures.
 // fine: four samples a pixel, four times the work; for pictures that are looked at.
-enum class PictureQuality { quick, fine };
+enum class PictureQuality { plain, quick, fine };
 
 // Draws frames into memory; needs no display and no window, only an EGL that knows surfaceless
 // contexts (Mesa's does, with or without a graphics card). OpenGL 3.3 core, or OpenGL ES 3.0 where
@@ -49,7 +52,8 @@ class Renderer {
     void move_mesh(MeshId mesh, std::span<const Vec3> positions, std::span<const Vec3> normals);
     // The frame as a picture of the size given to create(). Instances and lines that are not finite
     // are left out. Precondition: every instance's mesh came from this renderer.
-    void draw(const RenderFrame& frame, Image& out);
+    // Panels are drawn over it where there are.
+    void draw(const RenderFrame& frame, Image& out, const UiPicture* ui = nullptr);
 
     const RenderCounters& counters() const;
 

@@ -161,6 +161,28 @@ out vec4 color;
 void main() { color = vec4(pow(tint, vec3(1.0 / 2.2)), strength); }
 )";
 
+// Panels; the picture's first row is the target's lowest.
+inline constexpr const char* k_ui_vertex = R"(
+layout(location = 0) in vec2 place_px;
+layout(location = 1) in vec2 glyph_uv;
+layout(location = 2) in vec4 rgba;
+uniform vec2 size_px;
+out vec2 uv;
+out vec4 tint;
+void main() {
+    uv = glyph_uv;
+    tint = rgba;
+    gl_Position = vec4(2.0 * place_px / size_px - 1.0, 0.0, 1.0);
+}
+)";
+inline constexpr const char* k_ui_fragment = R"(
+in vec2 uv;
+in vec4 tint;
+uniform sampler2D glyphs;
+out vec4 color;
+void main() { color = tint * texture(glyphs, uv); }
+)";
+
 // One triangle that covers the picture; depth at the far end.
 inline constexpr const char* k_screen_vertex = R"(
 out vec2 uv;

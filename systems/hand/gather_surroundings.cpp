@@ -22,8 +22,7 @@ class Gatherer {
         out.body_ws = {};
         out.wrist_bs = tracked_ws;
         out.meshes.clear();
-        const bool is_there =
-            io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
+        const bool is_there = io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
         if (grab.kind == GripKind::none || !is_there) {
             return;
         }

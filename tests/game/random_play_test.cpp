@@ -71,7 +71,9 @@ struct Playground {
     std::uint64_t grabs = 0;
 
     Playground(const PlayCase& in, std::uint64_t seed)
-        : play(in), scene(*make_built_in_scene(in.scene)), caches(*scene.shapes, scene.grip_meshes.get()) {
+        : play(in),
+          scene(*make_built_in_scene(in.scene)),
+          caches(*scene.shapes, scene.grip_meshes.get()) {
         scene.tuning.locomotion.thruster_mps2 = 0.5;
         const Pose& first_ws = scene.spawns.front().pose_ws;
         for (const Pose& origin_ws :

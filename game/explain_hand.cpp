@@ -1,0 +1,186 @@
+#include "game/explain_hand.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_look_about_m = 1.0;  // for the nearest surface that was not near enough
+constexpr double k_pointed_cos = 0.9962;
+
+[[gnu::format(printf, 1, 2)]] std::string say(const char* format, ...) {
+    char text[240];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+// What the palm would find if it closed now, by the rules of update_grabs.
+void explain_reach(const Scene& scene, const CollisionWorld& collision, const HandOwner& owner,
+                   const Pose& hand_ws, HandStory& story) {
+    const HandTuning& tuning = scene.tuning.hand;
+    const World& world = scene.world;
+    const std::array own_head = {world.persistent_id.at(owner.player).value};
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning);
+    const auto name = [&](std::uint64_t id) {
+        return name_of_entity(scene, find_by_id(world, PersistentId{id}));
+    };
+    const double before_palm_m = tuning.ray_length_m - tuning.ray_back_m;
+    if (const auto hit = collision.cast_ray(ray.from_ws, ray.to_ws, own_head)) {
+        story.reasons.push_back(
+            say("The palm's ray meets %s, %.1f cm before the palm: closed now, "
+                "it grips there.",
+                name(hit->id).c_str(), 100.0 * (hit->distance_m - tuning.ray_back_m)));
+        return;
+    }
+    story.reasons.push_back(
+        say("The palm's ray meets nothing within %.0f cm.", 100.0 * before_palm_m));
+    const auto near = collision.closest_point(ray.palm_ws, k_look_about_m, own_head);
+    if (!near) {
+        story.reasons.emplace_back("No surface within 1 m of the palm.");
+    } else if (near->distance_m <= tuning.reach_m) {
+        story.reasons.push_back(
+            say("%s is %.1f cm from the palm, within reach (%.0f cm): closed "
+                "now, it grips there.",
+                name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
+    } else {
+        story.reasons.push_back(
+            say("The nearest surface, %s, is %.1f cm from the palm: farther "
+                "than hand.reach_m, %.0f cm.",
+                name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
+    }
+}
+
+std::string how_body_counts(const World& world, const Tuning& tuning, const Grab& grab) {
+    const RigidBody* const body = world.body.find(grab.body);
+    if (body == nullptr) {
+        return "It is another player's head: both move, by their masses.";
+    }
+    if (body->kind == BodyKind::fixed) {
+        return "It is fixed: the hand holds its point, and the player moves.";
+    }
+    if (body->kind == BodyKind::kinematic) {
+        return "It moves by itself: the hand holds its point and the player rides along.";
+    }
+    const double mass_kg = body->mass_kg;
+    if (mass_kg >= tuning.phases.heavy_body_kg) {
+        return say("It has %.0f kg, from phases.heavy_body_kg (%.0f) on: gripped like a wall.",
+                   mass_kg, tuning.phases.heavy_body_kg);
+    }
+    if (grab.jointed) {
+        return say(
+            "It has %.1f kg and hangs on joints that lead to something fixed: three rows, "
+            "the hand may turn on it.",
+            mass_kg);
+    }
+    return mass_kg < tuning.phases.kappa_light_kg
+               ? say("It has %.1f kg, less than phases.kappa_light_kg (%.0f): it never moves the "
+                     "player.",
+                     mass_kg, tuning.phases.kappa_light_kg)
+               : say("It has %.0f kg, between phases.kappa_light_kg and kappa_heavy_kg: it moves "
+                     "the player in part.",
+                     mass_kg);
+}
+
+void explain_grip(const Scene& scene, const Grab& grab, const Pose& hand_ws, HandStory& story) {
+    const World& world = scene.world;
+    story.headline = (grab.kind == GripKind::held ? "holds " : "grips ") +
+                     name_of_entity(scene, grab.body) +
+                     say(", for %.1f s", world.clock.t_s - grab.since_s);
+    story.reasons.push_back(how_body_counts(world, scene.tuning, grab));
+    const Pose body_ws =
+        gripped_pose_ws(world.body_pose, world.player_origin, world.head_tracking, grab.body);
+    story.reasons.push_back(
+        say("Where it closed, the surface was %.1f cm from where the wrist is.",
+            100.0 * (transform_point(body_ws, grab.hit_bs) - hand_ws.position).norm()));
+    story.reasons.push_back(
+        say("The hand is %.3f mm from its anchor; it lets go at %.0f mm "
+            "(hand.max_stretch_m).",
+            1e3 * grab.error_m, 1e3 * scene.tuning.hand.max_stretch_m));
+    if (grab.two_handed) {
+        story.reasons.emplace_back(
+            "Both hands lead: the first its point, the line between them "
+            "and their twist its turn.");
+    }
+}
+
+}  // namespace
+
+std::string name_of_entity(const Scene& scene, Entity entity) {
+    const World& world = scene.world;
+    const std::size_t row = world.body.find_row(entity);
+    if (world.body.contains(entity) && row < scene.body_names.size()) {
+        return scene.body_names[row];
+    }
+    if (const HandOwner* const owner = world.hand_owner.find(entity)) {
+        return owner->side == HandSide::left ? "left hand" : "right hand";
+    }
+    if (world.player.contains(entity)) {
+        return say("player %zu", world.player.find_row(entity));
+    }
+    if (const Joint* const joint = world.joint.find(entity)) {
+        return "joint of " + name_of_entity(scene, joint->b);
+    }
+    const PersistentId* const id = world.persistent_id.find(entity);
+    return id != nullptr ? say("0x%016llx", static_cast<unsigned long long>(id->value)) : "nobody";
+}
+
+HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Entity hand) {
+    const World& world = scene.world;
+    const HandOwner& owner = world.hand_owner.at(hand);
+    const HandTracking& tracking = world.hand_tracking.at(hand);
+    const Grab& grab = world.grab.at(hand);
+    const Pose hand_ws = world.player_origin.at(owner.player).pose_ws * tracking.pose_ps;
+    HandStory story;
+    if (tracking.state == TrackingState::never) {
+        story.headline = "is not there: no valid sample came yet";
+        return story;
+    }
+    if (tracking.state == TrackingState::lost) {
+        story.reasons.push_back(
+            say("Its tracking is lost since %.2f s: frozen, it neither grips nor lets go.",
+                world.clock.t_s - tracking.sample_t_s));
+    }
+    if (grab.kind != GripKind::none) {
+        explain_grip(scene, grab, hand_ws, story);
+        return story;
+    }
+    if (tracking.pressed) {
+        story.headline = "is closed on nothing";
+        story.reasons.emplace_back(
+            "A hand grips at the moment it closes, and not later: nothing "
+            "was in reach then, or the grip was lost since. Open it first.");
+    } else {
+        story.headline = "is open";
+    }
+    explain_reach(scene, collision, owner, hand_ws, story);
+    return story;
+}
+
+std::optional<Entity> hand_pointed_at(const World& world, const Vec3& eye_ws, const Vec3& look_ws) {
+    std::optional<Entity> best;
+    double best_cos = k_pointed_cos;
+    for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
+        const HandOwner& owner = world.hand_owner.rows()[row];
+        const RenderPose* const render = world.render_pose.find(owner.player);
+        if (render == nullptr) {
+            continue;
+        }
+        const Vec3 to = render->hands[index_of(owner.side)].shown_ws.position - eye_ws;
+        const double cosine = to.dot(look_ws) / std::fmax(to.norm(), 1e-9);
+        if (cosine > best_cos) {
+            best_cos = cosine;
+            best = world.hand_owner.owners()[row];
+        }
+    }
+    return best;
+}
+
+}  // namespace handhold

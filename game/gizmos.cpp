@@ -1,0 +1,201 @@
+#include "game/gizmos.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+constexpr Color k_tracked = {0.9F, 0.9F, 0.95F};
+constexpr Color k_ray = {0.1F, 0.75F, 1.0F};
+constexpr Color k_grip = {0.2F, 1.0F, 0.35F};
+constexpr Color k_velocity = {0.85F, 0.3F, 1.0F};
+constexpr Color k_apart = {1.0F, 0.85F, 0.1F};
+constexpr Color k_overlaps = {1.0F, 0.05F, 0.05F};
+constexpr Color k_joint = {0.1F, 0.9F, 0.8F};
+constexpr Color k_residual = {1.0F, 0.1F, 0.3F};
+constexpr double k_residual_scale = 1000.0;   // a millimetre is shown as a metre,
+constexpr double k_longest_residual_m = 0.5;  // and cut off
+
+void add_cross(const Vec3& at_ws, double size_m, const Color& color, std::vector<Line>& out) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 half = 0.5 * size_m * Vec3::Unit(axis);
+        out.push_back({at_ws - half, at_ws + half, color, 2.0});
+    }
+}
+
+void add_axes(const Pose& pose_ws, double size_m, std::vector<Line>& out) {
+    for (int axis = 0; axis < 3; ++axis) {
+        Color color = {0.08F, 0.08F, 0.08F};
+        color[static_cast<std::size_t>(axis)] = 1.0F;
+        out.push_back({pose_ws.position,
+                       pose_ws.position + size_m * (pose_ws.rotation * Vec3::Unit(axis)), color,
+                       2.0});
+    }
+}
+
+// Colours that differ from one island to the next, whatever their number.
+Color island_color(std::size_t island) {
+    const auto part = [&](double shift) {
+        const double turn = 0.618034 * static_cast<double>(island) + shift;
+        return static_cast<float>(0.5 + 0.5 * std::cos(6.2831853 * turn));
+    };
+    return {part(0.0), part(1.0 / 3.0), part(2.0 / 3.0)};
+}
+
+void add_hands(const World& world, const GizmoSet& on, std::vector<Line>& out) {
+    const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
+    for (const RenderPose& render : world.render_pose.rows()) {
+        for (const RenderPose::Hand& hand : render.hands) {
+            const bool grips = hand.grip != GripKind::none;
+            if (shows(Gizmo::tracked_hands)) {
+                add_axes(hand.tracked_ws, 0.08, out);
+                out.push_back({hand.tracked_ws.position, hand.shown_ws.position, k_tracked, 3.0});
+            }
+            if (shows(Gizmo::palm_rays)) {
+                out.push_back({hand.ray_from_ws, hand.ray_to_ws, grips ? k_grip : k_ray, 2.5});
+            }
+            if (shows(Gizmo::grips) && grips) {
+                out.push_back({render.head_ws.position, hand.shown_ws.position, k_grip, 1.5});
+            }
+        }
+    }
+    if (!shows(Gizmo::grips)) {
+        return;
+    }
+    for (const Grab& grab : world.grab.rows()) {
+        if (grab.kind == GripKind::surface || grab.kind == GripKind::held) {
+            const Pose& body_ws = world.body_pose.at(grab.body).pose_ws;
+            const Vec3 hit_ws = transform_point(body_ws, grab.hit_bs);
+            add_cross(hit_ws, 0.03, k_grip, out);
+            out.push_back(
+                {hit_ws, hit_ws + 0.08 * (body_ws.rotation * grab.hit_normal_bs), k_grip, 2.5});
+        }
+    }
+}
+
+void add_velocities(const World& world, std::vector<Line>& out) {
+    constexpr double k_shown_s = 0.25;  // where it will be
+    constexpr double k_least_mps = 1e-3;
+    for (std::size_t row = 0; row < world.body_velocity.size(); ++row) {
+        const BodyVelocity& velocity = world.body_velocity.rows()[row];
+        const Entity body = world.body_velocity.owners()[row];
+        if (velocity.linear_mps.norm() > k_least_mps) {
+            const Vec3 from_ws = world.body_pose.at(body).pose_ws.position;
+            out.push_back({from_ws, from_ws + k_shown_s * velocity.linear_mps, k_velocity, 2.0});
+        }
+    }
+}
+
+void add_contact(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
+    const auto& bodies = graph.graph.bodies;
+    const SolverBody& b = bodies[block.b];
+    const Vec3 point_ws = transform_point(b.pose_ws, block.point_b_bs);
+    const double separation_m = contact_separation_m(bodies, block);
+    constexpr double k_sunk_m = -1e-4;
+    const Color& color = separation_m < k_sunk_m ? k_overlaps : k_apart;
+    add_cross(point_ws, 0.02, color, out);
+    out.push_back(
+        {point_ws, point_ws + 0.1 * (b.pose_ws.rotation * block.normal_b_bs), color, 2.0});
+}
+
+void add_joint(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
+    const SolverBody& a = graph.graph.bodies[block.a];
+    const SolverBody& b = graph.graph.bodies[block.b];
+    const Vec3 point_ws = transform_point(b.pose_ws, block.point_b_bs);
+    if (a.role != BodyRole::fixed) {
+        out.push_back({a.pose_ws.position, point_ws, k_joint, 1.5});
+    }
+    if (b.role != BodyRole::fixed) {
+        out.push_back({b.pose_ws.position, point_ws, k_joint, 1.5});
+    }
+    if (block.kind == RowKind::hinge || block.kind == RowKind::slider) {
+        const Vec3 axis = 0.08 * (b.pose_ws.rotation * (block.rotation_b_bs * Vec3::UnitX()));
+        out.push_back({point_ws - axis, point_ws + axis, k_joint, 4.0});
+    } else {
+        add_cross(point_ws, 0.02, k_joint, out);
+    }
+}
+
+// How far what shall meet is apart, a thousand times as long as it is.
+void add_residual(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
+    const Vec3 point_ws = transform_point(graph.graph.bodies[block.b].pose_ws, block.point_b_bs);
+    // Free coordinates do not count as errors: only the length is the block's own.
+    const double error_m = block_error_m(graph.graph.bodies, block);
+    const Vec3 towards =
+        is_contact(block) ? Vec3(graph.graph.bodies[block.b].pose_ws.rotation * block.normal_b_bs)
+                          : point_error(graph.graph.bodies, block);
+    const double shown_m = std::min(k_residual_scale * error_m, k_longest_residual_m);
+    if (shown_m > 1e-3 && towards.norm() > 0.0) {
+        out.push_back({point_ws, point_ws + shown_m * towards.normalized(), k_residual, 4.0});
+    }
+}
+
+void add_islands(const ConstraintGraph& graph, std::vector<Line>& out) {
+    for (std::size_t i = 0; i < graph.islands.size(); ++i) {
+        const Color color = island_color(i);
+        for (const std::uint32_t index : graph.blocks_of(graph.islands[i])) {
+            const RowBlock& block = graph.blocks[index];
+            const SolverBody& a = graph.bodies[block.a];
+            const SolverBody& b = graph.bodies[block.b];
+            const Vec3 point_ws = transform_point(b.pose_ws, block.point_b_bs);
+            for (const SolverBody* const body : {&a, &b}) {
+                if (body->role != BodyRole::fixed) {
+                    const Vec3 center_ws = transform_point(body->pose_ws, body->collider_offset_bs);
+                    out.push_back({center_ws, point_ws, color, 3.0});
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+GizmoInfo info_of(Gizmo gizmo) {
+    switch (gizmo) {
+        case Gizmo::tracked_hands:
+            return {"tracked hands", "read_tracking", "where the controllers say that hands are"};
+        case Gizmo::palm_rays:
+            return {"palm rays", "update_grabs", "what a palm looks for; green while it grips"};
+        case Gizmo::grips:
+            return {"grips", "settle_grabs", "the point and the normal that each hand holds"};
+        case Gizmo::velocities:
+            return {"velocities", "predict_bodies", "where bodies will be in a quarter second"};
+        case Gizmo::contacts:
+            return {"contacts", "find_contacts", "points and normals; red where they overlap"};
+        case Gizmo::joints:
+            return {"joints", "build_constraints", "bodies to joints; axes of hinges and slides"};
+        case Gizmo::islands:
+            return {"islands", "build_constraints", "what is solved together, in one colour"};
+        case Gizmo::residuals:
+            return {"residuals", "solve_phases", "what is still apart, a thousand times as long"};
+        case Gizmo::count:
+            break;
+    }
+    return {"", "", ""};
+}
+
+void add_gizmos(const World& world, const FrameGraph& graph, const GizmoSet& on,
+                std::vector<Line>& out) {
+    const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
+    add_hands(world, on, out);
+    if (shows(Gizmo::velocities)) {
+        add_velocities(world, out);
+    }
+    for (const RowBlock& block : graph.graph.blocks) {
+        if (is_contact(block) && shows(Gizmo::contacts)) {
+            add_contact(graph, block, out);
+        }
+        if (is_joint(block) && shows(Gizmo::joints)) {
+            add_joint(graph, block, out);
+        }
+        if (shows(Gizmo::residuals)) {
+            add_residual(graph, block, out);
+        }
+    }
+    if (shows(Gizmo::islands)) {
+        add_islands(graph.graph, out);
+    }
+}
+
+}  // namespace handhold

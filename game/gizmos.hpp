@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "game/render/render_frame.hpp"
+#include "game/scene.hpp"
+#include "systems/frame.hpp"
+
+// What the stages of a frame found and did, as lines over the picture.
+namespace handhold {
+
+// In the order of the stages that they show.
+enum class Gizmo : std::uint8_t {
+    tracked_hands,  // read_tracking
+    palm_rays,      // update_grabs
+    grips,          // settle_grabs
+    velocities,     // predict_bodies
+    contacts,       // find_contacts
+    joints,         // build_constraints
+    islands,        // build_constraints
+    residuals,      // solve_phases
+    count
+};
+using GizmoSet = std::array<bool, static_cast<std::size_t>(Gizmo::count)>;
+inline constexpr GizmoSet k_no_gizmos = {};
+
+struct GizmoInfo {
+    const char* name;
+    const char* stage;
+    const char* what;  // what is to be seen
+};
+GizmoInfo info_of(Gizmo gizmo);
+
+// Adds the lines of those that are on, as of the last frame. Contacts, joints, islands and
+// residuals are in the caches only, and so absent where a world has just been restored.
+void add_gizmos(const World& world, const FrameGraph& graph, const GizmoSet& on,
+                std::vector<Line>& out);
+
+}  // namespace handhold

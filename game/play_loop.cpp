@@ -1,0 +1,286 @@
+#include "game/play_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "engine/core/profile.hpp"
+#include "game/ui/hud.hpp"
+#include "game/ui/inspector.hpp"
+#include "game/ui/menu.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_most_behind_s = 0.1;  // then time goes slower
+constexpr double k_status_s = 0.1;
+constexpr double k_calm_mps = 1.0;  // slower than this nothing darkens
+constexpr double k_fast_mps = 4.0;  // from here on all that is asked for
+
+double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
+
+// Real time into steps of the simulation: input that happened between two of them waits.
+class Clock {
+  public:
+    // Steps that are due.
+    int advance() {
+        const std::int64_t now = now_ns();
+        behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
+        behind_s_ = std::min(behind_s_, k_most_behind_s);
+        last_ns_ = now;
+        const auto due = static_cast<int>(behind_s_ / DesktopSession::k_dt_s);
+        behind_s_ -= due * DesktopSession::k_dt_s;
+        return due;
+    }
+
+  private:
+    std::int64_t last_ns_ = 0;
+    double behind_s_ = 0.0;
+};
+
+// What came with one look at the window goes into the first of several steps, but for what is held.
+void spend(DesktopInput& input) {
+    input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
+    input.snap_turns = 0;
+    input.opened = {};
+}
+void gather(const DesktopInput& now, DesktopInput& input) {
+    const DesktopInput before = input;
+    input = now;
+    input.turn_left_rad += before.turn_left_rad;
+    input.look_up_rad += before.look_up_rad;
+    input.farther_m += before.farther_m;
+    input.snap_turns += before.snap_turns;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        input.opened[side] = input.opened[side] || before.opened[side];
+    }
+}
+
+class Loop {
+  public:
+    explicit Loop(PlayStage& stage) : stage_(stage), history_(stage.session) {
+        inspector_.gizmos = stage.gizmos;
+        inspector_.turn_to = stage.page;
+        hold_mouse(!stage.panels.inspector && !stage.panels.menu);
+    }
+
+    PlayEnd run() {
+        while (!ends_) {
+            take_events(stage_.window.poll(stage_.settings));
+            const int due = clock_.advance();
+            if (due == 0) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                continue;
+            }
+            advance(due);
+            draw(due * DesktopSession::k_dt_s);
+        }
+        return end_;
+    }
+
+  private:
+    const World& world() const { return stage_.session.scene().world; }
+
+    void take_key(PlayKey key) {
+        PlayPanels& panels = stage_.panels;
+        switch (key) {
+            case PlayKey::help:
+                panels.help = !panels.help;
+                break;
+            case PlayKey::inspector:
+                panels.inspector = !panels.inspector;
+                hold_mouse(!panels.inspector && !panels.menu);
+                break;
+            case PlayKey::menu:
+                panels.menu = !panels.menu;
+                hold_mouse(!panels.inspector && !panels.menu);
+                break;
+            case PlayKey::free_mouse:
+                hold_mouse(!holds_mouse_);
+                break;
+            case PlayKey::pause:
+                paused_ = !paused_;
+                rewound_ = 0;
+                break;
+            case PlayKey::step:
+                paused_ = true;
+                ++steps_;
+                break;
+            case PlayKey::leave:
+                if (panels.inspector || panels.menu) {
+                    panels.inspector = panels.menu = false;
+                    hold_mouse(true);
+                } else {
+                    ends_ = true;
+                }
+                break;
+        }
+    }
+
+    void hold_mouse(bool held) {
+        holds_mouse_ = held;
+        stage_.window.hold_mouse(held);
+    }
+
+    void take_events(const WindowEvents& events) {
+        ui_ = events.ui;
+        wheel_ += events.ui.wheel;
+        typed_ += events.ui.text;
+        ends_ = ends_ || events.quit;
+        const bool types = stage_.overlay.takes_keys();
+        for (const PlayKey key : events.pressed) {
+            if (!types || key == PlayKey::leave) {
+                take_key(key);
+            }
+        }
+        rewinds_ = events.rewinds && !types;
+        DesktopInput now = types ? DesktopInput{} : events.input;
+        if (events.gamepad) {
+            const double now_s = 1e-9 * static_cast<double>(now_ns());
+            const double dt_s = gamepad_s_ > 0.0 ? std::min(now_s - gamepad_s_, 0.1) : 0.0;
+            gamepad_s_ = now_s;
+            now = combine(now, read_gamepad(*events.gamepad, stage_.settings, dt_s, gamepad_));
+        }
+        gather(now, input_);
+    }
+
+    void step() {
+        const std::int64_t begin_ns = now_ns();
+        history_.step(stage_.session, input_);
+        spend(input_);
+        stage_.tally.add_frame(world(), stage_.session.player(), stage_.session.stats(),
+                               us_since(begin_ns), DesktopSession::k_dt_s);
+        if (stage_.status != nullptr && world().clock.t_s >= next_status_s_) {
+            next_status_s_ = world().clock.t_s + k_status_s;
+            const std::string line =
+                status_line(world(), stage_.session.player(), stage_.tally.figures(),
+                            stage_.session.body().can_reach());
+            std::fputs(line.c_str(), stage_.status);
+            std::fflush(stage_.status);
+        }
+    }
+
+    void advance(int due) {
+        if (rewinds_) {
+            paused_ = true;
+            rewound_ += history_.rewind(stage_.session, static_cast<std::size_t>(due));
+            spend(input_);
+            return;
+        }
+        const int steps = paused_ ? std::exchange(steps_, 0) : due;
+        for (int i = 0; i < steps && !ends_; ++i) {
+            step();
+            rewound_ = rewound_ > 0 ? rewound_ - 1 : 0;
+            ends_ = stage_.end_s > 0.0 && world().clock.t_s >= stage_.end_s;
+        }
+        if (paused_) {
+            spend(input_);
+        }
+    }
+
+    // By how fast he is carried along beside what counts as standing still.
+    double vignette() const {
+        const Entity player = stage_.session.player().player;
+        const double speed_mps = (world().player_velocity.at(player).linear_mps -
+                                  world().reference_velocity.at(player).linear_mps)
+                                     .norm();
+        const double share =
+            std::clamp((speed_mps - k_calm_mps) / (k_fast_mps - k_calm_mps), 0.0, 1.0);
+        return stage_.settings.vignette * share;
+    }
+
+    void draw(double dt_s) {
+        ui_.wheel = std::exchange(wheel_, 0.0F);
+        ui_.text = std::exchange(typed_, {});
+        if (holds_mouse_) {
+            ui_.mouse_px = UiInput{}.mouse_px;
+            ui_.buttons = {};
+        }
+        stage_.overlay.begin(ui_, dt_s);
+        show_panels();
+        const UiPicture& ui = stage_.overlay.end();
+        const Entity player = stage_.session.player().player;
+        const std::int64_t begin_ns = now_ns();
+        marks_.clear();
+        add_gizmos(world(), stage_.session.caches().graph, inspector_.gizmos, marks_);
+        stage_.view.draw(world().render_pose.at(player).head_ws, stage_.settings.fov_rad,
+                         world().render_pose.find_row(player), stage_.picture, marks_, &ui);
+        const double draw_us = us_since(begin_ns);
+        const std::int64_t shown_ns = now_ns();
+        stage_.window.show(stage_.picture);
+        stage_.tally.add_picture(draw_us, us_since(shown_ns));
+    }
+
+    void show_panels() {
+        Hud hud;
+        hud.can_reach = stage_.session.body().can_reach();
+        hud.shows_mark = holds_mouse_;
+        hud.shows_help = stage_.panels.help && !stage_.panels.inspector && !stage_.panels.menu;
+        hud.paused = paused_;
+        hud.rewound_s = static_cast<double>(rewound_) * DesktopSession::k_dt_s;
+        hud.vignette = vignette();
+        hud.footer = stage_.panels.inspector ? cost_line() : "";
+        show_hud(hud);
+        if (stage_.panels.inspector) {
+            show_inspector({stage_.session, history_, stage_.tally, inspector_});
+        }
+        if (stage_.panels.menu) {
+            obey(show_menu(stage_.session.scene().name, stage_.settings));
+        }
+    }
+
+    std::string cost_line() const {
+        char text[120];
+        std::snprintf(text, sizeof text, "runtime %.2f ms a frame, drawing %.1f ms a picture",
+                      1e-3 * stage_.tally.runtime_us(), 1e-3 * stage_.tally.draw_us());
+        return text;
+    }
+
+    void obey(const MenuChoice& choice) {
+        if (choice.quality) {
+            std::string why_not;
+            auto view =
+                PlayerView::open(stage_.session.scene(), stage_.hands, stage_.picture_size[0],
+                                 stage_.picture_size[1], why_not, stage_.settings.quality);
+            if (view) {
+                stage_.view = std::move(*view);
+            }
+        }
+        if (choice.goes_on || !choice.scene.empty()) {
+            stage_.panels.menu = false;
+            hold_mouse(!stage_.panels.inspector);
+        }
+        if (!choice.scene.empty()) {
+            end_ = {false, choice.scene};
+        }
+        ends_ = ends_ || choice.leaves || !choice.scene.empty();
+    }
+
+    PlayStage& stage_;
+    SessionHistory history_;
+    InspectorMemory inspector_;
+    std::vector<Line> marks_;  // reused
+    Clock clock_;
+    DesktopInput input_;
+    GamepadMemory gamepad_;
+    double gamepad_s_ = 0.0;
+    UiInput ui_;
+    float wheel_ = 0.0F;
+    std::string typed_;
+    bool holds_mouse_ = true;
+    bool paused_ = false;
+    bool rewinds_ = false;
+    int steps_ = 0;
+    std::size_t rewound_ = 0;
+    double next_status_s_ = 0.0;
+    bool ends_ = false;
+    PlayEnd end_;
+};
+
+}  // namespace
+
+PlayEnd play(PlayStage& stage) { return Loop(stage).run(); }
+
+}  // namespace handhold

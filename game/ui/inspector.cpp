@@ -1,0 +1,204 @@
+#include "game/ui/inspector.hpp"
+
+#include <cmath>
+
+#include <imgui.h>
+
+#include "game/explain_hand.hpp"
+#include "game/report/report_tables.hpp"
+
+namespace handhold {
+namespace {
+
+const ImVec4 k_key_color(0.55F, 0.85F, 1.0F, 1.0F);
+const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
+const ImVec4 k_warm(1.0F, 0.75F, 0.25F, 1.0F);
+
+void show_figure(const char* name, const char* format, double value) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::Text(format, value);
+}
+
+void show_stage_times(const InspectorView& view) {
+    const StageStats& stats = view.session.stats();
+    InspectorMemory& memory = view.memory;
+    double total_us = 0.0;
+    double longest_us = 1e-6;
+    for (std::size_t i = 0; i < memory.smooth_us.size(); ++i) {
+        constexpr double k_share = 0.1;  // of the newest
+        memory.smooth_us[i] += k_share * (stats.stage_us[i] - memory.smooth_us[i]);
+        total_us += memory.smooth_us[i];
+        longest_us = std::fmax(longest_us, memory.smooth_us[i]);
+    }
+    if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_SizingStretchProp)) {
+        return;
+    }
+    for (std::size_t i = 0; i < memory.smooth_us.size(); ++i) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(name_of(static_cast<Stage>(i)));
+        ImGui::TableNextColumn();
+        ImGui::Text("%.1f us", memory.smooth_us[i]);
+        ImGui::TableNextColumn();
+        ImGui::ProgressBar(static_cast<float>(memory.smooth_us[i] / longest_us),
+                           ImVec2(-1.0F, 0.8F * ImGui::GetFontSize()), "");
+    }
+    show_figure("all stages", "%.1f us", total_us);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(k_soft, "%.1f %% of a frame at 90 Hz", total_us / 111.11);
+    ImGui::EndTable();
+}
+
+void show_work(const InspectorView& view) {
+    const StageStats& stats = view.session.stats();
+    if (!ImGui::BeginTable("work", 4, ImGuiTableFlags_SizingStretchProp)) {
+        return;
+    }
+    show_figure("islands", "%.0f", static_cast<double>(stats.islands));
+    show_figure("of them pushed", "%.0f", static_cast<double>(stats.islands_pushed));
+    show_figure("contacts", "%.0f", static_cast<double>(stats.contacts));
+    show_figure("contact rounds", "%.0f", static_cast<double>(stats.contact_rounds));
+    show_figure("Newton iterations", "%.0f", static_cast<double>(stats.newton_iterations));
+    show_figure("worst overlap", "%.4f mm", 1e3 * stats.residual_m);
+    show_figure("worst joint", "%.4f mm", 1e3 * stats.joint_error_m);
+    show_figure("worst hand", "%.4f mm", 1e3 * stats.hand_error_m);
+    show_figure("drawing", "%.1f ms", 1e-3 * view.tally.draw_us());
+    show_figure("history", "%.1f MB", 1e-6 * static_cast<double>(view.history.bytes()));
+    ImGui::EndTable();
+    ImGui::TextColored(k_soft, "R goes back by up to %.1f s",
+                       static_cast<double>(view.history.frames()) * DesktopSession::k_dt_s);
+}
+
+// Newly counted ones stand out for a while.
+void show_fallbacks(const InspectorView& view) {
+    InspectorMemory& memory = view.memory;
+    const auto& counts = view.tally.figures().totals.fallbacks;
+    const double now_s = ImGui::GetTime();
+    bool any = false;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] != memory.counted[i]) {
+            memory.counted[i] = counts[i];
+            memory.counted_at_s[i] = now_s;
+        }
+        if (counts[i] == 0) {
+            continue;
+        }
+        any = true;
+        constexpr double k_new_s = 2.0;
+        const bool is_new = now_s - memory.counted_at_s[i] < k_new_s;
+        ImGui::TextColored(is_new ? k_warm : k_key_color, "%s  %llu",
+                           name_of(static_cast<Fallback>(i)),
+                           static_cast<unsigned long long>(counts[i]));
+        ImGui::PushTextWrapPos(0.0F);
+        ImGui::TextColored(k_soft, "%s", meaning_of(static_cast<Fallback>(i)));
+        ImGui::PopTextWrapPos();
+    }
+    if (!any) {
+        ImGui::TextColored(k_soft, "None yet: all that was asked for was done.");
+    }
+}
+
+void show_story(const char* name, const HandStory& story) {
+    ImGui::TextColored(k_key_color, "%s", name);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(story.headline.c_str());
+    for (const std::string& reason : story.reasons) {
+        ImGui::Bullet();
+        ImGui::SameLine();
+        ImGui::PushTextWrapPos(0.0F);
+        ImGui::TextUnformatted(reason.c_str());
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::Spacing();
+}
+
+}  // namespace
+
+void show_frame_page(const InspectorView& view) {
+    ImGui::TextColored(k_soft, "frame %llu, %.2f s; stage times, smoothed",
+                       static_cast<unsigned long long>(view.session.scene().world.clock.frame),
+                       view.session.scene().world.clock.t_s);
+    show_stage_times(view);
+    ImGui::Separator();
+    show_work(view);
+    ImGui::Separator();
+    ImGui::TextUnformatted("What was done instead of what was asked (fallbacks)");
+    show_fallbacks(view);
+}
+
+void show_hands_page(const InspectorView& view) {
+    const Scene& scene = view.session.scene();
+    const CollisionWorld& collision = view.session.caches().collision;
+    const PlayerEntities& player = view.session.player();
+    show_story("Left hand", explain_hand(scene, collision, player.hands[0]));
+    show_story("Right hand", explain_hand(scene, collision, player.hands[1]));
+    ImGui::Separator();
+    const Pose& head_ws = scene.world.render_pose.at(player.player).head_ws;
+    const auto pointed =
+        hand_pointed_at(scene.world, head_ws.position, head_ws.rotation * -Vec3::UnitZ());
+    if (pointed) {
+        view.memory.pointed_hand = pointed;
+    }
+    const auto& hand = view.memory.pointed_hand;
+    if (hand && scene.world.hand_owner.contains(*hand)) {
+        const HandOwner& owner = scene.world.hand_owner.at(*hand);
+        const std::string name =
+            name_of_entity(scene, owner.player) + ", " + name_of_entity(scene, *hand);
+        ImGui::TextColored(k_soft, "Pointed at:");
+        show_story(name.c_str(), explain_hand(scene, collision, *hand));
+    } else {
+        ImGui::TextColored(k_soft, "Look at any hand, and it is explained here.");
+    }
+}
+
+void show_gizmos_page(const InspectorView& view) {
+    GizmoSet& on = view.memory.gizmos;
+    if (ImGui::Button("All")) {
+        on.fill(true);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("None")) {
+        on.fill(false);
+    }
+    if (ImGui::BeginTable("gizmos", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (std::size_t i = 0; i < on.size(); ++i) {
+            const GizmoInfo info = info_of(static_cast<Gizmo>(i));
+            ImGui::TableNextColumn();
+            ImGui::Checkbox(info.name, &on[i]);
+            ImGui::TableNextColumn();
+            ImGui::TextColored(k_soft, "%s: %s", info.stage, info.what);
+        }
+        ImGui::EndTable();
+    }
+}
+
+void show_inspector(const InspectorView& view) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float margin = 0.5F * ImGui::GetFontSize();
+    const float width = std::fmin(34.0F * ImGui::GetFontSize(), 0.6F * size.x);
+    ImGui::SetNextWindowPos(ImVec2(size.x - width - margin, margin), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(width, size.y - 2.0F * margin), ImGuiCond_FirstUseEver);
+    ImGui::Begin("Inspector (F2)");
+    if (ImGui::BeginTabBar("pages")) {
+        const auto page = [&](const char* name, void (*show)(const InspectorView&)) {
+            const bool turns = view.memory.turn_to == name;
+            if (ImGui::BeginTabItem(name, nullptr, turns ? ImGuiTabItemFlags_SetSelected : 0)) {
+                ImGui::BeginChild(name);
+                show(view);
+                ImGui::EndChild();
+                ImGui::EndTabItem();
+            }
+        };
+        page("Frame", show_frame_page);
+        page("Hands", show_hands_page);
+        page("Tuning", show_tuning_page);
+        page("Entities", show_entities_page);
+        page("Gizmos", show_gizmos_page);
+        ImGui::EndTabBar();
+        view.memory.turn_to.clear();
+    }
+    ImGui::End();
+}
+
+}  // namespace handhold

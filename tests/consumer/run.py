@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Installs the runtime library of a build and builds and runs this folder's project against it, and nothing else.
+
+usage: tests/consumer/run.py BUILD WORK     BUILD: a build of the library; WORK: a folder of its own, emptied first
+Exit status 0: every header that is installed finds what it includes, and the project runs.
+"""
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+# Beside the standard library, whose headers have neither folder nor ending.
+LIBRARIES = re.compile(r"Eigen/\w+|[a-z_]+|nlohmann/json_fwd\.hpp")
+
+
+def lost_includes(root: Path) -> list[str]:
+    """What installed headers include that is neither installed nor one of the library's own dependencies."""
+    lost = []
+    for header in sorted(root.rglob("*.hpp")):
+        for mark, path in INCLUDE.findall(header.read_text(encoding="utf-8")):
+            found = (root / path).is_file() if mark == '"' else LIBRARIES.fullmatch(path)
+            if not found:
+                lost.append(f"{header.relative_to(root)} includes {path}, which nobody has who installed the library")
+    return lost
+
+
+def run(*command) -> None:
+    subprocess.run([str(word) for word in command], check=True)
+
+
+def main() -> int:
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    build, work = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    shutil.rmtree(work, ignore_errors=True)
+    prefix = work / "prefix"
+    run("cmake", "--install", build, "--prefix", prefix, "--component", "handhold_runtime")
+    lost = lost_includes(prefix / "include" / "handhold")
+    if lost:
+        print("\n".join(lost), file=sys.stderr)
+        return 1
+    here = Path(__file__).resolve().parent
+    run("cmake", "-S", here, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+    run("cmake", "--build", work / "build")
+    run(work / "build" / "push_off")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

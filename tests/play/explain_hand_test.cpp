@@ -1,0 +1,153 @@
+// What the inspector says of a hand, against what the hand then does.
+#include "game/explain_hand.hpp"
+
+#include <gtest/gtest.h>
+
+#include "game/desktop_session.hpp"
+#include "game/gizmos.hpp"
+#include "game/play_tally.hpp"
+#include "tests/game/climber_scene.hpp"
+
+namespace handhold {
+namespace {
+
+// Beside the tunnel's rail, looking at it; his left hand rests in front of him.
+struct AtRail : DesktopSession {
+    AtRail() : DesktopSession(make_tunnel(6.0), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}) {
+        DesktopInput look;
+        look.turn_left_rad = 0.9;
+        look.look_up_rad = -0.2;
+        step(look);
+        run({}, 0.3);
+    }
+    void run(const DesktopInput& input, double seconds) {
+        for (double t_s = 0.0; t_s < seconds; t_s += k_dt_s) {
+            step(input);
+        }
+    }
+    HandStory story(HandSide side) const {
+        return explain_hand(scene(), caches().collision, player().hands[index_of(side)]);
+    }
+};
+
+bool says(const HandStory& story, const std::string& words) {
+    for (const std::string& reason : story.reasons) {
+        if (reason.find(words) != std::string::npos) {
+            return true;
+        }
+    }
+    return story.headline.find(words) != std::string::npos;
+}
+
+TEST(ExplainHand, AnOpenHandInTheAirSaysWhatIsNearestAndThatItIsTooFar) {
+    AtRail desk;
+    const HandStory story = desk.story(HandSide::right);
+    EXPECT_TRUE(says(story, "is open"));
+    EXPECT_TRUE(says(story, "farther than hand.reach_m, 10 cm"));
+}
+
+TEST(ExplainHand, AClosedHandNamesWhatItGripsAndItsError) {
+    AtRail desk;
+    DesktopInput grip;
+    grip.grip[0] = true;
+    desk.run(grip, 0.7);
+    const Grab& grab = desk.scene().world.grab.at(desk.player().hands[0]);
+    ASSERT_EQ(grab.kind, GripKind::surface);
+    const HandStory story = desk.story(HandSide::left);
+    const std::string name = name_of_entity(desk.scene(), grab.body);
+    EXPECT_EQ(find_by_id(desk.scene().world, persistent_id_from_name(name)), grab.body);
+    EXPECT_TRUE(says(story, "grips " + name));
+    EXPECT_TRUE(says(story, "It is fixed"));
+    EXPECT_TRUE(says(story, "hand.max_stretch_m"));
+}
+
+TEST(ExplainHand, AHandThatClosedOnNothingSaysThatItMustOpenFirst) {
+    AtRail desk;
+    DesktopInput away;
+    away.turn_left_rad = 3.14 - 0.9 + 0.6;  // down the middle of the tunnel
+    desk.step(away);
+    DesktopInput grip;
+    grip.grip[1] = true;
+    desk.run(grip, 1.0);
+    ASSERT_EQ(desk.scene().world.grab.at(desk.player().hands[1]).kind, GripKind::none);
+    const HandStory story = desk.story(HandSide::right);
+    EXPECT_TRUE(says(story, "closed on nothing"));
+    EXPECT_TRUE(says(story, "Open it first"));
+}
+
+TEST(ExplainHand, TheHandInTheLineOfSightIsTheOnePointedAt) {
+    AtRail desk;
+    const RenderPose& render = desk.scene().world.render_pose.at(desk.player().player);
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const Vec3 to = render.hands[side].shown_ws.position - render.head_ws.position;
+        EXPECT_EQ(hand_pointed_at(desk.scene().world, render.head_ws.position, to.normalized()),
+                  desk.player().hands[side]);
+    }
+    EXPECT_FALSE(hand_pointed_at(desk.scene().world, render.head_ws.position, Vec3::UnitY()));
+}
+
+TEST(Gizmos, EachShowsLinesWhereItsStageHasSomethingAndNoneShowsNothing) {
+    AtRail desk;
+    DesktopInput grip;
+    grip.grip[0] = true;
+    desk.run(grip, 0.7);
+    std::vector<Line> lines;
+    add_gizmos(desk.scene().world, desk.caches().graph, k_no_gizmos, lines);
+    EXPECT_TRUE(lines.empty());
+    for (const Gizmo gizmo :
+         {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands}) {
+        GizmoSet on = k_no_gizmos;
+        on[static_cast<std::size_t>(gizmo)] = true;
+        lines.clear();
+        add_gizmos(desk.scene().world, desk.caches().graph, on, lines);
+        EXPECT_FALSE(lines.empty()) << info_of(gizmo).name;
+        for (const Line& line : lines) {
+            EXPECT_TRUE(line.a_ws.allFinite() && line.b_ws.allFinite());
+        }
+    }
+}
+
+// The grip's normal stands on the bar's surface: its foot is where the hand's block has its point.
+TEST(Gizmos, AGripIsShownOnTheSurfaceThatIsHeld) {
+    AtRail desk;
+    DesktopInput grip;
+    grip.grip[0] = true;
+    desk.run(grip, 0.7);
+    GizmoSet on = k_no_gizmos;
+    on[static_cast<std::size_t>(Gizmo::grips)] = true;
+    std::vector<Line> lines;
+    add_gizmos(desk.scene().world, desk.caches().graph, on, lines);
+    ASSERT_FALSE(lines.empty());
+    const Line& normal = lines.back();
+    const auto nearest = desk.caches().collision.closest_point(normal.a_ws, 0.1);
+    ASSERT_TRUE(nearest);
+    EXPECT_LT(nearest->distance_m, 1e-6);
+    EXPECT_NEAR((normal.b_ws - normal.a_ws).norm(), 0.08, 1e-9);
+}
+
+TEST(PlayTally, CountsAsClimbedOnlyWhatHandsCarried) {
+    AtRail desk;
+    PlayTally tally;
+    const auto play = [&](const DesktopInput& input, double seconds) {
+        for (double t_s = 0.0; t_s < seconds; t_s += DesktopSession::k_dt_s) {
+            desk.step(input);
+            tally.add_frame(desk.scene().world, desk.player(), desk.stats(), 100.0,
+                            DesktopSession::k_dt_s);
+        }
+    };
+    DesktopInput input;
+    input.grip[0] = true;
+    play(input, 0.6);
+    const double before_m = tally.figures().climbed_m;
+    input.move = Vec3(0.0, 0.0, -1.0);
+    play(input, 0.3);
+    EXPECT_NEAR(tally.figures().climbed_m - before_m, 0.9 * 0.3, 0.03);  // a pull of 0.9 m/s
+    play({}, 0.5);                                                       // and he glides on
+    EXPECT_EQ(tally.figures().grips, 1U);
+    EXPECT_EQ(tally.figures().hand_changes, 0U);
+    EXPECT_GT(tally.figures().path_m, tally.figures().climbed_m + 0.2);
+    EXPECT_NEAR(tally.figures().played_s, 1.4, 0.05);
+}
+
+}  // namespace
+}  // namespace handhold

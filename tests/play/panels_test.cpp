@@ -1,0 +1,135 @@
+// Panels in pictures: drawn where they are said to be, and without a window.
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "game/render/renderer.hpp"
+#include "game/render/ui_picture.hpp"
+#include "game/ui/hud.hpp"
+#include "game/ui/inspector.hpp"
+#include "game/ui/menu.hpp"
+#include "game/ui/overlay.hpp"
+#include "tests/game/climber_scene.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> k_red = {255, 0, 0, 255};
+
+// A red rectangle, of which only what lies inside of the clip is to be seen.
+UiPicture make_rectangle(float left, float top, float right, float bottom,
+                         const std::array<int, 4>& clip_px) {
+    UiPicture ui;
+    for (const auto& place : {std::array{left, top}, std::array{right, top},
+                              std::array{right, bottom}, std::array{left, bottom}}) {
+        ui.vertices.push_back({place, {0.5F, 0.5F}, k_red});
+    }
+    ui.indices = {0, 1, 2, 0, 2, 3};
+    ui.commands.push_back({clip_px, 0, 6});
+    ui.glyphs = {1, 1, {255, 255, 255, 255}};
+    ui.glyphs_revision = 1;
+    return ui;
+}
+
+bool is_red(const Image& image, int x, int y) {
+    const std::uint8_t* const pixel = image.pixel(x, y);
+    return pixel[0] > 200 && pixel[1] < 40 && pixel[2] < 40;
+}
+
+TEST(UiPainter, DrawsFromTheUpperLeftCornerAndCutsAtTheClip) {
+    for (const PictureQuality quality :
+         {PictureQuality::plain, PictureQuality::quick, PictureQuality::fine}) {
+        std::string why_not;
+        auto renderer = Renderer::create(64, 48, why_not, quality);
+        if (!renderer) {
+            GTEST_SKIP() << why_not;
+        }
+        const UiPicture ui = make_rectangle(8.0F, 4.0F, 40.0F, 20.0F, {0, 0, 24, 48});
+        Image image;
+        renderer->draw({}, image, &ui);
+        for (int y = 0; y < 48; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                const bool inside = x >= 8 && x < 24 && y >= 4 && y < 20;
+                ASSERT_EQ(is_red(image, x, y), inside) << x << ", " << y;
+            }
+        }
+        renderer->draw({}, image);
+        EXPECT_FALSE(is_red(image, 10, 10));  // nothing is left of it
+    }
+}
+
+struct Panels : testing::Test {
+    DesktopSession session{make_tunnel(6.0), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}};
+    SessionHistory history{session};
+    PlayTally tally;
+    InspectorMemory memory;
+    Overlay overlay{640, 360};
+
+    void play(int frames) {
+        DesktopInput input;
+        input.turn_left_rad = 0.02;
+        for (int i = 0; i < frames; ++i) {
+            history.step(session, input);
+            tally.add_frame(session.scene().world, session.player(), session.stats(), 50.0,
+                            DesktopSession::k_dt_s);
+        }
+    }
+    InspectorView view() { return {session, history, tally, memory}; }
+};
+
+TEST_F(Panels, EveryPageOfTheInspectorShowsALotAndChangesNothing) {
+    play(30);
+    const std::uint64_t hash = hash_state(session.scene().world);
+    for (const char* const page : {"Frame", "Hands", "Tuning", "Entities", "Gizmos"}) {
+        memory.turn_to = page;
+        std::size_t triangles = 0;
+        for (int i = 0; i < 3; ++i) {  // a page that is turned to is there in the next picture
+            overlay.begin({}, 0.01);
+            show_inspector(view());
+            triangles = overlay.end().indices.size() / 3;
+        }
+        EXPECT_GT(triangles, 400U) << page;
+    }
+    EXPECT_EQ(hash_state(session.scene().world), hash);
+}
+
+// Vertices of panels lie on the picture, as whoever draws them without a scissor would want.
+TEST_F(Panels, HelpMarkAndPauseFitThePicture) {
+    Hud hud;
+    hud.paused = true;
+    hud.rewound_s = 1.5;
+    for (int i = 0; i < 2; ++i) {
+        overlay.begin({}, 0.01);
+        show_hud(hud);
+        const UiPicture& ui = overlay.end();
+        ASSERT_FALSE(ui.commands.empty());
+        for (const UiVertex& vertex : ui.vertices) {
+            EXPECT_GE(vertex.place_px[0], -1.0F);
+            EXPECT_LE(vertex.place_px[0], 641.0F);
+            EXPECT_GE(vertex.place_px[1], -1.0F);
+            EXPECT_LE(vertex.place_px[1], 361.0F);
+        }
+    }
+}
+
+TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
+    PlaySettings settings;
+    std::string chosen;
+    // He clicks his way down the left side of the menu, below the heading, which would close it,
+    // and slowly, since title bars obey double clicks, until something is chosen.
+    for (float y = 64.0F; y < 340.0F && chosen.empty(); y += 4.0F) {
+        for (const bool down : {false, true, false}) {
+            UiInput input;
+            input.mouse_px = {50.0F, y};
+            input.buttons[0] = down;
+            overlay.begin(input, 0.5);
+            const MenuChoice choice = show_menu("robot", settings);
+            chosen = choice.scene.empty() ? chosen : choice.scene;
+            overlay.end();
+        }
+    }
+    EXPECT_EQ(chosen, "station");  // the first on the list
+}
+
+}  // namespace
+}  // namespace handhold

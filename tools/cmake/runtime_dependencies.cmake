@@ -1,0 +1,27 @@
+# What the runtime library needs, for this build and for those who link the installed library: handholdConfig.cmake includes
+# this file too. Imported targets, so that their headers count as system headers and exports refer to them by name.
+
+# Eigen: no version in find_package (3.4's and 5's version files refuse each other's expressions).
+find_package(Eigen3 REQUIRED NO_MODULE)
+if(Eigen3_VERSION VERSION_LESS 3.4)
+  message(FATAL_ERROR "Eigen 3.4 or newer is needed, found ${Eigen3_VERSION}")
+endif()
+add_library(handhold::eigen INTERFACE IMPORTED)
+get_target_property(eigen_includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+target_include_directories(handhold::eigen SYSTEM INTERFACE ${eigen_includes})
+
+# Bullet in double precision. The package's CMake config is broken on Debian 12 and the float and double sets
+# share their headers: pkg-config names the right one.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
+add_library(handhold::bullet INTERFACE IMPORTED)
+target_include_directories(handhold::bullet SYSTEM INTERFACE ${bullet_INCLUDE_DIRS})
+target_compile_definitions(handhold::bullet INTERFACE BT_USE_DOUBLE_PRECISION)
+target_link_libraries(handhold::bullet INTERFACE BulletCollision-float64 LinearMath-float64)
+find_package(box2d REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(TinyGLTF REQUIRED)
+add_library(handhold::tinygltf INTERFACE IMPORTED)
+target_link_libraries(handhold::tinygltf INTERFACE TinyGLTF::TinyGLTF)
