@@ -80,11 +80,11 @@ FingerRig make_thumb() {
     set_hand_limits(HandSide::right, thumb);
     // The thumb's plane holds the axis: a curl turns the links from their side of it to the other.
     const Vec3 axis = -thumb.opposition_axis_hs;  // to the fingers, on a right hand
-    double below_sine = 0.0, below_cosine = 1.0, away_sine = 0.0, away_cosine = 1.0;
-    sin_cos(k_thumb_below_rad, below_sine, below_cosine);
+    double away_sine = 0.0;
+    double away_cosine = 1.0;
     sin_cos(k_thumb_away_deg * k_degree, away_sine, away_cosine);
-    const Vec3 below(-below_cosine, -below_sine, 0.0);
-    const Vec3 out = (below - axis * axis.dot(below)).normalized();
+    const Vec3 beside = (-Vec3::UnitX() + axis * axis.x()).normalized();  // across the axis
+    const Vec3 out = rotation_about(thumb.opposition_axis_hs, k_thumb_below_rad) * beside;
     Mat3 axes;
     axes.col(2) = -(away_cosine * axis + away_sine * out);  // +Z: back along the link
     axes.col(1) = away_cosine * out - away_sine * axis;     // +Y: away from where it curls to
