@@ -34,7 +34,7 @@ void set_style(float scale) {
     style.Colors[ImGuiCol_WindowBg] = ImVec4(0.055F, 0.065F, 0.08F, 0.90F);
     style.Colors[ImGuiCol_TitleBg] = ImVec4(0.05F, 0.10F, 0.14F, 1.0F);
     style.Colors[ImGuiCol_TitleBgActive] = ImVec4(0.06F, 0.20F, 0.28F, 1.0F);
-    style.Colors[ImGuiCol_FrameBg] = ImVec4(0.13F, 0.16F, 0.20F, 1.0F);
+    style.Colors[ImGuiCol_FrameBg] = ImVec4(0.17F, 0.22F, 0.28F, 1.0F);
     style.ScaleAllSizes(std::max(scale, 0.6F));
 }
 
