@@ -83,6 +83,7 @@ Overlay::Overlay(int width_px, int height_px) : impl_(std::make_unique<Impl>()) 
 Overlay::~Overlay() { ImGui::DestroyContext(impl_->context); }
 
 void Overlay::begin(const UiInput& input, double dt_s) {
+    ImGui::SetCurrentContext(impl_->context);
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = static_cast<float>(std::clamp(dt_s, 1e-4, 1.0));
     io.MousePos = ImVec2(input.mouse_px[0], input.mouse_px[1]);
@@ -127,6 +128,9 @@ const UiPicture& Overlay::end() {
     return out;
 }
 
-bool Overlay::takes_keys() const { return ImGui::GetIO().WantTextInput; }
+bool Overlay::takes_keys() const {
+    ImGui::SetCurrentContext(impl_->context);
+    return ImGui::GetIO().WantTextInput;
+}
 
 }  // namespace handhold
