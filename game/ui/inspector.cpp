@@ -161,13 +161,17 @@ void show_gizmos_page(const InspectorView& view) {
     if (ImGui::Button("None")) {
         on.fill(false);
     }
-    if (ImGui::BeginTable("gizmos", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (ImGui::BeginTable("gizmos", 2)) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
         for (std::size_t i = 0; i < on.size(); ++i) {
             const GizmoInfo info = info_of(static_cast<Gizmo>(i));
             ImGui::TableNextColumn();
             ImGui::Checkbox(info.name, &on[i]);
             ImGui::TableNextColumn();
+            ImGui::PushTextWrapPos(0.0F);
             ImGui::TextColored(k_soft, "%s: %s", info.stage, info.what);
+            ImGui::PopTextWrapPos();
         }
         ImGui::EndTable();
     }

@@ -34,7 +34,7 @@ void set_style(float scale) {
     style.Colors[ImGuiCol_WindowBg] = ImVec4(0.055F, 0.065F, 0.08F, 0.90F);
     style.Colors[ImGuiCol_TitleBg] = ImVec4(0.05F, 0.10F, 0.14F, 1.0F);
     style.Colors[ImGuiCol_TitleBgActive] = ImVec4(0.06F, 0.20F, 0.28F, 1.0F);
-    style.Colors[ImGuiCol_FrameBg] = ImVec4(0.13F, 0.16F, 0.20F, 1.0F);
+    style.Colors[ImGuiCol_FrameBg] = ImVec4(0.17F, 0.22F, 0.28F, 1.0F);
     style.ScaleAllSizes(std::max(scale, 0.6F));
 }
 
@@ -83,6 +83,7 @@ Overlay::Overlay(int width_px, int height_px) : impl_(std::make_unique<Impl>()) 
 Overlay::~Overlay() { ImGui::DestroyContext(impl_->context); }
 
 void Overlay::begin(const UiInput& input, double dt_s) {
+    ImGui::SetCurrentContext(impl_->context);
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = static_cast<float>(std::clamp(dt_s, 1e-4, 1.0));
     io.MousePos = ImVec2(input.mouse_px[0], input.mouse_px[1]);
@@ -127,6 +128,9 @@ const UiPicture& Overlay::end() {
     return out;
 }
 
-bool Overlay::takes_keys() const { return ImGui::GetIO().WantTextInput; }
+bool Overlay::takes_keys() const {
+    ImGui::SetCurrentContext(impl_->context);
+    return ImGui::GetIO().WantTextInput;
+}
 
 }  // namespace handhold

@@ -173,7 +173,7 @@ void show_tuning_page(const InspectorView& view) {
     ImGui::TextColored(k_soft, "%s",
                        memory.tuning_message.empty()
                            ? "Drag a number, or double-click to type it. Changes count from the "
-                             "next frame on; head.radius_m from the next scene on."
+                             "next frame on; head.radius_m counts only in a scene file."
                            : memory.tuning_message.c_str());
     ImGui::PopTextWrapPos();
     ImGui::BeginChild("numbers");
