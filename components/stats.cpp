@@ -28,6 +28,12 @@ const char* name_of(Stage stage) {
             return "update_velocities";
         case Stage::update_joints:
             return "update_joints";
+        case Stage::estimate_arms:
+            return "estimate_arms";
+        case Stage::pose_arms:
+            return "pose_arms";
+        case Stage::propagate_spine:
+            return "propagate_spine";
         case Stage::publish_pose:
             return "publish_pose";
         case Stage::count:

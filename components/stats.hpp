@@ -23,6 +23,9 @@ enum class Stage : std::uint8_t {
     solve_phases,
     update_velocities,
     update_joints,
+    estimate_arms,
+    pose_arms,
+    propagate_spine,
     publish_pose,
     count
 };

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lab/body_command.hpp"
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/solve_command.hpp"
 
@@ -39,6 +40,14 @@ void add_solve_options(CLI::App& solve, lab::SolveOptions& options) {
     solve.add_option("--csv", options.csv, "Every pose of every frame");
 }
 
+void add_body_options(CLI::App& body, lab::BodyOptions& options) {
+    body.add_option("--in", options.in, "Heads and hands over time")->required();
+    body.add_option("--calib", options.calib, "Who they belong to")->required();
+    body.add_option("--out", options.out, "Chest, shoulders and elbows")->required();
+    body.add_option("--estimator", options.estimator, "The runtime's, or one to compare it with")
+        ->check(CLI::IsMember(lab::estimator_names()));
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -49,15 +58,19 @@ int main(int argc, char** argv) {
     CLI::App* const solve =
         app.add_subcommand("solve", "Errors, cost and momentum of one scene under one solver");
     add_solve_options(*solve, options);
+    lab::BodyOptions body_options;
+    CLI::App* const body =
+        app.add_subcommand("body", "Chest, shoulders and elbows from recorded heads and hands");
+    add_body_options(*body, body_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& asked = solve->parsed() ? *solve : app;
+        const CLI::App& asked = solve->parsed() ? *solve : body->parsed() ? *body : app;
         std::fprintf(stderr, "%s\n%s", error.what(), asked.help().c_str());
         return k_exit_usage;
     }
-    return lab::solve_command(options);
+    return body->parsed() ? lab::body_command(body_options) : lab::solve_command(options);
 }
