@@ -8,7 +8,7 @@
 // one whose eyes are at 1.6 m.
 namespace handhold {
 
-// Fitted on motion capture (docs/body.md says on whom, and what each is worth).
+// Fitted on motion capture (docs/decisions.md says on whom, and what each is worth).
 struct ArmTuning {
     double head_lag_s = 0.3;
     double hand_share = 0.15;
