@@ -189,6 +189,79 @@ void visit_fields(const FingerAngles& c, V&& visit) {
     visit("opposition_rad", c.opposition_rad);
 }
 template <typename V>
+void visit_fields(const BodyMeasures& c, V&& visit) {
+    visit("eye_height_m", c.eye_height_m);
+    visit("shoulder_width_m", c.shoulder_width_m);
+    visit("upper_arm_m", c.upper_arm_m);
+    visit("forearm_m", c.forearm_m);
+}
+template <typename V>
+void visit_fields(const ArmMemory::Arm& c, V&& visit) {
+    visit("axis_ts", c.axis_ts);
+    visit("bend_ts", c.bend_ts);
+    visit("hand_ts", c.hand_ts);
+    visit("elbow_ts", c.elbow_ts);
+}
+template <typename V>
+void visit_fields(const ArmMemory& c, V&& visit) {
+    visit("known", c.known);
+    visit("look_ps", c.look_ps);
+    visit("facing_ps", c.facing_ps);
+    visit("head_ps", c.head_ps);
+    visit("arms", c.arms);
+}
+template <typename V>
+void visit_fields(const ArmEstimate::Arm& c, V&& visit) {
+    visit("hand_ps", c.hand_ps);
+    visit("shoulder_ps", c.shoulder_ps);
+    visit("bend_ps", c.bend_ps);
+    visit("stretch", c.stretch);
+}
+template <typename V>
+void visit_fields(const ArmEstimate& c, V&& visit) {
+    visit("chest_ps", c.chest_ps);
+    visit("facing_ps", c.facing_ps);
+    visit("arms", c.arms);
+}
+template <typename V>
+void visit_fields(const ArmPose::Arm& c, V&& visit) {
+    visit("clavicle_ws", c.clavicle_ws);
+    visit("upper_ws", c.upper_ws);
+    visit("forearm_ws", c.forearm_ws);
+    visit("hand_ws", c.hand_ws);
+}
+template <typename V>
+void visit_fields(const ArmPose& c, V&& visit) {
+    visit("chest_ws", c.chest_ws);
+    visit("arms", c.arms);
+}
+template <typename V>
+void visit_fields(const SpineMemory& c, V&& visit) {
+    visit("known", c.known);
+    visit("since_tick_s", c.since_tick_s);
+    visit("moved_m", c.moved_m);
+    visit("chest_ps", c.chest_ps);
+    visit("tick_chest_ps", c.tick_chest_ps);
+    visit("reference_ws_mps", c.reference_ws_mps);
+    visit("offset_m", c.offset_m);
+    visit("before_m", c.before_m);
+    visit("velocity_mps", c.velocity_mps);
+    visit("twist_rad", c.twist_rad);
+}
+template <typename V>
+void visit_fields(const SpinePose::Leg& c, V&& visit) {
+    visit("thigh_ws", c.thigh_ws);
+    visit("shin_ws", c.shin_ws);
+    visit("foot_ws", c.foot_ws);
+}
+template <typename V>
+void visit_fields(const SpinePose& c, V&& visit) {
+    visit("chest_ws", c.chest_ws);
+    visit("spine_ws", c.spine_ws);
+    visit("pelvis_ws", c.pelvis_ws);
+    visit("legs", c.legs);
+}
+template <typename V>
 void visit_fields(const RenderPose::Hand& c, V&& visit) {
     visit("tracked_ws", c.tracked_ws);
     visit("shown_ws", c.shown_ws);
@@ -203,6 +276,8 @@ void visit_fields(const RenderPose& c, V&& visit) {
     visit("head_center_ws", c.head_center_ws);
     visit("hands", c.hands);
     visit("push_back_m", c.push_back_m);
+    visit("arms", c.arms);
+    visit("spine", c.spine);
 }
 template <typename V>
 void visit_fields(const HandOwner& c, V&& visit) {

@@ -2,11 +2,13 @@
 
 #include <array>
 
+#include "components/arm.hpp"
 #include "components/grab.hpp"
 #include "components/hand_rig.hpp"
+#include "components/spine.hpp"
 #include "engine/math/math.hpp"
 
-// What a host draws. Written by publish_pose.
+// What a host draws. Written by publish_pose; the body by publish_body.
 namespace handhold {
 
 struct RenderPose {
@@ -22,6 +24,8 @@ struct RenderPose {
     Vec3 head_center_ws = Vec3::Zero();    // of the collider
     std::array<Hand, k_hand_count> hands;  // by HandSide
     double push_back_m = 0.0;              // how far this frame's contacts moved the player
+    ArmPose arms;                          // hands as shown_ws, bit for bit
+    SpinePose spine;
 };
 
 }  // namespace handhold

@@ -38,6 +38,12 @@ const char* name_of(Stage stage) {
             return "sweep_fingers";
         case Stage::pose_thumb:
             return "pose_thumb";
+        case Stage::estimate_arms:
+            return "estimate_arms";
+        case Stage::pose_arms:
+            return "pose_arms";
+        case Stage::propagate_spine:
+            return "propagate_spine";
         case Stage::publish_pose:
             return "publish_pose";
         case Stage::count:

@@ -28,6 +28,9 @@ enum class Stage : std::uint8_t {
     constrain_palms,
     sweep_fingers,
     pose_thumb,
+    estimate_arms,
+    pose_arms,
+    propagate_spine,
     publish_pose,
     count
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "components/body_tuning.hpp"
 #include "engine/math/math.hpp"
 
 // Every number a designer may turn. Each is declared here with its default and described once, with
@@ -119,6 +120,8 @@ struct Tuning {
     PhaseTuning phases;
     ContactTuning contact;
     SolverTuning solver;
+    ArmTuning arm;
+    SpineTuning spine;
 };
 
 // What is known of one number beside its value.
@@ -262,6 +265,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "constraint error above which steps account for how forces turn with their arms");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "solves at most to find who sticks and who slides");
+    visit_body_tuning(t, see);
 }
 
 }  // namespace handhold

@@ -89,6 +89,12 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.collider.add(made.player, {description.head_shape});
     world.last_valid.add(made.player, {description.origin_ws, false});
     world.render_pose.add(made.player);
+    world.body_measures.add(made.player, description.measures);
+    world.arm_memory.add(made.player);
+    world.arm_estimate.add(made.player);
+    world.arm_pose.add(made.player);
+    world.spine_memory.add(made.player);
+    world.spine_pose.add(made.player);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const Entity hand = add_named(world, hand_names[index_of(side)]);
         made.hands[index_of(side)] = hand;

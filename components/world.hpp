@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <string_view>
 
+#include "components/arm.hpp"
 #include "components/body.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
 #include "components/joint.hpp"
 #include "components/player.hpp"
 #include "components/render.hpp"
+#include "components/spine.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/ecs/entity.hpp"
@@ -50,6 +52,12 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
+    Column<BodyMeasures> body_measures;  // these six: every player
+    Column<ArmMemory> arm_memory;
+    Column<ArmEstimate> arm_estimate;
+    Column<ArmPose> arm_pose;
+    Column<SpineMemory> spine_memory;
+    Column<SpinePose> spine_pose;
 
     Column<HandOwner> hand_owner;
     Column<HandTracking> hand_tracking;
@@ -87,6 +95,12 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("head_tracking", world.head_tracking);
     visit("head_ignores", world.head_ignores);
     visit("render_pose", world.render_pose);
+    visit("body_measures", world.body_measures);
+    visit("arm_memory", world.arm_memory);
+    visit("arm_estimate", world.arm_estimate);
+    visit("arm_pose", world.arm_pose);
+    visit("spine_memory", world.spine_memory);
+    visit("spine_pose", world.spine_pose);
     visit("hand_owner", world.hand_owner);
     visit("hand_tracking", world.hand_tracking);
     visit("hand_history", world.hand_history);
@@ -127,6 +141,7 @@ struct PlayerDescription {
     Pose origin_ws;
     Vec3 velocity_mps = Vec3::Zero();
     ShapeId head_shape;  // a sphere
+    BodyMeasures measures = {};
 };
 struct PlayerEntities {
     Entity player;

@@ -2,6 +2,10 @@
 
 #include "engine/core/check.hpp"
 #include "engine/core/profile.hpp"
+#include "systems/arm/estimate_arms.hpp"
+#include "systems/arm/pose_arms.hpp"
+#include "systems/body/propagate_spine.hpp"
+#include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/gather_surroundings.hpp"
@@ -164,10 +168,28 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
                    tuning, stats);
     }
     {
+        const StageTimer timer(Stage::estimate_arms, stats);
+        estimate_arms({input.dt_s, w.player_origin, w.head_tracking, w.body_measures, w.hand_owner,
+                       w.palm_pose, w.arm_memory, w.arm_estimate},
+                      tuning.arm);
+    }
+    {
+        const StageTimer timer(Stage::pose_arms, stats);
+        pose_arms({w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate,
+                   w.arm_pose});
+    }
+    {
+        const StageTimer timer(Stage::propagate_spine, stats);
+        propagate_spine({input.dt_s, w.player_origin, w.player_velocity, w.reference_velocity,
+                         w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose},
+                        tuning.spine);
+    }
+    {
         const StageTimer timer(Stage::publish_pose, stats);
         publish_pose({graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
                       w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.render_pose},
                      tuning);
+        publish_body({w.arm_pose, w.spine_pose, w.render_pose});
     }
     ++w.clock.frame;
     w.clock.t_s = end_s;

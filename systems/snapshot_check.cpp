@@ -155,6 +155,7 @@ class BreachFinder {
         require_both("player", w_.player, "head_tracking", w_.head_tracking);
         require_both("player", w_.player, "head_ignores", w_.head_ignores);
         require_both("player", w_.player, "render_pose", w_.render_pose);
+        check_figures();
         for (std::size_t row = 0; row < w_.player.size(); ++row) {
             check(w_.player.rows()[row].mass_kg > 0.0, "player", w_.player.owners()[row],
                   ".mass_kg", "a mass above 0");
@@ -165,10 +166,32 @@ class BreachFinder {
         }
     }
 
+    void check_figures() {
+        require_both("player", w_.player, "body_measures", w_.body_measures);
+        require_both("player", w_.player, "arm_memory", w_.arm_memory);
+        require_both("player", w_.player, "arm_estimate", w_.arm_estimate);
+        require_both("player", w_.player, "arm_pose", w_.arm_pose);
+        require_both("player", w_.player, "spine_memory", w_.spine_memory);
+        require_both("player", w_.player, "spine_pose", w_.spine_pose);
+        for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
+            const BodyMeasures& m = w_.body_measures.rows()[row];
+            const auto [least, most] =
+                std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
+            check(least >= 0.05 && most <= 5.0, "body_measures", w_.body_measures.owners()[row], "",
+                  "lengths of 0.05 to 5 m");
+        }
+        for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
+            const double since_s = w_.spine_memory.rows()[row].since_tick_s;
+            check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[row],
+                  ".since_tick_s", "a time in [0, 1] s");
+        }
+    }
+
     void check_hands() {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
         require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
+        require_both("hand_owner", w_.hand_owner, "palm_pose", w_.palm_pose);
         require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {

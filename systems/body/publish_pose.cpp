@@ -3,6 +3,7 @@
 #include "components/play_space.hpp"
 
 namespace handhold {
+
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
     for (std::size_t row = 0; row < io.render.size(); ++row) {
         const Entity player = io.render.owners()[row];

@@ -78,6 +78,10 @@ TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
     expect_all_fields_visited<RenderPose::Hand>("RenderPose::Hand");
     expect_all_fields_visited<FingerAngles>("FingerAngles");
     expect_all_fields_visited<HandHistory::Entry>("HandHistory::Entry");
+    expect_all_fields_visited<ArmMemory::Arm>("ArmMemory::Arm");
+    expect_all_fields_visited<ArmEstimate::Arm>("ArmEstimate::Arm");
+    expect_all_fields_visited<ArmPose::Arm>("ArmPose::Arm");
+    expect_all_fields_visited<SpinePose::Leg>("SpinePose::Leg");
 }
 
 TEST(Columns, EveryColumnOfTheWorldIsVisitedOnce) {
@@ -266,8 +270,9 @@ TEST(Tuning, EveryMemberOfEveryGroupIsVisited) {
     constexpr std::size_t k_members =
         member_count<TrackingTuning>() + member_count<HandTuning>() + member_count<HeadTuning>() +
         member_count<LocomotionTuning>() + member_count<PhaseTuning>() +
-        member_count<ContactTuning>() + member_count<SolverTuning>();
-    static_assert(member_count<Tuning>() == 7, "a new group belongs into the sum above");
+        member_count<ContactTuning>() + member_count<SolverTuning>() + member_count<ArmTuning>() +
+        member_count<SpineTuning>();
+    static_assert(member_count<Tuning>() == 9, "a new group belongs into the sum above");
     const Tuning tuning;
     std::set<const void*> fields;
     visit_tuning(tuning,

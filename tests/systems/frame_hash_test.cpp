@@ -69,6 +69,7 @@ class FieldChanger {
     void change_in_place(double& value) { value += 1.0; }
     void change_in_place(bool& value) { value = !value; }
     void change_in_place(Vec3& v) { v.z() += 1.0; }
+    void change_in_place(Quat& q) { q = q * rotation_about(Vec3::UnitX(), 0.5); }
     void change_in_place(Pose& pose) {
         pose.rotation = pose.rotation * rotation_about(Vec3::UnitX(), 0.5);
     }

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/lab/body_command.hpp"
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
 #include "tools/lab/lab_scene.hpp"
@@ -77,6 +78,14 @@ void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& opti
         ->check(CLI::Range(64, 4096));
 }
 
+void add_body_options(CLI::App& body, lab::BodyOptions& options) {
+    body.add_option("--in", options.in, "Heads and hands over time")->required();
+    body.add_option("--calib", options.calib, "Who they belong to")->required();
+    body.add_option("--out", options.out, "Chest, shoulders and elbows")->required();
+    body.add_option("--estimator", options.estimator, "The runtime's, or one to compare it with")
+        ->check(CLI::IsMember(lab::estimator_names()));
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
@@ -95,6 +104,10 @@ int main(int argc, char** argv) {
     CLI::App* const picture =
         app.add_subcommand("hands-picture", "Posed hands on a mesh as a sheet of pictures");
     add_hands_picture_options(*picture, picture_options);
+    lab::BodyOptions body_options;
+    CLI::App* const body =
+        app.add_subcommand("body", "Chest, shoulders and elbows from recorded heads and hands");
+    add_body_options(*body, body_options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -104,12 +117,16 @@ int main(int argc, char** argv) {
         const CLI::App& asked = solve->parsed()     ? *solve
                                 : grip->parsed()    ? *grip
                                 : picture->parsed() ? *picture
+                                : body->parsed()    ? *body
                                                     : app;
         std::fprintf(stderr, "%s\n%s", error.what(), asked.help().c_str());
         return k_exit_usage;
     }
     if (picture->parsed()) {
         return lab::hands_picture_command(picture_options);
+    }
+    if (body->parsed()) {
+        return lab::body_command(body_options);
     }
     return grip->parsed() ? lab::grip_command(grip_options) : lab::solve_command(options);
 }

@@ -1,0 +1,285 @@
+// Form and constants: regressions on motion capture of head, hands, chest and elbows
+// (docs/decisions.md); the shape is that of the talk's rows 19 to 22, with the line between the
+// hands added to the chest's facing.
+#include "systems/arm/estimate_arms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/anim/two_bone_ik.hpp"
+#include "engine/ecs/join.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_scale_eye_m = 1.6;
+
+// Faster than hands and heads move: what jumps farther in a frame was put there.
+constexpr double k_jump_speed_mps = 20.0;
+constexpr double k_jump_m = 0.15;
+
+double cross_y(const Vec3& a, const Vec3& b) { return a.z() * b.x() - a.x() * b.z(); }
+
+// A level vector turned about +Y by the angle whose cosine and sine are given.
+Vec3 turn_level(const Vec3& v, double cosine, double sine) {
+    return {cosine * v.x() + sine * v.z(), 0.0, cosine * v.z() - sine * v.x()};
+}
+
+// The rotation about +Y that carries -Z onto the level direction. Half angle without trigonometry.
+Quat level_rotation(const Vec3& facing) {
+    const double cosine = -facing.z();
+    const double sine = -facing.x();
+    if (cosine > -0.5) {
+        return Quat(1.0 + cosine, 0.0, sine, 0.0).normalized();
+    }
+    return Quat(std::abs(sine), 0.0, std::copysign(1.0 - cosine, sine), 0.0).normalized();
+}
+
+// Implicit Euler: the share of the way to go in dt_s.
+double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
+
+// How far the clavicle reaches out, by distance of the hand in arm lengths.
+double clavicle_reach_m(double distance) {
+    struct Knot {
+        double distance, reach_m;
+    };
+    constexpr std::array<Knot, 5> k_curve = {
+        {{0.0, 0.006}, {0.7, 0.010}, {0.85, 0.018}, {1.05, 0.032}, {1.2, 0.070}}};
+    for (std::size_t i = 1; i < k_curve.size(); ++i) {
+        if (distance < k_curve[i].distance) {
+            const Knot& a = k_curve[i - 1];
+            const Knot& b = k_curve[i];
+            return a.reach_m +
+                   (b.reach_m - a.reach_m) * (distance - a.distance) / (b.distance - a.distance);
+        }
+    }
+    return k_curve.back().reach_m;
+}
+
+Vec3 any_square_to(const Vec3& axis) {
+    const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
+    return (other - axis * axis.dot(other)).normalized();
+}
+
+bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
+    return (now - before).norm() > k_jump_m + k_jump_speed_mps * dt_s;
+}
+
+struct Player {
+    const Pose& head_ps;
+    const BodyMeasures& measures;
+};
+
+// What one step of the memory needs beside it.
+struct Step {
+    double dt_s = 0.0;
+    bool afresh = false;
+    double upper_m = 0.0;
+    double arm_m = 0.0;
+    const Quat& torso_ps;
+    const ArmTuning& tuning;
+};
+
+void estimate_arm(const Step& step, HandSide side, const Vec3& rest_ps, ArmMemory::Arm& memory,
+                  ArmEstimate::Arm& out) {
+    const ArmTuning& tuning = step.tuning;
+    const double arm_m = step.arm_m;
+    const double dt_s = step.dt_s;
+    const bool afresh = step.afresh;
+    const Quat to_torso = step.torso_ps.conjugate();
+    const Pose& hand_ps = out.hand_ps;
+    const Vec3 hand_rest_ts = to_torso * (hand_ps.position - rest_ps);
+    Vec3 shoulder_ts = clavicle_shift(hand_rest_ts / arm_m, tuning);
+    shoulder_ts += shoulder_follow(hand_rest_ts - shoulder_ts, arm_m, tuning);
+    const Vec3 reach_ts = hand_rest_ts - shoulder_ts;
+    const double distance = reach_ts.norm();
+    const Vec3 axis_ts = distance > 1e-6 ? Vec3(reach_ts / distance) : memory.axis_ts;
+    const Vec3 pole_ts = elbow_pole(to_torso * hand_ps.rotation, side, tuning);
+    const bool fresh = afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    if (fresh) {
+        const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
+        const double length = aside.norm();
+        memory.bend_ts = length > 1e-6 ? Vec3(aside / length) : any_square_to(axis_ts);
+    } else {
+        memory.bend_ts = follow_pole(memory, axis_ts, pole_ts, dt_s, tuning);
+    }
+    memory.axis_ts = axis_ts;
+    memory.hand_ts = hand_rest_ts;
+    const double stretch = std::max(1.0, distance / (tuning.reach * arm_m));
+    memory.elbow_ts = solve_two_bone_ik({stretch * step.upper_m, stretch * (arm_m - step.upper_m),
+                                         Vec3::Zero(), reach_ts, memory.bend_ts});
+    out.shoulder_ps = rest_ps + step.torso_ps * shoulder_ts;
+    out.bend_ps = step.torso_ps * memory.bend_ts;
+    out.stretch = stretch;
+}
+
+void estimate_player(const Player& player, double dt_s, const ArmTuning& tuning, ArmMemory& memory,
+                     ArmEstimate& out) {
+    const double arm_m = player.measures.upper_arm_m + player.measures.forearm_m;
+    const Vec3 eye_ps = player.head_ps.position;
+    const bool afresh = !memory.known || has_jumped(memory.head_ps, eye_ps, dt_s);
+    const Vec3 look_ps = level_look(player.head_ps.rotation);
+    memory.look_ps =
+        afresh ? look_ps : follow_look(memory.look_ps, look_ps, dt_s, tuning.head_lag_s);
+    memory.head_ps = eye_ps;
+    memory.known = true;
+    const auto reach = [&](std::size_t side) {
+        const Pose& hand_ps = out.arms[side].hand_ps;
+        return HandReach{(hand_ps.position - eye_ps) / arm_m, hand_ps.rotation * Vec3::UnitY()};
+    };
+    const Quat lean = chest_lean(player.head_ps.rotation, tuning.lean);
+    const Vec3 facing_ps = chest_facing(memory.look_ps, lean, {reach(0), reach(1)}, tuning);
+    memory.facing_ps =
+        afresh ? facing_ps
+               : turn_at_most(memory.facing_ps, facing_ps, dt_s * tuning.chest_speed_radps);
+    out.facing_ps = memory.facing_ps;
+    const Quat level_ps = level_rotation(out.facing_ps);
+    out.chest_ps.rotation = (lean * level_ps).normalized();
+    const double scale = player.measures.eye_height_m / k_scale_eye_m;
+    out.chest_ps.position = shoulder_middle(player.head_ps, out.chest_ps.rotation, scale, tuning);
+    const Vec3 right_ps =
+        out.chest_ps.rotation * Vec3(0.5 * player.measures.shoulder_width_m, 0.0, 0.0);
+    const Step step{dt_s, afresh, player.measures.upper_arm_m, arm_m, level_ps, tuning};
+    estimate_arm(step, HandSide::left, out.chest_ps.position - right_ps, memory.arms[0],
+                 out.arms[0]);
+    estimate_arm(step, HandSide::right, out.chest_ps.position + right_ps, memory.arms[1],
+                 out.arms[1]);
+}
+
+}  // namespace
+
+Vec3 level_look(const Quat& head_ps) {
+    const Vec3 ahead = head_ps * -Vec3::UnitZ();
+    const Vec3 up = head_ps * Vec3::UnitY();
+    // From 45 degrees of pitch on, fully at 90: sine of the pitch.
+    const double pitch = ahead.y();
+    const double blend = smooth_step(std::abs(pitch), 0.70710678118654752, 1.0);
+    const Vec3 look = (1.0 - blend) * ahead + (pitch > 0.0 ? -blend : blend) * up;
+    const double length = std::sqrt(look.x() * look.x() + look.z() * look.z());
+    return length > 1e-9 ? Vec3(look.x() / length, 0.0, look.z() / length) : Vec3(-Vec3::UnitZ());
+}
+
+Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double dt_s, double lag_s) {
+    const double angle = arc_tangent2(cross_y(look_ps, now_ps), look_ps.dot(now_ps));
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(angle * follow_share(dt_s, lag_s), sine, cosine);
+    return turn_level(look_ps, cosine, sine).normalized();
+}
+
+Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
+    const double sine_now = cross_y(facing_ps, now_ps);
+    const double cosine_now = facing_ps.dot(now_ps);
+    // Most frames turn by less, and need no trigonometry to see it: sin x > 0.9 x below 0.7.
+    if (cosine_now > 0.75 && std::abs(sine_now) <= 0.9 * most_rad) {
+        return now_ps;
+    }
+    const double angle = arc_tangent2(sine_now, cosine_now);
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(std::clamp(angle, -most_rad, most_rad), sine, cosine);
+    return turn_level(facing_ps, cosine, sine).normalized();
+}
+
+Quat chest_lean(const Quat& head_ps, double share) {
+    const Vec3 up = (1.0 - share) * Vec3::UnitY() + share * (head_ps * Vec3::UnitY());
+    const double length = up.norm();
+    return length > 0.1 ? rotation_between(Vec3::UnitY(), up / length) : Quat::Identity();
+}
+
+Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
+                  const std::array<HandReach, k_hand_count>& hands_ps, const ArmTuning& tuning) {
+    // In the frame of the look, leaning: x to its right, z back.
+    const Quat unlean = lean_ps.conjugate();
+    std::array<Vec3, k_hand_count> hand;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const Vec3 v = unlean * hands_ps[side].position;
+        hand[side] = {look_ps.x() * v.z() - look_ps.z() * v.x(), v.y(), -look_ps.dot(v)};
+        if (tuning.behind_fade > 0.0) {
+            hand[side] *= 1.0 - tuning.behind_fade * smooth_step(hand[side].z(), 0.0, 0.4);
+        }
+    }
+    const Vec3 line = hand[1] - hand[0];
+    const double rolled = (unlean * hands_ps[1].back).y() - (unlean * hands_ps[0].back).y();
+    const double right = tuning.hand_share * (hand[0].x() + hand[1].x()) +
+                         tuning.line_share * line.z() + tuning.roll_share * rolled;
+    const double ahead = 1.0 - tuning.hand_share * (hand[0].z() + hand[1].z()) +
+                         tuning.line_share * std::max(line.x(), 0.0);
+    const double angle = arc_tangent2(-right, ahead);
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(std::clamp(angle, -tuning.chest_limit_rad, tuning.chest_limit_rad), sine, cosine);
+    return turn_level(look_ps, cosine, sine).normalized();
+}
+
+Vec3 shoulder_middle(const Pose& head_ps, const Quat& chest_ps, double scale,
+                     const ArmTuning& tuning) {
+    const Vec3 up_ps = head_ps.rotation * Vec3::UnitY();
+    return head_ps.position + scale * (chest_ps * tuning.shoulder_offset_m - tuning.neck_m * up_ps);
+}
+
+Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning) {
+    const double distance = hand.norm();
+    const double reach_m = tuning.clavicle_share * clavicle_reach_m(distance);
+    return Vec3(0.0, hand.y() + tuning.clavicle_lift, hand.z()) *
+           (reach_m / std::max(distance, 0.3));
+}
+
+Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning) {
+    const double distance = hand_m.norm();
+    const double beyond = distance - tuning.reach * arm_m;
+    return beyond <= 0.0 ? Vec3(Vec3::Zero())
+                         : Vec3(hand_m * (std::min(beyond, tuning.shoulder_follow_m) / distance));
+}
+
+Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning) {
+    const double out = side == HandSide::right ? 1.0 : -1.0;
+    const Vec3 in_hand(-out * tuning.pole_thumb, tuning.pole_back, -tuning.pole_fingers);
+    Vec3 pole = hand_ts * in_hand + tuning.pole_rest;
+    pole.x() += (out - 1.0) * tuning.pole_rest.x();
+    return pole;
+}
+
+Vec3 follow_pole(const ArmMemory::Arm& arm, const Vec3& axis_ts, const Vec3& pole_ts, double dt_s,
+                 const ArmTuning& tuning) {
+    const Vec3 carried = rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts;
+    // How bent the arm was: the elbow's way off the line, by the upper arm. Where it is little,
+    // where the elbow was says nothing about its side.
+    const double upper_m = std::max(arm.elbow_ts.norm(), 1e-9);
+    const double bent = arm.elbow_ts.dot(arm.bend_ts) / upper_m;
+    const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);
+    const Vec3 side_then = (1.0 - stays) * carried + (stays / upper_m) * arm.elbow_ts;
+    Vec3 bend = side_then - axis_ts * axis_ts.dot(side_then);
+    const double bend_length = bend.norm();
+    bend = bend_length > 1e-6 ? Vec3(bend / bend_length) : any_square_to(axis_ts);
+    const Vec3 side = axis_ts.cross(bend);
+    const double x = bend.dot(pole_ts);
+    const double y = side.dot(pole_ts);
+    // How clearly the pole points to a side: near the axis it says nothing.
+    const double length = pole_ts.norm();
+    const double clear = std::sqrt(x * x + y * y) / std::max(length, 1e-9);
+    const double share = follow_share(dt_s * smooth_step(clear, 0.0, 0.5), tuning.swivel_lag_s);
+    const double most = dt_s * tuning.swivel_speed_radps;
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(std::clamp(share * arc_tangent2(y, x), -most, most), sine, cosine);
+    return (cosine * bend + sine * side).normalized();
+}
+
+void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const HandOwner& owner = io.owner.rows()[row];
+        const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
+        io.estimate.at(owner.player).arms[index_of(owner.side)].hand_ps =
+            inverse(io.origin.at(owner.player).pose_ws) * palm_ws;
+    }
+    join(
+        io.estimate,
+        [&](Entity, ArmEstimate& out, ArmMemory& memory, const HeadTracking& head,
+            const BodyMeasures& measures) {
+            estimate_player({head.pose_ps, measures}, io.dt_s, tuning, memory, out);
+        },
+        io.memory, io.head, io.measures);
+}
+
+}  // namespace handhold

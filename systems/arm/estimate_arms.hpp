@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+
+#include "components/arm.hpp"
+#include "components/body_tuning.hpp"
+#include "components/grab.hpp"
+#include "components/hand.hpp"
+#include "components/player.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct EstimateArmsIo {
+    double dt_s = 0.0;                     // in: > 0
+    const Column<PlayerOrigin>& origin;    // in
+    const Column<HeadTracking>& head;      // in
+    const Column<BodyMeasures>& measures;  // in: every player
+    const Column<HandOwner>& owner;        // in
+    const Column<PalmPose>& palm;          // in: hands as they are shown
+    Column<ArmMemory>& memory;             // in/out
+    Column<ArmEstimate>& estimate;         // out
+};
+
+// Stage 12. Chest, shoulders and the side of each elbow of every player, from his head and hands:
+// rows 19 to 22 of the talk. In play space throughout, so that a player may hang upside down or
+// turn with a ship. Where the head or a hand jumps, the memory starts afresh.
+void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning);
+
+// The steps of it, each for one player. A level direction is a unit vector without y.
+
+// Where the head looks, level. Beyond 45 degrees of pitch its up (looking up: the opposite) joins
+// in.
+Vec3 level_look(const Quat& head_ps);
+
+// `look_ps` turned towards `now_ps` as a low-pass filter of `lag_s` does in `dt_s`; both level.
+// Implicit: a steady turn lags by lag_s at any frame rate.
+Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double dt_s, double lag_s);
+
+// `facing_ps` turned towards `now_ps` by at most `most_rad`; both level.
+Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad);
+
+// How the chest leans: the rotation of play space's up by a share of the head's tilt.
+Quat chest_lean(const Quat& head_ps, double share);
+
+// A hand against the eyes.
+struct HandReach {
+    Vec3 position;  // in arm lengths
+    Vec3 back;      // the back of the hand, unit
+};
+// Where the chest faces, level, from where the head does and the hands as the leaning chest sees
+// them: their sum turns it a little, the line between them is what it is square to, and hands that
+// roll turn it along.
+Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
+                  const std::array<HandReach, k_hand_count>& hands_ps, const ArmTuning& tuning);
+
+// The middle between the shoulders: it pivots under the eyes about the neck, and leans.
+Vec3 shoulder_middle(const Pose& head_ps, const Quat& chest_ps, double scale,
+                     const ArmTuning& tuning);
+
+// How far the clavicle moves the shoulder towards a hand at `hand` from it, in torso axes and arm
+// lengths; metres.
+Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
+
+// How far a shoulder follows a hand at `hand_m` that the arm does not reach; both from the
+// shoulder.
+Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
+
+// To which side the elbow of a hand points, not of unit length; torso axes.
+Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning);
+
+// The elbow's side square to the line to the hand, low-passed about that line towards the pole.
+// `arm` has the last frame's; `axis_ts` is the line now. The side goes along with the line without
+// turning about it where the arm is straight; a bent arm's elbow rather stays where it was.
+Vec3 follow_pole(const ArmMemory::Arm& arm, const Vec3& axis_ts, const Vec3& pole_ts, double dt_s,
+                 const ArmTuning& tuning);
+
+}  // namespace handhold

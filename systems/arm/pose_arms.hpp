@@ -1,0 +1,24 @@
+#pragma once
+
+#include "components/arm.hpp"
+#include "components/grab.hpp"
+#include "components/hand.hpp"
+#include "components/player.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct PoseArmsIo {
+    const Column<PlayerOrigin>& origin;    // in
+    const Column<BodyMeasures>& measures;  // in: every player
+    const Column<HandOwner>& owner;        // in
+    const Column<PalmPose>& palm;          // in
+    const Column<ArmEstimate>& estimate;   // in
+    Column<ArmPose>& arms;                 // out
+};
+
+// Stage 13. The arms' joints in the world: two-bone IK from the estimated shoulder to the palm. The
+// hand's joint is the palm's pose, bit for bit: where the arm is too short both bones stretch.
+void pose_arms(const PoseArmsIo& io);
+
+}  // namespace handhold

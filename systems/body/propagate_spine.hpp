@@ -1,0 +1,29 @@
+#pragma once
+
+#include "components/arm.hpp"
+#include "components/body_tuning.hpp"
+#include "components/player.hpp"
+#include "components/spine.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct PropagateSpineIo {
+    double dt_s = 0.0;                           // in: > 0
+    const Column<PlayerOrigin>& origin;          // in
+    const Column<PlayerVelocity>& velocity;      // in
+    const Column<ReferenceVelocity>& reference;  // in
+    const Column<BodyMeasures>& measures;        // in
+    const Column<ArmEstimate>& estimate;         // in: the chest
+    Column<SpineMemory>& memory;                 // in/out
+    Column<SpinePose>& pose;                     // out
+};
+
+// Stage 14. Spine and legs of every player: momentum snakes down from the chest, link by link.
+// Ticks at 120 Hz whatever the frame rate; what is shown lies between two ticks. Only velocities
+// count, against the reference velocity, and the chest's own motion in play space: turning the play
+// space, and whatever puts a player elsewhere, takes the chain along unmoved. Where the chest jumps
+// the chain starts at rest. Of a frame longer than half a second only half a second is played.
+void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);
+
+}  // namespace handhold

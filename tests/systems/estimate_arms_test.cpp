@@ -1,0 +1,193 @@
+#include "systems/arm/estimate_arms.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "column_scene.hpp"
+#include "systems/arm/pose_arms.hpp"
+
+namespace handhold {
+namespace {
+
+using test::k_left;
+using test::k_pi;
+using test::k_player;
+using test::k_right;
+using test::mirrored;
+using test::Random;
+
+// One player in columns; head and hands in play space.
+struct Arms {
+    Column<PlayerOrigin> origin;
+    Column<HeadTracking> head;
+    Column<BodyMeasures> measures;
+    Column<HandOwner> owner;
+    Column<PalmPose> palm;
+    Column<ArmMemory> memory;
+    Column<ArmEstimate> estimate;
+    Column<ArmPose> pose;
+    ArmTuning tuning;
+
+    explicit Arms(const Pose& origin_ws = {}) {
+        origin.add(k_player, {origin_ws});
+        head.add(k_player);
+        measures.add(k_player);
+        memory.add(k_player);
+        estimate.add(k_player);
+        pose.add(k_player);
+        owner.add(k_left, {k_player, HandSide::left});
+        owner.add(k_right, {k_player, HandSide::right});
+        palm.add(k_left);
+        palm.add(k_right);
+    }
+    const ArmPose& step(const Pose& head_ps, const Pose& left_ps, const Pose& right_ps,
+                        double dt_s = 1.0 / 90.0) {
+        const Pose& at = origin.at(k_player).pose_ws;
+        head.at(k_player).pose_ps = head_ps;
+        palm.at(k_left).pose_ws = at * left_ps;
+        palm.at(k_right).pose_ws = at * right_ps;
+        estimate_arms({dt_s, origin, head, measures, owner, palm, memory, estimate}, tuning);
+        pose_arms({origin, measures, owner, palm, estimate, pose});
+        return pose.at(k_player);
+    }
+};
+
+const Pose k_head{Vec3(0.0, 1.62, 0.0), Quat::Identity()};
+const Pose k_left_hand{Vec3(-0.25, 1.2, -0.3), Quat::Identity()};
+const Pose k_right_hand{Vec3(0.25, 1.2, -0.3), Quat::Identity()};
+
+Pose turned(const Pose& pose, double yaw_rad) {
+    return Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), yaw_rad)} * pose;
+}
+Vec3 elbow(const ArmPose& pose, std::size_t side) { return pose.arms[side].forearm_ws.position; }
+
+TEST(EstimateArms, HandsHeldAlikeLeaveTheChestWhereTheHeadLooks) {
+    Arms arms;
+    arms.step(k_head, k_left_hand, k_right_hand);
+    EXPECT_LT((arms.estimate.at(k_player).facing_ps + Vec3::UnitZ()).norm(), 1e-12);
+}
+
+TEST(EstimateArms, HandJointIsThePalmBitForBit) {
+    Random random(3);
+    Arms arms({Vec3(1e4, -7.0, 3.0), random.rotation()});
+    for (int i = 0; i < 200; ++i) {
+        const ArmPose& pose = arms.step(random.pose(1.0), random.pose(1.5), random.pose(1.5));
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            const Pose& palm = arms.palm.rows()[side].pose_ws;
+            EXPECT_EQ(pose.arms[side].hand_ws.position, palm.position);
+            EXPECT_EQ(pose.arms[side].hand_ws.rotation.coeffs(), palm.rotation.coeffs());
+        }
+    }
+}
+
+TEST(EstimateArms, MirroredPlayerHasMirroredArms) {
+    Random random(5);
+    Arms arms;
+    Arms mirror;
+    for (int i = 0; i < 100; ++i) {
+        const Pose head{k_head.position + random.vector(0.05), random.rotation()};
+        const Pose left = random.pose(1.0);
+        const Pose right = random.pose(1.0);
+        const ArmPose& a = arms.step(head, left, right);
+        const ArmPose& b = mirror.step(mirrored(head), mirrored(right), mirrored(left));
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            EXPECT_LT((mirrored(elbow(a, side)) - elbow(b, 1 - side)).norm(), 1e-9);
+        }
+    }
+}
+
+TEST(EstimateArms, TurnedRoomTurnsEverything) {
+    Arms arms;
+    Arms other;
+    for (int i = 0; i < 50; ++i) {
+        const double sway = 0.1 * std::sin(0.2 * i);
+        const Pose left{k_left_hand.position + Vec3(0.0, sway, sway), k_left_hand.rotation};
+        const ArmPose& a = arms.step(k_head, left, k_right_hand);
+        const ArmPose& b =
+            other.step(turned(k_head, 2.0), turned(left, 2.0), turned(k_right_hand, 2.0));
+        const Quat turn = rotation_about(Vec3::UnitY(), 2.0);
+        EXPECT_LT((turn * elbow(a, 0) - elbow(b, 0)).norm(), 1e-9);
+    }
+}
+
+TEST(EstimateArms, PlayerUpsideDownHasTheSameArms) {
+    Arms upright;
+    Arms hanging({Vec3(3.0, 20.0, -5.0), rotation_about(Vec3::UnitZ(), k_pi)});
+    const ArmPose& a = upright.step(k_head, k_left_hand, k_right_hand);
+    const ArmPose& b = hanging.step(k_head, k_left_hand, k_right_hand);
+    EXPECT_LT(
+        (transform_point(hanging.origin.at(k_player).pose_ws, elbow(a, 1)) - elbow(b, 1)).norm(),
+        1e-9);
+}
+
+TEST(EstimateArms, SteadyTurnOfTheHeadLagsByTheLagAtAnyRate) {
+    const double speed_radps = 0.8;
+    for (const double hz : {30.0, 90.0, 144.0}) {
+        Vec3 look = -Vec3::UnitZ();
+        double yaw = 0.0;
+        for (int i = 0; i < static_cast<int>(4.0 * hz); ++i) {
+            yaw += speed_radps / hz;
+            const Vec3 now(-std::sin(yaw), 0.0, -std::cos(yaw));
+            look = follow_look(look, now, 1.0 / hz, 0.3);
+        }
+        const double lag = std::remainder(yaw - std::atan2(-look.x(), -look.z()), 2.0 * k_pi);
+        EXPECT_NEAR(lag, speed_radps * 0.3, 1e-4) << hz;
+    }
+}
+
+TEST(EstimateArms, HandOutOfReachTakesTheShoulderAlongThenStretches) {
+    const ArmTuning tuning;
+    EXPECT_EQ(shoulder_follow(Vec3(0.0, 0.0, -0.5), 0.58, tuning), Vec3::Zero());
+    const Vec3 some = shoulder_follow(Vec3(0.0, 0.0, -0.60), 0.58, tuning);
+    EXPECT_NEAR(-some.z(), 0.60 - 0.58 * tuning.reach, 1e-12);
+    const Vec3 most = shoulder_follow(Vec3(0.0, 0.0, -3.0), 0.58, tuning);
+    EXPECT_NEAR(-most.z(), tuning.shoulder_follow_m, 1e-12);
+}
+
+// Smooth ways through everything that is awkward: the elbow goes no faster than a few times what
+// the hand does, and every number is finite.
+TEST(EstimateArms, NothingPopsWhereHandsCrossReachTouchTheShoulderOrGoBehind) {
+    for (const double hz : {30.0, 72.0, 90.0, 144.0}) {
+        Arms arms;
+        Vec3 before[k_hand_count];
+        for (int i = 0; i < static_cast<int>(12.0 * hz); ++i) {
+            const double t = i / hz;
+            // Rings of changing size about each shoulder: crossed, behind, at full reach and at
+            // the shoulder, slow enough for a person.
+            const auto hand = [t](double side) {
+                const double size = 0.36 + 0.35 * std::sin(0.4 * t + side);
+                return Pose{Vec3(0.19 * side + size * std::sin(1.1 * t),
+                                 1.4 + size * std::sin(0.7 * t + 1.0), size * std::cos(1.1 * t)),
+                            rotation_about(Vec3::UnitY(), 0.5 * std::sin(t))};
+            };
+            const ArmPose& pose = arms.step(k_head, hand(-1.0), hand(1.0), 1.0 / hz);
+            for (std::size_t side = 0; side < k_hand_count; ++side) {
+                ASSERT_TRUE(is_finite(elbow(pose, side)));
+                if (i > 0) {
+                    ASSERT_LT((elbow(pose, side) - before[side]).norm() * hz, 9.0)
+                        << "at " << t << " s, " << hz << " Hz";
+                }
+                before[side] = elbow(pose, side);
+            }
+        }
+    }
+}
+
+TEST(EstimateArms, TeleportsAndNonsenseStayFinite) {
+    Random random(11);
+    Arms arms;
+    for (int i = 0; i < 2000; ++i) {
+        const double size = i % 7 == 0 ? 1e4 : 0.8;
+        const Pose head = random.pose(size);
+        const Pose left = i % 3 == 0 ? head : random.pose(size);
+        const ArmPose& pose = arms.step(head, left, random.pose(size), i % 5 == 0 ? 10.0 : 0.01);
+        for (const ArmPose::Arm& arm : pose.arms) {
+            ASSERT_TRUE(is_valid(arm.clavicle_ws) && is_valid(arm.upper_ws) &&
+                        is_valid(arm.forearm_ws));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold

@@ -1,0 +1,149 @@
+#include "tools/lab/body_command.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "engine/io/text_file.hpp"
+#include "game/progress.hpp"
+#include "systems/arm/estimate_arms.hpp"
+#include "systems/arm/pose_arms.hpp"
+#include "tools/lab/body_baselines.hpp"
+#include "tools/lab/body_files.hpp"
+
+namespace handhold::lab {
+namespace {
+
+constexpr int k_exit_file = 2;
+constexpr double k_first_frame_s = 1.0 / 90.0;
+
+int refuse(const FileError& error) {
+    std::fprintf(stderr, "handhold-lab: %s\n", error.message().c_str());
+    return k_exit_file;
+}
+
+// One player in the columns that the systems take, at the origin of the world.
+class OnePlayer {
+  public:
+    explicit OnePlayer(std::string estimator) : estimator_(std::move(estimator)) {
+        EntityPool pool;
+        player_ = pool.create();
+        origin_.add(player_);
+        head_.add(player_);
+        measures_.add(player_);
+        memory_.add(player_);
+        estimate_.add(player_);
+        arms_.add(player_);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            hands_[side] = pool.create();
+            owner_.add(hands_[side], {player_, side == 0 ? HandSide::left : HandSide::right});
+            palm_.add(hands_[side]);
+        }
+    }
+
+    void start(const BodyMeasures& measures) {
+        measures_.at(player_) = measures;
+        memory_.at(player_) = {};
+    }
+
+    void step(const BodySample& sample, double dt_s) {
+        head_.at(player_).pose_ps = sample.head_ps;
+        ArmEstimate& estimate = estimate_.at(player_);
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            palm_.at(hands_[side]).pose_ws = sample.hands_ps[side];
+            estimate.arms[side].hand_ps = sample.hands_ps[side];
+        }
+        const BodyMeasures& measures = measures_.at(player_);
+        if (estimator_ == "naive") {
+            estimate_naive(sample.head_ps, measures, estimate);
+        } else if (estimator_ == "talk") {
+            estimate_as_talked(sample.head_ps, measures, estimate);
+        } else {
+            estimate_arms({dt_s, origin_, head_, measures_, owner_, palm_, memory_, estimate_}, {});
+        }
+        pose_arms({origin_, measures_, owner_, palm_, estimate_, arms_});
+    }
+
+    double chest_yaw_deg() const {
+        const Vec3& ahead = estimate_.at(player_).facing_ps;
+        return arc_tangent2(-ahead.x(), -ahead.z()) * 180.0 / std::numbers::pi;
+    }
+    const ArmPose& arms() const { return arms_.at(player_); }
+
+  private:
+    std::string estimator_;
+    Entity player_;
+    std::array<Entity, k_hand_count> hands_;
+    Column<PlayerOrigin> origin_;
+    Column<HeadTracking> head_;
+    Column<BodyMeasures> measures_;
+    Column<HandOwner> owner_;
+    Column<PalmPose> palm_;
+    Column<ArmMemory> memory_;
+    Column<ArmEstimate> estimate_;
+    Column<ArmPose> arms_;
+};
+
+void append_row(const BodySample& sample, const OnePlayer& player, std::string& text) {
+    const auto number = [&text](double value) {
+        char cell[40];
+        std::snprintf(cell, sizeof cell, ",%.6f", value);
+        text += cell;
+    };
+    const auto point = [&number](const Vec3& p) {
+        number(p.x());
+        number(p.y());
+        number(p.z());
+    };
+    text += std::to_string(sample.clip);
+    number(sample.t_s);
+    number(player.chest_yaw_deg());
+    for (const ArmPose::Arm& arm : player.arms().arms) {
+        point(arm.upper_ws.position);
+    }
+    for (const ArmPose::Arm& arm : player.arms().arms) {
+        point(arm.forearm_ws.position);
+    }
+    text += '\n';
+}
+
+}  // namespace
+
+std::vector<std::string> estimator_names() { return {"full", "talk", "naive"}; }
+
+int body_command(const BodyOptions& options) {
+    const auto samples = load_body_samples(options.in);
+    if (!samples) {
+        return refuse(samples.error());
+    }
+    const auto measures = load_body_measures(options.calib);
+    if (!measures) {
+        return refuse(measures.error());
+    }
+    std::string text =
+        "clip,t,chest_yaw_deg,lshx,lshy,lshz,rshx,rshy,rshz,lelx,lely,lelz,relx,rely,relz\n";
+    OnePlayer player(options.estimator);
+    Progress progress("body");
+    const std::vector<BodySample>& rows = samples.value();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const bool first = row == 0 || rows[row - 1].clip != rows[row].clip;
+        if (first) {
+            const auto found = measures.value().find(rows[row].clip);
+            if (found == measures.value().end()) {
+                return refuse({options.in.string(), "line " + std::to_string(row + 2),
+                               "expected a clip that " + options.calib.string() + " has, found " +
+                                   std::to_string(rows[row].clip)});
+            }
+            player.start(found->second);
+        }
+        player.step(rows[row], first ? k_first_frame_s : rows[row].t_s - rows[row - 1].t_s);
+        append_row(rows[row], player, text);
+        progress.show(static_cast<double>(row + 1) / static_cast<double>(rows.size()));
+    }
+    if (const auto error = write_file_atomically(options.out, text)) {
+        return refuse(*error);
+    }
+    return 0;
+}
+
+}  // namespace handhold::lab
