@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -37,9 +36,9 @@ inline Corners corners_of(const PlacedMesh& placed, std::uint32_t triangle) {
             transform_point(placed.pose, graph.positions[c])};
 }
 
-// Negative: sunk so deep.
+// Negative: sunk so deep. What is farther than 2 cm counts as that far.
 inline double gap_m(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double least_m = capsule.radius_m + 0.02;
     const Vec3 low = capsule.ends[0].cwiseMin(capsule.ends[1]);
     const Vec3 high = capsule.ends[0].cwiseMax(capsule.ends[1]);
     for (const PlacedMesh& placed : meshes) {
