@@ -74,7 +74,7 @@ struct DiscScratch {
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch);
 
-// Distance between two segments, metres; 0 where they cross. Within 1e-7 m for coordinates below
+// Distance between two segments, metres; 0 where they cross. Within 5e-7 m for coordinates below
 // 1 m.
 double disc_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1);
 

@@ -1,0 +1,294 @@
+#include "engine/geometry/chain_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "allocation_count.hpp"
+#include "sunk_oracle.hpp"
+#include "surface_cuts.hpp"
+
+namespace handhold {
+namespace {
+
+using test::Random;
+
+constexpr double k_rad_per_deg = M_PI / 180.0;
+
+// An index finger, stretched along -Z, that curls down.
+HingeChain finger_at(const Pose& base) {
+    HingeChain chain;
+    chain.base = base;
+    chain.length_m = {0.045, 0.026, 0.022};
+    chain.radius_m = {0.009, 0.008, 0.007};
+    chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
+    chain.relaxed_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
+    return chain;
+}
+
+ChainFit fit(const HingeChain& chain, std::span<const PlacedMesh> meshes) {
+    ChainFitScratch scratch;
+    ChainSeed seed;
+    if (!meshes.empty()) {
+        const Vec3 base = inverse_transform_point(meshes[0].pose, chain.base.position);
+        if (const auto near = meshes[0].mesh->search_bvh.closest_point(base, 0.2)) {
+            seed = {near->triangle, near->point};
+        }
+    }
+    return fit_chain(chain, meshes, seed, {}, scratch);
+}
+
+double chain_gap_m(const HingeChain& chain, const ChainFit& fitted,
+                   std::span<const PlacedMesh> meshes) {
+    double least_m = 1.0;
+    const auto capsules = chain_capsules(chain, fitted.angle_rad);
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        least_m = std::min(least_m, test::gap_m(capsules[i], meshes));
+    }
+    return least_m;
+}
+
+// Knuckles 1 to 3 cm over the surface at the origin, whose outside is up; the finger tilted and
+// rolled by at most so much.
+Pose over_origin(double tilt_rad, double roll_rad, Random& random) {
+    const Quat tilt = rotation_about(Vec3::UnitX(), random.between(-tilt_rad, tilt_rad));
+    const Quat roll = rotation_about(Vec3::UnitZ(), random.between(-roll_rad, roll_rad));
+    const Quat turn = rotation_about(Vec3::UnitY(), random.between(-M_PI, M_PI));
+    const double height_m = random.between(0.012, 0.03);
+    const double back_m = random.between(0.0, 0.04);
+    return {turn * Vec3(0.0, height_m, back_m), (turn * tilt * roll).normalized()};
+}
+
+// Simplified, a mirrored mesh is not the mirror of what the mesh becomes.
+GripMeshSettings at_full_detail() {
+    GripMeshSettings settings;
+    settings.contact.deviation_m = 0.0;
+    return settings;
+}
+
+struct Scene {
+    GripMesh mesh;
+    std::vector<PlacedMesh> placed;
+    explicit Scene(const Mesh& source, const Pose& pose = {})
+        : mesh(build_grip_mesh(source, at_full_detail())), placed{{&mesh, pose}} {}
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+};
+
+Mesh lowered(Mesh mesh, double by_m) {
+    for (Vec3& position : mesh.positions) {
+        position.y() -= by_m;
+    }
+    return mesh;
+}
+
+// Stretched it touches nothing yet.
+HingeChain clear_finger(const Scene& scene, double tilt_rad, double roll_rad, Random& random) {
+    for (;;) {
+        const HingeChain chain = finger_at(over_origin(tilt_rad, roll_rad, random));
+        if (chain_gap_m(chain, ChainFit{}, scene.placed) > 2e-4) {
+            return chain;
+        }
+    }
+}
+
+// Every fit that says it touches: not off by more than 0.1 mm, not sunk by more than sunk_m.
+void expect_touching(const Scene& scene, double tilt_rad, double roll_rad, double sunk_m,
+                     std::uint64_t seed) {
+    Random random(seed);
+    int touching = 0;
+    for (int i = 0; i < 150; ++i) {
+        const HingeChain chain = clear_finger(scene, tilt_rad, roll_rad, random);
+        const ChainFit fitted = fit(chain, scene.placed);
+        const double gap = chain_gap_m(chain, fitted, scene.placed);
+        EXPECT_NEAR(fitted.depth_m, std::max(0.0, -gap), 1e-7) << "case " << i;
+        EXPECT_GT(gap, -sunk_m) << "case " << i;
+        if (fitted.contact_link != DiscClosure::k_none &&
+            (fitted.fallback == ChainFallback::none ||
+             fitted.fallback == ChainFallback::all_cuts)) {
+            ++touching;
+            EXPECT_LT(gap, 1e-4) << "case " << i;
+        }
+    }
+    EXPECT_GT(touching, 100);
+}
+
+TEST(FitChain, LaysFingersOnAPlane) {
+    const Scene scene(*test::make_floor(0.5, 25));
+    expect_touching(scene, 0.2, 0.0, 1e-4, 1701);
+    expect_touching(scene, 0.2, 0.35, 1e-3, 1702);
+}
+
+TEST(FitChain, LaysFingersRoundABoxsEdge) {
+    const Scene scene(lowered(*test::make_box_mesh({0.02, 0.02, 0.15}), 0.02));
+    expect_touching(scene, 0.1, 0.1, 1e-3, 1703);
+}
+
+TEST(FitChain, LaysFingersRoundARail) {
+    const Scene scene(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
+    expect_touching(scene, 0.1, 0.1, 1e-3, 1704);
+}
+
+TEST(FitChain, OnAPlaneTheFirstLinkStopsWhereTrigonometrySays) {
+    // Flat over the floor, one link: its end's centre comes to the height of its radius.
+    const Scene scene(*test::make_floor(0.5, 25));
+    HingeChain chain = finger_at({Vec3(0.003, 0.02, 0.01), Quat::Identity()});
+    chain.link_count = 1;
+    const ChainFit fitted = fit(chain, scene.placed);
+    EXPECT_EQ(fitted.contact_link, 0);
+    const double exact_rad = std::asin((0.02 - 0.009) / 0.045);
+    EXPECT_NEAR(0.045 * fitted.angle_rad[0], 0.045 * exact_rad, 5e-5);
+}
+
+TEST(FitChain, IsTheSameInMovedAndTurnedWorldsTenKilometresAway) {
+    const Scene scene(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
+    Random random(1705);
+    double worst_rad = 0.0;
+    double worst_walked_m = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        const HingeChain chain = clear_finger(scene, 0.2, 0.2, random);
+        const Pose far = {1e4 * random.direction(), random.rotation()};
+        HingeChain moved = chain;
+        moved.base = far * chain.base;
+        const std::vector<PlacedMesh> moved_mesh = {{&scene.mesh, far}};
+        ChainFitScratch scratch;
+        const ChainFit here = fit_chain(chain, scene.placed, {}, {}, scratch);
+        const ChainFit there = fit_chain(moved, moved_mesh, {}, {}, scratch);
+        EXPECT_EQ(here.contact_link, there.contact_link);
+        for (std::size_t k = 0; k < 3; ++k) {
+            worst_rad = std::max(worst_rad, std::abs(here.angle_rad[k] - there.angle_rad[k]));
+        }
+        const Vec3 tip = chain_capsules(chain, fit(chain, scene.placed).angle_rad)[2].ends[1];
+        const Vec3 moved_tip = chain_capsules(chain, fit(moved, moved_mesh).angle_rad)[2].ends[1];
+        worst_walked_m = std::max(worst_walked_m, (tip - moved_tip).norm());
+    }
+    EXPECT_LT(worst_rad, 1e-6);
+    // Which of two triangles at an edge a walk begins in is decided by a rounding error, and with
+    // it which corners within 0.25 mm of its line are left out.
+    EXPECT_LT(worst_walked_m, 1.5e-3);
+}
+
+TEST(FitChain, OfAMirroredChainIsTheSame) {
+    Random random(1706);
+    const Mesh tube = lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175);
+    Mesh mirrored = tube;
+    for (Vec3& position : mirrored.positions) {
+        position.x() = -position.x();
+    }
+    for (auto& triangle : mirrored.triangles) {
+        std::swap(triangle[1], triangle[2]);
+    }
+    const Scene left(tube);
+    const Scene right(mirrored);
+    for (int i = 0; i < 100; ++i) {
+        const HingeChain chain = clear_finger(left, 0.2, 0.2, random);
+        HingeChain other = chain;
+        const Quat& q = chain.base.rotation;
+        other.base.position.x() = -chain.base.position.x();
+        other.base.rotation = Quat(q.w(), q.x(), -q.y(), -q.z());
+        ChainFitScratch scratch;
+        const ChainFit a = fit_chain(chain, left.placed, {}, {}, scratch);
+        const ChainFit b = fit_chain(other, right.placed, {}, {}, scratch);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(a.angle_rad[k], b.angle_rad[k], 1e-6) << "case " << i;
+        }
+    }
+}
+
+TEST(FitChain, WithNothingToTouchIsRelaxed) {
+    const Scene scene(*test::make_floor(0.5, 25));
+    const HingeChain chain = finger_at({Vec3(0.0, 0.3, 0.0), Quat::Identity()});
+    for (const auto meshes :
+         {std::span<const PlacedMesh>(scene.placed), std::span<const PlacedMesh>()}) {
+        const ChainFit fitted = fit(chain, meshes);
+        EXPECT_EQ(fitted.fallback, ChainFallback::relaxed);
+        EXPECT_EQ(fitted.contact_link, DiscClosure::k_none);
+        EXPECT_EQ(fitted.angle_rad, chain.relaxed_rad);
+        EXPECT_EQ(fitted.depth_m, 0.0);
+    }
+}
+
+TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
+    // A wall 6 cm before the knuckles: stretched, the last two links are in it or beyond.
+    Mesh wall = *test::make_box_mesh({0.3, 0.3, 0.1});
+    for (Vec3& position : wall.positions) {
+        position.z() -= 0.16;
+    }
+    const Scene scene(wall);
+    const HingeChain chain = finger_at({});
+    const ChainFit fitted = fit(chain, scene.placed);
+    EXPECT_EQ(fitted.fallback, ChainFallback::bent);
+    EXPECT_GT(chain_gap_m(chain, fitted, scene.placed), -8e-4);
+    EXPECT_LE(fitted.depth_m, 8e-4);
+    EXPECT_GT(fitted.angle_rad[1], 0.2);
+}
+
+TEST(FitChain, SecondMeshUnderTheFingerStopsItToo) {
+    const Scene floor(*test::make_floor(0.5, 25));
+    const GripMesh block = build_grip_mesh(*test::make_box_mesh({0.05, 0.005, 0.02}));
+    const HingeChain chain = finger_at({Vec3(0.0, 0.03, 0.0), Quat::Identity()});
+    std::vector<PlacedMesh> both = floor.placed;
+    both.push_back({&block, test::at({0.0, 0.005, -0.05})});
+    const ChainFit fitted = fit(chain, both);
+    const double gap = chain_gap_m(chain, fitted, both);
+    EXPECT_LT(gap, 1e-4);
+    EXPECT_GT(gap, -1e-3);
+    EXPECT_GT(chain_gap_m(chain, fit(chain, floor.placed), floor.placed), -1e-3);
+    EXPECT_LT(fitted.angle_rad[0], fit(chain, floor.placed).angle_rad[0] - 0.01);
+}
+
+TEST(FitChain, AllocatesNothingOnceWarm) {
+    if (!counts_allocations()) {
+        GTEST_SKIP() << "the sanitizers bring operators of their own";
+    }
+    const Scene scene(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
+    ChainFitScratch scratch;
+    std::size_t before = 0;
+    for (int round = 0; round < 2; ++round) {
+        Random random(1707);
+        before = allocation_count();
+        for (int i = 0; i < 50; ++i) {
+            const HingeChain chain = finger_at(over_origin(0.3, 0.3, random));
+            fit_chain(chain, scene.placed, {}, {}, scratch);
+            fit_chain(chain, scene.placed, {0, Vec3::Zero()}, {}, scratch);
+        }
+    }
+    EXPECT_EQ(allocation_count(), before);
+}
+
+TEST(FindSunk, IsTheDeepestOfAllTrianglesInAnyFrame) {
+    Random random(1708);
+    const GripMesh ball = build_grip_mesh(*test::make_wavy_ball(0.06, 16, 24));
+    const GripMesh box = build_grip_mesh(*test::make_box_mesh({0.04, 0.02, 0.03}));
+    int crossed = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Pose frame = {random.vector(3.0), random.rotation()};
+        const std::vector<PlacedMesh> meshes = {
+            {&ball, frame * test::at(random.vector(0.05), random.rotation())},
+            {&box, frame * test::at(random.vector(0.05), random.rotation())}};
+        Capsule capsule;
+        capsule.ends = {transform_point(frame, random.vector(0.1)),
+                        transform_point(frame, random.vector(0.1))};
+        capsule.radius_m = random.between(0.004, 0.012);
+        const SunkCapsule sunk = find_sunk(capsule, meshes);
+        EXPECT_NEAR(sunk.depth_m, std::max(0.0, -test::gap_m(capsule, meshes)), 1e-8) << i;
+        // The first of the surfaces on the way along the middle.
+        std::optional<double> first;
+        for (const PlacedMesh& placed : meshes) {
+            const auto hit = placed.mesh->contact_bvh.cast_ray(
+                inverse_transform_point(placed.pose, capsule.ends[0]),
+                inverse_transform_point(placed.pose, capsule.ends[1]));
+            if (hit) {
+                const double at = hit->distance_m / (capsule.ends[1] - capsule.ends[0]).norm();
+                first = std::min(first.value_or(1.0), at);
+            }
+        }
+        ASSERT_EQ(sunk.crossed_at.has_value(), first.has_value()) << i;
+        if (first) {
+            ++crossed;
+            EXPECT_NEAR(*sunk.crossed_at, *first, 1e-9) << i;
+        }
+    }
+    EXPECT_GT(crossed, 50);
+}
+
+}  // namespace
+}  // namespace handhold

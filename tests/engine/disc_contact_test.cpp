@@ -1,0 +1,370 @@
+#include "engine/geometry/disc_contact.hpp"
+
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "allocation_count.hpp"
+#include "disc_oracle.hpp"
+
+namespace handhold {
+namespace {
+
+using test::ClosingOracle;
+using test::Random;
+
+constexpr double k_promised_m = 5e-5;  // disc_contact.hpp: contacts are found within 0.05 mm
+
+int case_count() {
+    const char* const text = std::getenv("HANDHOLD_CHAIN_CASES");
+    return text != nullptr ? std::atoi(text) : 20000;
+}
+
+// One hinge, its link a stadium about the origin: every angle at which it just touches, in closed
+// form. By a corner of the segment: on the link's side, or on the round about its end; by the
+// segment's inside: on that round. Angles at which something else is in the way too are no touch.
+std::optional<double> first_touch_of_one_hinge(const DiscChain& chain, const DiscSegment& segment) {
+    const double length_m = chain.length_m[0];
+    const double radius_m = chain.radius_m[segment.plane][0];
+    std::vector<double> angles;
+    const auto add_about = [&](double middle, double cosine) {
+        if (std::abs(cosine) <= 1.0) {
+            angles.push_back(middle + std::acos(cosine));
+            angles.push_back(middle - std::acos(cosine));
+        }
+    };
+    for (const Vec2& corner : {segment.a_ds, segment.b_ds}) {
+        const double far_m = corner.norm();
+        const double middle = std::atan2(corner.y(), corner.x());
+        add_about(middle, (length_m * length_m + far_m * far_m - radius_m * radius_m) /
+                              (2.0 * length_m * far_m));
+        if (far_m >= radius_m) {
+            angles.push_back(middle - std::asin(radius_m / far_m));
+            angles.push_back(middle + std::asin(radius_m / far_m));
+        }
+    }
+    const Vec2 along = (segment.b_ds - segment.a_ds).normalized();
+    const Vec2 normal(-along.y(), along.x());
+    for (const double side : {-1.0, 1.0}) {
+        add_about(std::atan2(normal.y(), normal.x()),
+                  (normal.dot(segment.a_ds) + side * radius_m) / length_m);
+    }
+    std::optional<double> first;
+    const double way_rad = chain.closed_rad[0] - chain.open_rad[0];
+    for (const double angle : angles) {
+        for (const double whole_turn : {-2.0 * M_PI, 0.0, 2.0 * M_PI}) {
+            const double at = (angle + whole_turn - chain.open_rad[0]) / way_rad;
+            const ClosingOracle oracle{chain};
+            if (at > 0.0 && at <= 1.0 && at < first.value_or(2.0) &&
+                std::abs(oracle.separation_m(0, segment, at)) < 1e-9) {
+                first = at;
+            }
+        }
+    }
+    return first;
+}
+
+struct Tally {
+    double worst_sunk_m = 0.0;     // of a link in a segment on the way
+    double worst_early_m = 0.0;    // between a link and what is said to have stopped it
+    double worst_tip_m = 0.0;      // of the end of the link that was stopped, where contact is firm
+    double worst_any_tip_m = 0.0;  // the same, contact firm or not
+    int firm = 0;
+    int contacts = 0;
+    int far_tips = 0;
+    int missed = 0;
+};
+
+// Steps from `from` to `to`, and halves the step in which a link comes nearer than `gap_m`.
+std::optional<double> first_nearer(const ClosingOracle& oracle,
+                                   std::span<const DiscSegment> segments, double from, double to,
+                                   double gap_m) {
+    constexpr int k_steps = 160;
+    double before = from;
+    for (int i = 1; i <= k_steps; ++i) {
+        double after = from + (to - from) * i / k_steps;
+        if (oracle.least_separation_m(segments, after) < gap_m) {
+            for (int halving = 0; halving < 50; ++halving) {
+                const double middle = 0.5 * (before + after);
+                (oracle.least_separation_m(segments, middle) < gap_m ? after : before) = middle;
+            }
+            return after;
+        }
+        before = after;
+    }
+    return std::nullopt;
+}
+
+// How fast the nearest link comes nearer, as a share of how fast the link's end moves.
+double firmness(const ClosingOracle& oracle, std::span<const DiscSegment> segments,
+                std::size_t link, double at) {
+    constexpr double k_step = 1e-6;
+    const double approach_m =
+        oracle.least_separation_m(segments, at - k_step) - oracle.least_separation_m(segments, at);
+    const Vec2 way = oracle.points_at(at)[link + 1] - oracle.points_at(at - k_step)[link + 1];
+    return approach_m / way.norm();
+}
+
+// The end of the stopped link against where the oracle stops it. A contact is firm where the link
+// comes towards what stops it at least half as fast as its end moves: what only grazes has no sharp
+// angle, a rounding error decides whether it touches.
+void compare_tips(const ClosingOracle& oracle, std::span<const DiscSegment> segments,
+                  std::size_t link, double at, double from, Tally& tally) {
+    const auto exact = first_nearer(oracle, segments, from, 1.0, 0.0);
+    if (!exact) {
+        return;
+    }
+    const double tip_m =
+        (oracle.points_at(at)[link + 1] - oracle.points_at(*exact)[link + 1]).norm();
+    ++tally.contacts;
+    tally.far_tips += tip_m > k_promised_m ? 1 : 0;
+    tally.worst_any_tip_m = std::max(tally.worst_any_tip_m, tip_m);
+    constexpr double k_firm = 0.5;
+    if (firmness(oracle, segments, link, at) > k_firm &&
+        firmness(oracle, segments, link, *exact) > k_firm) {
+        ++tally.firm;
+        tally.worst_tip_m = std::max(tally.worst_tip_m, tip_m);
+    }
+}
+
+// Goes the way that the closure says, stop by stop. Where a link overlaps at the beginning of a
+// stretch (the next link at a joint that has just touched) that segment is left out for it.
+void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
+            const DiscClosure& closure, Tally& tally) {
+    ClosingOracle oracle{chain};
+    double from = 0.0;
+    while (oracle.first_free < chain.link_count) {
+        std::size_t stopped = oracle.first_free;
+        while (stopped < chain.link_count && (closure.touching >> stopped & 1U) == 0) {
+            ++stopped;
+        }
+        const bool touches = stopped < chain.link_count;
+        const std::size_t hinge = oracle.first_free;
+        const double at = touches ? (closure.angle_rad[hinge] - chain.open_rad[hinge]) /
+                                        (chain.closed_rad[hinge] - chain.open_rad[hinge])
+                                  : 1.0;
+        std::vector<DiscSegment> clear;
+        for (const DiscSegment& segment : segments) {
+            if (oracle.least_separation_m({&segment, 1}, from) > 2.0 * k_promised_m) {
+                clear.push_back(segment);
+            }
+        }
+        const auto sunk = first_nearer(oracle, clear, from, at, -k_promised_m);
+        tally.missed += sunk ? 1 : 0;
+        tally.worst_sunk_m = std::max(tally.worst_sunk_m, -oracle.least_separation_m(clear, at));
+        if (touches) {
+            double gap_m = std::numeric_limits<double>::infinity();
+            for (const DiscSegment& segment : segments) {
+                gap_m = std::min(gap_m, oracle.separation_m(stopped, segment, at));
+            }
+            tally.worst_early_m = std::max(tally.worst_early_m, gap_m);
+            if (clear.size() == segments.size()) {
+                compare_tips(oracle, clear, stopped, at, from, tally);
+            }
+        }
+        const std::size_t last = touches ? stopped : chain.link_count - 1;
+        for (std::size_t i = oracle.first_free; i <= last; ++i) {
+            oracle.kept_rad[i] = closure.angle_rad[i];
+            EXPECT_NEAR(closure.angle_rad[i],
+                        chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]), 1e-12);
+        }
+        oracle.first_free = last + 1;
+        from = at;
+    }
+}
+
+TEST(DiscDistance, IsTheClosedFormWithinHalfAMicrometre) {
+    Random random(1401);
+    for (int i = 0; i < 20000; ++i) {
+        const auto point = [&] {
+            return Vec2(random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+        };
+        const Vec2 a0 = point();
+        const Vec2 b0 = point();
+        const double size = std::pow(10.0, random.between(-4.0, 0.0));
+        const Vec2 a1 = a0 + size * point();
+        const Vec2 b1 = b0 + point();
+        ASSERT_NEAR(disc_distance(a0, a1, b0, b1), test::exact_distance(a0, a1, b0, b1), 5e-7)
+            << a0.transpose() << ", " << a1.transpose() << "; " << b0.transpose() << ", "
+            << b1.transpose();
+    }
+}
+
+TEST(CloseChain, OneHingeStopsAtTheClosedFormsAngle) {
+    Random random(1402);
+    int contacts = 0;
+    int firm = 0;
+    for (int i = 0; i < case_count(); ++i) {
+        DiscChain chain = test::random_chain(random);
+        chain.link_count = 1;
+        const DiscSegment segment =
+            test::random_clear_segments(chain, 2.0 * k_promised_m, random).front();
+        if (chain.radius_m[segment.plane][0] < 0.0) {
+            continue;
+        }
+        DiscScratch scratch;
+        const DiscClosure closure = close_chain(chain, {&segment, 1}, {}, scratch);
+        const auto exact = first_touch_of_one_hinge(chain, segment);
+        const double at =
+            (closure.angle_rad[0] - chain.open_rad[0]) / (chain.closed_rad[0] - chain.open_rad[0]);
+        const ClosingOracle oracle{chain};
+        ASSERT_GT(oracle.separation_m(0, segment, at), -k_promised_m) << "case " << i;
+        if (closure.contact_link == DiscClosure::k_none) {
+            // What only grazes, less deep than promised, may pass.
+            const double deepest_at = std::min(exact.value_or(1.0) + 1e-3, 1.0);
+            ASSERT_TRUE(!exact || oracle.separation_m(0, segment, deepest_at) > -k_promised_m)
+                << "case " << i << " is to touch at " << *exact;
+            continue;
+        }
+        ++contacts;
+        ASSERT_LT(oracle.separation_m(0, segment, at), k_promised_m) << "case " << i;
+        const Vec2 tip = oracle.points_at(at)[1];
+        const double exact_at = exact.value_or(at);
+        const double rise = oracle.separation_m(0, segment, exact_at - 1e-6) / 1e-6;
+        const double speed = chain.length_m[0] * (chain.closed_rad[0] - chain.open_rad[0]);
+        if (rise > 0.5 * speed) {
+            ++firm;
+            ASSERT_LT((tip - oracle.points_at(exact_at)[1]).norm(), k_promised_m) << "case " << i;
+        }
+    }
+    EXPECT_GT(contacts, case_count() / 50);
+    EXPECT_GT(firm, contacts / 2);
+}
+
+TEST(CloseChain, StopsWhereSmallStepsAndHalvingStopAndMissesNothing) {
+    Random random(1403);
+    Tally tally;
+    DiscScratch scratch;
+    for (int i = 0; i < case_count(); ++i) {
+        const DiscChain chain = test::random_chain(random);
+        const auto segments = test::random_clear_segments(chain, 2.0 * k_promised_m, random);
+        replay(chain, segments, close_chain(chain, segments, {}, scratch), tally);
+    }
+    std::cout << "contacts " << tally.contacts << ", firm " << tally.firm << ", tips off by more "
+              << "than 0.05 mm " << tally.far_tips << ", worst " << 1e3 * tally.worst_any_tip_m
+              << " mm; firm ones " << 1e3 * tally.worst_tip_m << " mm; sunk "
+              << 1e3 * tally.worst_sunk_m << " mm, early " << 1e3 * tally.worst_early_m
+              << " mm, missed " << tally.missed << "\n";
+    EXPECT_GT(tally.firm, case_count() / 4);
+    EXPECT_EQ(tally.missed, 0);
+    EXPECT_LT(tally.worst_sunk_m, k_promised_m);
+    EXPECT_LT(tally.worst_early_m, k_promised_m);
+    EXPECT_LT(tally.worst_tip_m, k_promised_m);
+}
+
+TEST(CloseChain, OrderOfSegmentsDoesNotMatter) {
+    Random random(1404);
+    DiscScratch scratch;
+    for (int i = 0; i < 2000; ++i) {
+        const DiscChain chain = test::random_chain(random);
+        auto segments = test::random_clear_segments(chain, -1.0, random);
+        const DiscClosure before = close_chain(chain, segments, {}, scratch);
+        std::shuffle(segments.begin(), segments.end(), random.engine());
+        const DiscClosure after = close_chain(chain, segments, {}, scratch);
+        ASSERT_EQ(before.angle_rad, after.angle_rad) << "case " << i;
+        ASSERT_EQ(before.contact_link, after.contact_link);
+        ASSERT_EQ(before.touching, after.touching);
+    }
+}
+
+// One link of 10 cm, 1 cm thick, that turns from +X to +Y.
+DiscChain quarter_turn() {
+    DiscChain chain;
+    chain.link_count = 1;
+    chain.length_m = {0.1};
+    for (auto& radius_m : chain.radius_m) {
+        radius_m = {0.01};
+    }
+    chain.closed_rad = {M_PI / 2.0};
+    return chain;
+}
+
+TEST(CloseChain, LetsGoWhatOverlapsAndComesApart) {
+    const DiscChain chain = quarter_turn();
+    const std::vector<DiscSegment> below = {{{0.03, -0.006}, {0.09, -0.006}, 0, 7}};
+    DiscScratch scratch;
+    const DiscClosure closure = close_chain(chain, below, {}, scratch);
+    EXPECT_EQ(closure.contact_link, DiscClosure::k_none);
+    EXPECT_EQ(closure.touching, 0U);
+    EXPECT_DOUBLE_EQ(closure.angle_rad[0], M_PI / 2.0);
+}
+
+TEST(CloseChain, StopsAtWhatOverlapsAndGetsDeeper) {
+    const DiscChain chain = quarter_turn();
+    const std::vector<DiscSegment> above = {{{0.03, 0.006}, {0.09, 0.006}, 0, 7}};
+    DiscScratch scratch;
+    const DiscClosure closure = close_chain(chain, above, {}, scratch);
+    EXPECT_EQ(closure.contact_link, 0);
+    EXPECT_EQ(closure.segment, 0U);
+    EXPECT_EQ(closure.angle_rad[0], 0.0);
+}
+
+TEST(CloseChain, WhatWasLetGoStopsTheChainWhenItComesBack) {
+    // The link turns the whole way round, out of the segment below and into it from the other side:
+    // its end touches it again where the line's near end is 1 cm off the link's other side.
+    DiscChain chain = quarter_turn();
+    chain.closed_rad = {6.2};
+    const std::vector<DiscSegment> below = {{{0.05, -0.009}, {0.05, -0.03}, 0, 7}};
+    DiscScratch scratch;
+    const DiscClosure closure = close_chain(chain, below, {}, scratch);
+    EXPECT_EQ(closure.contact_link, 0);
+    // Its first touch from that side is with the corner farthest back: (0.05, -0.03).
+    const double far_m = std::hypot(0.05, 0.03);
+    const double exact = 2.0 * M_PI - std::atan2(0.03, 0.05) - std::asin(0.01 / far_m);
+    EXPECT_NEAR(0.1 * closure.angle_rad[0], 0.1 * exact, k_promised_m);
+}
+
+TEST(CloseChain, LinksBeyondTheFirstContactGoOn) {
+    // Two links; a wall stops the first at 45 degrees, the second closes as if nothing was.
+    DiscChain chain = quarter_turn();
+    chain.link_count = 2;
+    chain.length_m = {0.05, 0.03};
+    for (auto& radius_m : chain.radius_m) {
+        radius_m = {0.008, 0.006};
+    }
+    chain.closed_rad = {M_PI / 2.0, M_PI / 2.0};
+    // The corner that the first link's side comes to at 45 degrees.
+    const Vec2 side(-std::sqrt(0.5), std::sqrt(0.5));
+    const Vec2 corner = 0.03 * Vec2(std::sqrt(0.5), std::sqrt(0.5)) + 0.008 * side;
+    const std::vector<DiscSegment> wall = {{corner, corner + 0.02 * side, 1, 3}};
+    DiscScratch scratch;
+    const DiscClosure closure = close_chain(chain, wall, {}, scratch);
+    EXPECT_EQ(closure.touching, 1U);
+    EXPECT_NEAR(0.05 * closure.angle_rad[0], 0.05 * M_PI / 4.0, k_promised_m);
+    EXPECT_DOUBLE_EQ(closure.angle_rad[1], M_PI / 2.0);
+}
+
+TEST(CloseChain, APlaneThatMissesALinkDoesNotStopIt) {
+    DiscChain chain = quarter_turn();
+    chain.radius_m[2][0] = -1.0;
+    const std::vector<DiscSegment> wall = {{{-0.02, 0.05}, {0.2, 0.05}, 2, 0}};
+    DiscScratch scratch;
+    EXPECT_EQ(close_chain(chain, wall, {}, scratch).contact_link, DiscClosure::k_none);
+}
+
+TEST(CloseChain, EndsWhereItsSweepEnds) {
+    DiscScratch scratch;
+    const DiscClosure closure = close_chain(quarter_turn(), {}, {0.25, 0.5}, scratch);
+    EXPECT_DOUBLE_EQ(closure.angle_rad[0], M_PI / 4.0);
+}
+
+TEST(CloseChain, AllocatesNothingOnceWarm) {
+    if (!counts_allocations()) {
+        GTEST_SKIP() << "the sanitizers bring operators of their own";
+    }
+    Random random(1405);
+    DiscScratch scratch;
+    const DiscChain chain = test::random_chain(random);
+    const auto segments = test::random_clear_segments(chain, 1e-4, random);
+    close_chain(chain, segments, {}, scratch);
+    const std::size_t before = allocation_count();
+    for (int i = 0; i < 10; ++i) {
+        close_chain(chain, segments, {}, scratch);
+    }
+    EXPECT_EQ(allocation_count(), before);
+}
+
+}  // namespace
+}  // namespace handhold

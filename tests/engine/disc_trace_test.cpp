@@ -1,0 +1,273 @@
+#include "engine/geometry/disc_trace.hpp"
+
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "broken_meshes.hpp"
+#include "surface_cuts.hpp"
+
+namespace handhold {
+namespace {
+
+using test::cut_by_hand;
+using test::Random;
+
+constexpr double k_straight_m = 2.5e-4;  // disc_trace.hpp: corners this near to a line are left out
+
+double nearest_m(const Vec2& point, const std::vector<DiscSegment>& segments) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const DiscSegment& segment : segments) {
+        nearest = std::min(nearest, test::point_to_segment(point, segment.a_ds, segment.b_ds));
+    }
+    return nearest;
+}
+
+// How many segments end at each point; points nearer than a micrometre are one.
+std::map<std::pair<long, long>, int> count_ends(const std::vector<DiscSegment>& segments) {
+    std::map<std::pair<long, long>, int> ends;
+    for (const DiscSegment& segment : segments) {
+        for (const Vec2& end : {segment.a_ds, segment.b_ds}) {
+            ++ends[{std::lround(1e6 * end.x()), std::lround(1e6 * end.y())}];
+        }
+    }
+    return ends;
+}
+
+int loose_ends(const std::vector<DiscSegment>& segments) {
+    int loose = 0;
+    for (const auto& [place, count] : count_ends(segments)) {
+        loose += count == 1 ? 1 : 0;
+    }
+    return loose;
+}
+
+std::vector<DiscSegment> walk(const SurfaceGraph& graph, const Disc& disc, std::uint32_t from,
+                              std::uint32_t* walked = nullptr) {
+    TraceScratch scratch;
+    std::vector<DiscSegment> segments;
+    const std::uint32_t count = walk_crossing(graph, disc, from, scratch, segments);
+    if (walked != nullptr) {
+        *walked = count;
+    }
+    return segments;
+}
+
+// All of `cut` is in `walked`, but for corners left out, and nothing else is.
+void expect_same_line(const std::vector<DiscSegment>& walked, const std::vector<DiscSegment>& cut) {
+    for (const DiscSegment& segment : cut) {
+        ASSERT_LT(nearest_m(segment.a_ds, walked), k_straight_m + 1e-9);
+        ASSERT_LT(nearest_m(segment.b_ds, walked), k_straight_m + 1e-9);
+        ASSERT_LT(nearest_m(0.5 * (segment.a_ds + segment.b_ds), walked), k_straight_m + 1e-9);
+    }
+    for (const DiscSegment& segment : walked) {
+        ASSERT_LT(nearest_m(segment.a_ds, cut), 1e-9);
+        ASSERT_LT(nearest_m(segment.b_ds, cut), 1e-9);
+    }
+}
+
+TEST(WalkCrossing, GoesRoundAConvexSolidOnceAndCloses) {
+    Random random(1501);
+    for (const Mesh& mesh :
+         {*test::make_box_mesh({0.03, 0.05, 0.08}), test::make_clean_ball(0.06, 12, 20)}) {
+        const SurfaceGraph graph = build_surface_graph(mesh);
+        for (int i = 0; i < 200; ++i) {
+            const Disc disc = test::random_disc(random.vector(0.015), 0.5, random);
+            const auto cut = cut_by_hand(graph, disc);
+            ASSERT_FALSE(cut.empty());
+            std::uint32_t count = 0;
+            const auto walked = walk(graph, disc, cut.front().triangle, &count);
+            expect_same_line(walked, cut);
+            EXPECT_EQ(count, cut.size());
+            EXPECT_EQ(loose_ends(walked), 0);
+        }
+    }
+}
+
+TEST(WalkCrossing, StaysOnItsOwnRingOfATorus) {
+    // The plane x = 0 cuts two circles out of the ring: only the one walked on is found, whole.
+    const SurfaceGraph graph = build_surface_graph(test::make_torus(0.06, 0.02, 37, 24));
+    Disc disc;
+    disc.x_axis = Vec3::UnitY();
+    disc.y_axis = Vec3::UnitZ();
+    disc.normal = Vec3::UnitX();
+    disc.radius_m = 0.5;
+    std::vector<DiscSegment> near;
+    for (const DiscSegment& segment : cut_by_hand(graph, disc)) {
+        if (segment.a_ds.y() > 0.0) {
+            near.push_back(segment);
+        }
+    }
+    const auto walked = walk(graph, disc, near.front().triangle);
+    expect_same_line(walked, near);
+    EXPECT_EQ(loose_ends(walked), 0);
+}
+
+TEST(WalkCrossing, EndsAtBorders) {
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(0.2, 9));
+    Random random(1502);
+    for (int i = 0; i < 100; ++i) {
+        const double turn = random.between(-M_PI, M_PI);
+        Disc disc;
+        disc.center = Vec3(random.between(-0.05, 0.05), 0.01, random.between(-0.05, 0.05));
+        disc.x_axis = Vec3(std::cos(turn), 0.0, std::sin(turn));
+        disc.y_axis = Vec3::UnitY();
+        disc.normal = disc.x_axis.cross(disc.y_axis);
+        disc.radius_m = 0.5;
+        const auto cut = cut_by_hand(graph, disc);
+        const auto walked = walk(graph, disc, cut[cut.size() / 2].triangle);
+        expect_same_line(walked, cut);
+        EXPECT_EQ(loose_ends(walked), 2);
+    }
+}
+
+TEST(WalkCrossing, KeepsToTheDiscsRadius) {
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
+    Random random(1503);
+    for (int i = 0; i < 100; ++i) {
+        Disc disc = test::random_disc(Vec3(0.0, 0.02, 0.0) + random.vector(0.01), 0.1, random);
+        const auto cut = cut_by_hand(graph, disc);
+        if (cut.empty()) {
+            continue;
+        }
+        const auto walked = walk(graph, disc, cut[cut.size() / 2].triangle);
+        for (const DiscSegment& segment : walked) {
+            EXPECT_LE(test::point_to_segment(Vec2::Zero(), segment.a_ds, segment.b_ds),
+                      disc.radius_m);
+        }
+        expect_same_line(walked, cut);
+    }
+}
+
+TEST(WalkCrossing, OfATriangleThatIsNotCutIsNothing) {
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(0.2, 4));
+    Disc disc;  // in the plane z = 0 moved beyond the floor
+    disc.center = Vec3(0.0, 0.0, 0.3);
+    std::uint32_t walked = 1;
+    EXPECT_TRUE(walk(graph, disc, 0, &walked).empty());
+    EXPECT_EQ(walked, 0U);
+}
+
+TEST(WalkCrossing, ACornerOnThePlaneCutsEachNeighbourhoodOnce) {
+    // A disc right through rows of vertices, and through a ball's pole.
+    const SurfaceGraph floor = build_surface_graph(*test::make_floor(0.2, 4));
+    Disc disc;
+    disc.radius_m = 0.5;
+    const auto cut = cut_by_hand(floor, disc);
+    ASSERT_EQ(cut.size(), 8U);
+    EXPECT_EQ(loose_ends(walk(floor, disc, cut.front().triangle)), 2);
+    const SurfaceGraph ball = build_surface_graph(test::make_clean_ball(0.06, 12, 20));
+    const auto round = cut_by_hand(ball, disc);
+    EXPECT_EQ(loose_ends(walk(ball, disc, round.front().triangle)), 0);
+}
+
+struct Pops {
+    std::uint32_t best = 0;
+    std::uint32_t breadth = 0;
+    std::uint32_t searches = 0;
+    std::uint32_t most_best = 0;
+};
+
+// From random triangles, in both orders; whatever is found is cut by the disc.
+Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& near, double size_m,
+                      Random& random) {
+    Pops pops;
+    const TriangleBvh bvh(graph.positions, graph.triangles);
+    std::set<std::uint32_t> cut;
+    for (const DiscSegment& segment : cut_by_hand(graph, disc)) {
+        cut.insert(segment.triangle);
+    }
+    const auto start = bvh.closest_point(near + random.vector(size_m), 10.0);
+    TraceScratch scratch;
+    const auto search = [&](SearchOrder order) {
+        return find_crossing(graph, disc, start->triangle, start->point, order, scratch);
+    };
+    const CrossingSearch best = search(SearchOrder::best_first);
+    const CrossingSearch breadth = search(SearchOrder::breadth_first);
+    for (const CrossingSearch& found : {best, breadth}) {
+        EXPECT_EQ(found.triangle == k_no_triangle || cut.contains(found.triangle), true);
+        EXPECT_LE(found.pops, k_most_pops);
+        if (found.triangle != k_no_triangle) {
+            EXPECT_NEAR(disc.normal.dot(found.point - disc.center), 0.0, 1e-12);
+        }
+    }
+    EXPECT_TRUE(best.triangle != k_no_triangle || breadth.triangle == k_no_triangle);
+    return {best.pops, breadth.pops, 1, best.pops};
+}
+
+TEST(FindCrossing, PopsFewOnAPlaneAndFewerThanAFlood) {
+    // Cells of 20 mm, and a disc that stands on the floor: a straight way over 6 cm passes 3 cells.
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
+    Random random(1504);
+    Pops sum;
+    for (int i = 0; i < 500; ++i) {
+        const double turn = random.between(-M_PI, M_PI);
+        Disc disc;
+        disc.center = Vec3(random.between(-0.1, 0.1), 0.03, random.between(-0.1, 0.1));
+        disc.x_axis = Vec3(std::cos(turn), 0.0, std::sin(turn));
+        disc.y_axis = Vec3::UnitY();
+        disc.normal = disc.x_axis.cross(disc.y_axis);
+        const Pops one = search_at_random(graph, disc, disc.center, 0.04, random);
+        sum.best += one.best;
+        sum.breadth += one.breadth;
+        sum.most_best = std::max(sum.most_best, one.best);
+    }
+    // A way of at most 4 * sqrt(2) cm comes into at most 4 rows and 4 columns of cells.
+    EXPECT_LE(sum.most_best, 16U);
+    EXPECT_LE(sum.best, 5U * 500U);
+    EXPECT_LT(sum.best, sum.breadth);
+}
+
+TEST(FindCrossing, FindsWhatAFloodFindsWithFewerPopsOnRoundThings) {
+    Random random(1505);
+    Pops sum;
+    for (const Mesh& mesh :
+         {test::make_torus(0.08, 0.03, 30, 16), test::make_clean_ball(0.08, 24, 40)}) {
+        const SurfaceGraph graph = build_surface_graph(mesh);
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 center = 0.09 * random.direction();
+            const Disc disc = test::random_disc(center, 0.1, random);
+            const Pops one = search_at_random(graph, disc, center, 0.03, random);
+            sum.best += one.best;
+            sum.breadth += one.breadth;
+        }
+    }
+    EXPECT_LT(sum.best, sum.breadth);
+}
+
+TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
+    Disc disc;
+    disc.center = Vec3(0.0, 0.5, 0.0);
+    TraceScratch scratch;
+    for (const SearchOrder order : {SearchOrder::best_first, SearchOrder::breadth_first}) {
+        const CrossingSearch found = find_crossing(graph, disc, 1275, Vec3::Zero(), order, scratch);
+        EXPECT_EQ(found.triangle, k_no_triangle);
+        EXPECT_LE(found.pops, 1U);  // no edge is within 30 mm of the disc
+    }
+}
+
+TEST(CutAll, IsEveryTrianglesCut) {
+    Random random(1506);
+    const Mesh soup = test::as_soup(test::make_torus(0.08, 0.03, 30, 16), 2e-3, random);
+    const SurfaceGraph graph = build_surface_graph(soup);
+    const TriangleBvh bvh(graph.positions, graph.triangles);
+    for (int i = 0; i < 300; ++i) {
+        const Disc disc = test::random_disc(random.vector(0.1), random.between(0.02, 0.12), random);
+        std::vector<DiscSegment> segments;
+        cut_all(graph, bvh, disc, segments);
+        std::sort(segments.begin(), segments.end(),
+                  [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
+        const auto cut = cut_by_hand(graph, disc);
+        ASSERT_EQ(segments.size(), cut.size());
+        for (std::size_t k = 0; k < cut.size(); ++k) {
+            ASSERT_EQ(segments[k].triangle, cut[k].triangle);
+            ASSERT_LT((segments[k].a_ds - cut[k].a_ds).norm(), 1e-9);
+            ASSERT_LT((segments[k].b_ds - cut[k].b_ds).norm(), 1e-9);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold
