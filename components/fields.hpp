@@ -333,6 +333,8 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("triangle", c.triangle);
     visit("point_bs", c.point_bs);
     visit("normal_bs", c.normal_bs);
+    visit("wrist_bs", c.wrist_bs);
+    visit("surroundings", c.surroundings);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -342,6 +344,9 @@ void visit_fields(const PalmOffset& c, V&& visit) {
     visit("target_turn_rad", c.target_turn_rad);
     visit("lift_m", c.lift_m);
     visit("lifted_at_bs", c.lifted_at_bs);
+    visit("target_wrist_bs", c.target_wrist_bs);
+    visit("target_surroundings", c.target_surroundings);
+    visit("target_lift_m", c.target_lift_m);
 }
 template <typename V>
 void visit_fields(const PalmPose& c, V&& visit) {
@@ -354,6 +359,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("seed_triangle", c.seed_triangle);
     visit("solved_body", c.solved_body);
     visit("solved_wrist_bs", c.solved_wrist_bs);
+    visit("solved_surroundings", c.solved_surroundings);
     visit("solved", c.solved);
     visit("thumb_wrist_bs", c.thumb_wrist_bs);
     visit("thumb_solved", c.thumb_solved);

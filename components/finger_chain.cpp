@@ -45,6 +45,12 @@ ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
     return {triangle, closest_on_triangle(from, corners)};
 }
 
+double hand_way_m(const Pose& from, const Pose& to) {
+    constexpr double k_arm_m = 0.1;
+    const Pose moved = inverse(from) * to;
+    return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm();
+}
+
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown) {
     for (std::size_t i = 0; i < k_most_links; ++i) {
         shown.curl_rad[i] = std::min(target.curl_rad[i], shown.curl_rad[i] + step_rad);

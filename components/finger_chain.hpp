@@ -19,7 +19,13 @@ ChainFitSettings chain_settings(const FingerTuning& tuning);
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
                      std::uint32_t last_triangle, const Vec3& base_bs);
 
+// How far the parts of a hand have moved, roughly: a turn moves fingers by its angle times 0.1 m.
+double hand_way_m(const Pose& from, const Pose& to);
+
 // Opens at once, closes by at most `step_rad` a hinge; opposition turns by as much either way.
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown);
+
+// How curled a fist is, of the way from open to curled.
+inline constexpr double k_fist = 0.85;
 
 }  // namespace handhold

@@ -21,6 +21,9 @@ struct GripSurface {
     Vec3 point_bs = Vec3::Zero();     // on the surface itself, in the body's frame
     Vec3 normal_bs = Vec3::UnitY();   // unit, towards the back of the hand: the surface's mean
                                       // around the point
+    // What it was chosen for: it is not looked for again while that stays.
+    Pose wrist_bs;
+    std::uint64_t surroundings = 0;
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
@@ -33,6 +36,10 @@ struct PalmOffset {
     Vec3 target_turn_rad = Vec3::Zero();
     double lift_m = 0.0;  // off the surface, because fingers did not fit
     Pose lifted_at_bs;    // where the tracked hand was then: elsewhere it is tried anew
+    // What the target was found for: it is not found again while that stays.
+    Pose target_wrist_bs;
+    std::uint64_t target_surroundings = 0;
+    double target_lift_m = 0.0;
 };
 
 // The wrist as it is shown, at the end of the frame. Arms reach for it. Written by constrain_palms.
@@ -51,6 +58,7 @@ struct FingerPose {
     // What the targets were found for: nothing is solved again while it stays.
     Entity solved_body = k_no_entity;
     Pose solved_wrist_bs;
+    std::uint64_t solved_surroundings = 0;
     bool solved = false;
     Pose thumb_wrist_bs;  // the same of the thumb
     bool thumb_solved = false;

@@ -12,7 +12,7 @@ namespace handhold {
 // state.
 struct HandScratch {
     std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
-    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // the same; of the last solve
+    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // the same; of this frame
     GripSearchScratch search;
     ChainFitScratch fit;
 };

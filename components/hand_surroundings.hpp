@@ -20,6 +20,9 @@ struct HandSurroundings {
     Pose body_ws;
     Pose wrist_bs;  // as tracked, or as its grip holds it; in the world for an empty hand
     std::vector<PlacedMesh> meshes;  // the gripped body's first, then what is near
+    std::uint64_t signature = 0;  // of the body and the meshes and where they are, within 0.1 mm:
+                                  // while it stays, nothing around the hand has changed; 0: empty
+    bool grips = false;           // also what is no body: a head
 };
 
 // What search_grip works in: keeps its memory between calls.

@@ -8,7 +8,7 @@
 namespace handhold {
 
 struct PalmFit {
-    Pose wrist_bs;        // within the limits, and out of what it was sunk in as far as that goes
+    Pose wrist_bs;        // within the limits, then out of what it was sunk in as far as that goes
     double sunk_m = 0.0;  // how deep the palm still is, at least 0
 };
 

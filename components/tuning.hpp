@@ -165,7 +165,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "a gripping palm is shown at least this high over the surface");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,
-        "and at most this high; above palm.min_height_m");
+        "and at most this high; where that is less, palm.min_height_m counts");
     see("palm.max_angle_rad", t.palm.max_angle_rad, "rad", 0.0, 3.2,
         "and tilted against the surface by at most this");
     see("palm.tilt_cost_m_per_rad", t.palm.tilt_cost_m_per_rad, "m/rad", 0.0, 10.0,

@@ -141,9 +141,9 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::gather_surroundings, stats);
-        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, graph, w.hand_owner,
-                             w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose,
-                             w.collider, hands.surroundings});
+        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, graph, w.persistent_id,
+                             w.hand_owner, w.hand_tracking, w.grab, w.player_origin,
+                             w.head_tracking, w.body_pose, w.collider, hands.surroundings});
         hands.traces.assign(hands.surroundings.size(), {});
     }
     {
@@ -163,7 +163,7 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::pose_thumb, stats);
-        pose_thumb({input.dt_s, hands.surroundings, w.grip_surface, w.palm_pose, w.finger_pose,
+        pose_thumb({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.finger_pose,
                     hands.traces, hands.fit},
                    tuning, stats);
     }

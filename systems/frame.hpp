@@ -23,7 +23,7 @@ struct FrameInput {
 };
 
 // Everything that a frame keeps beside the world: caches, which may be thrown away before any frame
-// without changing one bit of the next.
+// without changing one bit of the next, and the assets that they are made for.
 struct FrameCaches {
     // `shapes` must outlive the caches and hold every shape that the world's colliders name; so
     // must `grip_meshes`, to which hands are fitted. Without it, or where it lacks a shape, hands
@@ -34,6 +34,7 @@ struct FrameCaches {
     CollisionWorld collision;
     FrameGraph graph;
     const GripMeshLibrary* meshes_for_hands = nullptr;
+    // Assets: whoever sets others sets them again in new caches.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
     HandScratch hands;

@@ -194,6 +194,7 @@ class ChainFitter {
                     bent.open_rad = angle_rad;
                 }
                 if (depth_m <= settings_.open_depth_m) {
+                    bent.open_rad = angle_rad;
                     close_from(bent, before);
                     return;
                 }

@@ -46,7 +46,8 @@ struct PlacedMesh {
     Pose pose;
 };
 
-// Where the searches begin: a triangle of the first mesh's search detail, and a point on it.
+// Where the searches begin: a triangle of the first mesh's search detail, and a point on it, in
+// that mesh's frame.
 struct ChainSeed {
     std::uint32_t triangle = k_no_triangle;  // none: every cut is looked for
     Vec3 point = Vec3::Zero();
@@ -81,7 +82,8 @@ struct ChainFit {
     ChainFallback fallback = ChainFallback::none;
     std::uint32_t discs = 0;   // planes searched
     std::uint32_t pops = 0;    // triangles that the searches looked at
-    std::uint32_t walked = 0;  // triangles that the walks passed
+    std::uint32_t walked = 0;  // triangles that the walks passed, and those searched between the
+                               // search detail and the surface itself
 };
 
 // Keeps its memory between calls.

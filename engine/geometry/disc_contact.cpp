@@ -14,6 +14,7 @@ constexpr double k_least_move_m = 4e-5;    // a step moves no point of a link fa
                                            // distance, or than this: what an advance may sink
 constexpr double k_clear_m = 1e-4;         // what left an overlap by this much can touch again
 constexpr double k_surely_apart_m = 2e-3;  // up to here a bound does instead of the distance
+constexpr int k_most_rounds = 20000;       // more than steps of k_least_move_m can be
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
 
@@ -160,12 +161,12 @@ class Closing {
     std::optional<Touch> first_touch(double from) {
         constexpr double k_together = 0.01;
         gather_pairs(from);
-        while (!pairs_.empty()) {
+        for (int round = 0; round < k_most_rounds && !pairs_.empty(); ++round) {
             double at = pairs_.front().next;
             for (const Pair& pair : pairs_) {
                 at = std::min(at, pair.next);
             }
-            if (at > sweep_.to) {
+            if (!(at <= sweep_.to)) {
                 break;
             }
             const Links places = links_.links_at(at);

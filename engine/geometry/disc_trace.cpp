@@ -196,9 +196,21 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
 
 void add_segment(const Disc& disc, const Vec2& a, const Vec2& b, std::uint32_t triangle,
                  std::vector<DiscSegment>& segments) {
-    if (distance_to_origin(a, b) <= disc.radius_m) {
-        segments.push_back({a, b, disc.plane, triangle});
+    if (distance_to_origin(a, b) > disc.radius_m) {
+        return;
     }
+    // What is very long is cut to what is near: distances are found in floats.
+    const double length = (b - a).norm();
+    const double longest = 16.0 * disc.radius_m;
+    if (length > longest) {
+        const Vec2 along = (b - a) / length;
+        const double middle = std::clamp(-a.dot(along), 0.0, length);
+        const double first = std::max(0.0, middle - 0.5 * longest);
+        const double last = std::min(length, middle + 0.5 * longest);
+        segments.push_back({a + first * along, a + last * along, disc.plane, triangle});
+        return;
+    }
+    segments.push_back({a, b, disc.plane, triangle});
 }
 
 // `line_triangle[i]` is that of the piece from point i to the next one.

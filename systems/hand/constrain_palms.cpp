@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/finger_chain.hpp"
 #include "components/palm_fit.hpp"
 
 namespace handhold {
@@ -11,12 +12,13 @@ namespace {
 constexpr double k_lifts_kept_m = 0.01;  // a hand that moved farther may try its surface again
 constexpr double k_lifts_kept_rad = 0.17;
 
-void set_target(const HandSurroundings& hand, const GripSurface& surface, const PalmTuning& tuning,
+void set_target(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
                 PalmOffset& offset) {
     if (surface.triangle == GripSurface::k_none) {
         offset.target_m = Vec3::Zero();
         offset.target_turn_rad = Vec3::Zero();
         offset.lift_m = 0.0;
+        offset.target_surroundings = 0;
         return;
     }
     const Pose moved = inverse(offset.lifted_at_bs) * hand.wrist_bs;
@@ -24,8 +26,15 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         rotation_to_vector(moved.rotation).norm() > k_lifts_kept_rad) {
         offset.lift_m = 0.0;
     }
+    if (offset.target_surroundings == hand.signature && offset.target_lift_m == offset.lift_m &&
+        hand_way_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
+        return;
+    }
+    offset.target_surroundings = hand.signature;
+    offset.target_wrist_bs = hand.wrist_bs;
+    offset.target_lift_m = offset.lift_m;
     const Pose target =
-        inverse(hand.wrist_bs) * fit_palm(hand, surface, offset.lift_m, tuning).wrist_bs;
+        inverse(hand.wrist_bs) * fit_palm(hand, surface, offset.lift_m, tuning.palm).wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
 }
@@ -50,7 +59,7 @@ void follow_target(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning) {
     for (const HandSurroundings& hand : io.hands) {
         PalmOffset& offset = io.offset.at(hand.hand);
-        set_target(hand, io.surface.at(hand.hand), tuning.palm, offset);
+        set_target(hand, io.surface.at(hand.hand), tuning, offset);
         follow_target(io.dt_s, tuning.palm, offset);
         const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
         const Pose wrist_ws = hand.body_ws * hand.wrist_bs;

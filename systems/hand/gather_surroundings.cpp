@@ -1,6 +1,10 @@
 #include "systems/hand/gather_surroundings.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "components/play_space.hpp"
+#include "engine/core/hash.hpp"
 
 namespace handhold {
 namespace {
@@ -22,6 +26,8 @@ class Gatherer {
         out.body_ws = {};
         out.wrist_bs = tracked_ws;
         out.meshes.clear();
+        out.signature = 0;
+        out.grips = grab.kind != GripKind::none;
         const bool is_there = io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
         if (grab.kind == GripKind::none || !is_there) {
             return;
@@ -35,7 +41,10 @@ class Gatherer {
         if (const PlacedMesh own = {mesh_of(grab.body), {}}; own.mesh != nullptr) {
             out.body = grab.body;
             out.meshes.push_back(own);
-            add_near(out);
+            HashStream stream;
+            add_to(stream, grab.body, out.meshes.back());
+            add_near(out, stream);
+            out.signature = stream.value() | 1U;
         }
     }
 
@@ -51,7 +60,24 @@ class Gatherer {
         return is_known ? &io_.meshes->at(collider->shape) : nullptr;
     }
 
-    void add_near(HandSurroundings& out) const {
+    void add_to(HashStream& stream, Entity body, const PlacedMesh& placed) const {
+        constexpr double k_steps_per_m = 1e4;
+        constexpr double k_most = 1e15;
+        const auto add = [&stream](double value) {
+            stream.add(std::floor(std::clamp(value * k_steps_per_m, -k_most, k_most) + 0.5));
+        };
+        stream.add(io_.persistent_id.at(body).value);
+        stream.add(std::uint64_t{placed.mesh->contact.triangles.size()});
+        const Vec3 ahead = placed.pose.rotation * Vec3::UnitX();
+        const Vec3 aside = placed.pose.rotation * Vec3::UnitY();
+        for (int axis = 0; axis < 3; ++axis) {
+            add(placed.pose.position[axis]);
+            add(ahead[axis]);
+            add(aside[axis]);
+        }
+    }
+
+    void add_near(HandSurroundings& out, HashStream& stream) const {
         const Vec3 palm_ws =
             transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
         for (std::size_t i = 0; i < io_.frame.entities.size(); ++i) {
@@ -67,6 +93,7 @@ class Gatherer {
             const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
             if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
                 out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
+                add_to(stream, body, out.meshes.back());
             }
         }
     }

@@ -19,6 +19,7 @@ struct GatherSurroundingsIo {
     const GripMeshLibrary* meshes = nullptr;        // in; null: hands are not fitted to anything
     const std::array<HandRig, k_hand_count>& rigs;  // in, by HandSide
     const FrameGraph& frame;                        // in: proxies, entities
+    const Column<PersistentId>& persistent_id;      // in
     const Column<HandOwner>& owner;                 // in
     const Column<HandTracking>& hand;               // in
     const Column<Grab>& grab;                       // in

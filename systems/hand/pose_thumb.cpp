@@ -31,15 +31,17 @@ struct ThumbFit {
 
 class ThumbPoser {
   public:
-    ThumbPoser(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats)
-        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {}
+    ThumbPoser(const PoseThumbIo& io, const Tuning& tuning, SearchOrder order, StageStats& stats)
+        : io_(io), tuning_(tuning), settings_(chain_settings(tuning.finger)), stats_(stats) {
+        settings_.order = order;
+    }
 
     void pose(std::size_t place, std::size_t f) {
         const HandSurroundings& hand = io_.hands[place];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
-            pose.target[f] = {thumb.relaxed_rad, tuning_.thumb.rest_opposition_rad};
+            rest(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
             pose.thumb_solved = false;
             return;
         }
@@ -47,9 +49,12 @@ class ThumbPoser {
             return;
         }
         settings_.mends = false;
-        const double opposition_rad = find_best(hand, thumb, f, pose).opposition_rad;
+        const ThumbFit chosen = find_best(hand, thumb, f, pose);
         settings_.mends = true;
-        const ThumbFit best = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
+        ThumbFit best = try_at(hand, thumb, chosen.opposition_rad, pose.seed_triangle[f]);
+        best.fit.discs += chosen.fit.discs;
+        best.fit.pops += chosen.fit.pops;
+        best.fit.walked += chosen.fit.walked;
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         pose.seed_triangle[f] = best.fit.contact_triangle;
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
@@ -64,6 +69,20 @@ class ThumbPoser {
     }
 
   private:
+    double rest_opposition(const FingerRig& thumb) const {
+        return std::clamp(tuning_.thumb.rest_opposition_rad, thumb.lower_opposition_rad,
+                          std::max(thumb.lower_opposition_rad, thumb.upper_opposition_rad));
+    }
+
+    void rest(const FingerRig& thumb, bool is_fist, FingerAngles& target) const {
+        target.opposition_rad = rest_opposition(thumb);
+        for (std::size_t i = 0; i < thumb.link_count; ++i) {
+            const double fist =
+                thumb.lower_rad[i] + k_fist * (thumb.upper_rad[i] - thumb.lower_rad[i]);
+            target.curl_rad[i] = is_fist ? fist : thumb.relaxed_rad[i];
+        }
+    }
+
     static bool same_place(const Pose& a, const Pose& b) {
         return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
     }
@@ -72,16 +91,23 @@ class ThumbPoser {
                        const FingerPose& pose) const {
         const std::int32_t steps = tuning_.thumb.opposition_steps;
         ThumbFit best;
+        ChainFit all;
         for (std::int32_t step = 0; step < steps; ++step) {
             const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
             const double opposition_rad =
                 thumb.lower_opposition_rad +
                 share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
             const ThumbFit tried = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
+            all.discs += tried.fit.discs;
+            all.pops += tried.fit.pops;
+            all.walked += tried.fit.walked;
             if (tried.cost_m < best.cost_m) {
                 best = tried;
             }
         }
+        best.fit.discs = all.discs;
+        best.fit.pops = all.pops;
+        best.fit.walked = all.walked;
         return best;
     }
 
@@ -101,8 +127,7 @@ class ThumbPoser {
             tuning_.thumb.sunk_cost * tried.fit.depth_m +
             (touches ? 0.0 : tuning_.thumb.open_cost_m) +
             tuning_.thumb.gap_cost * tip_gap_m(capsules[chain.link_count - 1], hand.meshes) +
-            tuning_.thumb.turn_cost_m_per_rad *
-                std::abs(opposition_rad - tuning_.thumb.rest_opposition_rad);
+            tuning_.thumb.turn_cost_m_per_rad * std::abs(opposition_rad - rest_opposition(thumb));
         return tried;
     }
 
@@ -114,8 +139,8 @@ class ThumbPoser {
 
 }  // namespace
 
-void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats) {
-    ThumbPoser poser(io, tuning, stats);
+void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats, SearchOrder order) {
+    ThumbPoser poser(io, tuning, order, stats);
     for (std::size_t place = 0; place < io.hands.size(); ++place) {
         const HandSurroundings& hand = io.hands[place];
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {

@@ -6,6 +6,7 @@
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/stats.hpp"
+#include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
@@ -14,8 +15,8 @@ namespace handhold {
 struct PoseThumbIo {
     double dt_s = 0.0;                        // of the frame; infinity: shown is target at once
     std::span<const HandSurroundings> hands;  // in
+    const Column<HandTracking>& hand;         // in: pressed
     const Column<GripSurface>& surface;       // in
-    const Column<PalmPose>& palm;             // in
     Column<FingerPose>& fingers;              // in/out: thumbs only
     std::span<std::array<FingerTrace, k_finger_count>> traces;  // out, by place in hands; may be
                                                                 // empty
@@ -26,6 +27,7 @@ struct PoseThumbIo {
 // opposition are tried, each closed like a finger, and the cheapest stays: sunk little, touching,
 // its tip near the surface, near to where a thumb rests. Comes after sweep_fingers and is solved
 // where that was. Talk row 15.
-void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats);
+void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats,
+                SearchOrder order = SearchOrder::best_first);
 
 }  // namespace handhold

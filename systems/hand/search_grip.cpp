@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "components/finger_chain.hpp"
 #include "components/palm_fit.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/triangle_set.hpp"
@@ -45,8 +47,9 @@ Candidate cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const Palm&
     const Vec3 normal = turned_away ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
     const double height_m = (palm.center - corners[0]).dot(normal);
     const Vec3 point = closest_on_triangle(palm.center - height_m * normal, corners);
-    const Vec3 moved =
-        point + std::clamp(height_m, tuning.min_height_m, tuning.max_height_m) * normal;
+    const Vec3 moved = point + std::clamp(height_m, tuning.min_height_m,
+                                          std::max(tuning.min_height_m, tuning.max_height_m)) *
+                                   normal;
     const double angle_rad = arc_tangent2(palm.up.cross(normal).norm(), palm.up.dot(normal));
     return {(moved - palm.center).norm() +
                 tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
@@ -156,7 +159,7 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
         Vec3 area = area_vector(corners);
         const double facing = area.dot(outward);
         // A triangle that reaches far out counts no more than the sphere's cut can.
-        const double most = 2.0 * radius_m * radius_m;
+        const double most = 2.0 * std::numbers::pi * radius_m * radius_m;
         if (area.norm() > most) {
             area *= most / area.norm();
         }
@@ -251,6 +254,8 @@ class PalmHolder {
         const double side = wound.dot(palm.up) < 0.0 ? -1.0 : 1.0;
         GripSurface surface;
         surface.body = hand_.body;
+        surface.wrist_bs = hand_.wrist_bs;
+        surface.surroundings = hand_.signature;
         surface.triangle = found.triangle;
         surface.point_bs = transform_point(placed.pose, point);
         surface.normal_bs =
@@ -277,6 +282,10 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         GripSurface& surface = io.surface.at(hand.hand);
         if (is_null(hand.body) || hand.meshes.empty()) {
             surface = {};
+            continue;
+        }
+        if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&
+            hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
             continue;
         }
         PalmHolder(hand, tuning, search, io.scratch).run(surface);

@@ -8,22 +8,20 @@
 namespace handhold {
 namespace {
 
-constexpr double k_fist = 0.85;  // of the way from open to curled
 constexpr double k_most_lifts = 3.0;
 
 bool stands(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs,
             double stroll_m) {
-    if (!pose.solved || pose.solved_body != hand.body) {
-        return false;
-    }
-    constexpr double k_arm_m = 0.1;  // a turn moves fingers by its angle times this
-    const Pose moved = inverse(pose.solved_wrist_bs) * wrist_bs;
-    return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm() < stroll_m;
+    return pose.solved && pose.solved_surroundings == hand.signature &&
+           hand_way_m(pose.solved_wrist_bs, wrist_bs) < stroll_m;
 }
 
 void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const FingerRig& finger = rig.fingers[f];
+        if (finger.name == FingerName::thumb) {
+            continue;
+        }
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             const double fist =
                 finger.lower_rad[i] + k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
@@ -57,12 +55,16 @@ class HandCloser {
         const GripSurface& surface = io_.surface.at(hand.hand);
         FingerPose& pose = io_.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
-            rest_fingers(*hand.rig, io_.hand.at(hand.hand).pressed, pose);
+            rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
             return;
         }
         const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
         if (stands(pose, hand, wrist_bs, tuning_.finger.stroll_m)) {
             return;
+        }
+        if (!pose.solved || pose.solved_body != hand.body) {
+            pose.seed_triangle.fill(GripSurface::k_none);
+            pose.thumb_solved = false;
         }
         double depth_m = 0.0;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
@@ -73,6 +75,7 @@ class HandCloser {
         lift_if_sunk(hand, depth_m);
         pose.solved = true;
         pose.solved_body = hand.body;
+        pose.solved_surroundings = hand.signature;
         pose.solved_wrist_bs = wrist_bs;
     }
 
@@ -81,10 +84,7 @@ class HandCloser {
         const HandSurroundings& hand = io_.hands[place];
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
         const ChainSeed seed =
-            chain_seed(hand, io_.surface.at(hand.hand),
-                       pose.solved && pose.solved_body == hand.body ? pose.seed_triangle[f]
-                                                                    : GripSurface::k_none,
-                       chain.base.position);
+            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
@@ -97,8 +97,13 @@ class HandCloser {
         return fit.depth_m;
     }
 
+    // Not before the hand that is shown has come to where it is bound for: on its way there fingers
+    // may well be sunk.
     void lift_if_sunk(const HandSurroundings& hand, double depth_m) {
         PalmOffset& offset = io_.offset.at(hand.hand);
+        if (offset.shown_m != offset.target_m || offset.shown_turn_rad != offset.target_turn_rad) {
+            return;
+        }
         const double most_m = k_most_lifts * tuning_.palm.lift_m;
         if (depth_m > tuning_.palm.lift_from_depth_m && offset.lift_m < most_m) {
             offset.lift_m = std::min(offset.lift_m + tuning_.palm.lift_m, most_m);

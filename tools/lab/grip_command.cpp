@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "components/builtin_hand_rig.hpp"
+#include "components/hand_rig_fit.hpp"
 #include "engine/core/profile.hpp"
 #include "engine/io/gltf.hpp"
+#include "engine/io/gltf_skin.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/progress.hpp"
 #include "tools/lab/grip_files.hpp"
@@ -47,7 +49,11 @@ Result<HandRig> load_rig(const GripOptions& options) {
     if (options.rig == "builtin") {
         return builtin_hand_rig(side);
     }
-    return FileError{options.rig, "", "expected \"builtin\""};
+    const Result<SkinnedMesh> skin = load_gltf_skin(options.rig);
+    if (!skin) {
+        return skin.error();
+    }
+    return hand_rig_from_skin(skin.value(), side);
 }
 
 std::string pose_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,

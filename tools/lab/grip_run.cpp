@@ -24,7 +24,7 @@ class OneHand {
         offset_.add(hand);
         palm_.add(hand);
         fingers_.add(hand);
-        surroundings_.push_back({hand, body, &rig, {}, wrist, {{&mesh, {}}}});
+        surroundings_.push_back({hand, body, &rig, {}, wrist, {{&mesh, {}}}, 1, true});
     }
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
@@ -50,8 +50,8 @@ class OneHand {
         }
         timed(us.fingers_us, [&] {
             pose_thumb(
-                {k_at_once_s, surroundings_, surface_, palm_, fingers_, traces_, fit_scratch_},
-                tuning, stats_);
+                {k_at_once_s, surroundings_, tracking_, surface_, fingers_, traces_, fit_scratch_},
+                tuning, stats_, variant.order);
         });
     }
 
