@@ -63,7 +63,7 @@ class Gatherer {
     void add_to(HashStream& stream, Entity body, const PlacedMesh& placed) const {
         constexpr double k_steps_per_m = 1e4;
         constexpr double k_most = 1e15;
-        const auto add = [&stream](double value) {
+        const auto add = [&](double value) {
             stream.add(std::floor(std::clamp(value * k_steps_per_m, -k_most, k_most) + 0.5));
         };
         stream.add(io_.persistent_id.at(body).value);
