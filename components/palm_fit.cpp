@@ -9,7 +9,7 @@ namespace handhold {
 namespace {
 
 constexpr int k_most_pushes = 6;
-constexpr double k_sunk_m = 2e-4;        // what is sunk less is not pushed out
+constexpr double k_sunk_m = 5e-5;        // what is sunk less is not pushed out
 constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
 
 // How far beside the found triangle the palm is: along the triangle's plane, zero over it.

@@ -174,7 +174,9 @@ class Closing {
                 const bool is_early = pair.next > at;
                 if (pair.next <= at + k_together && !(is_early && pair.leaving) &&
                     touches(pair, places, at)) {
-                    return Touch{at, pair.link, pair.segment};
+                    // What comes apart no longer was less deep a step ago; nothing touched between.
+                    const double stop_at = pair.leaving ? std::max(at - k_leave_step, from) : at;
+                    return Touch{stop_at, pair.link, pair.segment};
                 }
             }
         }

@@ -291,6 +291,33 @@ TEST(CloseChain, LetsGoWhatOverlapsAndComesApart) {
     EXPECT_DOUBLE_EQ(closure.angle_rad[0], M_PI / 2.0);
 }
 
+// Whether what overlaps gets deeper is looked at 64 times on the way: between, it may by a little.
+TEST(CloseChain, WhatOverlapsIsLetGoOnlyAsLongAsItDoesNotGetDeeper) {
+    Random random(1406);
+    DiscScratch scratch;
+    double worst_m = 0.0;
+    int overlapping = 0;
+    while (overlapping < 3000) {
+        const DiscChain chain = test::random_chain(random);
+        const DiscSegment segment = test::random_segment(random);
+        const ClosingOracle oracle{chain};
+        const double before_m = oracle.least_separation_m({&segment, 1}, 0.0);
+        if (before_m > -2e-4 || before_m < -4e-3) {
+            continue;
+        }
+        ++overlapping;
+        const DiscClosure closure = close_chain(chain, {&segment, 1}, {}, scratch);
+        const double stop =
+            (closure.angle_rad[0] - chain.open_rad[0]) / (chain.closed_rad[0] - chain.open_rad[0]);
+        for (int i = 0; i <= 400; ++i) {
+            const double least_m = oracle.separation_m(0, segment, stop * i / 400.0);
+            const double first_m = oracle.separation_m(0, segment, 0.0);
+            worst_m = std::max(worst_m, std::min(first_m, 0.0) - least_m);
+        }
+    }
+    EXPECT_LT(worst_m, 3e-4);
+}
+
 TEST(CloseChain, StopsAtWhatOverlapsAndGetsDeeper) {
     const DiscChain chain = quarter_turn();
     const std::vector<DiscSegment> above = {{{0.03, 0.006}, {0.09, 0.006}, 0, 7}};

@@ -1,0 +1,123 @@
+#include "systems/hand/constrain_palms.hpp"
+
+#include <gtest/gtest.h>
+
+#include "components/palm_fit.hpp"
+#include "fitted_hand.hpp"
+
+namespace handhold {
+namespace {
+
+using test::FittedHand;
+using test::k_at_once_s;
+using test::k_right;
+using test::wrist_with_palm_at;
+
+// Palms look down on a floor in the plane y = 0. The palm's own capsules reach below its centre by
+// less than the hand is held over the floor here: pushing has nothing to do.
+struct ConstrainPalms : testing::Test {
+    GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+
+    static double tilt_rad(FittedHand& hand) {
+        return std::acos(std::min(1.0, hand.palm_up_bs().y()));
+    }
+    void hold(FittedHand& hand) const {
+        hand.search();
+        hand.constrain(k_at_once_s);
+    }
+};
+
+TEST_F(ConstrainPalms, LiftsSunkPalmToMinHeightAlongNormal) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, -0.02, 0.007}, Vec3::UnitY()));
+    hold(hand);
+    // Not lower than the least height; the heel and the ball of the thumb may need more.
+    EXPECT_GE(hand.palm_center_bs().y(), hand.tuning.palm.min_height_m - 1e-9);
+    EXPECT_LE(hand.palm_center_bs().y(), hand.tuning.palm.max_height_m);
+    EXPECT_NEAR(hand.palm_center_bs().x(), 0.013, 1e-6);
+    EXPECT_NEAR(hand.palm_center_bs().z(), 0.007, 1e-6);
+    EXPECT_LT(tilt_rad(hand), 1e-6);
+}
+
+TEST_F(ConstrainPalms, LowersHighPalmToMaxHeight) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.06, 0.007}, Vec3::UnitY()));
+    hold(hand);
+    EXPECT_NEAR(hand.palm_center_bs().y(), hand.tuning.palm.max_height_m, 1e-9);
+    EXPECT_NEAR(hand.palm_center_bs().x(), 0.013, 1e-9);
+}
+
+TEST_F(ConstrainPalms, LeavesPalmsWithinLimitsWhereTheyAre) {
+    const Vec3 up = rotation_about(Vec3::UnitZ(), 0.1) * Vec3::UnitY();
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.0149, 0.007}, up));
+    hold(hand);
+    EXPECT_EQ(hand.offset.at(k_right).target_m, Vec3::Zero());
+    EXPECT_LT(hand.offset.at(k_right).target_turn_rad.norm(), 1e-12);
+}
+
+TEST_F(ConstrainPalms, TiltsBackOnlyTheExcessAndKeepsTheHeight) {
+    for (const double tilt : {0.3, 0.5, 0.6}) {
+        const Vec3 up = rotation_about(Vec3::UnitZ(), tilt) * Vec3::UnitY();
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.05, 0.007}, up));
+        hand.tuning.palm.max_height_m = 0.05;  // room for a tilted palm
+        hold(hand);
+        EXPECT_NEAR(tilt_rad(hand), std::min(tilt, hand.tuning.palm.max_angle_rad), 1e-6);
+        EXPECT_NEAR(hand.palm_center_bs().y(), 0.05, 1e-9);
+    }
+}
+
+TEST_F(ConstrainPalms, HandOnItsTargetStaysWithinATenthOfAMillimetre) {
+    test::Random random(2101);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.6)).normalized();
+        const Vec3 center = {0.0, random.between(-0.02, 0.05), 0.0};
+        FittedHand hand(floor, wrist_with_palm_at(rig, center + random.vector(0.01), up));
+        hold(hand);
+        const Pose target = hand.shown_bs();
+        hand.wrist_bs() = target;
+        hand.constrain(k_at_once_s);
+        EXPECT_LT(hand.offset.at(k_right).target_m.norm(), 1e-4) << i;
+        EXPECT_LT(hand.offset.at(k_right).target_turn_rad.norm(), 1e-3) << i;
+    }
+}
+
+TEST_F(ConstrainPalms, ShownOffsetIsNeverFasterThanItsRate) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
+    test::Random random(2102);
+    Vec3 before = Vec3::Zero();
+    for (int frame = 0; frame < 200; ++frame) {
+        if (frame % 20 == 0) {
+            hand.wrist_bs() = wrist_with_palm_at(rig, {0.0, random.between(-0.03, 0.06), 0.0},
+                                                 (Vec3::UnitY() + random.vector(0.5)).normalized());
+        }
+        hand.search();
+        hand.constrain(k_dt_s);
+        const Vec3 shown = hand.offset.at(k_right).shown_m;
+        EXPECT_LE((shown - before).norm(), hand.tuning.palm.rate_mps * k_dt_s + 1e-12);
+        before = shown;
+    }
+    for (int frame = 0; frame < 100; ++frame) {
+        hand.search();
+        hand.constrain(k_dt_s);
+    }
+    EXPECT_EQ(hand.offset.at(k_right).shown_m, hand.offset.at(k_right).target_m);
+}
+
+TEST_F(ConstrainPalms, EmptyHandReturnsToTracking) {
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
+    hold(hand);
+    EXPECT_GT(hand.offset.at(k_right).shown_m.norm(), 0.01);
+    hand.hands.front().body = k_no_entity;
+    hand.hands.front().meshes.clear();
+    hand.search();
+    double way_m = hand.offset.at(k_right).shown_m.norm();
+    while (way_m > 0.0) {
+        hand.constrain(1.0 / 90.0);
+        ASSERT_LT(hand.offset.at(k_right).shown_m.norm(), way_m);
+        way_m = hand.offset.at(k_right).shown_m.norm();
+    }
+    EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
+}
+
+}  // namespace
+}  // namespace handhold

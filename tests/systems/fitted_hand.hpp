@@ -1,0 +1,93 @@
+#pragma once
+
+#include <limits>
+
+#include "column_scene.hpp"
+#include "components/builtin_hand_rig.hpp"
+#include "engine/geometry/grip_mesh.hpp"
+#include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/search_grip.hpp"
+#include "systems/hand/sweep_fingers.hpp"
+
+namespace handhold::test {
+
+constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
+
+// A floor in the plane y = 0, cells of 25 mm by 25 mm, a metre wide, its outside up.
+inline Mesh make_floor_mesh() {
+    constexpr std::uint32_t k_cells = 40;
+    Mesh mesh;
+    for (std::uint32_t z = 0; z <= k_cells; ++z) {
+        for (std::uint32_t x = 0; x <= k_cells; ++x) {
+            mesh.positions.emplace_back(0.025 * x - 0.5, 0.0, 0.025 * z - 0.5);
+        }
+    }
+    for (std::uint32_t z = 0; z < k_cells; ++z) {
+        for (std::uint32_t x = 0; x < k_cells; ++x) {
+            const std::uint32_t corner = z * (k_cells + 1) + x;
+            mesh.triangles.push_back({corner, corner + k_cells + 1, corner + 1});
+            mesh.triangles.push_back({corner + 1, corner + k_cells + 1, corner + k_cells + 2});
+        }
+    }
+    return mesh;
+}
+
+// The columns of one hand that holds on to one mesh, and the four stages that fit it.
+struct FittedHand {
+    const HandRig rig;
+    Tuning tuning;
+    StageStats stats;
+    Column<HandTracking> tracking;
+    Column<GripSurface> surface;
+    Column<PalmOffset> offset;
+    Column<PalmPose> palm;
+    Column<FingerPose> fingers;
+    std::vector<HandSurroundings> hands;
+    std::vector<std::array<FingerTrace, k_finger_count>> traces{1};
+    GripSearchScratch search_scratch;
+    ChainFitScratch fit_scratch;
+
+    FittedHand(const GripMesh& mesh, const Pose& wrist_bs, HandSide side = HandSide::right)
+        : rig(builtin_hand_rig(side)) {
+        tracking.add(k_right).pressed = true;
+        surface.add(k_right);
+        offset.add(k_right);
+        palm.add(k_right);
+        fingers.add(k_right);
+        hands.push_back({k_right, k_wall, &rig, {}, wrist_bs, {{&mesh, {}}}});
+    }
+    FittedHand(const FittedHand&) = delete;
+    FittedHand& operator=(const FittedHand&) = delete;
+
+    void search() { search_grip({hands, surface, search_scratch}, tuning, stats); }
+    void constrain(double dt_s) { constrain_palms({dt_s, hands, surface, offset, palm}, tuning); }
+    void sweep(double dt_s) {
+        sweep_fingers({dt_s, hands, tracking, surface, palm, offset, fingers, traces, fit_scratch},
+                      tuning, stats);
+    }
+    void thumb(double dt_s) {
+        pose_thumb({dt_s, hands, surface, palm, fingers, traces, fit_scratch}, tuning, stats);
+    }
+    void frame(double dt_s) {
+        search();
+        constrain(dt_s);
+        sweep(dt_s);
+        thumb(dt_s);
+    }
+
+    Pose& wrist_bs() { return hands.front().wrist_bs; }
+    Pose shown_bs() { return inverse(hands.front().body_ws) * palm.at(k_right).pose_ws; }
+    Vec3 palm_center_bs() { return transform_point(shown_bs(), rig.palm_center_hs); }
+    Vec3 palm_up_bs() { return shown_bs().rotation * -rig.palm_normal_hs; }
+    const FingerPose& pose() { return fingers.at(k_right); }
+};
+
+// A wrist whose palm's centre is there, its back along `up`, its fingers as near to -Z as that
+// goes.
+inline Pose wrist_with_palm_at(const HandRig& rig, const Vec3& center, const Vec3& up) {
+    const Quat rotation = rotation_between(Vec3::UnitY(), up);
+    return {center - rotation * rig.palm_center_hs, rotation};
+}
+
+}  // namespace handhold::test

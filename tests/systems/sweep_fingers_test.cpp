@@ -1,0 +1,231 @@
+#include "systems/hand/sweep_fingers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "components/finger_chain.hpp"
+#include "fitted_hand.hpp"
+
+namespace handhold {
+namespace {
+
+using test::FittedHand;
+using test::k_at_once_s;
+using test::k_right;
+using test::Random;
+using test::wrist_with_palm_at;
+
+constexpr double k_dt_s = 1.0 / 90.0;
+
+// A beam of 4 cm by 4 cm along x, its top in the plane y = 0: fingers along -Z close round it.
+Mesh make_beam() {
+    constexpr std::uint32_t k_pieces = 40;
+    const std::array<std::array<double, 2>, 4> ring = {
+        {{0.0, 0.02}, {0.0, -0.02}, {-0.04, -0.02}, {-0.04, 0.02}}};
+    Mesh mesh;
+    for (std::uint32_t i = 0; i <= k_pieces; ++i) {
+        for (const auto& [y, z] : ring) {
+            mesh.positions.emplace_back(0.4 * i / k_pieces - 0.2, y, z);
+        }
+    }
+    for (std::uint32_t i = 0; i < k_pieces; ++i) {
+        for (std::uint32_t side = 0; side < 4; ++side) {
+            const std::uint32_t a = 4 * i + side;
+            const std::uint32_t b = 4 * i + (side + 1) % 4;
+            mesh.triangles.push_back({a, a + 4, b});
+            mesh.triangles.push_back({b, a + 4, b + 4});
+        }
+    }
+    for (const std::uint32_t end : {0U, 4 * k_pieces}) {
+        const bool is_first = end == 0;
+        mesh.triangles.push_back({end, end + (is_first ? 1U : 2U), end + (is_first ? 2U : 1U)});
+        mesh.triangles.push_back({end, end + (is_first ? 2U : 3U), end + (is_first ? 3U : 2U)});
+    }
+    return mesh;
+}
+
+struct SweepFingers : testing::Test {
+    GripMesh beam = build_grip_mesh(make_beam());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    // The palm just behind the beam's top, the fingers over it.
+    const Pose on_beam = wrist_with_palm_at(rig, {0.003, 0.012, 0.004}, Vec3::UnitY());
+
+    // How deep a posed hand's links are, by find_sunk, which has its own tests.
+    static double deepest_m(FittedHand& hand) {
+        double deepest = 0.0;
+        for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
+            const FingerAngles& angles = hand.pose().target[f];
+            const HingeChain chain =
+                finger_chain(hand.rig.fingers[f], angles.opposition_rad, hand.shown_bs());
+            const auto capsules = chain_capsules(chain, angles.curl_rad);
+            for (std::size_t i = 0; i < chain.link_count; ++i) {
+                deepest =
+                    std::max(deepest, find_sunk(capsules[i], hand.hands.front().meshes).depth_m);
+            }
+        }
+        return deepest;
+    }
+};
+
+TEST_F(SweepFingers, ClosesRoundABeamAndSinksNoFinger) {
+    FittedHand hand(beam, on_beam);
+    hand.frame(k_at_once_s);
+    EXPECT_LT(deepest_m(hand), 1.5e-3);
+    int touching = 0;
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        touching += hand.traces[0][f].contact_link >= 0 ? 1 : 0;
+    }
+    EXPECT_GE(touching, 4);
+}
+
+TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.finger.close_radps = 2.0;
+    const double step_rad = 2.0 * k_dt_s;
+    FingerPose before = hand.pose();
+    for (int frame = 0; frame < 120; ++frame) {
+        hand.frame(k_dt_s);
+        const FingerPose& now = hand.pose();
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+                const double shown = now.shown[f].curl_rad[i];
+                EXPECT_LE(shown, now.target[f].curl_rad[i]);
+                EXPECT_LE(shown, before.shown[f].curl_rad[i] + step_rad + 1e-12);
+            }
+        }
+        before = now;
+    }
+    // Arrived; then the hand lets go and its fingers are at ease within one frame where that opens.
+    EXPECT_EQ(before.shown[2].curl_rad, before.target[2].curl_rad);
+    hand.hands.front().body = k_no_entity;
+    hand.hands.front().meshes.clear();
+    hand.tracking.at(k_right).pressed = false;
+    hand.frame(k_dt_s);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].relaxed_rad[i] + 1e-12);
+        }
+    }
+}
+
+TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
+    FittedHand hand(beam, on_beam);
+    for (int frame = 0; frame < 20; ++frame) {
+        hand.frame(k_at_once_s);
+    }
+    const FingerPose before = hand.pose();
+    const std::uint64_t counted = test::count_of_all(hand.stats);
+    hand.traces[0] = {};
+    hand.wrist_bs().position.x() += 0.5 * hand.tuning.finger.stroll_m;
+    hand.frame(k_at_once_s);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        EXPECT_EQ(hand.pose().target[f].curl_rad, before.target[f].curl_rad);
+        EXPECT_EQ(hand.traces[0][f].discs, 0U);  // nothing was searched
+    }
+    EXPECT_EQ(test::count_of_all(hand.stats), counted);
+    hand.wrist_bs().position.x() += 0.01;
+    hand.frame(k_at_once_s);
+    EXPECT_GT(hand.traces[0][2].discs, 0U);
+}
+
+TEST_F(SweepFingers, EmptyHandsAreAtEaseOrAFist) {
+    FittedHand hand(beam, {});
+    hand.hands.front().body = k_no_entity;
+    hand.hands.front().meshes.clear();
+    hand.tracking.at(k_right).pressed = false;
+    hand.frame(k_at_once_s);
+    const FingerPose at_ease = hand.pose();
+    hand.tracking.at(k_right).pressed = true;
+    hand.frame(k_at_once_s);
+    for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+        EXPECT_EQ(at_ease.shown[f].curl_rad, rig.fingers[f].relaxed_rad);
+        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+            EXPECT_GT(hand.pose().shown[f].curl_rad[i], at_ease.shown[f].curl_rad[i]);
+            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].upper_rad[i]);
+        }
+    }
+}
+
+TEST_F(SweepFingers, HandOnAMovingBodyIsPosedAsOnAStandingOne) {
+    Random random(2301);
+    FittedHand standing(beam, on_beam);
+    standing.frame(k_at_once_s);
+    for (int i = 0; i < 10; ++i) {
+        FittedHand moving(beam, on_beam);
+        moving.hands.front().body_ws = random.pose(20.0);
+        moving.frame(k_at_once_s);
+        EXPECT_LT((moving.shown_bs().position - standing.shown_bs().position).norm(), 1e-9);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            // 0.25 mm of a finger's end: which corners a walk leaves out, a rounding error decides.
+            for (std::size_t k = 0; k < k_most_links; ++k) {
+                EXPECT_NEAR(moving.pose().target[f].curl_rad[k],
+                            standing.pose().target[f].curl_rad[k], 0.01)
+                    << "finger " << f;
+            }
+        }
+    }
+}
+
+TEST_F(SweepFingers, LeftHandIsTheMirrorOfTheRightOne) {
+    // The beam is its own mirror image in the plane x = 0, but for its diagonals.
+    const Pose wrist = on_beam;
+    FittedHand right(beam, wrist);
+    FittedHand left(beam, test::mirrored(wrist), HandSide::left);
+    right.frame(k_at_once_s);
+    left.frame(k_at_once_s);
+    EXPECT_LT((test::mirrored(left.shown_bs()).position - right.shown_bs().position).norm(), 1e-6);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        for (std::size_t k = 0; k < k_most_links; ++k) {
+            EXPECT_NEAR(left.pose().target[f].curl_rad[k], right.pose().target[f].curl_rad[k], 0.01)
+                << "finger " << f;
+        }
+    }
+}
+
+TEST_F(SweepFingers, FingersThatStaySunkLiftThePalmByTheNextFrame) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.palm.lift_from_depth_m = -1.0;  // every hand counts as sunk
+    double before_m = 0.0;
+    for (int frame = 0; frame < 6; ++frame) {
+        hand.frame(k_at_once_s);
+        const double lift_m = hand.offset.at(k_right).lift_m;
+        EXPECT_GE(lift_m, before_m);
+        EXPECT_LE(lift_m, 3.0 * hand.tuning.palm.lift_m + 1e-12);
+        before_m = lift_m;
+    }
+    EXPECT_NEAR(before_m, 3.0 * hand.tuning.palm.lift_m, 1e-12);
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_lifted), 3U);
+}
+
+TEST_F(SweepFingers, ThumbsOppositionStaysWithinItsRange) {
+    Random random(2302);
+    const FingerRig& thumb = rig.fingers[0];
+    ASSERT_EQ(thumb.name, FingerName::thumb);
+    int touching = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.4)).normalized();
+        FittedHand hand(beam,
+                        wrist_with_palm_at(rig, Vec3(0.0, 0.01, 0.0) + random.vector(0.015), up));
+        hand.frame(k_at_once_s);
+        const FingerAngles& angles = hand.pose().target[0];
+        EXPECT_GE(angles.opposition_rad, thumb.lower_opposition_rad);
+        EXPECT_LE(angles.opposition_rad, thumb.upper_opposition_rad);
+        for (std::size_t k = 0; k < thumb.link_count; ++k) {
+            EXPECT_GE(angles.curl_rad[k], thumb.lower_rad[k] - 1e-12);
+            EXPECT_LE(angles.curl_rad[k], thumb.upper_rad[k] + 1e-12);
+        }
+        touching += hand.traces[0][0].contact_link >= 0 ? 1 : 0;
+    }
+    EXPECT_GT(touching, 20);
+}
+
+TEST_F(SweepFingers, ThumbOfAnEmptyHandRests) {
+    FittedHand hand(beam, {});
+    hand.hands.front().body = k_no_entity;
+    hand.hands.front().meshes.clear();
+    hand.frame(k_at_once_s);
+    EXPECT_EQ(hand.pose().shown[0].curl_rad, rig.fingers[0].relaxed_rad);
+    EXPECT_EQ(hand.pose().shown[0].opposition_rad, hand.tuning.thumb.rest_opposition_rad);
+}
+
+}  // namespace
+}  // namespace handhold
