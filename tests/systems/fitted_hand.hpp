@@ -55,7 +55,7 @@ struct FittedHand {
         offset.add(k_right);
         palm.add(k_right);
         fingers.add(k_right);
-        hands.push_back({k_right, k_wall, &rig, {}, wrist_bs, {{&mesh, {}}}});
+        hands.push_back({k_right, k_wall, &rig, {}, wrist_bs, {{&mesh, {}}}, 1, true});
     }
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
@@ -67,7 +67,7 @@ struct FittedHand {
                       tuning, stats);
     }
     void thumb(double dt_s) {
-        pose_thumb({dt_s, hands, surface, palm, fingers, traces, fit_scratch}, tuning, stats);
+        pose_thumb({dt_s, hands, tracking, surface, fingers, traces, fit_scratch}, tuning, stats);
     }
     void frame(double dt_s) {
         search();
