@@ -351,7 +351,11 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     if (std::optional<FileError> error = SceneBuilder(file, path, levels, scene).build()) {
         return *error;
     }
-    *scene.grip_meshes = GripMeshLibrary(*scene.shapes);
+    std::vector<ShapeId> of_bodies;
+    for (const Collider& collider : scene.world.collider.rows()) {
+        of_bodies.push_back(collider.shape);
+    }
+    *scene.grip_meshes = GripMeshLibrary(*scene.shapes, of_bodies);
     return scene;
 }
 

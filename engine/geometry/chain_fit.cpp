@@ -72,6 +72,10 @@ class ChainFitter {
           scratch_(scratch) {}
 
     ChainFit run(const ChainSeed& seed) {
+        // As much as one chain meets but in the thickest of meshes: then it grows, and stays.
+        constexpr std::size_t k_usual_segments = 2048;
+        scratch_.segments.reserve(k_usual_segments);
+        scratch_.disc.pairs.reserve(k_usual_segments);
         if (meshes_.empty()) {
             relax();
             return fit_;

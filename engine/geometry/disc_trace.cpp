@@ -71,6 +71,7 @@ class CrossingSearcher {
                      TraceScratch& scratch)
         : graph_(graph), disc_(disc), order_(order), open_(scratch.open), seen_(scratch.seen) {
         open_.clear();
+        open_.reserve(3 * k_most_pops + 1);
     }
 
     CrossingSearch run(std::uint32_t start, const Vec3& from) {
@@ -244,6 +245,8 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     // One way out, turned round, then the start's own piece, then the other way.
     scratch.line.clear();
     scratch.line_triangle.clear();
+    scratch.line.reserve(k_most_steps + 4);
+    scratch.line_triangle.reserve(k_most_steps + 4);
     CutWalk walk(graph, disc, scratch);
     const bool is_closed = walk.run(triangle, *cut, 0);
     std::reverse(scratch.line.begin(), scratch.line.end());

@@ -38,6 +38,15 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
+// Round shapes as large as this would be tessellated too roughly for a hand, or into too much.
+bool is_too_large(const Shape& shape) {
+    constexpr double k_largest_m = 64.0;
+    const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
+                              shape.kind == ShapeKind::cylinder ||
+                              shape.kind == ShapeKind::compound;
+    return may_be_round && bounding_radius(shape) > k_largest_m;
+}
+
 std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {
     std::vector<ShapeId> all(shapes.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) {
@@ -59,6 +68,9 @@ GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const Sha
     std::map<Likeness, std::uint32_t> known;
     std::vector<ShapeId> distinct;
     for (const ShapeId id : wanted) {
+        if (is_too_large(shapes.at(id))) {
+            continue;
+        }
         const auto [found, is_new] = known.try_emplace(likeness_of(shapes.at(id)),
                                                        static_cast<std::uint32_t>(distinct.size()));
         if (is_new) {

@@ -10,7 +10,8 @@ namespace handhold {
 
 // The grip mesh of each shape of a scene, made once before the first frame. Shapes that are equal
 // share one: a mesh at one scale, a hull or the parts of a compound held in common, primitives of
-// one size. Read only from then on: any number of threads may ask.
+// one size. Round shapes that reach farther than 64 m have none. Read only from then on: any number
+// of threads may ask.
 class GripMeshLibrary {
   public:
     GripMeshLibrary() = default;

