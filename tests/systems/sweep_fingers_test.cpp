@@ -131,6 +131,7 @@ TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
 TEST_F(SweepFingers, EmptyHandsAreAtEaseOrAFist) {
     FittedHand hand(beam, {});
     hand.hands.front().body = k_no_entity;
+    hand.hands.front().grips = false;
     hand.hands.front().meshes.clear();
     hand.tracking.at(k_right).pressed = false;
     hand.frame(k_at_once_s);
