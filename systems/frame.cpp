@@ -57,17 +57,12 @@ void place(World& w, FrameCaches& caches, const Tuning& tuning) {
         tuning.head);
 }
 
-}  // namespace
-
-void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-                StageStats& stats) {
-    HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
-             "dt_s must lie between 1e-6 and 10", input.dt_s);
+// What players do, and where they and all bodies would go if nothing were in the way.
+void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+             StageStats& stats) {
     const double start_s = w.clock.t_s;
     const double end_s = start_s + input.dt_s;
     FrameGraph& graph = caches.graph;
-    HandScratch& hands = caches.hands;
-    stats = {};
     {
         const StageTimer timer(Stage::read_tracking, stats);
         read_tracking({input.players, start_s, end_s, w.hand_owner, w.controller_to_hand,
@@ -109,6 +104,12 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
                       w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.grab},
                      stats);
     }
+}
+
+// What is in the way, and what holds together.
+void solve(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+           StageStats& stats) {
+    FrameGraph& graph = caches.graph;
     {
         const StageTimer timer(Stage::find_contacts, stats);
         place(w, caches, tuning);
@@ -139,11 +140,18 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
         const StageTimer timer(Stage::update_joints, stats);
         update_joints({input.dt_s, graph, w.joint, w.joint_state});
     }
+}
+
+// What the hands that are shown hold, and how.
+void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+               StageStats& stats) {
+    HandScratch& hands = caches.hands;
     {
         const StageTimer timer(Stage::gather_surroundings, stats);
-        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, graph, w.persistent_id,
-                             w.hand_owner, w.hand_tracking, w.grab, w.player_origin,
-                             w.head_tracking, w.body_pose, w.collider, hands.surroundings});
+        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, caches.graph,
+                             w.persistent_id, w.hand_owner, w.hand_tracking, w.grab,
+                             w.player_origin, w.head_tracking, w.body_pose, w.collider,
+                             hands.surroundings});
         hands.traces.assign(hands.surroundings.size(), {});
     }
     {
@@ -167,6 +175,11 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
                     hands.traces, hands.fit},
                    tuning, stats);
     }
+}
+
+// What follows the head and the hands that are shown.
+void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+            StageStats& stats) {
     {
         const StageTimer timer(Stage::estimate_arms, stats);
         estimate_arms({input.dt_s, w.player_origin, w.head_tracking, w.body_measures, w.hand_owner,
@@ -186,13 +199,26 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     }
     {
         const StageTimer timer(Stage::publish_pose, stats);
-        publish_pose({graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
+        publish_pose({caches.graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
                       w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.render_pose},
                      tuning);
         publish_body({w.arm_pose, w.spine_pose, w.render_pose});
     }
+}
+
+}  // namespace
+
+void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+                StageStats& stats) {
+    HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
+             "dt_s must lie between 1e-6 and 10", input.dt_s);
+    stats = {};
+    predict(w, caches, tuning, input, stats);
+    solve(w, caches, tuning, input, stats);
+    fit_hands(w, caches, tuning, input, stats);
+    follow(w, caches, tuning, input, stats);
     ++w.clock.frame;
-    w.clock.t_s = end_s;
+    w.clock.t_s += input.dt_s;
 }
 
 }  // namespace handhold

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy (.clang-tidy, every finding an error) over the product's sources. Files that were clean and have not changed since,
-headers included, are skipped: their marks lie in the build folder. Tests are held to warnings and format only: GoogleTest's macros
-would double the time and add no finding.
+"""Runs clang-tidy (.clang-tidy, every finding an error) over the product's sources. Tests are held to warnings and format only:
+GoogleTest's macros would double the time and add no finding.
+
+clang-tidy looks through every header for each source anew, and that is nearly all its time: sources that compile as one are therefore
+looked at as one. Joint sources that were clean and have not changed since, headers included, are skipped: their marks lie in the user's
+cache folder, as those of ccache do.
 
 The compile commands come from build/tidy, which is configured without precompiled headers: clang-tidy cannot read GCC's.
 
-usage: tools/check_tidy.py [FILE...]      default: every source; exit status 0: clean, 1: not
+usage: tools/check_tidy.py [FILE...]      default: every source; a named file is looked at alone; exit status 0: clean, 1: not
 """
 import hashlib
 import json
@@ -13,63 +16,116 @@ import os
 import shlex
 import subprocess
 import sys
+from collections import defaultdict
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "tidy"
-FOLDERS = {"engine", "components", "systems", "game", "tools"}
+MARKS = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "handhold" / "tidy"
+FOLDERS = ("engine", "components", "systems", "game", "tools")
+MOST_TOGETHER = 12
 
 
-def sources_of(build: Path, wanted: set[Path]) -> list[dict]:
-    """The entries of the compile database that are ours and, if any are named, wanted."""
-    entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    ours = []
-    for entry in entries:
+@dataclass(frozen=True)
+class Joint:
+    """Sources of one folder that are compiled with the same flags, as one source."""
+    flags: tuple[str, ...]
+    sources: tuple[Path, ...]
+
+    def text(self) -> str:
+        return "".join(f'#include "{source}"  // NOLINT\n' for source in self.sources)
+
+    def file(self) -> Path:
+        """The source that includes them all; a single one is itself."""
+        if len(self.sources) == 1:
+            return self.sources[0]
+        name = hashlib.sha256(self.text().encode()).hexdigest()[:16]
+        return BUILD / "joint" / f"{name}.cpp"
+
+    def halves(self) -> list["Joint"]:
+        middle = len(self.sources) // 2
+        return [Joint(self.flags, self.sources[:middle]), Joint(self.flags, self.sources[middle:])]
+
+
+def flags_of(command: str) -> tuple[str, ...]:
+    """A compile command without its compiler and what launches that, its source and what it writes."""
+    words = shlex.split(command)
+    compiler = next(place for place, word in enumerate(words) if Path(word).name in ("g++", "c++"))
+    output = words.index("-o")
+    return tuple(words[compiler + 1:output] + words[output + 2:words.index("-c")])
+
+
+def sources_of(wanted: set[Path]) -> dict[tuple[str, ...], list[Path]]:
+    """Our sources by the flags that they are compiled with, each once; only the wanted ones if any are named."""
+    found = defaultdict(list)
+    seen = set()
+    for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8")):
         file = Path(entry["file"])
         is_ours = file.is_relative_to(ROOT) and file.relative_to(ROOT).parts[0] in FOLDERS
-        if is_ours and (not wanted or file in wanted):
-            ours.append(entry)
-    return ours
+        if is_ours and file not in seen and (not wanted or file in wanted):
+            seen.add(file)
+            found[flags_of(entry["command"])].append(file)
+    return found
 
 
-def fingerprint(entry: dict) -> str:
-    """Of all that a finding can depend on: the source with its headers as the compiler sees them, and the rules."""
-    command = shlex.split(entry["command"])
-    command[:] = [word for word in command if Path(word).name != "ccache"]
-    without_output = command[:command.index("-o")] + command[command.index("-o") + 2:]
-    preprocessed = subprocess.run([word for word in without_output if word != "-c"] + ["-E"], cwd=entry["directory"],
-                                  capture_output=True, check=True).stdout
-    # Comments hold NOLINT, so the source itself counts too; a NOLINT in a header comes with a change of its own.
-    parts = [preprocessed, Path(entry["file"]).read_bytes(), (ROOT / ".clang-tidy").read_bytes()]
+def joints_of(sources: dict[tuple[str, ...], list[Path]], most: int) -> list[Joint]:
+    joints = []
+    for flags, files in sources.items():
+        files.sort()
+        joints += [Joint(flags, tuple(files[first:first + most])) for first in range(0, len(files), most)]
+    return joints
+
+
+def compiles(joint: Joint) -> bool:
+    """False where two sources give the same name to different things of their own."""
+    run = subprocess.run(["clang++", *joint.flags, "-w", "-fsyntax-only", str(joint.file())], cwd=BUILD, capture_output=True)
+    return run.returncode == 0
+
+
+def fingerprint(joint: Joint) -> str:
+    """Of all that a finding can depend on: the sources with their headers and comments (NOLINT) as the compiler sees them, and the rules.
+    Nothing of where the folder lies."""
+    preprocessed = subprocess.run(["clang++", *joint.flags, "-w", "-E", "-P", "-C", str(joint.file())], cwd=BUILD, capture_output=True,
+                                  check=True).stdout
+    parts = [preprocessed.replace(os.fsencode(ROOT), b""), (ROOT / ".clang-tidy").read_bytes()]
     return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
-def tidy(entry: dict) -> str:
-    """The findings in one source and its headers; empty where it is clean."""
-    mark = BUILD / "clean" / fingerprint(entry)
+def tidy(joint: Joint) -> list[str]:
+    """The findings in the sources and their headers; empty where they are clean."""
+    if len(joint.sources) > 1:
+        joint.file().write_text(joint.text(), encoding="utf-8")
+    mark = MARKS / fingerprint(joint)
     if mark.exists():
-        return ""
-    run = subprocess.run(["clang-tidy", "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", str(BUILD), entry["file"]],
-                         capture_output=True, text=True)
+        mark.touch()
+        return []
+    if len(joint.sources) > 1 and not compiles(joint):
+        return [finding for half in joint.halves() for finding in tidy(half)]
+    run = subprocess.run(["clang-tidy", "--quiet", f"--config-file={ROOT / '.clang-tidy'}",
+                          f"--header-filter=^{ROOT}/({'|'.join(FOLDERS)})/.*[.][hc]pp$", str(joint.file()), "--", *joint.flags,
+                          "-Wno-unknown-warning-option"], cwd=BUILD, capture_output=True, text=True)
     if run.returncode == 0:
         mark.touch()
-        return ""
-    return run.stdout or run.stderr
+        return []
+    return [run.stdout or run.stderr]
 
 
 def main(arguments: list[str]) -> int:
     subprocess.run(["cmake", "--preset", "release", "-B", str(BUILD), "-DHANDHOLD_PRECOMPILE=OFF", "-DHANDHOLD_BUILD_TESTS=OFF"],
                    cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
-    (BUILD / "clean").mkdir(exist_ok=True)
-    entries = sources_of(BUILD, {Path(name).resolve() for name in arguments})
-    if not entries:
+    (BUILD / "joint").mkdir(exist_ok=True)
+    MARKS.mkdir(parents=True, exist_ok=True)
+    wanted = {Path(name).resolve() for name in arguments}
+    joints = joints_of(sources_of(wanted), 1 if wanted else MOST_TOGETHER)
+    if not joints:
         print(f"check_tidy: no source of ours in {BUILD}/compile_commands.json", file=sys.stderr)
         return 1
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        findings = [found for found in workers.map(tidy, entries) if found]
+        findings = [finding for found in workers.map(tidy, joints) for finding in found]
     print("".join(findings), end="")
-    print(f"check_tidy: {len(entries)} sources, {len(findings)} with findings")
+    print(f"check_tidy: {sum(len(joint.sources) for joint in joints)} sources, {len(findings)} runs with findings")
     return 1 if findings else 0
 
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,7 +21,9 @@ class TriangleSet {
     // False where it is in already.
     bool insert(std::uint32_t triangle) {
         constexpr std::uint32_t k_golden = 2654435769U;  // Knuth's multiplicative hash
-        std::size_t slot = (triangle * k_golden) % k_slots;
+        constexpr int k_low_bits = 32 - std::countr_zero(k_slots);
+        const std::uint32_t hash = triangle * k_golden;
+        std::size_t slot = hash >> k_low_bits;
         while (slots_[slot] != k_no_triangle) {
             if (slots_[slot] == triangle) {
                 return false;

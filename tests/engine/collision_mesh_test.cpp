@@ -6,6 +6,7 @@
 
 #include "collision_oracle.hpp"
 #include "engine/io/gltf.hpp"
+#include "tests/places.hpp"
 
 // What meshes alone can get wrong: internal edges, sides, slivers.
 namespace handhold {
@@ -272,7 +273,7 @@ struct Level {
 };
 
 std::optional<Level> load_level() {
-    const std::filesystem::path path = std::string(HANDHOLD_DATA_DIR) + "/level/station.glb";
+    const std::filesystem::path path = data_dir() / "level" / "station.glb";
     if (!std::filesystem::exists(path)) {
         return std::nullopt;
     }

@@ -10,6 +10,7 @@
 
 #include "collision_scene.hpp"
 #include "engine/io/gltf.hpp"
+#include "tests/places.hpp"
 
 // The oracle is what a hull is: no given point outside of it, every corner a given point, and a
 // surface that closes.
@@ -175,7 +176,7 @@ TEST(ConvexHull, SurvivesPointsThatAreNearlyInOnePlaneOrLine) {
 }
 
 TEST(ConvexHull, OfRealObjectsHoldsThem) {
-    const std::filesystem::path folder = std::string(HANDHOLD_DATA_DIR) + "/objects";
+    const std::filesystem::path folder = data_dir() / "objects";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no object data";
     }

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "engine/io/gltf.hpp"
+#include "tests/places.hpp"
 
 // Real meshes for the geometry tests: every part of a file as one mesh.
 namespace handhold::test {
 
 inline std::vector<std::filesystem::path> data_files(const char* folder) {
     std::vector<std::filesystem::path> files;
-    const std::filesystem::path root = std::filesystem::path(HANDHOLD_DATA_DIR) / folder;
+    const std::filesystem::path root = data_dir() / folder;
     if (std::filesystem::exists(root)) {
         for (const auto& entry : std::filesystem::directory_iterator(root)) {
             if (entry.path().extension() == ".glb") {

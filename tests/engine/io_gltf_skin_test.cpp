@@ -6,6 +6,7 @@
 
 #include "engine/io/gltf_skin.hpp"
 #include "tests/engine/io_gltf_builder.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
@@ -181,8 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Files, MalformedSkin, ::testing::ValuesIn(k_bad_skins))
 
 TEST(GltfSkinRealData, BothHandsLoad) {
     for (const char* name : {"generic_hand_left.glb", "generic_hand_right.glb"}) {
-        const std::filesystem::path path =
-            std::filesystem::path(HANDHOLD_DATA_DIR) / "hands" / name;
+        const std::filesystem::path path = data_dir() / "hands" / name;
         if (!std::filesystem::exists(path)) {
             GTEST_SKIP() << "no such data";
         }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/gltf.hpp"
+#include "tests/places.hpp"
 
 // The folder's SOURCE.md and MANIFEST.json say what is in the files.
 namespace handhold {
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path k_data = HANDHOLD_DATA_DIR;
+const fs::path k_data = data_dir();
 
 std::vector<fs::path> files_below(const char* folder) {
     std::vector<fs::path> files;

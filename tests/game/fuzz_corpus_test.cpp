@@ -6,6 +6,7 @@
 
 #include "engine/io/text_file.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
@@ -19,8 +20,7 @@ void PrintTo(const Target& target, std::ostream* stream) { *stream << target.nam
 class FuzzCorpus : public testing::TestWithParam<Target> {};
 
 TEST_P(FuzzCorpus, EveryFileIsReadOrRefused) {
-    const auto folder =
-        std::filesystem::path(HANDHOLD_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+    const auto folder = source_dir() / "tests/fuzz/corpus" / GetParam().name;
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         SCOPED_TRACE(entry.path().filename().string());

@@ -10,6 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/io/text_file.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
@@ -231,8 +232,7 @@ TEST(Recording, SaveIntoAbsentFolderIsAnError) {
 }
 
 TEST(Recording, ExampleOfItsDocumentLoads) {
-    const std::string example =
-        example_of(fs::path(HANDHOLD_SOURCE_DIR) / "docs/recording_format.md");
+    const std::string example = example_of(source_dir() / "docs/recording_format.md");
     const Result<Recording> recording = parse_recording(example, "recording_format.md");
     ASSERT_TRUE(recording.ok()) << recording.error().message();
     ASSERT_EQ(recording.value().samples.size(), 3U);
@@ -243,7 +243,7 @@ TEST(Recording, ExampleOfItsDocumentLoads) {
 // MANIFEST and SOURCE.md of vr_input/: 20 recordings, 312 s in all, near 89 Hz, heads 0.5 to 1.8 m
 // high.
 TEST(RealRecordings, AllTwentyLoad) {
-    const fs::path folder = fs::path(HANDHOLD_DATA_DIR) / "vr_input";
+    const fs::path folder = data_dir() / "vr_input";
     if (!fs::exists(folder)) {
         GTEST_SKIP() << "no " << folder;
     }

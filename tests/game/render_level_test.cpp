@@ -8,6 +8,7 @@
 #include "game/render/level_meshes.hpp"
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
@@ -36,8 +37,7 @@ TEST(LevelMeshes, OneMeshAColourWithItsOwnVertices) {
 }
 
 TEST(LevelMeshes, RealStationFillsThePicture) {
-    const std::filesystem::path path =
-        std::filesystem::path(HANDHOLD_DATA_DIR) / "level" / "station_render.glb";
+    const std::filesystem::path path = data_dir() / "level" / "station_render.glb";
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << path << " is absent";
     }

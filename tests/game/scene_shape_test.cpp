@@ -8,6 +8,7 @@
 #include "engine/collision/mass_properties.hpp"
 #include "game/scene.hpp"
 #include "game/scene_file.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
@@ -152,7 +153,7 @@ TEST(SceneShape, FreeCompoundMovesToItsCentreOfMassAndStaysWhereItIs) {
 }
 
 TEST(SceneShape, HullsAndScaledMeshesOfOneFileShareIt) {
-    const std::string path = std::string(HANDHOLD_DATA_DIR) + "/objects/teacup.glb";
+    const std::string path = (data_dir() / "objects" / "teacup.glb").string();
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << "no object data";
     }

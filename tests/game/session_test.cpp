@@ -10,11 +10,12 @@
 #include "game/report/run_summary.hpp"
 #include "game/session_run.hpp"
 #include "game/spawn.hpp"
+#include "tests/places.hpp"
 
 namespace handhold {
 namespace {
 
-const std::filesystem::path k_data = HANDHOLD_DATA_DIR;
+const std::filesystem::path k_data = data_dir();
 
 RunLog play(Scene& scene, const Recording& recording, const Pose& origin_ws, int threads,
             double hz = 90.0) {

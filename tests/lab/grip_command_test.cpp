@@ -3,6 +3,7 @@
 
 #include "engine/io/gltf_writer.hpp"
 #include "lab_files.hpp"
+#include "tests/places.hpp"
 
 namespace handhold::lab {
 namespace {
@@ -59,7 +60,8 @@ class GripCommand : public LabTest {
                path("out.jsonl");
     }
     int run(const std::string& arguments) {
-        const std::string command = "\"" HANDHOLD_LAB "\" grip " + arguments + " 2>" + path("err");
+        const std::string command =
+            "\"" + lab_program().string() + "\" grip " + arguments + " 2>" + path("err");
         const int status = std::system(command.c_str());
         err_ = text_of(folder_ / "err");
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 
 #include "lab_files.hpp"
+#include "tests/places.hpp"
 #include "tools/lab/lab_scene.hpp"
 
 namespace handhold::lab {
@@ -12,8 +13,8 @@ class LabCommand : public LabTest {
     // Exit status; what it printed on standard error is in err_.
     int run(const std::string& arguments) {
         const std::string err = (folder_ / "err").string();
-        const int status =
-            std::system(("\"" HANDHOLD_LAB "\" " + arguments + " 2>\"" + err + "\"").c_str());
+        const int status = std::system(
+            ("\"" + lab_program().string() + "\" " + arguments + " 2>\"" + err + "\"").c_str());
         err_ = text_of(err);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }

@@ -8,6 +8,7 @@
 
 #include "components/builtin_hand_rig.hpp"
 #include "components/hand_joint_names.hpp"
+#include "tests/places.hpp"
 #include "tests/systems/tube_hand.hpp"
 
 namespace handhold {
@@ -27,13 +28,10 @@ Angles relaxed(const HandRig& rig) {
 }
 
 Result<HandRigFit> fit_file(const char* name, HandSide side) {
-    const Result<SkinnedMesh> skin =
-        load_gltf_skin(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands" / name);
+    const Result<SkinnedMesh> skin = load_gltf_skin(data_dir() / "hands" / name);
     return skin.ok() ? fit_hand_rig(skin.value(), side) : Result<HandRigFit>(skin.error());
 }
-bool has_real_hands() {
-    return std::filesystem::exists(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands");
-}
+bool has_real_hands() { return std::filesystem::exists(data_dir() / "hands"); }
 
 // How far the rig's joints at the bind angles are off those of the file, at most.
 void expect_bind_pose(const HandRigFit& fit, const SkinnedMesh& skin) {
@@ -225,8 +223,7 @@ TEST(HandRigFitRealData, SharedHandsStandAsInTheirFilesAtTheBindAngles) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const char* name =
             side == HandSide::left ? "generic_hand_left.glb" : "generic_hand_right.glb";
-        const Result<SkinnedMesh> skin =
-            load_gltf_skin(std::filesystem::path(HANDHOLD_DATA_DIR) / "hands" / name);
+        const Result<SkinnedMesh> skin = load_gltf_skin(data_dir() / "hands" / name);
         ASSERT_TRUE(skin.ok());
         const Result<HandRigFit> fit = fit_hand_rig(skin.value(), side);
         ASSERT_TRUE(fit.ok()) << fit.error().message();

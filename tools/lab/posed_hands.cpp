@@ -43,7 +43,7 @@ Result<std::vector<PosedHand>> parse_posed_hands(std::string_view text, const st
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
         ++number;
-        if (line.find_first_not_of(" \t\r") == line.npos) {
+        if (line.find_first_not_of(" \t\r") == std::string_view::npos) {
             continue;
         }
         const auto refuse = [&](const FileError& error) {
