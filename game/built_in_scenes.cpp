@@ -75,19 +75,24 @@ SessionScript station_script() {
     add_crawl(crawl, script);
     script.holds.push_back(
         {HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
-    // Bars over the hatch: palms under them, fingers up.
+    // The bar over the habitat's hatch: palms under it, fingers ahead.
     const Vec3 under = -Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
         script.holds.push_back({side, from_s, until_s, on_axis + 0.02 * under, under, ahead});
     };
     hold(HandSide::right, 7.6, 10.1, Vec3(0.16, 0.885, 1.893));
     hold(HandSide::left, 8.7, 9.6, Vec3(-0.18, 0.885, 1.893));
-    hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.885, 1.178));
-    hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.885, 1.178));
-    hold(HandSide::right, 12.9, 20.5, Vec3(0.18, 0.885, -1.178));
-    hold(HandSide::left, 13.6, 17.4, Vec3(-0.18, 0.885, -1.178));
-    // Towards the pane: the eyes follow the hands.
+    // The node's hatches have no bars over them, but collars: palms under the upper edge of the one
+    // behind, fingers round it; then against the face of the one ahead.
+    hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.668, 1.235));
+    hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.668, 1.235));
     const Vec3 back = Vec3::UnitZ();
+    const Vec3 collar(0.0, 0.690, -1.211);
+    script.holds.push_back(
+        {HandSide::right, 12.9, 20.5, collar + Vec3(0.18, 0.0, 0.0), back, Vec3::UnitY()});
+    script.holds.push_back(
+        {HandSide::left, 13.6, 17.4, collar - Vec3(0.18, 0.0, 0.0), back, Vec3::UnitY()});
+    // Towards the pane: the eyes follow the hands.
     script.reaches.push_back(
         {HandSide::left, 18.6, Vec3(-0.16, -0.06, -1.74), back, Vec3::UnitY()});
     script.reaches.push_back({HandSide::left, 20.5, Vec3(-0.20, 0.00, -1.76), back, Vec3::UnitY()});
@@ -119,7 +124,8 @@ constexpr double k_ship_speed_mps = 20.0;
 constexpr double k_ship_spin_radps = 0.06;
 constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
-constexpr double k_pick_s = 8.6;              // when the session takes the rock
+constexpr double k_first_grip_s = 0.35;       // when the session's player first holds on
+constexpr double k_pick_s = 8.6;              // and when he takes the rock
 const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // then, in the ship's frame
 const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper, along z
 constexpr double k_ship_wall_x = -1.65;       // about: the session shoves well into it
@@ -142,7 +148,7 @@ SessionScript ship_script() {
     crawl.away = Vec3::UnitX();
     crawl.fingers = Vec3::UnitY();
     crawl.speed_mps = 0.45;
-    crawl.from_s = 0.35;
+    crawl.from_s = k_first_grip_s;
     crawl.until_s = 6.9;
     add_crawl(crawl, script);
     script.holds.push_back({HandSide::left, 7.2, 15.6, k_ship_rail + Vec3(0.02, 0.0, -0.10),
@@ -206,7 +212,9 @@ Scene make_ship_scene() {
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
     scene.lamps_body = scene.world.mover.owners()[0];
-    scene.spawns.push_back({"rail", session_origin(ship_script())});
+    // Nor does the ship turn him who does not hold it yet: placed so that it turns to him in time.
+    const Pose turned{Vec3::Zero(), rotation_from_vector(spin * k_first_grip_s)};
+    scene.spawns.push_back({"rail", turned * session_origin(ship_script())});
     add_spawns(ship, scene);
     add_rails(ship.rails, scene);
     return scene;
@@ -225,13 +233,7 @@ Scene make_crowd_scene() {
     return scene;
 }
 
-}  // namespace
-
-std::vector<std::string_view> built_in_scenes() {
-    return {"station", "ship", "playground", "robot", "crowd"};
-}
-
-std::optional<Scene> make_built_in_scene(std::string_view name) {
+std::optional<Scene> make_bodies_of(std::string_view name) {
     if (name == "station") {
         return make_station_scene();
     }
@@ -248,6 +250,20 @@ std::optional<Scene> make_built_in_scene(std::string_view name) {
         return make_crowd_scene();
     }
     return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string_view> built_in_scenes() {
+    return {"station", "ship", "playground", "robot", "crowd"};
+}
+
+std::optional<Scene> make_built_in_scene(std::string_view name) {
+    std::optional<Scene> scene = make_bodies_of(name);
+    if (scene) {
+        add_grip_meshes(*scene);
+    }
+    return scene;
 }
 
 void add_session_spawn(SceneFile& scene) {

@@ -351,12 +351,16 @@ Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& pa
     if (std::optional<FileError> error = SceneBuilder(file, path, levels, scene).build()) {
         return *error;
     }
+    add_grip_meshes(scene);
+    return scene;
+}
+
+void add_grip_meshes(Scene& scene) {
     std::vector<ShapeId> of_bodies;
     for (const Collider& collider : scene.world.collider.rows()) {
         of_bodies.push_back(collider.shape);
     }
-    *scene.grip_meshes = GripMeshLibrary(*scene.shapes, of_bodies);
-    return scene;
+    scene.grip_meshes->add(*scene.shapes, of_bodies);
 }
 
 Result<Scene> load_scene(const std::string& name_or_file) {

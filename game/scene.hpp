@@ -55,7 +55,7 @@ struct Scene {
     World world;
     std::unique_ptr<ShapeLibrary> shapes =
         std::make_unique<ShapeLibrary>();  // its address stays: caches refer to it
-    // What hands are fitted to: of every shape; its address stays as well.
+    // What hands are fitted to: of every body's shape; its address stays as well.
     std::unique_ptr<GripMeshLibrary> grip_meshes = std::make_unique<GripMeshLibrary>();
     Tuning tuning;
     ShapeId head_shape;  // a sphere of the tuning's head radius
@@ -80,6 +80,10 @@ using LevelSource = std::function<Result<GltfLevel>(const std::filesystem::path&
 // From a checked scene file.
 Result<Scene> build_scene(const SceneFile& file, const std::filesystem::path& path,
                           const LevelSource& levels = load_gltf_level);
+
+// Gives hands the surfaces of all bodies that have none yet: whoever adds bodies to a scene calls
+// it when he is done. A body without is gripped all the same, but hands are shown on it as tracked.
+void add_grip_meshes(Scene& scene);
 
 // `wanted`, with as many primes behind it as it takes until it and its hands' names are free: a
 // scene's bodies may have any names.

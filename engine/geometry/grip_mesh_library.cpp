@@ -15,25 +15,6 @@ namespace {
 
 constexpr std::uint32_t k_none = k_no_triangle;
 
-// Equal where two shapes have one surface. Addresses only tell shapes apart: no order follows them.
-using Likeness = std::array<std::uint64_t, 10>;
-
-Likeness likeness_of(const Shape& shape) {
-    const auto address = [](const auto& pointer) {
-        return static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(pointer.get()));
-    };
-    Likeness likeness = {static_cast<std::uint64_t>(shape.kind),
-                         address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
-                         std::bit_cast<std::uint64_t>(shape.radius_m),
-                         std::bit_cast<std::uint64_t>(shape.half_height_m)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<Eigen::Index>(axis);
-        likeness[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
-        likeness[7 + axis] = std::bit_cast<std::uint64_t>(shape.scale[i]);
-    }
-    return likeness;
-}
-
 std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
@@ -57,28 +38,50 @@ std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {
 
 }  // namespace
 
+GripMeshLibrary::Likeness GripMeshLibrary::likeness_of(const Shape& shape) {
+    const auto address = [](const auto& pointer) {
+        return static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(pointer.get()));
+    };
+    Likeness likeness = {static_cast<std::uint64_t>(shape.kind),
+                         address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
+                         std::bit_cast<std::uint64_t>(shape.radius_m),
+                         std::bit_cast<std::uint64_t>(shape.half_height_m)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<Eigen::Index>(axis);
+        likeness[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
+        likeness[7 + axis] = std::bit_cast<std::uint64_t>(shape.scale[i]);
+    }
+    return likeness;
+}
+
 GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, const GripMeshSettings& settings,
                                  const std::filesystem::path& cache_directory)
     : GripMeshLibrary(shapes, all_of(shapes), settings, cache_directory) {}
 
 GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
                                  const GripMeshSettings& settings,
-                                 const std::filesystem::path& cache_directory)
-    : mesh_of_shape_(shapes.size(), k_none) {
-    std::map<Likeness, std::uint32_t> known;
+                                 const std::filesystem::path& cache_directory) {
+    add(shapes, wanted, settings, cache_directory);
+}
+
+void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
+                          const GripMeshSettings& settings,
+                          const std::filesystem::path& cache_directory) {
+    mesh_of_shape_.resize(shapes.size(), k_none);
+    const auto first = static_cast<std::uint32_t>(meshes_.size());
     std::vector<ShapeId> distinct;
     for (const ShapeId id : wanted) {
         if (is_too_large(shapes.at(id))) {
             continue;
         }
-        const auto [found, is_new] = known.try_emplace(likeness_of(shapes.at(id)),
-                                                       static_cast<std::uint32_t>(distinct.size()));
+        const auto [found, is_new] = known_.try_emplace(
+            likeness_of(shapes.at(id)), first + static_cast<std::uint32_t>(distinct.size()));
         if (is_new) {
             distinct.push_back(id);
         }
         mesh_of_shape_[id.index] = found->second;
     }
-    meshes_.resize(distinct.size());
+    meshes_.resize(first + distinct.size());
     std::vector<std::size_t> order(distinct.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -86,7 +89,8 @@ GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const Sha
     });
     auto build = [&](std::size_t i) {
         const std::size_t place = order[i];
-        meshes_[place] = cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
+        meshes_[first + place] =
+            cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
     };
     parallel_for(order.size(), build);
 }

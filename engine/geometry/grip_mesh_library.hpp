@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -10,8 +13,8 @@ namespace handhold {
 
 // The grip mesh of each shape of a scene, made once before the first frame. Shapes that are equal
 // share one: a mesh at one scale, a hull or the parts of a compound held in common, primitives of
-// one size. Round shapes that reach farther than 64 m have none. Read only from then on: any number
-// of threads may ask.
+// one size. Round shapes that reach farther than 64 m have none. Read only between calls of add:
+// any number of threads may ask.
 class GripMeshLibrary {
   public:
     GripMeshLibrary() = default;
@@ -23,6 +26,12 @@ class GripMeshLibrary {
                     const GripMeshSettings& settings = {},
                     const std::filesystem::path& cache_directory = {});
 
+    // Makes what is missing of `wanted`; what was made before stays as it is. The shapes are those
+    // of earlier calls and more.
+    void add(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
+             const GripMeshSettings& settings = {},
+             const std::filesystem::path& cache_directory = {});
+
     // Precondition: one of the shapes it was made for.
     const GripMesh& at(ShapeId shape) const;
     bool has(ShapeId shape) const;
@@ -30,6 +39,12 @@ class GripMeshLibrary {
     std::size_t memory_bytes() const;
 
   private:
+    // Equal where two shapes have one surface. Addresses only tell shapes apart: no order follows
+    // them.
+    using Likeness = std::array<std::uint64_t, 10>;
+    static Likeness likeness_of(const Shape& shape);
+
+    std::map<Likeness, std::uint32_t> known_;   // to meshes_
     std::vector<std::uint32_t> mesh_of_shape_;  // by ShapeId::index; k_no_triangle: none
     std::vector<GripMesh> meshes_;
 };

@@ -48,5 +48,23 @@ TEST(GripMeshLibrary, HasOnlyWhatWasAskedFor) {
     EXPECT_FALSE(GripMeshLibrary().has(box));
 }
 
+TEST(GripMeshLibrary, AddMakesOnlyWhatIsMissing) {
+    ShapeLibrary shapes;
+    const ShapeId box = shapes.add_box({0.1, 0.2, 0.3});
+    GripMeshLibrary library(shapes);
+    const ShapeId same_box = shapes.add_box({0.1, 0.2, 0.3});
+    const ShapeId ball = shapes.add_sphere(0.1);
+    const ShapeId unwanted = shapes.add_sphere(0.2);
+    const std::vector<ShapeId> wanted = {box, same_box, ball};
+    library.add(shapes, wanted);
+    EXPECT_EQ(library.distinct_count(), 2U);
+    EXPECT_EQ(&library.at(box), &library.at(same_box));
+    EXPECT_EQ(library.at(ball).contact.triangles,
+              build_grip_mesh(shapes.at(ball)).contact.triangles);
+    EXPECT_FALSE(library.has(unwanted));
+    library.add(shapes, wanted);
+    EXPECT_EQ(library.distinct_count(), 2U);
+}
+
 }  // namespace
 }  // namespace handhold

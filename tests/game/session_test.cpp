@@ -61,6 +61,13 @@ TEST_P(BuiltIn, GripsAtOtherFrameRatesToo) {
     }
 }
 
+TEST_P(BuiltIn, EveryBodyHasASurfaceForHands) {
+    const Scene scene = *make_built_in_scene(GetParam());
+    for (std::size_t row = 0; row < scene.world.collider.size(); ++row) {
+        EXPECT_TRUE(scene.grip_meshes->has(scene.world.collider.rows()[row].shape)) << row;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltIn, testing::ValuesIn(built_in_scenes()),
                          [](const auto& test) { return std::string(test.param); });
 
@@ -83,6 +90,32 @@ TEST(ShipScene, WavedAndShovedRockPushesThePlayerOffTheWall) {
     }
     EXPECT_TRUE(held);
     EXPECT_GE(pushed, 1U);
+}
+
+// The session is planned with palms on the free side of the wall's rail, wrists beside it: tracked
+// there, since the ship turns to where he first grips, and shown there.
+TEST(ShipScene, HandsHoldTheRailFromThePlayersSide) {
+    const Mover ship = make_built_in_scene("ship")->world.mover.rows()[0];
+    constexpr double k_rail_axis_x_m = -1.593;
+    constexpr double k_tremor_m = 1e-3;
+    constexpr double k_wrist_over_axis_m = 0.034;  // the palm's 20 mm, and 14 mm from palm to wrist
+    std::size_t holding = 0;
+    for (const FrameLog& frame : play_built_in("ship", 1).frames) {
+        const Pose ship_ws{frame.t_s * ship.velocity_ws_mps,
+                           rotation_from_vector(frame.t_s * ship.angular_velocity_ws_radps)};
+        for (const HandLog& hand : frame.players[0].hands) {
+            if (hand.grip != static_cast<int>(GripKind::surface)) {
+                continue;
+            }
+            ++holding;
+            for (const Vec3& wrist_ws : {hand.target_ws, hand.shown_ws}) {
+                const double over_axis_m =
+                    inverse_transform_point(ship_ws, wrist_ws).x() - k_rail_axis_x_m;
+                EXPECT_NEAR(over_axis_m, k_wrist_over_axis_m, 0.003 + k_tremor_m) << frame.t_s;
+            }
+        }
+    }
+    EXPECT_GT(holding, 1000U);
 }
 
 std::vector<std::filesystem::path> recordings() {
