@@ -216,7 +216,7 @@ class PalmHolder {
                 break;
             }
             tried[tries] = *way;
-            const GripSurface surface = surface_at(placed, palm, *way);
+            GripSurface surface = surface_at(placed, palm, *way);
             const double sunk_m = fit_palm(hand_, surface, 0.0, tuning_.palm).sunk_m;
             if (sunk_m <= k_roomy_m) {
                 return surface;
