@@ -3,21 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/segment_triangle.hpp"
-
 namespace handhold {
 namespace {
 
-Vec3 along_link(const Pose& hinge) { return hinge.rotation * -Vec3::UnitZ(); }
+// Disc space (disc_contact.hpp) in space.
+Vec3 from_disc(const Pose& base, const Vec2& point_ds) {
+    return base.position + base.rotation * Vec3(0.0, -point_ds.y(), -point_ds.x());
+}
 
-double reach_m(const HingeChain& chain) {
-    double reach = 0.0;
+double thickest_m(const HingeChain& chain) {
     double thickest = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
-        reach += chain.length_m[i];
         thickest = std::max(thickest, chain.radius_m[i]);
     }
-    return reach + thickest;
+    return thickest;
+}
+
+double reach_m(const HingeChain& chain) {
+    double reach = thickest_m(chain);
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        reach += chain.length_m[i];
+    }
+    return reach;
+}
+
+// The hinges, and the last link's end.
+std::array<Vec2, k_most_disc_links + 1> chain_points_ds(
+    const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad) {
+    std::array<Vec2, k_most_disc_links + 1> points;
+    points[0] = Vec2::Zero();
+    double angle = 0.0;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        angle += angle_rad[i];
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(angle, sine, cosine);
+        points[i + 1] = points[i] + chain.length_m[i] * Vec2(cosine, sine);
+    }
+    return points;
 }
 
 double plane_offset_m(const HingeChain& chain, const ChainFitSettings& settings,
@@ -51,7 +74,7 @@ Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& 
              std::size_t plane) {
     const Pose base = inverse(mesh) * chain.base;
     Disc disc;
-    disc.x_axis = along_link(base);
+    disc.x_axis = base.rotation * -Vec3::UnitZ();
     disc.y_axis = base.rotation * -Vec3::UnitY();
     disc.normal = base.rotation * -Vec3::UnitX();
     disc.center = base.position + plane_offset_m(chain, settings, plane) * disc.normal;
@@ -72,10 +95,7 @@ class ChainFitter {
           scratch_(scratch) {}
 
     ChainFit run(const ChainSeed& seed) {
-        // As much as one chain meets but in the thickest of meshes: then it grows, and stays.
-        constexpr std::size_t k_usual_segments = 2048;
-        scratch_.segments.reserve(k_usual_segments);
-        scratch_.disc.pairs.reserve(k_usual_segments);
+        gather();
         if (meshes_.empty()) {
             relax();
             return fit_;
@@ -86,15 +106,15 @@ class ChainFitter {
             close();
         }
         const bool touches = fit_.contact_link != DiscClosure::k_none;
-        if (seed.triangle == k_no_triangle ||
-            (settings_.mends &&
-             (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m))) {
+        if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
             close_over_all_cuts(touches);
         }
         if (fit_.contact_link == DiscClosure::k_none) {
             relax();
         }
         if (!settings_.mends) {
+            fit_.wants_mending =
+                fit_.depth_m > std::min(settings_.search_depth_m, settings_.open_depth_m);
             return fit_;
         }
         if (fit_.depth_m > settings_.search_depth_m) {
@@ -107,68 +127,109 @@ class ChainFitter {
     }
 
   private:
-    // True where every plane's search found the surface.
+    using Angles = std::array<double, k_most_disc_links>;
+    struct CutRange {
+        std::ptrdiff_t first = 0;
+        std::ptrdiff_t end = 0;
+    };
+
+    // What is within reach, and what the planes cut out of it.
+    void gather() {
+        // As much as one chain meets but in the thickest of meshes: then it grows, and stays.
+        constexpr std::size_t k_usual_segments = 2048;
+        scratch_.cuts.reserve(k_usual_segments);
+        scratch_.segments.reserve(k_usual_segments);
+        scratch_.disc.pairs.reserve(k_usual_segments);
+        const double half_width_m =
+            std::max(thickest_m(chain_), plane_offset_m(chain_, settings_, 1));
+        scratch_.patch.gather({chain_.base, reach_m(chain_), half_width_m}, meshes_);
+        scratch_.cuts.clear();
+        for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
+            const std::size_t first = scratch_.cuts.size();
+            const std::size_t of_first_mesh =
+                scratch_.patch.cut(plane_offset_m(chain_, settings_, plane),
+                                   static_cast<std::uint32_t>(plane), scratch_.cuts);
+            own_cuts_[plane] = of_first_mesh;
+            other_cuts_[plane] = {static_cast<std::ptrdiff_t>(first + of_first_mesh),
+                                  static_cast<std::ptrdiff_t>(scratch_.cuts.size())};
+        }
+    }
+
+    // True where every plane's search found the surface, if there is any to find.
     bool search_cuts(const ChainSeed& seed) {
         scratch_.segments.clear();
         bool is_complete = true;
-        const GripMesh& mesh = *meshes_.front().mesh;
+        ChainSeed start = seed;
+        ChainSeed contact_start;
         for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
-            const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
-            CrossingSearch found = find_crossing(mesh.search, disc, seed.triangle, seed.point,
-                                                 settings_.order, scratch_.trace);
-            ++fit_.discs;
-            fit_.pops += found.pops;
-            is_complete = is_complete && found.triangle != k_no_triangle;
-            if (found.triangle == k_no_triangle) {
-                continue;
+            const auto [first, end] = other_cuts_[plane];
+            scratch_.segments.insert(scratch_.segments.end(), scratch_.cuts.begin() + first,
+                                     scratch_.cuts.begin() + end);
+            if (own_cuts_[plane] > 0) {
+                is_complete = search_cut(plane, start, contact_start) && is_complete;
             }
-            if (plane == 0) {
-                fit_.contact_triangle = found.triangle;
-            }
-            walk_contact(mesh, disc, found);
-        }
-        for (const PlacedMesh& other : meshes_.subspan(1)) {
-            cut_mesh(other);
         }
         return is_complete;
     }
 
-    // From the search detail over to the surface itself.
-    void walk_contact(const GripMesh& mesh, const Disc& disc, const CrossingSearch& found) {
-        const auto near = mesh.contact_bvh.closest_point(found.point, k_detail_apart_m);
-        if (!near) {
-            return;
+    // The surface's cut with one plane. The other planes are searched for from where the first
+    // search found the surface: they are a few millimetres beside it.
+    bool search_cut(std::size_t plane, ChainSeed& start, ChainSeed& contact_start) {
+        const GripMesh& mesh = *meshes_.front().mesh;
+        const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
+        const CrossingSearch found = find_crossing(mesh.search, disc, start.triangle, start.point,
+                                                   settings_.order, scratch_.trace);
+        ++fit_.discs;
+        fit_.pops += found.pops;
+        if (found.triangle == k_no_triangle) {
+            return false;
         }
-        const CrossingSearch onto = find_crossing(mesh.contact, disc, near->triangle, near->point,
-                                                  SearchOrder::best_first, scratch_.trace);
+        start = {found.triangle, found.point};
+        if (plane == 0) {
+            fit_.contact_triangle = found.triangle;
+        }
+        walk_contact(mesh, disc, found, contact_start);
+        return true;
+    }
+
+    // From the search detail over to the surface itself.
+    void walk_contact(const GripMesh& mesh, const Disc& disc, const CrossingSearch& found,
+                      ChainSeed& contact_start) {
+        if (contact_start.triangle == k_no_triangle) {
+            const auto near = mesh.contact_bvh.closest_point(found.point, k_detail_apart_m);
+            if (!near) {
+                return;
+            }
+            contact_start = {near->triangle, near->point};
+        }
+        const CrossingSearch onto =
+            find_crossing(mesh.contact, disc, contact_start.triangle, contact_start.point,
+                          SearchOrder::best_first, scratch_.trace);
         fit_.walked += onto.pops;
         if (onto.triangle == k_no_triangle) {
             return;
         }
+        contact_start = {onto.triangle, onto.point};
         fit_.walked +=
             walk_crossing(mesh.contact, disc, onto.triangle, scratch_.trace, scratch_.segments);
     }
 
-    void cut_mesh(const PlacedMesh& placed) {
-        for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
-            const Disc disc = disc_of(chain_, placed.pose, settings_, plane);
-            cut_all(placed.mesh->contact, placed.mesh->contact_bvh, disc, scratch_.segments);
-        }
+    void close() { close_from(flat_); }
+
+    void close_from(const DiscChain& chain) {
+        const DiscClosure closure = close_chain(chain, scratch_.segments, {}, scratch_.disc);
+        fit_.contact_link = closure.contact_link;
+        bend_to(closure.angle_rad);
     }
 
-    void close() {
-        const DiscClosure closure = close_chain(flat_, scratch_.segments, {}, scratch_.disc);
-        fit_.angle_rad = closure.angle_rad;
-        fit_.contact_link = closure.contact_link;
-        fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+    void bend_to(const Angles& angle_rad) {
+        fit_.angle_rad = angle_rad;
+        fit_.depth_m = depth_of(angle_rad).depth_m;
     }
 
     void close_over_all_cuts(bool had_touch) {
         const ChainFit before = fit_;
-        scratch_.segments.clear();
-        for (const PlacedMesh& placed : meshes_) {
-            cut_mesh(placed);
-        }
+        scratch_.segments.assign(scratch_.cuts.begin(), scratch_.cuts.end());
         close();
         const bool is_better = !had_touch || fit_.depth_m < before.depth_m;
         if (is_better) {
@@ -189,9 +250,8 @@ class ChainFitter {
         for (int sum = 0; sum <= 2 * (k_bends - 1); ++sum) {
             for (int first = std::max(0, sum - k_bends + 1); first <= std::min(sum, k_bends - 1);
                  ++first) {
-                const std::array<double, k_most_disc_links> angle_rad =
-                    bend(static_cast<double>(first) / k_bends,
-                         static_cast<double>(sum - first) / (k_bends - 1));
+                const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
+                                              static_cast<double>(sum - first) / (k_bends - 1));
                 const double depth_m = depth_of(angle_rad).depth_m;
                 if (depth_m < least_m) {
                     least_m = depth_m;
@@ -199,7 +259,7 @@ class ChainFitter {
                 }
                 if (depth_m <= settings_.open_depth_m) {
                     bent.open_rad = angle_rad;
-                    close_from(bent, before);
+                    close_bent(bent, before);
                     return;
                 }
             }
@@ -211,8 +271,8 @@ class ChainFitter {
         }
     }
 
-    std::array<double, k_most_disc_links> bend(double first, double others) const {
-        std::array<double, k_most_disc_links> angle_rad = {};
+    Angles bend(double first, double others) const {
+        Angles angle_rad = {};
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
             angle_rad[i] = chain_.open_rad[i] +
                            (i == 0 ? first : others) * (chain_.closed_rad[i] - chain_.open_rad[i]);
@@ -220,15 +280,11 @@ class ChainFitter {
         return angle_rad;
     }
 
-    void close_from(const DiscChain& bent, const ChainFit& before) {
-        const DiscClosure closure = close_chain(bent, scratch_.segments, {}, scratch_.disc);
-        fit_.angle_rad = closure.angle_rad;
-        fit_.contact_link = closure.contact_link;
-        fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+    void close_bent(const DiscChain& bent, const ChainFit& before) {
+        close_from(bent);
         fit_.fallback = ChainFallback::bent;
-        if (closure.contact_link == DiscClosure::k_none || fit_.depth_m >= before.depth_m) {
-            fit_.angle_rad = bent.open_rad;
-            fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+        if (fit_.contact_link == DiscClosure::k_none || fit_.depth_m >= before.depth_m) {
+            bend_to(bent.open_rad);
         }
     }
 
@@ -238,11 +294,12 @@ class ChainFitter {
         double depth_m = 0.0;
         std::size_t link = 0;
     };
-    Depth depth_of(const std::array<double, k_most_disc_links>& angle_rad) const {
+    Depth depth_of(const Angles& angle_rad) const {
         Depth deepest;
-        const auto capsules = chain_capsules(chain_, angle_rad);
+        const auto points_ds = chain_points_ds(chain_, angle_rad);
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            const SunkCapsule sunk = find_sunk(capsules[i], meshes_);
+            const SunkCapsule sunk =
+                scratch_.patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain_.radius_m[i]);
             double depth_m = sunk.depth_m;
             if (sunk.crossed_at) {
                 depth_m += (1.0 - *sunk.crossed_at) * chain_.length_m[i];
@@ -262,7 +319,7 @@ class ChainFitter {
 
     // Opens the hinges up to the deepest link, step by step, as far as that helps.
     void open() {
-        std::array<double, k_most_disc_links> angle_rad = fit_.angle_rad;
+        Angles angle_rad = fit_.angle_rad;
         Depth depth = depth_of(angle_rad);
         for (std::int32_t step = 0; step < settings_.open_steps; ++step) {
             for (std::size_t i = 0; i <= depth.link; ++i) {
@@ -281,8 +338,7 @@ class ChainFitter {
     }
 
     void relax() {
-        fit_.angle_rad = chain_.relaxed_rad;
-        fit_.depth_m = depth_of(fit_.angle_rad).depth_m;
+        bend_to(chain_.relaxed_rad);
         fit_.fallback = ChainFallback::relaxed;
     }
 
@@ -293,6 +349,9 @@ class ChainFitter {
     std::span<const PlacedMesh> meshes_;
     const ChainFitSettings& settings_;
     ChainFitScratch& scratch_;
+    // By plane, of scratch_.cuts: how many are the first mesh's, and where the others' are.
+    std::array<std::size_t, k_disc_planes> own_cuts_ = {};
+    std::array<CutRange, k_disc_planes> other_cuts_ = {};
     ChainFit fit_;
 };
 
@@ -300,53 +359,28 @@ class ChainFitter {
 
 std::array<Capsule, k_most_disc_links> chain_capsules(
     const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad) {
+    const auto points_ds = chain_points_ds(chain, angle_rad);
     std::array<Capsule, k_most_disc_links> capsules;
-    Pose at = chain.base;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
-        at.rotation = at.rotation * rotation_about(-Vec3::UnitX(), angle_rad[i]);
-        const Vec3 end = at.position + chain.length_m[i] * along_link(at);
-        capsules[i] = {{at.position, end}, chain.radius_m[i]};
-        at.position = end;
+        capsules[i] = {
+            {from_disc(chain.base, points_ds[i]), from_disc(chain.base, points_ds[i + 1])},
+            chain.radius_m[i]};
     }
     return capsules;
 }
 
 SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
-    double nearest_m = capsule.radius_m;
-    SunkCapsule sunk;
-    for (const PlacedMesh& placed : meshes) {
-        const std::array<Vec3, 2> ends = {inverse_transform_point(placed.pose, capsule.ends[0]),
-                                          inverse_transform_point(placed.pose, capsule.ends[1])};
-        const SurfaceGraph& surface = placed.mesh->contact;
-        const TriangleBvh& bvh = placed.mesh->contact_bvh;
-        const double length_m = (ends[1] - ends[0]).norm();
-        const Vec3 low = ends[0].cwiseMin(ends[1]) - bvh.origin();
-        const Vec3 high = ends[0].cwiseMax(ends[1]) - bvh.origin();
-        bvh.visit_boxes(
-            [&](const Vec3& box_low, const Vec3& box_high) {
-                return (box_low - high).cwiseMax(low - box_high).maxCoeff() <= nearest_m;
-            },
-            [&](std::uint32_t triangle) {
-                const auto& [a, b, c] = surface.triangles[triangle];
-                const Corners corners = {surface.positions[a], surface.positions[b],
-                                         surface.positions[c]};
-                const double height_0 = surface.normals[triangle].dot(ends[0] - corners[0]);
-                const double height_1 = surface.normals[triangle].dot(ends[1] - corners[0]);
-                if (std::min(height_0, height_1) > nearest_m ||
-                    std::max(height_0, height_1) < -nearest_m ||
-                    least_distance(ends, corners) > nearest_m) {
-                    return;
-                }
-                const SegmentTriangle found = nearest_between(ends, corners);
-                nearest_m = std::min(nearest_m, found.distance_m);
-                if (found.distance_m == 0.0 && length_m > 0.0) {
-                    const double share = (found.on_segment - ends[0]).norm() / length_m;
-                    sunk.crossed_at = std::min(sunk.crossed_at.value_or(1.0), share);
-                }
-            });
-    }
-    sunk.depth_m = capsule.radius_m - nearest_m;
-    return sunk;
+    const Vec3 along = capsule.ends[1] - capsule.ends[0];
+    const double length_m = along.norm();
+    ChainReach reach;
+    reach.base.position = capsule.ends[0];
+    reach.base.rotation =
+        length_m > 0.0 ? rotation_between(-Vec3::UnitZ(), along / length_m) : Quat::Identity();
+    reach.radius_m = length_m + capsule.radius_m;
+    reach.half_width_m = capsule.radius_m;
+    ChainPatch patch;
+    patch.gather(reach, meshes);
+    return patch.find_sunk({Vec2::Zero(), Vec2(length_m, 0.0)}, capsule.radius_m);
 }
 
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,

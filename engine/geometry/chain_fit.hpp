@@ -6,18 +6,18 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/chain_patch.hpp"
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/disc_trace.hpp"
-#include "engine/geometry/grip_mesh.hpp"
 #include "engine/math/math.hpp"
 
 // Closes a chain of hinged capsules over meshes until it touches them.
 //
 // Three planes cut the meshes: the chain's own and one on each side, where its capsules are
 // thinner; in each a search over the surface finds the cut (disc_trace.hpp), and in all of them at
-// once the chain closes (disc_contact.hpp). What came out is looked at in space, and mended where
-// it is sunk: the planes see neither what lies between them nor a second surface that no neighbour
-// leads to.
+// once the chain closes (disc_contact.hpp). What came out is looked at in space, over all that the
+// chain can come to (chain_patch.hpp), and mended where it is sunk: the planes see neither what
+// lies between them nor a second surface that no neighbour leads to.
 // All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
 namespace handhold {
 
@@ -40,12 +40,6 @@ struct Capsule {
 std::array<Capsule, k_most_disc_links> chain_capsules(
     const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad);
 
-// A mesh, and where it is in the chain's frame.
-struct PlacedMesh {
-    const GripMesh* mesh = nullptr;
-    Pose pose;
-};
-
 // Where the searches begin: a triangle of the first mesh's search detail, and a point on it, in
 // that mesh's frame.
 struct ChainSeed {
@@ -60,7 +54,7 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool mends = true;  // false: takes what the searches find, sunk or not
+    bool mends = true;  // false: neither bends nor opens what is sunk
 };
 
 enum class ChainFallback : std::uint8_t {
@@ -80,16 +74,20 @@ struct ChainFit {
     double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0; where a surface goes
                            // through the chain's middle, with what is beyond
     ChainFallback fallback = ChainFallback::none;
-    std::uint32_t discs = 0;   // planes searched
-    std::uint32_t pops = 0;    // triangles that the searches looked at
-    std::uint32_t walked = 0;  // triangles that the walks passed, and those searched between the
-                               // search detail and the surface itself
+    bool wants_mending = false;  // only where ChainFitSettings::mends is off: with it, it would be
+                                 // another
+    std::uint32_t discs = 0;     // planes searched
+    std::uint32_t pops = 0;      // triangles that the searches looked at
+    std::uint32_t walked = 0;    // triangles that the walks passed, and those searched between the
+                                 // search detail and the surface itself
 };
 
 // Keeps its memory between calls.
 struct ChainFitScratch {
+    ChainPatch patch;
     TraceScratch trace;
     DiscScratch disc;
+    std::vector<DiscSegment> cuts;  // all of the patch's
     std::vector<DiscSegment> segments;
 };
 
@@ -98,12 +96,7 @@ ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);
 
-// How deep a capsule is sunk in the surfaces.
-struct SunkCapsule {
-    double depth_m = 0.0;              // at least 0: its radius less the distance of its middle
-    std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
-                                       // through its middle
-};
+// Of one capsule anywhere: what fit_chain asks its patch, from the beginning.
 SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 
 }  // namespace handhold

@@ -2,26 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <tuple>
 
 #include "engine/core/check.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 2e-5;         // nearer counts as touching
-constexpr double k_least_move_m = 4e-5;    // a step moves no point of a link farther than its
-                                           // distance, or than this: what an advance may sink
-constexpr double k_clear_m = 1e-4;         // what left an overlap by this much can touch again
-constexpr double k_surely_apart_m = 2e-3;  // up to here a bound does instead of the distance
-constexpr int k_most_rounds = 20000;       // more than steps of k_least_move_m can be
+constexpr double k_touch_m = 2e-5;  // nearer counts as touching
+constexpr double k_aim_m = 1e-5;    // so near an advance may come: less than touching, so that
+                                    // what comes near stops there at once
+constexpr double k_clear_m = 1e-4;  // what left an overlap by this much can touch again
+constexpr double k_surely_apart_m = 3e-5;  // from here on the closed form does: Box2D, which has
+                                           // the last word about touches, is 5e-7 m off at most
+constexpr int k_most_rounds = 20000;       // a guard: a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
 
-struct Link {
-    Vec2 begin;
-    Vec2 end;
+using Points = std::array<Vec2, k_most_disc_links + 1>;
+
+// The hinges, and the last link's end.
+struct ChainMotion {
+    Points point;
+    Points velocity_m;  // for the whole closing
 };
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Where the links are while those before `first_free` keep their angles.
 class ClosingChain {
@@ -30,38 +38,32 @@ class ClosingChain {
         for (std::size_t i = 0; i < chain.link_count; ++i) {
             angle_rad_[i] = angle_at(i, at);
         }
+        look_ahead();
     }
 
     double angle_at(std::size_t hinge, double at) const {
         return chain_.open_rad[hinge] + at * (chain_.closed_rad[hinge] - chain_.open_rad[hinge]);
     }
 
-    std::array<Link, k_most_disc_links> links_at(double at) const {
-        std::array<Link, k_most_disc_links> links;
-        Vec2 begin = Vec2::Zero();
-        double angle = 0.0;
-        for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            angle += i < first_free_ ? angle_rad_[i] : angle_at(i, at);
-            double sine = 0.0;
-            double cosine = 1.0;
-            sin_cos(angle, sine, cosine);
-            const Vec2 end = begin + chain_.length_m[i] * Vec2(cosine, sine);
-            links[i] = {begin, end};
-            begin = end;
+    ChainMotion motion_at(double at) const {
+        ChainMotion motion;
+        for (std::size_t i = 0; i <= first_free_; ++i) {
+            motion.point[i] = kept_point_[i];
+            motion.velocity_m[i] = Vec2::Zero();
         }
-        return links;
+        double angle = kept_angle_rad_;
+        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+            angle += angle_at(i, at);
+            const Vec2 way = chain_.length_m[i] * direction(angle);
+            motion.point[i + 1] = motion.point[i] + way;
+            motion.velocity_m[i + 1] =
+                motion.velocity_m[i] + turn_rad_[i] * Vec2(-way.y(), way.x());
+        }
+        return motion;
     }
 
-    // No point of the link's middle moves faster, metres for the whole closing.
-    double speed_m(std::size_t link) const {
-        double reach_m = 0.0;
-        double speed_m = 0.0;
-        for (std::size_t i = link + 1; i-- > first_free_;) {
-            reach_m += chain_.length_m[i];
-            speed_m += std::abs(chain_.closed_rad[i] - chain_.open_rad[i]) * reach_m;
-        }
-        return std::max(speed_m, 1e-6);
-    }
+    // No point `i` of the motion is accelerated more, metres for the whole closing, squared.
+    double acceleration_m(std::size_t point) const { return acceleration_m_[point]; }
 
     // Hinges up to and with `last` keep the angles they have at `at`.
     void freeze(std::size_t last, double at) {
@@ -69,21 +71,141 @@ class ClosingChain {
             angle_rad_[i] = angle_at(i, at);
         }
         first_free_ = last + 1;
+        look_ahead();
     }
 
     std::size_t first_free() const { return first_free_; }
     const std::array<double, k_most_disc_links>& angle_rad() const { return angle_rad_; }
 
   private:
+    static Vec2 direction(double angle) {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(angle, sine, cosine);
+        return {cosine, sine};
+    }
+
+    // What stays the same until the next hinge is frozen.
+    void look_ahead() {
+        kept_angle_rad_ = 0.0;
+        kept_point_[0] = Vec2::Zero();
+        for (std::size_t i = 0; i < first_free_; ++i) {
+            kept_angle_rad_ += angle_rad_[i];
+            kept_point_[i + 1] = kept_point_[i] + chain_.length_m[i] * direction(kept_angle_rad_);
+        }
+        acceleration_m_.fill(0.0);
+        double turn_rad = 0.0;
+        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+            turn_rad += chain_.closed_rad[i] - chain_.open_rad[i];
+            turn_rad_[i] = turn_rad;
+            acceleration_m_[i + 1] = acceleration_m_[i] + turn_rad * turn_rad * chain_.length_m[i];
+        }
+    }
+
     const DiscChain& chain_;
     std::array<double, k_most_disc_links> angle_rad_ = {};
     std::size_t first_free_ = 0;
+    double kept_angle_rad_ = 0.0;  // of the last link that is kept
+    Points kept_point_;
+    std::array<double, k_most_disc_links> turn_rad_ = {};  // of each link, for the whole closing
+    std::array<double, k_most_disc_links + 1> acceleration_m_ = {};
 };
+
+// Where two segments are nearest to each other, in closed form.
+struct Gap {
+    double distance_m = 0.0;
+    Vec2 on_segment = Vec2::Zero();
+    Vec2 away = Vec2::Zero();  // unit, from the segment to the link; zero where they cross
+};
+
+class NearestPair {
+  public:
+    Gap run(const Vec2& begin, const Vec2& end, const DiscSegment& segment) {
+        const Vec2 link = end - begin;
+        const Vec2 along = segment.b_ds - segment.a_ds;
+        const Vec2 from_a = begin - segment.a_ds;
+        const double begin_side = cross(along, from_a);
+        const double end_side = begin_side + cross(along, link);
+        const double a_side = -cross(link, from_a);
+        const double b_side = a_side + cross(link, along);
+        if ((begin_side > 0.0) != (end_side > 0.0) && (a_side > 0.0) != (b_side > 0.0)) {
+            return {};
+        }
+        const double link2 = link.squaredNorm();
+        const double along2 = along.squaredNorm();
+        take_on_segment(begin, segment.a_ds, along, along2);
+        take_on_segment(end, segment.a_ds, along, along2);
+        take_on_link(segment.a_ds, begin, link, link2);
+        take_on_link(segment.b_ds, begin, link, link2);
+        const double distance_m = std::sqrt(squared_);
+        return {distance_m, on_segment_,
+                distance_m > 0.0 ? Vec2((on_link_ - on_segment_) / distance_m) : Vec2::Zero()};
+    }
+
+  private:
+    static Vec2 foot(const Vec2& point, const Vec2& from, const Vec2& along, double squared) {
+        return squared > 0.0
+                   ? Vec2(from + std::clamp((point - from).dot(along) / squared, 0.0, 1.0) * along)
+                   : from;
+    }
+    void take(const Vec2& on_link, const Vec2& on_segment) {
+        const double squared = (on_link - on_segment).squaredNorm();
+        if (squared < squared_) {
+            squared_ = squared;
+            on_link_ = on_link;
+            on_segment_ = on_segment;
+        }
+    }
+    void take_on_segment(const Vec2& link_end, const Vec2& from, const Vec2& along,
+                         double squared) {
+        take(link_end, foot(link_end, from, along, squared));
+    }
+    void take_on_link(const Vec2& corner, const Vec2& from, const Vec2& along, double squared) {
+        take(foot(corner, from, along, squared), corner);
+    }
+
+    double squared_ = std::numeric_limits<double>::infinity();
+    Vec2 on_link_ = Vec2::Zero();
+    Vec2 on_segment_ = Vec2::Zero();
+};
+
+// A box around points.
+struct DiscBox {
+    Vec2 low = Vec2::Zero();
+    Vec2 high = Vec2::Zero();
+
+    DiscBox() = default;
+    DiscBox(const Vec2& a, const Vec2& b) : low(a.cwiseMin(b)), high(a.cwiseMax(b)) {}
+
+    void add(const DiscBox& other) {
+        low = low.cwiseMin(other.low);
+        high = high.cwiseMax(other.high);
+    }
+    bool is_within(double distance_m, const DiscBox& other) const {
+        return low.x() - other.high.x() <= distance_m && other.low.x() - high.x() <= distance_m &&
+               low.y() - other.high.y() <= distance_m && other.low.y() - high.y() <= distance_m;
+    }
+};
+
+// The first time at which a point may have come nearer by `room_m`, from now: it approaches at
+// `speed_m` now, and its speed changes by no more than `acceleration_m`.
+double time_to_cross(double room_m, double speed_m, double acceleration_m) {
+    const double root = std::sqrt(speed_m * speed_m + 2.0 * acceleration_m * room_m);
+    if (speed_m > 0.0) {
+        return 2.0 * room_m / (speed_m + root);
+    }
+    return acceleration_m > 0.0 ? (root - speed_m) / acceleration_m
+                                : std::numeric_limits<double>::infinity();
+}
 
 struct Touch {
     double at = 0.0;
     std::size_t link = 0;
     std::uint32_t segment = 0;
+
+    bool operator<(const Touch& other) const {
+        return std::tie(at, link, segment) < std::tie(other.at, other.link, other.segment);
+    }
 };
 
 class Closing {
@@ -116,90 +238,144 @@ class Closing {
 
   private:
     using Pair = DiscScratch::Pair;
-    using Links = std::array<Link, k_most_disc_links>;
-
-    static double distance_to(const Vec2& point, const Vec2& a, const Vec2& b) {
-        const Vec2 along = b - a;
-        const double length2 = along.squaredNorm();
-        const double t =
-            length2 > 0.0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-        return (a + t * along - point).norm();
-    }
-
-    // No more than the distance: what each is from a circle about the other.
-    static double least_distance(const Link& link, const DiscSegment& segment) {
-        const Vec2 half_segment = 0.5 * (segment.b_ds - segment.a_ds);
-        const Vec2 half_link = 0.5 * (link.end - link.begin);
-        return std::max(
-            distance_to(segment.a_ds + half_segment, link.begin, link.end) - half_segment.norm(),
-            distance_to(link.begin + half_link, segment.a_ds, segment.b_ds) - half_link.norm());
-    }
 
     void gather_pairs(double at) {
         pairs_.clear();
-        const Links places = links_.links_at(at);
         for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
-            speed_m_[link] = links_.speed_m(link);
             for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-                const double radius_m = chain_.radius_m[segments_[i].plane][link];
-                if (radius_m < 0.0) {
-                    continue;
-                }
-                const double free_m =
-                    least_distance(places[link], segments_[i]) - radius_m - k_touch_m;
-                const double next = at + std::max(free_m, 0.0) / speed_m_[link];
-                if (next <= sweep_.to) {
-                    pairs_.push_back(
-                        {next, 0.0, static_cast<std::uint32_t>(link), i, false, free_m > 0.0});
+                if (chain_.radius_m[segments_[i].plane][link] >= 0.0) {
+                    pairs_.push_back({at, 0.0, static_cast<std::uint32_t>(link), i, false, false});
                 }
             }
         }
     }
 
-    // Always the pair whose turn is next, and with it those whose turn is nearly there: where the
-    // links are is found once for all of them. Ties go to the first link and segment.
+    double radius_m(const Pair& pair) const {
+        return chain_.radius_m[segments_[pair.segment].plane][pair.link];
+    }
+
+    Gap gap_of(const Pair& pair, const ChainMotion& motion) const {
+        return NearestPair().run(motion.point[pair.link], motion.point[pair.link + 1],
+                                 segments_[pair.segment]);
+    }
+
+    // Until then a line between the two stays clear of both: the segment is behind it, and each of
+    // the link's ends needs so long to come to it.
+    double next_touch(const Pair& pair, const Gap& gap, double free_m, const ChainMotion& motion,
+                      double at) const {
+        double step = std::numeric_limits<double>::infinity();
+        for (std::size_t end = pair.link; end <= pair.link + 1; ++end) {
+            const double beyond_m =
+                gap.away.dot(motion.point[end] - gap.on_segment) - gap.distance_m;
+            step = std::min(step, time_to_cross(std::max(beyond_m, 0.0) + free_m - k_aim_m,
+                                                -gap.away.dot(motion.velocity_m[end]),
+                                                links_.acceleration_m(end)));
+        }
+        return at + step;
+    }
+
+    // Stretch by stretch: of most pairs, boxes around their ways tell that they stay apart.
     std::optional<Touch> first_touch(double from) {
-        constexpr double k_together = 0.01;
+        constexpr double k_stretch = 1.0 / 8.0;
         gather_pairs(from);
-        for (int round = 0; round < k_most_rounds && !pairs_.empty(); ++round) {
-            double at = pairs_.front().next;
-            for (const Pair& pair : pairs_) {
+        ChainMotion before = links_.motion_at(from);
+        double at = from;
+        for (;;) {
+            const double end = std::min(at + k_stretch, sweep_.to);
+            const ChainMotion after = links_.motion_at(end);
+            const std::size_t near = find_near(before, after, end - at, end);
+            const std::optional<Touch> touch = first_touch_of(near, from, end);
+            if (touch || end >= sweep_.to) {
+                return touch;
+            }
+            at = end;
+            before = after;
+        }
+    }
+
+    // Brings the pairs that may touch until `end` to the front; returns how many they are. The
+    // others have their turn after it.
+    std::size_t find_near(const ChainMotion& before, const ChainMotion& after, double length,
+                          double end) {
+        std::array<DiscBox, k_most_disc_links> way;
+        std::array<double, k_most_disc_links> bulge_m = {};  // of the way beyond the box
+        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
+            way[link] = {before.point[link], before.point[link + 1]};
+            way[link].add({after.point[link], after.point[link + 1]});
+            bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
+        }
+        std::size_t near = 0;
+        for (Pair& pair : pairs_) {
+            const DiscSegment& segment = segments_[pair.segment];
+            const double reach_m = radius_m(pair) + k_touch_m + bulge_m[pair.link];
+            const bool may_touch =
+                pair.leaving || way[pair.link].is_within(reach_m, {segment.a_ds, segment.b_ds});
+            if (may_touch && pair.next <= end) {
+                std::swap(pairs_[near++], pair);
+            } else if (!may_touch) {
+                pair.next = std::max(pair.next, end);
+                pair.seen = true;
+            }
+        }
+        return near;
+    }
+
+    // Always the pair whose turn is next, and with it those whose turn is nearly there: where the
+    // links are is found once for all of them. Of several that touch at once, the first link's.
+    std::optional<Touch> first_touch_of(std::size_t near, double from, double end) {
+        constexpr double k_together = 0.01;
+        const std::span<Pair> pairs = std::span(pairs_).first(near);
+        for (int round = 0; round < k_most_rounds && !pairs.empty(); ++round) {
+            double at = pairs.front().next;
+            for (const Pair& pair : pairs) {
                 at = std::min(at, pair.next);
             }
-            if (!(at <= sweep_.to)) {
+            if (at > end) {
                 break;
             }
-            const Links places = links_.links_at(at);
-            for (Pair& pair : pairs_) {
+            const ChainMotion motion = links_.motion_at(at);
+            std::optional<Touch> first;
+            for (Pair& pair : pairs) {
                 const bool is_early = pair.next > at;
                 if (pair.next <= at + k_together && !(is_early && pair.leaving) &&
-                    touches(pair, places, at)) {
+                    touches(pair, motion, at)) {
                     // What comes apart no longer was less deep a step ago; nothing touched between.
-                    const double stop_at = pair.leaving ? std::max(at - k_leave_step, from) : at;
-                    return Touch{stop_at, pair.link, pair.segment};
+                    const Touch touch = {pair.leaving ? std::max(at - k_leave_step, from) : at,
+                                         pair.link, pair.segment};
+                    first = first && !(touch < *first) ? *first : touch;
                 }
+            }
+            if (first) {
+                return first;
             }
         }
         return std::nullopt;
     }
 
-    double separation_m(const Pair& pair, const Links& places) {
-        const Link& link = places[pair.link];
-        const DiscSegment& segment = segments_[pair.segment];
-        const double radius_m = chain_.radius_m[segment.plane][pair.link];
-        const double least_m = least_distance(link, segment) - radius_m;
-        if (least_m > k_surely_apart_m) {
-            return least_m;
+    // What is near is told by Box2D, what is not by the closed form.
+    double separation_m(const Pair& pair, const Gap& gap, const ChainMotion& motion) {
+        const double free_m = gap.distance_m - radius_m(pair);
+        if (free_m > k_surely_apart_m) {
+            return free_m;
         }
         ++closure_.distances;
-        return disc_distance(link.begin, link.end, segment.a_ds, segment.b_ds) - radius_m;
+        const DiscSegment& segment = segments_[pair.segment];
+        return disc_distance(motion.point[pair.link], motion.point[pair.link + 1], segment.a_ds,
+                             segment.b_ds) -
+               radius_m(pair);
+    }
+
+    bool gets_deeper(const Pair& pair, double at) {
+        const ChainMotion later = links_.motion_at(at + k_leave_step);
+        return separation_m(pair, gap_of(pair, later), later) < pair.separation_m;
     }
 
     // True where the pair touches at `at`; else moves pair.next on to where it may.
-    bool touches(Pair& pair, const Links& places, double at) {
+    bool touches(Pair& pair, const ChainMotion& motion, double at) {
         const double before_m = pair.separation_m;
         const bool was_seen = pair.seen;
-        pair.separation_m = separation_m(pair, places);
+        const Gap gap = gap_of(pair, motion);
+        pair.separation_m = separation_m(pair, gap, motion);
         pair.seen = true;
         if (pair.leaving) {
             if (pair.separation_m < before_m - k_leave_noise_m) {
@@ -207,15 +383,13 @@ class Closing {
             }
             pair.leaving = pair.separation_m < k_clear_m;
         } else if (pair.separation_m <= k_touch_m) {
-            if (was_seen ||
-                separation_m(pair, links_.links_at(at + k_leave_step)) < pair.separation_m) {
+            if (was_seen || gets_deeper(pair, at)) {
                 return true;
             }
             pair.leaving = true;
         }
-        pair.next = at + (pair.leaving ? k_leave_step
-                                       : std::max(pair.separation_m - k_touch_m, k_least_move_m) /
-                                             speed_m_[pair.link]);
+        pair.next =
+            pair.leaving ? at + k_leave_step : next_touch(pair, gap, pair.separation_m, motion, at);
         return false;
     }
 
@@ -224,7 +398,6 @@ class Closing {
     const DiscSweep& sweep_;
     std::vector<Pair>& pairs_;
     ClosingChain links_;
-    std::array<double, k_most_disc_links> speed_m_ = {};
     DiscClosure closure_;
 };
 

@@ -195,25 +195,6 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
     return true;
 }
 
-void add_segment(const Disc& disc, const Vec2& a, const Vec2& b, std::uint32_t triangle,
-                 std::vector<DiscSegment>& segments) {
-    if (distance_to_origin(a, b) > disc.radius_m) {
-        return;
-    }
-    // What is very long is cut to what is near: distances are found in floats.
-    const double length = (b - a).norm();
-    const double longest = 16.0 * disc.radius_m;
-    if (length > longest) {
-        const Vec2 along = (b - a) / length;
-        const double middle = std::clamp(-a.dot(along), 0.0, length);
-        const double first = std::max(0.0, middle - 0.5 * longest);
-        const double last = std::min(length, middle + 0.5 * longest);
-        segments.push_back({a + first * along, a + last * along, disc.plane, triangle});
-        return;
-    }
-    segments.push_back({a, b, disc.plane, triangle});
-}
-
 // `line_triangle[i]` is that of the piece from point i to the next one.
 void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
     constexpr std::size_t k_most_merged = 16;  // is_straight looks at all again for every point
@@ -222,8 +203,9 @@ void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSeg
         const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_most_merged &&
                              is_straight(scratch.line, first, i + 1);
         if (!goes_on) {
-            add_segment(disc, scratch.line[first], scratch.line[i], scratch.line_triangle[first],
-                        segments);
+            add_segment(
+                {scratch.line[first], scratch.line[i], disc.plane, scratch.line_triangle[first]},
+                disc.radius_m, segments);
             first = i;
         }
     }
@@ -265,24 +247,24 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     return walk.steps() + 1;
 }
 
-void cut_all(const SurfaceGraph& graph, const TriangleBvh& bvh, const Disc& disc,
-             std::vector<DiscSegment>& segments) {
-    const Vec3 center = disc.center - bvh.origin();
-    const Vec3 steepness = disc.normal.cwiseAbs();
-    bvh.visit_boxes(
-        [&](const Vec3& low, const Vec3& high) {
-            const Vec3 half = 0.5 * (high - low);
-            const Vec3 from_box = center - (low + half);
-            return std::abs(disc.normal.dot(from_box)) <= steepness.dot(half) &&
-                   (from_box.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() <=
-                       disc.radius_m * disc.radius_m;
-        },
-        [&](std::uint32_t triangle) {
-            if (const std::optional<Cut> cut = cut_triangle(graph, disc, triangle)) {
-                add_segment(disc, to_disc(disc, cut->point[0]), to_disc(disc, cut->point[1]),
-                            triangle, segments);
-            }
-        });
+void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments) {
+    if (distance_to_origin(segment.a_ds, segment.b_ds) > radius_m) {
+        return;
+    }
+    // What is very long is cut to what is near: distances are found in floats.
+    const Vec2 way = segment.b_ds - segment.a_ds;
+    const double longest = 16.0 * radius_m;
+    if (way.squaredNorm() > longest * longest) {
+        const double length = way.norm();
+        const Vec2 along = way / length;
+        const double middle = std::clamp(-segment.a_ds.dot(along), 0.0, length);
+        const double first = std::max(0.0, middle - 0.5 * longest);
+        const double last = std::min(length, middle + 0.5 * longest);
+        segments.push_back({segment.a_ds + first * along, segment.a_ds + last * along,
+                            segment.plane, segment.triangle});
+        return;
+    }
+    segments.push_back(segment);
 }
 
 }  // namespace handhold

@@ -6,7 +6,6 @@
 
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/surface_graph.hpp"
-#include "engine/geometry/triangle_bvh.hpp"
 
 // Cuts a surface with a disc: the plane in which a chain closes, out to where it can reach.
 // Sources: talk rows 11 to 13; A*: Hart, Nilsson and Raphael 1968.
@@ -70,8 +69,8 @@ CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::u
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
                             TraceScratch& scratch, std::vector<DiscSegment>& segments);
 
-// Every cut of the disc, whatever is linked with what; adds to `segments`.
-void cut_all(const SurfaceGraph& graph, const TriangleBvh& bvh, const Disc& disc,
-             std::vector<DiscSegment>& segments);
+// Adds the segment if any of it is within the radius about the disc's centre: of what is very long,
+// what is near.
+void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
 }  // namespace handhold

@@ -1,66 +1,74 @@
 #include "engine/geometry/segment_triangle.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace handhold {
 namespace {
 
-// Where the segment passes through the triangle's inside.
-std::optional<Vec3> find_passage(const std::array<Vec3, 2>& segment, const Corners& triangle) {
-    const Vec3 area = area_vector(triangle);
-    const double height_a = area.dot(segment[0] - triangle[0]);
-    const double height_b = area.dot(segment[1] - triangle[0]);
-    if ((height_a > 0.0) == (height_b > 0.0) || height_a == height_b) {
-        return std::nullopt;
-    }
-    const Vec3 point = segment[0] + height_a / (height_a - height_b) * (segment[1] - segment[0]);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3& corner = triangle[i];
-        if (area.dot((triangle[(i + 1) % 3] - corner).cross(point - corner)) < 0.0) {
-            return std::nullopt;
+// A triangle's plane, and the planes that stand on its edges.
+class Prism {
+  public:
+    Prism(const Corners& triangle, const Vec3& normal) : triangle_(triangle), normal_(normal) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            inward_[i] = normal.cross(triangle[(i + 1) % 3] - triangle[i]);
         }
     }
-    return point;
-}
+
+    double height(const Vec3& point) const { return normal_.dot(point - triangle_[0]); }
+    bool holds(const Vec3& point) const {
+        return inward_[0].dot(point - triangle_[0]) >= 0.0 &&
+               inward_[1].dot(point - triangle_[1]) >= 0.0 &&
+               inward_[2].dot(point - triangle_[2]) >= 0.0;
+    }
+
+  private:
+    const Corners& triangle_;
+    const Vec3& normal_;
+    std::array<Vec3, 3> inward_;
+};
 
 }  // namespace
 
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle) {
-    if (const std::optional<Vec3> passage = find_passage(segment, triangle)) {
-        return {*passage, *passage, 0.0};
+    return nearest_between(segment, triangle, area_vector(triangle));
+}
+
+// Of a passage, of an end over the triangle's inside, and of the edges, one is the nearest.
+SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
+                                const Vec3& normal) {
+    const double squared_normal = normal.squaredNorm();
+    const Prism prism(triangle, normal);
+    const std::array<double, 2> height = {prism.height(segment[0]), prism.height(segment[1])};
+    if ((height[0] > 0.0) != (height[1] > 0.0) && height[0] != height[1]) {
+        const Vec3 passage =
+            segment[0] + height[0] / (height[0] - height[1]) * (segment[1] - segment[0]);
+        if (prism.holds(passage)) {
+            return {passage, passage, 0.0};
+        }
     }
     SegmentTriangle best;
-    best.distance_m = std::numeric_limits<double>::infinity();
-    const auto take = [&best](const Vec3& on_segment, const Vec3& on_triangle) {
-        const double distance_m = (on_segment - on_triangle).norm();
-        if (distance_m < best.distance_m) {
-            best = {on_segment, on_triangle, distance_m};
+    double least = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Vec3& on_segment, const Vec3& on_triangle) {
+        const double squared = (on_segment - on_triangle).squaredNorm();
+        if (squared < least) {
+            least = squared;
+            best.on_segment = on_segment;
+            best.on_triangle = on_triangle;
         }
     };
-    for (const Vec3& end : segment) {
-        take(end, closest_on_triangle(end, triangle));
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (squared_normal > 0.0 && prism.holds(segment[i])) {
+            take(segment[i], segment[i] - height[i] / squared_normal * normal);
+        }
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const auto [on_segment, on_edge] =
             closest_between_segments(segment, {triangle[i], triangle[(i + 1) % 3]});
         take(on_segment, on_edge);
     }
+    best.distance_m = std::sqrt(least);
     return best;
-}
-
-double least_distance(const std::array<Vec3, 2>& segment, const Corners& triangle) {
-    double squared = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax(segment[0][axis], segment[1][axis]);
-        const auto [least, most] =
-            std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        const double gap = std::max({least - high, low - most, 0.0});
-        squared += gap * gap;
-    }
-    return std::sqrt(squared);
 }
 
 }  // namespace handhold

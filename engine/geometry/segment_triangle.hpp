@@ -15,8 +15,8 @@ struct SegmentTriangle {
     double distance_m = 0.0;
 };
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle);
-
-// No less than any such distance may be: cheap, and mostly enough to leave a triangle out.
-double least_distance(const std::array<Vec3, 2>& segment, const Corners& triangle);
+// The same where a normal is known: of any length, zero for a triangle without area.
+SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
+                                const Vec3& normal);
 
 }  // namespace handhold

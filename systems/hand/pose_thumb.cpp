@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "components/finger_chain.hpp"
 
@@ -48,13 +50,7 @@ class ThumbPoser {
         if (pose.thumb_solved && same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        settings_.mends = false;
-        const ThumbFit chosen = find_best(hand, thumb, f, pose);
-        settings_.mends = true;
-        ThumbFit best = try_at(hand, thumb, chosen.opposition_rad, pose.seed_triangle[f]);
-        best.fit.discs += chosen.fit.discs;
-        best.fit.pops += chosen.fit.pops;
-        best.fit.walked += chosen.fit.walked;
+        const ThumbFit best = find_best(hand, thumb, f, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         pose.seed_triangle[f] = best.fit.contact_triangle;
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
@@ -87,28 +83,69 @@ class ThumbPoser {
         return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
     }
 
-    ThumbFit find_best(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       const FingerPose& pose) const {
+    double opposition_at(const FingerRig& thumb, std::int32_t step) const {
         const std::int32_t steps = tuning_.thumb.opposition_steps;
+        const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
+        return thumb.lower_opposition_rad +
+               share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
+    }
+
+    // The step that the thumb was posed at, in the same hold; none at first.
+    std::optional<std::int32_t> last_step(const FingerRig& thumb, const FingerPose& pose,
+                                          std::size_t f) const {
+        const double range_rad = thumb.upper_opposition_rad - thumb.lower_opposition_rad;
+        const std::int32_t steps = tuning_.thumb.opposition_steps;
+        if (!pose.thumb_solved || steps < 2 || !(range_rad > 0.0)) {
+            return std::nullopt;
+        }
+        const double share =
+            (pose.target[f].opposition_rad - thumb.lower_opposition_rad) / range_rad;
+        return static_cast<std::int32_t>(
+            std::floor(std::clamp(share, 0.0, 1.0) * (steps - 1) + 0.5));
+    }
+
+    // A thumb that was posed before turns by one step at most, as long as it fits there.
+    ThumbFit find_best(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                       const FingerPose& pose) {
+        const std::uint32_t seed = pose.seed_triangle[f];
+        const std::int32_t last_of_all = tuning_.thumb.opposition_steps - 1;
         ThumbFit best;
-        ChainFit all;
-        for (std::int32_t step = 0; step < steps; ++step) {
-            const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
-            const double opposition_rad =
-                thumb.lower_opposition_rad +
-                share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
-            const ThumbFit tried = try_at(hand, thumb, opposition_rad, pose.seed_triangle[f]);
-            all.discs += tried.fit.discs;
-            all.pops += tried.fit.pops;
-            all.walked += tried.fit.walked;
-            if (tried.cost_m < best.cost_m) {
-                best = tried;
+        settings_.mends = false;
+        const std::optional<std::int32_t> last = last_step(thumb, pose, f);
+        if (last) {
+            for (std::int32_t step = std::max(0, *last - 1);
+                 step <= std::min(last_of_all, *last + 1); ++step) {
+                take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
             }
         }
-        best.fit.discs = all.discs;
-        best.fit.pops = all.pops;
-        best.fit.walked = all.walked;
+        if (!last || best.fit.wants_mending) {
+            for (std::int32_t step = 0; step <= last_of_all; ++step) {
+                if (!last || std::abs(step - *last) > 1) {
+                    take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
+                }
+            }
+        }
+        settings_.mends = true;
+        if (best.fit.wants_mending) {
+            ThumbFit mended = try_at(hand, thumb, best.opposition_rad, seed);
+            add_visits(best.fit, mended.fit);
+            return mended;
+        }
         return best;
+    }
+
+    // Keeps the cheaper, and counts what both took.
+    static void take_better(ThumbFit tried, ThumbFit& best) {
+        if (tried.cost_m < best.cost_m) {
+            std::swap(tried, best);
+        }
+        add_visits(tried.fit, best.fit);
+    }
+
+    static void add_visits(const ChainFit& other, ChainFit& fit) {
+        fit.discs += other.discs;
+        fit.pops += other.pops;
+        fit.walked += other.walked;
     }
 
     ThumbFit try_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,

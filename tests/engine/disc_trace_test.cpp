@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "broken_meshes.hpp"
+#include "engine/geometry/triangle_bvh.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold {
@@ -245,27 +246,6 @@ TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
         const CrossingSearch found = find_crossing(graph, disc, 1275, Vec3::Zero(), order, scratch);
         EXPECT_EQ(found.triangle, k_no_triangle);
         EXPECT_LE(found.pops, 1U);  // no edge is within 30 mm of the disc
-    }
-}
-
-TEST(CutAll, IsEveryTrianglesCut) {
-    Random random(1506);
-    const Mesh soup = test::as_soup(test::make_torus(0.08, 0.03, 30, 16), 2e-3, random);
-    const SurfaceGraph graph = build_surface_graph(soup);
-    const TriangleBvh bvh(graph.positions, graph.triangles);
-    for (int i = 0; i < 300; ++i) {
-        const Disc disc = test::random_disc(random.vector(0.1), random.between(0.02, 0.12), random);
-        std::vector<DiscSegment> segments;
-        cut_all(graph, bvh, disc, segments);
-        std::sort(segments.begin(), segments.end(),
-                  [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
-        const auto cut = cut_by_hand(graph, disc);
-        ASSERT_EQ(segments.size(), cut.size());
-        for (std::size_t k = 0; k < cut.size(); ++k) {
-            ASSERT_EQ(segments[k].triangle, cut[k].triangle);
-            ASSERT_LT((segments[k].a_ds - cut[k].a_ds).norm(), 1e-9);
-            ASSERT_LT((segments[k].b_ds - cut[k].b_ds).norm(), 1e-9);
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 #include "tools/lab/grip_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -56,12 +57,17 @@ Result<HandRig> load_rig(const GripOptions& options) {
     return hand_rig_from_skin(skin.value(), side);
 }
 
-std::string pose_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
-                     const std::vector<Placement>& placements) {
+GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
     variant.order = options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
+    return variant;
+}
+
+std::string pose_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
+                     const std::vector<Placement>& placements) {
+    const GripVariant variant = variant_of(options);
     const Tuning tuning;
     Progress progress("grip");
     std::string text;
@@ -71,6 +77,43 @@ std::string pose_all(const GripOptions& options, const GripMesh& mesh, const Han
         progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
     }
     return text;
+}
+
+// The value that this share of all is not above; 0 of none.
+template <typename Value>
+Value quantile(std::vector<Value> values, double share) {
+    if (values.empty()) {
+        return {};
+    }
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
+                     values.end());
+    return values[place];
+}
+
+void append(const WarmHand& one, WarmHand& all) {
+    all.slide_us.insert(all.slide_us.end(), one.slide_us.begin(), one.slide_us.end());
+    all.stand_us.insert(all.stand_us.end(), one.stand_us.begin(), one.stand_us.end());
+    all.pops.insert(all.pops.end(), one.pops.begin(), one.pops.end());
+    all.joint_frames += one.joint_frames;
+    all.jumps += one.jumps;
+}
+
+void print_warm(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
+                const std::vector<Placement>& placements) {
+    WarmHand all;
+    Progress progress("warm");
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        append(slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
+                          {options.warm_frames, options.speed_mps}),
+               all);
+        progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
+    }
+    std::printf("slide_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
+                quantile(all.slide_us, 0.5), quantile(all.slide_us, 0.99),
+                quantile(all.stand_us, 0.5), quantile(all.stand_us, 0.99));
+    std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames\n",
+                quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames);
 }
 
 }  // namespace
@@ -101,6 +144,9 @@ int grip_command(const GripOptions& options) {
     const std::string text = pose_all(options, grip_mesh, rig.value(), placements.value());
     if (const auto error = write_file_atomically(options.out, text)) {
         return refuse(*error);
+    }
+    if (options.warm_frames > 0) {
+        print_warm(options, grip_mesh, rig.value(), placements.value());
     }
     return 0;
 }

@@ -17,6 +17,8 @@ struct GripOptions {
     std::string palm = "least";
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
+    int warm_frames = 0;             // sliding, and standing still, of each hand; 0: none
+    double speed_mps = 0.2;          // sliding
 };
 
 // Exit status: 0; 2 for a file that cannot be read or written. One line on standard error says why;

@@ -1,6 +1,8 @@
 #include "tools/lab/grip_run.hpp"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
@@ -12,6 +14,7 @@ namespace handhold::lab {
 namespace {
 
 constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
+constexpr double k_frame_s = 1.0 / 90.0;
 
 // The columns of one hand, and what its stages keep their memory in.
 class OneHand {
@@ -28,31 +31,30 @@ class OneHand {
     }
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
-        const auto timed = [](double& sum_us, const auto& stage) {
-            const std::int64_t begin_ns = stage_now_ns();
-            stage();
-            sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
-        };
-        timed(us.search_us, [&] {
-            search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
-        });
+        timed(us.search_us, [&] { search(tuning, variant); });
         for (std::int32_t lifts = 0;; ++lifts) {
             const double lift_before_m = offset_.rows().front().lift_m;
-            timed(us.palm_us, [&] { constrain(tuning, variant); });
-            timed(us.fingers_us, [&] {
-                sweep_fingers({k_at_once_s, surroundings_, tracking_, surface_, palm_, offset_,
-                               fingers_, traces_, fit_scratch_},
-                              tuning, stats_, variant.order);
-            });
+            timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
+            timed(us.fingers_us, [&] { sweep(k_at_once_s, tuning, variant); });
             if (!variant.sync || offset_.rows().front().lift_m == lift_before_m) {
                 break;
             }
         }
-        timed(us.fingers_us, [&] {
-            pose_thumb(
-                {k_at_once_s, surroundings_, tracking_, surface_, fingers_, traces_, fit_scratch_},
-                tuning, stats_, variant.order);
+        timed(us.fingers_us, [&] { thumb(k_at_once_s, tuning, variant); });
+    }
+
+    // One frame with what is known from the last one.
+    double run_frame_us(const Pose& wrist, const Tuning& tuning, const GripVariant& variant) {
+        surroundings_.front().wrist_bs = wrist;
+        traces_.front() = {};
+        double us = 0.0;
+        timed(us, [&] {
+            search(tuning, variant);
+            constrain(k_frame_s, tuning, variant);
+            sweep(k_frame_s, tuning, variant);
+            thumb(k_frame_s, tuning, variant);
         });
+        return us;
     }
 
     const GripSurface& surface() const { return surface_.rows().front(); }
@@ -62,8 +64,27 @@ class OneHand {
     const std::array<FingerTrace, k_finger_count>& traces() const { return traces_.front(); }
 
   private:
-    void constrain(const Tuning& tuning, const GripVariant& variant) {
-        constrain_palms({k_at_once_s, surroundings_, surface_, offset_, palm_}, tuning);
+    template <typename Stages>
+    static void timed(double& sum_us, const Stages& stages) {
+        const std::int64_t begin_ns = stage_now_ns();
+        stages();
+        sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
+    }
+
+    void search(const Tuning& tuning, const GripVariant& variant) {
+        search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
+    }
+    void sweep(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        sweep_fingers({dt_s, surroundings_, tracking_, surface_, palm_, offset_, fingers_, traces_,
+                       fit_scratch_},
+                      tuning, stats_, variant.order);
+    }
+    void thumb(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        pose_thumb({dt_s, surroundings_, tracking_, surface_, fingers_, traces_, fit_scratch_},
+                   tuning, stats_, variant.order);
+    }
+    void constrain(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        constrain_palms({dt_s, surroundings_, surface_, offset_, palm_}, tuning);
         if (!variant.sync) {
             const Pose tracked = surroundings_.front().wrist_bs;
             offset_.rows().front() = {};
@@ -83,6 +104,52 @@ class OneHand {
     ChainFitScratch fit_scratch_;
     StageStats stats_;
 };
+
+// The wrist that slides: across the fingers, in the plane of the surface that it grips.
+class SlidingWrist {
+  public:
+    SlidingWrist(const Pose& wrist, const Vec3& normal, const HandSlide& slide)
+        : from_(wrist), step_m_(slide.speed_mps * k_frame_s) {
+        const Vec3 across = wrist.rotation * Vec3::UnitX();
+        const Vec3 flat = across - across.dot(normal) * normal;
+        along_ = flat.norm() > 1e-6 ? Vec3(flat.normalized()) : across;
+    }
+
+    Pose next() {
+        constexpr double k_most_m = 0.04;
+        if (std::abs(way_m_ + step_m_) > k_most_m) {
+            step_m_ = -step_m_;
+        }
+        way_m_ += step_m_;
+        return {from_.position + way_m_ * along_, from_.rotation};
+    }
+
+  private:
+    Pose from_;
+    Vec3 along_;
+    double step_m_;
+    double way_m_ = 0.0;
+};
+
+void count_jumps(const HandRig& rig, const FingerPose& before, const FingerPose& after,
+                 WarmHand& warm) {
+    constexpr double k_jump_rad = std::numbers::pi / 18.0;
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+            const double way_rad = after.target[f].curl_rad[i] - before.target[f].curl_rad[i];
+            ++warm.joint_frames;
+            warm.jumps += std::abs(way_rad) >= k_jump_rad ? 1U : 0U;
+        }
+    }
+}
+
+void add_pops(const std::array<FingerTrace, k_finger_count>& traces, WarmHand& warm) {
+    for (const FingerTrace& trace : traces) {
+        if (trace.discs > 0) {
+            warm.pops.push_back((trace.pops + trace.discs - 1) / trace.discs);
+        }
+    }
+}
 
 }  // namespace
 
@@ -110,6 +177,35 @@ PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& w
         posed.traces[f] = hand.traces()[f];
     }
     return posed;
+}
+
+WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                    const Tuning& tuning, const GripVariant& variant, const HandSlide& slide) {
+    OneHand hand(mesh, rig, wrist);
+    GripTimes cold;
+    hand.run(tuning, variant, cold);
+    WarmHand warm;
+    if (hand.surface().triangle == GripSurface::k_none) {
+        return warm;
+    }
+    SlidingWrist sliding(wrist, hand.surface().normal_bs, slide);
+    Pose at = wrist;
+    for (std::int32_t frame = 0; frame < slide.frames; ++frame) {
+        at = sliding.next();
+        const FingerPose before = hand.fingers();
+        warm.slide_us.push_back(hand.run_frame_us(at, tuning, variant));
+        count_jumps(rig, before, hand.fingers(), warm);
+        add_pops(hand.traces(), warm);
+    }
+    // The palm that is shown comes to rest first.
+    constexpr int k_settle_frames = 45;
+    for (int frame = 0; frame < k_settle_frames; ++frame) {
+        hand.run_frame_us(at, tuning, variant);
+    }
+    for (std::int32_t frame = 0; frame < slide.frames; ++frame) {
+        warm.stand_us.push_back(hand.run_frame_us(at, tuning, variant));
+    }
+    return warm;
 }
 
 }  // namespace handhold::lab

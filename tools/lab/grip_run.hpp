@@ -47,4 +47,25 @@ struct PosedHand {
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
+// How a hand moves that is measured warm.
+struct HandSlide {
+    std::int32_t frames = 0;  // of 1/90 s: first sliding, then as many standing still
+    double speed_mps = 0.2;   // to and fro by 4 cm: along the surface, across the fingers
+};
+
+// What the frames of a hand that knows its last solution took, each from search_grip to pose_thumb:
+// microseconds of thread CPU time.
+struct WarmHand {
+    std::vector<double> slide_us;
+    std::vector<double> stand_us;
+    std::vector<std::uint32_t> pops;  // a searched disc, in the mean of a finger and a frame
+    std::uint32_t joint_frames = 0;   // sliding: hinges of all fingers, times frames
+    std::uint32_t jumps = 0;          // of these, bound for 10 degrees away or more in one frame
+};
+
+// A hand that has closed at `wrist` as pose_cold_hand closes it, and then slides and stands. Empty
+// where it does not grip.
+WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                    const Tuning& tuning, const GripVariant& variant, const HandSlide& slide);
+
 }  // namespace handhold::lab

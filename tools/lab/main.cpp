@@ -61,6 +61,12 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edges of the search detail")
         ->check(CLI::Range(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig's figures");
+    grip.add_option(
+            "--warm-frames", options.warm_frames,
+            "Also let each hand slide for so many frames of 1/90 s, then stand: their times")
+        ->check(CLI::Range(0, 100000));
+    grip.add_option("--speed-mps", options.speed_mps, "Of hands that slide")
+        ->check(CLI::Range(0.0, 10.0));
 }
 
 void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& options) {
