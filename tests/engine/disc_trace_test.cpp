@@ -173,7 +173,6 @@ struct Pops {
 // From random triangles, in both orders; whatever is found is cut by the disc.
 Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& near, double size_m,
                       Random& random) {
-    Pops pops;
     const TriangleBvh bvh(graph.positions, graph.triangles);
     std::set<std::uint32_t> cut;
     for (const DiscSegment& segment : cut_by_hand(graph, disc)) {
