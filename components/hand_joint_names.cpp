@@ -14,7 +14,7 @@ std::string in_lower_case(std::string_view name) {
     return lower;
 }
 
-bool has(const std::string& text, const char* word) { return text.find(word) != text.npos; }
+bool has(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
 }  // namespace
 

@@ -78,7 +78,7 @@ void BvhBuilder::gather() {
     }
 }
 
-std::uint32_t BvhBuilder::bin_of(const Item& item, const Box& middles, std::size_t axis) const {
+std::uint32_t BvhBuilder::bin_of(const Item& item, const Box& middles, std::size_t axis) {
     const float width = middles.high[axis] - middles.low[axis];
     const float share = (item.box.middle(axis) - middles.low[axis]) / width;
     return std::min(static_cast<std::uint32_t>(share * static_cast<float>(k_bins)),

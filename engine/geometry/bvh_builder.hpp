@@ -45,7 +45,7 @@ class BvhBuilder {
     static constexpr std::size_t k_bins = 16;
 
     void gather();
-    std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis) const;
+    static std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis);
     Split best_split(const Work& work, const Box& box, const Box& middles) const;
     Split best_split_along(std::size_t axis, const Work& work, const Box& middles) const;
     std::uint32_t part(const Work& work, const Split& split, const Box& middles);
