@@ -99,12 +99,10 @@ Quat axes_from_knuckles(const SkinnedMesh& skin, const HandBones& bones, HandSid
 }
 
 bool are_near(const Quat& a, const Quat& b) {
-    for (const Vec3& axis : {Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
-        if ((a * axis).dot(b * axis) < k_axes_cosine) {
-            return false;
-        }
-    }
-    return true;
+    const auto is_near = [&](const Vec3& axis) {
+        return (a * axis).dot(b * axis) >= k_axes_cosine;
+    };
+    return is_near(Vec3::UnitY()) && is_near(Vec3::UnitZ());
 }
 
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
@@ -216,6 +214,7 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Pose>& joints_h
         middle += joint.position / static_cast<double>(joints_hs.size());
     }
     std::vector<Vec3> points;
+    points.reserve(joints_hs.size());
     for (const Pose& joint : joints_hs) {
         points.push_back(joint.position - hinge * hinge.dot(joint.position - middle));
     }

@@ -22,8 +22,8 @@ double percentile(std::vector<double>& values, double share, double fallback) {
     if (values.empty()) {
         return fallback;
     }
-    const std::size_t place =
-        static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto place =
+        static_cast<std::size_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
     std::nth_element(values.begin(), at, values.end());
     return *at;
