@@ -96,7 +96,8 @@ ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);
 
-// Of one capsule anywhere: what fit_chain asks its patch, from the beginning.
+// Of one capsule anywhere: what fit_chain asks its patch, from the beginning. Gathers and allocates
+// anew: for tests and tools.
 SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 
 }  // namespace handhold
