@@ -5,8 +5,17 @@
 #include "engine/math/math.hpp"
 
 // Numbers of the body that follows head and hands. Lengths that scale with the player are those of
-// one whose eyes are at 1.6 m.
+// one whose eyes are at k_scale_eye_m.
 namespace handhold {
+
+inline constexpr double k_scale_eye_m = 1.6;
+// Faster than hands, head and chest move in play space: what jumps farther in a frame was put
+// there.
+inline bool is_jump(double distance_m, double dt_s) {
+    constexpr double k_jump_m = 0.15;
+    constexpr double k_jump_speed_mps = 20.0;
+    return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
+}
 
 // Fitted on motion capture (docs/decisions.md says on whom, and what each is worth).
 struct ArmTuning {

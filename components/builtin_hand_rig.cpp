@@ -2,7 +2,6 @@
 // finger, knuckles 20 mm apart.
 #include "components/builtin_hand_rig.hpp"
 
-#include <numbers>
 #include <span>
 #include <string>
 
@@ -11,7 +10,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_degree = std::numbers::pi / 180.0;
 constexpr double k_mm = 1e-3;
 
 using Links = std::array<double, k_most_links>;

@@ -2,12 +2,8 @@
 // the index and middle fingers instead of beside them.
 #include "components/hand_limits.hpp"
 
-#include <numbers>
-
 namespace handhold {
 namespace {
-
-constexpr double k_degree = std::numbers::pi / 180.0;
 
 struct CurlLimits {
     std::array<double, k_most_links> lower_deg, upper_deg, relaxed_deg;

@@ -4,20 +4,11 @@
 #include <filesystem>
 
 #include "game/built_in_scenes.hpp"
+#include "game/exit_status.hpp"
 #include "game/station_description.hpp"
 #include "game/station_scene.hpp"
 
 namespace handhold {
-namespace {
-
-constexpr int k_exit_bad_file = 2;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return k_exit_bad_file;
-}
-
-}  // namespace
 
 int build_station_command(const BuildStationOptions& options) {
     StationDescription description;

@@ -13,8 +13,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.5707963267948966;
-
 Scene empty_scene(std::string name, std::string description) {
     Scene scene;
     scene.name = std::move(name);
@@ -26,7 +24,6 @@ Scene empty_scene(std::string name, std::string description) {
 
 // A structure's spawns say where the head is; players are put where their feet are.
 void add_spawns(const Structure& structure, Scene& scene) {
-    constexpr double k_eye_height_m = 1.6;
     for (const SpawnPoint& spawn : structure.spawns) {
         Pose origin = spawn.pose;
         origin.position -= origin.rotation * Vec3(0.0, k_eye_height_m, 0.0);

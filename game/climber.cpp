@@ -15,7 +15,6 @@ constexpr double k_missed_after_s = 0.02;  // a hand that closed and still holds
 constexpr double k_grip_lost_m = 0.1;      // of a hand that something holds back
 constexpr double k_both_hold_s = 0.15;     // before one of two hands goes on
 constexpr double k_near_waypoint_m = 0.3;
-constexpr double k_clear_m = 0.3;     // of the head's centre from everything
 constexpr double k_leap_way_m = 1.2;  // free way that is worth a push
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
@@ -158,11 +157,11 @@ Vec3 steer(const Mind& mind) {
     if (!mind.task.waypoints.empty()) {
         goes_on = head_for_waypoint(mind);
         look_ahead(mind);
-    } else if (mind.now.t_s >= state.heading_until_s || state.way_ahead_m < 1.5 * k_clear_m) {
+    } else if (mind.now.t_s >= state.heading_until_s || state.way_ahead_m < 1.5 * k_head_clear_m) {
         head_anywhere(mind);
         look_ahead(mind);
     }
-    const double room = std::clamp((state.way_ahead_m - k_clear_m) / 0.4, 0.0, 1.0);
+    const double room = std::clamp((state.way_ahead_m - k_head_clear_m) / 0.4, 0.0, 1.0);
     Vec3 wanted_mps = Vec3::Zero();
     if (goes_on) {
         wanted_mps = (mind.task.cruise_mps * room) * state.heading_ws;
@@ -170,11 +169,11 @@ Vec3 steer(const Mind& mind) {
     const std::array<std::uint64_t, 1> himself = {
         mind.world().persistent_id.at(mind.player()).value};
     if (const auto near =
-            mind.sight.collision.closest_point(mind.now.head_ws, k_clear_m, himself)) {
+            mind.sight.collision.closest_point(mind.now.head_ws, k_head_clear_m, himself)) {
         constexpr double k_push_mps = 0.5;
         const double into = wanted_mps.dot(near->normal_ws);
         wanted_mps -= std::min(0.0, into) * near->normal_ws;
-        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_clear_m)) * near->normal_ws;
+        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_head_clear_m)) * near->normal_ws;
     }
     return wanted_mps;
 }

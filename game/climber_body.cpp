@@ -11,22 +11,14 @@
 namespace handhold {
 namespace {
 
-constexpr double k_eye_height_m = 1.6;
 constexpr double k_acceleration_mps2 = 2.5;
 constexpr double k_braking_mps2 = 5.0;        // of someone who catches himself
 constexpr double k_hurry_per_s = 8.0;         // how fast wanted becomes actual speed
 constexpr double k_stretch_rate_per_s = 4.0;  // an arm slows down before it is straight
 constexpr double k_turn_radps = 1.2;          // of the chest
-constexpr double k_lift_m = 0.06;             // of a hand off the surface on its way
+constexpr double k_climber_lift_m = 0.06;     // of a hand off the surface on its way
 constexpr double k_rest_s = 0.5;
 constexpr double k_tremor_m = 0.0005;  // amplitude: a millimetre from side to side
-
-double sine(double angle_rad) {
-    double s = 0.0;
-    double c = 1.0;
-    sin_cos(angle_rad, s, c);
-    return s;
-}
 
 double outward(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
 
@@ -165,7 +157,7 @@ void move_hand(const World& world, const ClimberMoment& now, double t_s, double 
             break;
         case ClimberHandMode::reaching: {
             const HoldPlace place = place_of(world, hand.hold, now, t_s, state);
-            hand.wrist_ps = on_the_way(hand, place.wrist_ps, k_lift_m * place.away_ps, t_s);
+            hand.wrist_ps = on_the_way(hand, place.wrist_ps, k_climber_lift_m * place.away_ps, t_s);
             keep_in_reach(shoulder_ps(state, side), hand.wrist_ps.position);
             if (t_s >= hand.until_s - 1e-9) {
                 hand.mode = ClimberHandMode::closing;

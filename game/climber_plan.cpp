@@ -15,7 +15,7 @@ constexpr double k_glance_m = 1.2;
 constexpr double k_nearest_m = 0.22;  // holds from the shoulder
 constexpr double k_farthest_m = 0.62;
 constexpr double k_fastest_mps = 2.2;   // what moves faster past him tears his arm off
-constexpr double k_palm_gap_m = 0.004;  // of the palm over the surface
+constexpr double k_hold_gap_m = 0.004;  // of the palm over the surface
 constexpr double k_rail_search_m = 0.9;
 constexpr std::size_t k_rails_looked_at = 3;
 
@@ -75,7 +75,7 @@ Search begin_search(const ClimberSight& sight, const HoldSearch& ask, const Clim
 }
 
 // A hold as good as possible has a value about 1.
-struct Candidate {
+struct HoldCandidate {
     Seen seen;
     Entity body;
     double value = 0.0;
@@ -88,7 +88,7 @@ bool is_loose(const Search& search, const RigidBody& body) {
 }
 
 // Nothing where the hand cannot or should not go there.
-std::optional<Candidate> judge(const Search& search, const Seen& seen, double luck) {
+std::optional<HoldCandidate> judge(const Search& search, const Seen& seen, double luck) {
     const World& world = search.sight.scene.world;
     const Entity body = body_of_id(world, seen.id);
     const RigidBody* const rigid = world.body.find(body);
@@ -114,20 +114,21 @@ std::optional<Candidate> judge(const Search& search, const Seen& seen, double lu
     const double progress_m = from_eyes.dot(search.ask.toward_ws);
     const double across_m = std::max(0.0, -from_eyes.dot(search.outward_ws) - 0.05);
     const bool is_rail = seen.along_ws.squaredNorm() > 0.0;
-    Candidate candidate{seen, body, 0.0, reach_s};
+    HoldCandidate candidate{seen, body, 0.0, reach_s};
     candidate.value = 1.4 * std::min(progress_m, 0.5) - 1.5 * across_m -
                       0.6 * std::abs(distance_m - 0.42) + (is_rail ? 0.35 : 0.0) + 0.15 * luck;
     return candidate;
 }
 
-void offer(const Search& search, const Seen& seen, double luck, std::optional<Candidate>& best) {
-    const std::optional<Candidate> candidate = judge(search, seen, luck);
+void offer(const Search& search, const Seen& seen, double luck,
+           std::optional<HoldCandidate>& best) {
+    const std::optional<HoldCandidate> candidate = judge(search, seen, luck);
     if (candidate && (!best || candidate->value > best->value)) {
         best = candidate;
     }
 }
 
-void glance_about(const Search& search, Random& random, std::optional<Candidate>& best) {
+void glance_about(const Search& search, Random& random, std::optional<HoldCandidate>& best) {
     // Who moves looks farther: what is near him when the hand arrives is not yet.
     const double length_m = k_glance_m + 0.6 * search.ask.now.relative_mps.norm();
     for (int i = 0; i < k_glances; ++i) {
@@ -164,7 +165,7 @@ RailPlace place_on(const SceneRail& rail, const Pose& body_ws, const Vec3& ideal
     return {axis, along, (axis - ideal_ws).norm()};
 }
 
-void look_at_rails(const Search& search, Random& random, std::optional<Candidate>& best) {
+void look_at_rails(const Search& search, Random& random, std::optional<HoldCandidate>& best) {
     const World& world = search.sight.scene.world;
     const Vec3 ideal_ws = search.shoulder_ws + 0.4 * search.ask.toward_ws;
     std::array<RailPlace, k_rails_looked_at> places;
@@ -200,7 +201,7 @@ void look_at_rails(const Search& search, Random& random, std::optional<Candidate
 }
 
 // Fingers round the bar, away from the shoulder; on a surface straight on.
-ClimberHold make_hold(const Search& search, const Candidate& chosen) {
+ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
     const Seen& seen = chosen.seen;
     const Vec3 out = seen.point_ws - search.shoulder_ws;
     Vec3 fingers = out - seen.normal_ws * seen.normal_ws.dot(out);
@@ -213,7 +214,7 @@ ClimberHold make_hold(const Search& search, const Candidate& chosen) {
         const Quat tip = rotation_between(Vec3::UnitZ(), seen.normal_ws);
         fingers = tip * Vec3::UnitX();
     }
-    const PalmPlace palm{seen.point_ws + k_palm_gap_m * seen.normal_ws, seen.normal_ws, fingers};
+    const PalmPlace palm{seen.point_ws + k_hold_gap_m * seen.normal_ws, seen.normal_ws, fingers};
     const Pose wrist_ws = hand_on(palm, search.ask.side, search.sight.scene.tuning.hand);
     const Pose& body_ws = search.sight.scene.world.body_pose.at(chosen.body).pose_ws;
     return {chosen.body, inverse(body_ws) * wrist_ws,
@@ -253,7 +254,7 @@ Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_w
 std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& ask,
                                    ClimberState& state) {
     const Search search = begin_search(sight, ask, state);
-    std::optional<Candidate> best;
+    std::optional<HoldCandidate> best;
     look_at_rails(search, state.random, best);
     glance_about(search, state.random, best);
     if (!best) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "engine/core/check.hpp"
+#include "game/exit_status.hpp"
 #include "game/place_scene.hpp"
 #include "systems/frame.hpp"
 
@@ -11,18 +12,6 @@ namespace handhold {
 namespace {
 
 constexpr double k_hz = 90.0;
-
-RecordedSample recorded(const TrackingSample& sample) {
-    RecordedSample out;
-    out.t_s = sample.t_s;
-    out.head = sample.head_ps;
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const ControllerSample& controller = sample.controllers[side];
-        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.grab ? 1.0 : 0.0};
-    }
-    return out;
-}
 
 ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
     ClimberTask task;
@@ -33,11 +22,6 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
     task.takes_things = false;
     task.single_hand = plan.single_hand;
     return task;
-}
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return 2;
 }
 
 }  // namespace

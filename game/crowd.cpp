@@ -8,8 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_eye_height_m = 1.6;
-constexpr double k_clear_m = 0.3;    // of a head's centre from every surface
 constexpr double k_apart_m = 0.8;    // of two heads; less where there is no room
 constexpr double k_closest_m = 0.3;  // but no closer
 constexpr double k_view_m = 8.0;     // what is that far from everything is outside
@@ -37,7 +35,7 @@ class Spreader {
         const Vec3 place = from + share * hit->distance_m * direction;
         const bool too_near = std::ranges::any_of(
             heads, [&](const Vec3& head) { return (head - place).norm() < apart_m; });
-        if (too_near || collision_.closest_point(place, k_clear_m)) {
+        if (too_near || collision_.closest_point(place, k_head_clear_m)) {
             return false;
         }
         heads.push_back(place);

@@ -15,7 +15,6 @@ namespace {
 constexpr int k_climbers = 12;
 constexpr std::size_t k_things = 24;
 constexpr std::uint64_t k_seed = 7;
-constexpr double k_jets_mps2 = 0.5;
 constexpr double k_session_room_m = 3.0;  // about the first spawn, where the session begins
 
 struct Thing {

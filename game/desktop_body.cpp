@@ -16,7 +16,7 @@ constexpr double k_look_m = 0.85;       // as far as he reaches for what he look
 constexpr double k_near_look_m = 0.08;  // beside the line of sight
 constexpr double k_no_surface_m = 0.6;
 constexpr double k_reach_mps = 3.5;
-constexpr double k_return_mps = 2.5;
+constexpr double k_hand_return_mps = 2.5;
 constexpr double k_longest_reach_s = 0.5;
 constexpr double k_arrived_m = 0.005;
 constexpr double k_pull_mps = 0.9;
@@ -140,7 +140,8 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
             hand.reaches_s = 0.0;
             const Pose rest = rest_ps(side, scene.tuning.hand);
             const double distance_m = (rest.position - hand.hand_ps.position).norm();
-            const double share = std::min(1.0, k_return_mps * dt_s / std::max(distance_m, 1e-9));
+            const double share =
+                std::min(1.0, k_hand_return_mps * dt_s / std::max(distance_m, 1e-9));
             hand.hand_ps = interpolate(hand.hand_ps, rest, share);
         } else if (uses_[i] == Use::reaches) {
             reach(target_ps(side, scene.tuning.hand), dt_s, hand);

@@ -6,20 +6,6 @@
 #include "game/place_scene.hpp"
 
 namespace handhold {
-namespace {
-
-RecordedSample recorded(const TrackingSample& sample) {
-    RecordedSample out{sample.t_s, sample.head_ps, {}};
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const ControllerSample& controller = sample.controllers[side];
-        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
-                           controller.grab ? 1.0 : 0.0};
-    }
-    return out;
-}
-
-}  // namespace
-
 DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
     : scene_(std::move(scene)),
       caches_(*scene_.shapes, scene_.grip_meshes.get()),

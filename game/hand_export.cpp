@@ -11,6 +11,7 @@
 #include "engine/core/check.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/exit_status.hpp"
 #include "game/render/robot_hand.hpp"
 #include "game/render/shading_mesh.hpp"
 
@@ -138,7 +139,6 @@ std::string export_robot_hand(const HandRig& rig) {
 }
 
 int export_hands_command(const std::string& folder) {
-    constexpr int k_exit_bad_file = 2;
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     for (const HandSide side : {HandSide::left, HandSide::right}) {

@@ -3,24 +3,16 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
 #include "engine/io/text_file.hpp"
+#include "game/exit_status.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/scene_picture.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {
 namespace {
-
-constexpr int k_exit_bad_file = 2;
-constexpr double k_eye_height_m = 1.6;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return k_exit_bad_file;
-}
 
 void step_to(Scene& scene, double seconds) {
     constexpr double k_dt_s = 1.0 / 90.0;
@@ -32,7 +24,6 @@ void step_to(Scene& scene, double seconds) {
 }
 
 Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
-    constexpr double k_degree = std::numbers::pi / 180.0;
     const Quat look = rotation_about(Vec3::UnitY(), options.yaw_deg * k_degree) *
                       rotation_about(Vec3::UnitX(), options.pitch_deg * k_degree);
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};

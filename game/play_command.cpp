@@ -6,21 +6,13 @@
 #include <memory>
 
 #include "engine/io/text_file.hpp"
+#include "game/exit_status.hpp"
 #include "game/play_loop.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 
 namespace handhold {
 namespace {
-
-constexpr int k_exit_bad_file = 2;
-constexpr int k_exit_no_window = 3;
-constexpr double k_jets_mps2 = 0.5;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return k_exit_bad_file;
-}
 
 // Said before anything is played: a session that cannot be kept is not begun.
 std::optional<FileError> check_folder(const std::filesystem::path& file) {

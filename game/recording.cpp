@@ -116,7 +116,7 @@ class RowReader {
     std::optional<FileError> error_;
 };
 
-void append_number(std::string& text, double value) {
+void append_exact(std::string& text, double value) {
     if (std::isnan(value)) {
         text += "nan";
         return;
@@ -130,11 +130,23 @@ void append_pose(std::string& text, const Pose& pose) {
     for (const double value :
          {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()}) {
         text += ',';
-        append_number(text, value);
+        append_exact(text, value);
     }
 }
 
 }  // namespace
+
+RecordedSample recorded(const TrackingSample& sample) {
+    RecordedSample out;
+    out.t_s = sample.t_s;
+    out.head = sample.head_ps;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const ControllerSample& controller = sample.controllers[side];
+        out.hands[side] = {controller.controller_ps, controller.grab ? k_button_grip : 0,
+                           controller.grab ? 1.0 : 0.0};
+    }
+    return out;
+}
 
 Result<Recording> parse_recording(std::string_view text, const std::string& file) {
     const Result<NumericTable> table = parse_csv(text, file, NanCells::allowed);
@@ -199,14 +211,14 @@ std::optional<FileError> save_recording(const std::filesystem::path& path,
     }
     text += '\n';
     for (const RecordedSample& sample : recording.samples) {
-        append_number(text, sample.t_s);
+        append_exact(text, sample.t_s);
         append_pose(text, sample.head);
         for (const RecordedHand& hand : sample.hands) {
             append_pose(text, hand.controller);
             text += ',';
             text += std::to_string(hand.buttons);
             text += ',';
-            append_number(text, hand.trigger);
+            append_exact(text, hand.trigger);
         }
         text += '\n';
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "components/tracking.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
@@ -33,6 +34,9 @@ struct RecordedSample {
     Pose head;         // between the eyes, in tracking space; all NaN while it was not tracked
     std::array<RecordedHand, 2> hands;  // left, right
 };
+
+// What a headset that made this sample would have recorded: a hand that grabs holds k_button_grip.
+RecordedSample recorded(const TrackingSample& sample);
 
 struct Recording {
     std::vector<RecordedSample> samples;  // at least two; gaps and jitter are normal

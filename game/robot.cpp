@@ -8,7 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.57079632679489661923;
 constexpr Color k_accent = {0.55F, 0.22F, 0.02F};
 
 constexpr double k_back_m = 0.25;  // the back's height over the torso's frame
@@ -16,7 +15,7 @@ constexpr double k_back_m = 0.25;  // the back's height over the torso's frame
 // Half the length of the way's straight pieces, and the radius of its bends.
 constexpr double k_straight_half_m = 4.0;
 constexpr double k_bend_m = 3.6;
-constexpr double k_speed_mps = 0.45;
+constexpr double k_robot_mps = 0.45;
 
 Ring torso_ring(double half_x, double y0, double y1, double z) {
     const double middle = 0.5 * (y0 + y1);
@@ -318,7 +317,7 @@ PosePath make_robot_path() {
     for (std::size_t i = 0; i < poses.size(); ++i) {
         poses[i] = way_at(lap * static_cast<double>(i) / static_cast<double>(poses.size()));
     }
-    return make_pose_path(poses, lap / k_speed_mps);
+    return make_pose_path(poses, lap / k_robot_mps);
 }
 
 }  // namespace handhold

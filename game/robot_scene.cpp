@@ -8,7 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_eye_height_m = 1.6;
 const Vec3 k_left_rail(-0.28, 0.3125, 0.0);   // robot/left, along z
 const Vec3 k_first_rung(0.0, 0.3125, -0.62);  // robot/rung_0, along x
 

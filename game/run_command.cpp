@@ -10,6 +10,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
+#include "game/exit_status.hpp"
 #include "game/film.hpp"
 #include "game/progress.hpp"
 #include "game/render/image.hpp"
@@ -23,13 +24,6 @@
 
 namespace handhold {
 namespace {
-
-constexpr int k_exit_bad_file = 2;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return k_exit_bad_file;
-}
 
 struct Session {
     std::optional<Recording> recording;
@@ -251,7 +245,6 @@ RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t
     settings.climbers_from = options.climbers ? 0 : 1;
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
-    constexpr double k_jets_mps2 = 0.5;
     double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
     if (players > settings.climbers_from && jets_mps2 == 0.0) {
         jets_mps2 = k_jets_mps2;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "game/scene_ranges.hpp"
+
 namespace handhold {
 namespace {
 
-constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
-constexpr NumberRange k_radius_m = {1e-3, 1e3, false};
-constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
+constexpr NumberRange k_link_radius_m = {1e-3, 1e3, false};
 constexpr NumberRange k_friction_nm = {0.0, 1e12, false};
-constexpr std::int64_t k_most_links = 2000;
+constexpr std::int64_t k_most_chain_links = 2000;
 
 std::string read_body_name(const JsonValue& value, const SceneJointNames& names) {
     if (!value.exists()) {
@@ -29,7 +29,7 @@ void read_scene_chain(const JsonValue& value, const std::string& name, SceneJoin
                       SceneFile& scene) {
     value.allow_only({"name", "links", "a", "b", "from_m", "to_m", "radius_m", "mass_kg",
                       "friction_nm", "color"});
-    const auto links = std::max<std::int64_t>(1, value["links"].integer(1, k_most_links));
+    const auto links = std::max<std::int64_t>(1, value["links"].integer(1, k_most_chain_links));
     const auto count = static_cast<double>(links);
     const Vec3 from = value["from_m"].vector(k_coordinate_m);
     const Vec3 way = value["to_m"].vector(k_coordinate_m) - from;
@@ -37,7 +37,7 @@ void read_scene_chain(const JsonValue& value, const std::string& name, SceneJoin
     SceneBody link;
     link.kind = BodyKind::free;
     link.shape.kind = ShapeKind::capsule;
-    link.shape.radius_m = value["radius_m"].number(k_radius_m);
+    link.shape.radius_m = value["radius_m"].number(k_link_radius_m);
     link.shape.half_height_m = half_link_m - link.shape.radius_m;
     link.mass_kg = value["mass_kg"].number(k_mass_kg) / count;
     if (const JsonValue color = value["color"]; color.exists()) {

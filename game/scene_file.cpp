@@ -8,20 +8,18 @@
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/scene_chain.hpp"
+#include "game/scene_ranges.hpp"
 
 namespace handhold {
 
 namespace {
 
-constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
 constexpr NumberRange k_speed_mps = {-1e5, 1e5, false};
 constexpr NumberRange k_turn_rate_radps = {-1e3, 1e3, false};
-constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
 constexpr NumberRange k_inertia_kgm2 = {1e-12, 1e18, false};
 constexpr NumberRange k_friction = {0.0, 10.0, false};
 constexpr NumberRange k_period_s = {1e-3, 1e6, false};
 constexpr NumberRange k_reach_m = {0.0, 1e6, true};
-constexpr NumberRange k_brightness = {0.0, 1e3, false};
 constexpr NumberRange k_angle_deg = {-360.0, 360.0, false};
 
 // Reads the sections of one document; errors are kept there.
@@ -81,12 +79,6 @@ BodyKind read_kind(const JsonValue& value) {
         value.refuse("\"static\", \"kinematic\" or \"free\"");
     }
     return BodyKind::free;
-}
-
-std::array<float, 3> read_color(const JsonValue& value, const NumberRange& range) {
-    const Vec3 color = value.vector(range);
-    return {static_cast<float>(color.x()), static_cast<float>(color.y()),
-            static_cast<float>(color.z())};
 }
 
 Pose SceneReader::read_pose(const JsonValue& value) {

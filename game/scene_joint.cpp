@@ -2,10 +2,11 @@
 
 #include <numbers>
 
+#include "game/scene_ranges.hpp"
+
 namespace handhold {
 namespace {
 
-constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};
 constexpr NumberRange k_limit_m = {-1e6, 1e6, false};
 constexpr NumberRange k_limit_deg = {-1e6, 1e6, false};
 constexpr NumberRange k_force = {0.0, 1e12, false};
@@ -36,7 +37,7 @@ struct Units {
     }
 };
 
-JointKind read_kind(const JsonValue& value) {
+JointKind read_joint_kind(const JsonValue& value) {
     const std::string kind = value.text();
     if (kind == "ball") {
         return JointKind::ball;
@@ -171,7 +172,7 @@ std::string read_body(const JsonValue& value, const SceneJointNames& names, bool
 SceneJoint read_scene_joint(const JsonValue& value, SceneJointNames& names) {
     SceneJoint out;
     out.name = value["name"].text();
-    out.joint.kind = read_kind(value["type"]);
+    out.joint.kind = read_joint_kind(value["type"]);
     const Units units(out.joint.kind);
     allow_keys_of(value, out.joint.kind, units);
     if (names.bodies.contains(out.name) || !names.joints.emplace(out.name, out.joint.kind).second) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "game/render/primitives.hpp"
+#include "game/scene_ranges.hpp"
 
 namespace handhold {
 namespace {
@@ -13,12 +14,11 @@ namespace {
 constexpr NumberRange k_size_m = {1e-3, 1e4, false};
 constexpr NumberRange k_corner_m = {-1e4, 1e4, false};
 constexpr NumberRange k_scale = {1e-3, 1e3, false};
-constexpr NumberRange k_mass_kg = {1e-6, 1e12, false};
-constexpr NumberRange k_coordinate_m = {-1e4, 1e4, false};
+constexpr NumberRange k_part_place_m = {-1e4, 1e4, false};
 
-enum class Place { body, part };
+enum class ShapePlace { body, part };
 
-SceneShape read(const JsonValue& value, const std::filesystem::path& folder, Place place);
+SceneShape read(const JsonValue& value, const std::filesystem::path& folder, ShapePlace place);
 
 std::filesystem::path read_path(const JsonValue& value, const std::filesystem::path& folder) {
     return (folder / value.text()).lexically_normal();
@@ -66,8 +66,8 @@ void read_parts(const JsonValue& value, const std::filesystem::path& folder, Sce
     for (const JsonValue& child : children) {
         child.allow_only({"shape", "position_m", "rotation_xyzw", "mass_kg"});
         SceneShapePart part;
-        part.shape = read(child["shape"], folder, Place::part);
-        part.pose = {child["position_m"].vector_or(Vec3::Zero(), k_coordinate_m),
+        part.shape = read(child["shape"], folder, ShapePlace::part);
+        part.pose = {child["position_m"].vector_or(Vec3::Zero(), k_part_place_m),
                      child["rotation_xyzw"].rotation_or(Quat::Identity())};
         if (weighed) {
             part.mass_kg = child["mass_kg"].number(k_mass_kg);
@@ -78,7 +78,7 @@ void read_parts(const JsonValue& value, const std::filesystem::path& folder, Sce
     }
 }
 
-std::optional<ShapeKind> kind_named(const std::string& type, Place place) {
+std::optional<ShapeKind> kind_named(const std::string& type, ShapePlace place) {
     constexpr std::array<std::pair<const char*, ShapeKind>, 7> k_kinds = {{
         {"box", ShapeKind::box},
         {"sphere", ShapeKind::sphere},
@@ -89,7 +89,7 @@ std::optional<ShapeKind> kind_named(const std::string& type, Place place) {
         {"mesh", ShapeKind::mesh},
     }};
     constexpr std::size_t k_convex = 5;  // the first ones
-    for (std::size_t i = 0; i < (place == Place::part ? k_convex : k_kinds.size()); ++i) {
+    for (std::size_t i = 0; i < (place == ShapePlace::part ? k_convex : k_kinds.size()); ++i) {
         if (type == k_kinds[i].first) {
             return k_kinds[i].second;
         }
@@ -97,12 +97,12 @@ std::optional<ShapeKind> kind_named(const std::string& type, Place place) {
     return std::nullopt;
 }
 
-SceneShape read(const JsonValue& value, const std::filesystem::path& folder, Place place) {
+SceneShape read(const JsonValue& value, const std::filesystem::path& folder, ShapePlace place) {
     SceneShape shape;
     const std::optional<ShapeKind> kind = kind_named(value["type"].text(), place);
     if (!kind) {
         value["type"].refuse(
-            place == Place::part
+            place == ShapePlace::part
                 ? "\"box\", \"sphere\", \"capsule\", \"cylinder\" or \"hull\" in a compound"
                 : "\"box\", \"sphere\", \"capsule\", \"cylinder\", \"hull\", \"compound\" or "
                   "\"mesh\"");
@@ -151,7 +151,7 @@ Mesh mesh_of_hull(const ConvexHull& hull) {
 }  // namespace
 
 SceneShape read_scene_shape(const JsonValue& value, const std::filesystem::path& folder) {
-    return read(value, folder, Place::body);
+    return read(value, folder, ShapePlace::body);
 }
 
 Vec3 read_scale(const JsonValue& value) {

@@ -10,17 +10,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_sample_hz = 90.0;
-constexpr double k_two_pi = 6.283185307179586;
 constexpr double k_lift_m = 0.07;       // how far a hand rises off the surface on its way
 constexpr double k_rest_after_s = 0.7;  // to lower a hand that has nothing to do
-
-// Sessions are input, not state, but they ship: our own sine gives every machine the same one.
-double sine(double angle_rad) {
-    double s = 0.0;
-    double c = 1.0;
-    sin_cos(angle_rad, s, c);
-    return s;
-}
 
 Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
     const auto next = std::find_if(body.begin(), body.end(),

@@ -8,6 +8,7 @@
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/assets.hpp"
+#include "game/scene_ranges.hpp"
 
 namespace handhold {
 namespace {
@@ -16,7 +17,6 @@ constexpr NumberRange k_place_m = {-1e3, 1e3, false};
 constexpr NumberRange k_radius_m = {0.002, 0.5, false};
 constexpr NumberRange k_drift_mps = {-2.0, 2.0, false};
 constexpr NumberRange k_spin_radps = {-6.0, 6.0, false};
-constexpr NumberRange k_brightness = {0.0, 1e3, false};
 constexpr std::int64_t k_most_racks = 64;
 constexpr std::size_t k_most_points = 256;
 
@@ -84,13 +84,7 @@ T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     return words.front().value;
 }
 
-Color read_color(const JsonValue& value, const NumberRange& range) {
-    const Vec3 color = value.vector(range);
-    return {static_cast<float>(color.x()), static_cast<float>(color.y()),
-            static_cast<float>(color.z())};
-}
-
-std::string read_new_name(const JsonValue& value, std::set<std::string>& taken) {
+std::string read_part_name(const JsonValue& value, std::set<std::string>& taken) {
     std::string name = value.text();
     if (name.find('/') != std::string::npos || !taken.insert(name).second) {
         value.refuse("a name without / that nothing else of its kind has");
@@ -122,7 +116,7 @@ class DescriptionReader {
 RailLine DescriptionReader::read_rail(const JsonValue& value, std::set<std::string>& names) {
     value.allow_only({"name", "wall", "across_m", "from_m", "to_m"});
     RailLine rail;
-    rail.name = read_new_name(value["name"], names);
+    rail.name = read_part_name(value["name"], names);
     rail.outside = value["wall"].is_text() && value["wall"].text() == "outside";
     if (!rail.outside) {
         rail.wall = read_word(value["wall"], k_walls);
@@ -229,7 +223,7 @@ void DescriptionReader::read_section(const JsonValue& value) {
     value.allow_only({"name", "type", "attach", "position_m", "rotation_xyzw", "racks", "bays",
                       "far_end", "accent", "seed", "walls", "rails", "hoses", "lamps"});
     StationSection section;
-    section.name = read_new_name(value["name"], section_names_);
+    section.name = read_part_name(value["name"], section_names_);
     section.type = read_word(value["type"], k_section_types);
     const bool is_module = section.type == SectionType::module;
     if (is_module) {
@@ -265,7 +259,7 @@ void DescriptionReader::read_section(const JsonValue& value) {
 StationTool DescriptionReader::read_tool(const JsonValue& value) {
     value.allow_only(
         {"name", "type", "position_m", "rotation_xyzw", "velocity_mps", "angular_velocity_radps"});
-    return {read_new_name(value["name"], tool_names_),
+    return {read_part_name(value["name"], tool_names_),
             read_word(value["type"], k_tool_types),
             {value["position_m"].vector(k_place_m),
              value["rotation_xyzw"].rotation_or(Quat::Identity())},
@@ -275,7 +269,7 @@ StationTool DescriptionReader::read_tool(const JsonValue& value) {
 
 StationSpawn DescriptionReader::read_spawn(const JsonValue& value) {
     value.allow_only({"name", "eyes_m", "ahead"});
-    StationSpawn spawn = {read_new_name(value["name"], spawn_names_),
+    StationSpawn spawn = {read_part_name(value["name"], spawn_names_),
                           value["eyes_m"].vector(k_place_m), value["ahead"].vector(k_place_m)};
     if (spawn.ahead.cross(Vec3::UnitY()).norm() < 1e-3) {
         value["ahead"].refuse("a direction that is not straight up or down");

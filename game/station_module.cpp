@@ -9,13 +9,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.57079632679489661923;
 constexpr double k_liner_half_m = 1.42;
 constexpr double k_hull_radius_m = 1.90;
-constexpr double k_plate_m = 0.12;     // thickness of an end
-constexpr double k_recess_m = 0.015;   // of an end's outside behind the hull's rim
-constexpr double k_end_room_m = 0.17;  // from an end's outside to the first rack
-constexpr double k_corner_m = 1.365;   // from the axis to a stand-off's face
+constexpr double k_plate_m = 0.12;           // thickness of an end
+constexpr double k_recess_m = 0.015;         // of an end's outside behind the hull's rim
+constexpr double k_end_room_m = 0.17;        // from an end's outside to the first rack
+constexpr double k_module_corner_m = 1.365;  // from the axis to a stand-off's face
 constexpr double k_hatch_corner_m = 0.22;
 
 // Where the strip with the outer rail runs, over the bands and the shields.
@@ -130,7 +129,7 @@ void add_cables(StationKit& kit, const Pose& frame, const Module& module, std::s
 void add_standoffs(StationKit& kit, const Module& module) {
     for (std::size_t corner = 0; corner < 4; ++corner) {
         const double angle = (static_cast<double>(corner) + 0.5) * k_half_pi;
-        const Pose frame = module.pose * wall_frame(angle, k_corner_m);
+        const Pose frame = module.pose * wall_frame(angle, k_module_corner_m);
         const bool is_upper = corner == 1 || corner == 2;
         for (std::size_t rack = 0; rack < module.section.racks; ++rack) {
             const double z = k_end_room_m + (static_cast<double>(rack) + 0.5) * k_rack_pitch_m;

@@ -9,7 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.57079632679489661923;
 constexpr double k_node_half_m = 1.25;   // from the node's middle to the inside of its walls
 constexpr double k_node_plate_m = 0.15;  // thickness of the walls
 constexpr double k_node_outside_m = k_node_half_m + k_node_plate_m;

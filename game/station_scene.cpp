@@ -16,8 +16,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_eye_height_m = 1.6;
-
 SceneBody make_tool_body(const StationTool& tool, const ToolModel& model,
                          const std::filesystem::path& visual) {
     SceneBody body;

@@ -8,7 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.57079632679489661923;
 constexpr double k_deck_y_m = -1.28;  // the deck's face
 constexpr double k_roof_y_m = 1.22;   // the roof's face, looking down
 constexpr double k_wall_x_m = -1.66;  // the wall's face

@@ -7,7 +7,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_half_pi = 1.57079632679489661923;
 constexpr double k_half_m = 0.40;    // half the truss's width, to the axes of its chords
 constexpr double k_chord_m = 0.035;  // radius
 constexpr double k_batten_m = 0.020;

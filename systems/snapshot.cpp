@@ -14,15 +14,16 @@ namespace handhold {
 namespace {
 
 // Like PNG's: a byte that no text has, and a line end that a transfer as text would change.
-constexpr char k_magic[] = "\x89HHSNAP\n";
-constexpr std::size_t k_magic_bytes = sizeof k_magic - 1;
+constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
+constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
 constexpr std::uint32_t k_format_version = 1;
 // Where things stand.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
 constexpr std::size_t k_size_at = k_schema_size_at + 4;
 constexpr std::size_t k_assets_at = k_size_at + 8;
-constexpr std::size_t k_header_bytes = k_assets_at + 8;  // then the schema, the payload and
+constexpr std::size_t k_snapshot_header_bytes =
+    k_assets_at + 8;  // then the schema, the payload and
 constexpr std::size_t k_checksum_bytes = 8;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
@@ -45,8 +46,8 @@ FileError refusal(std::size_t byte, const std::string& expected) {
 // All around the payload: what file this is, and whether it is whole.
 std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
                                         const SnapshotAssets& assets) {
-    if (bytes.size() < k_header_bytes + k_checksum_bytes ||
-        std::memcmp(bytes.data(), k_magic, k_magic_bytes) != 0) {
+    if (bytes.size() < k_snapshot_header_bytes + k_checksum_bytes ||
+        std::memcmp(bytes.data(), k_snapshot_magic, k_magic_bytes) != 0) {
         return refusal(0, "a snapshot's first bytes, found something else");
     }
     const auto version = load_little<std::uint32_t>(bytes.data() + k_version_at);
@@ -65,13 +66,13 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
         return refusal(checksum_at, "the checksum of what is before it: the snapshot is damaged");
     }
     const auto schema_bytes = load_little<std::uint32_t>(bytes.data() + k_schema_size_at);
-    if (schema_bytes > checksum_at - k_header_bytes) {
+    if (schema_bytes > checksum_at - k_snapshot_header_bytes) {
         return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
                                              std::to_string(schema_bytes) + " bytes");
     }
     // Text may be looked at through char.
-    const std::string_view schema(reinterpret_cast<const char*>(bytes.data()) + k_header_bytes,
-                                  schema_bytes);
+    const std::string_view schema(
+        reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
     if (schema != snapshot_schema()) {
         return FileError{"snapshot", "schema", schema_difference(snapshot_schema(), schema)};
     }
@@ -86,15 +87,15 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
 void save_snapshot(const World& world, const SnapshotAssets& assets,
                    std::vector<std::byte>& bytes) {
     const std::string& schema = snapshot_schema();
-    bytes.resize(k_header_bytes + schema.size() + payload_bytes(world) + k_checksum_bytes);
-    std::memcpy(bytes.data(), k_magic, k_magic_bytes);
+    bytes.resize(k_snapshot_header_bytes + schema.size() + payload_bytes(world) + k_checksum_bytes);
+    std::memcpy(bytes.data(), k_snapshot_magic, k_magic_bytes);
     store_little(k_format_version, bytes.data() + k_version_at);
     store_little(static_cast<std::uint32_t>(schema.size()), bytes.data() + k_schema_size_at);
     store_little(std::uint64_t{bytes.size()}, bytes.data() + k_size_at);
     store_little(assets.hash(), bytes.data() + k_assets_at);
-    std::memcpy(bytes.data() + k_header_bytes, schema.data(), schema.size());
+    std::memcpy(bytes.data() + k_snapshot_header_bytes, schema.data(), schema.size());
     const std::byte* const end =
-        write_payload(world, bytes.data() + k_header_bytes + schema.size());
+        write_payload(world, bytes.data() + k_snapshot_header_bytes + schema.size());
     const auto written = static_cast<std::size_t>(end - bytes.data());
     HH_CHECK(written + k_checksum_bytes == bytes.size(), "bytes were counted wrong", written);
     store_little(checksum_of(std::span(bytes).first(written)), bytes.data() + written);
@@ -107,7 +108,7 @@ std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
     }
     World restored;
     if (std::optional<FileError> error =
-            read_payload(bytes, k_header_bytes + snapshot_schema().size(),
+            read_payload(bytes, k_snapshot_header_bytes + snapshot_schema().size(),
                          bytes.size() - k_checksum_bytes, restored)) {
         return error;
     }

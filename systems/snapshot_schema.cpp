@@ -68,7 +68,7 @@ std::string write_schema() {
 
 // The line at the front, which is taken away; "the end" where nothing is left. Short, and without
 // what a terminal would obey.
-std::string take_line(std::string_view& text) {
+std::string take_shown_line(std::string_view& text) {
     if (text.empty()) {
         return "the end";
     }
@@ -94,8 +94,8 @@ std::string schema_difference(std::string_view expected, std::string_view found)
         return {};
     }
     while (!expected.empty() || !found.empty()) {
-        const std::string expected_line = take_line(expected);
-        const std::string found_line = take_line(found);
+        const std::string expected_line = take_shown_line(expected);
+        const std::string found_line = take_shown_line(found);
         if (expected_line != found_line) {
             return std::string("expected ")
                 .append(expected_line)

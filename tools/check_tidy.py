@@ -113,7 +113,8 @@ def tidy(joint: Joint) -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    subprocess.run(["cmake", "--preset", "release", "-B", str(BUILD), "-DHANDHOLD_PRECOMPILE=OFF", "-DHANDHOLD_BUILD_TESTS=OFF"],
+    subprocess.run(["cmake", "--preset", "release", "-B", str(BUILD), "-DHANDHOLD_PRECOMPILE=OFF", "-DCMAKE_UNITY_BUILD=OFF",
+                    "-DHANDHOLD_BUILD_TESTS=OFF"],
                    cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
     (BUILD / "joint").mkdir(exist_ok=True)
     MARKS.mkdir(parents=True, exist_ok=True)

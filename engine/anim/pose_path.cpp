@@ -95,9 +95,9 @@ class PeriodicSpline {
     std::array<Numbers, k_max_path_keys> rates_ = {};
 };
 
-using Four = Eigen::Vector4d;
+using Vec4 = Eigen::Vector4d;
 
-Four rate_of(const PathKey& key) {
+Vec4 rate_of(const PathKey& key) {
     return {key.quaternion_rate[0], key.quaternion_rate[1], key.quaternion_rate[2],
             key.quaternion_rate[3]};
 }
@@ -152,13 +152,13 @@ PosePathState evaluate(const PosePath& path, double t_s) {
     const double s = steps - index;
     const Cubic<Vec3> place =
         cubic<Vec3>(a.pose.position, a.velocity_mps, b.pose.position, b.velocity_mps, step_s, s);
-    const Four to = sign * b.pose.rotation.coeffs();
-    const Cubic<Four> turn =
-        cubic<Four>(a.pose.rotation.coeffs(), rate_of(a), to, sign * rate_of(b), step_s, s);
+    const Vec4 to = sign * b.pose.rotation.coeffs();
+    const Cubic<Vec4> turn =
+        cubic<Vec4>(a.pose.rotation.coeffs(), rate_of(a), to, sign * rate_of(b), step_s, s);
     // q = c / |c|: its rate is the cubic's without the part along q; the spin is 2 q' q*.
     const double length = turn.value.norm();
-    const Four unit = turn.value / length;
-    const Four rate = (turn.rate - unit * unit.dot(turn.rate)) / length;
+    const Vec4 unit = turn.value / length;
+    const Vec4 rate = (turn.rate - unit * unit.dot(turn.rate)) / length;
     const Quat rotation(unit[3], unit[0], unit[1], unit[2]);
     const Quat rotation_rate(rate[3], rate[0], rate[1], rate[2]);
     const Quat spin = rotation_rate * rotation.conjugate();

@@ -12,7 +12,7 @@ Bounds transformed(const Bounds& bounds, const Pose& pose) {
     return {middle - half, middle + half};
 }
 
-Bounds bounds_of(std::span<const Vec3> points) {
+Bounds bounds_of_points(std::span<const Vec3> points) {
     Bounds box{points.front(), points.front()};
     for (const Vec3& point : points) {
         box = box.joined({point, point});
@@ -31,7 +31,7 @@ Bounds shape_box(const Shape& shape) {
             return {-half, half};
         }
         case ShapeKind::hull:
-            return bounds_of(std::span<const Vec3>(shape.hull->corners));
+            return bounds_of_points(std::span<const Vec3>(shape.hull->corners));
         case ShapeKind::compound: {
             Bounds box = part_box(shape.parts->front());
             for (const PlacedShape& part : *shape.parts) {
@@ -40,7 +40,7 @@ Bounds shape_box(const Shape& shape) {
             return box;
         }
         case ShapeKind::mesh: {
-            const Bounds box = bounds_of(std::span<const Vec3>(shape.mesh->positions));
+            const Bounds box = bounds_of_points(std::span<const Vec3>(shape.mesh->positions));
             return {box.low.cwiseProduct(shape.scale), box.high.cwiseProduct(shape.scale)};
         }
         default: {

@@ -10,6 +10,8 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
+#include "engine/collision/contact_outline.hpp"
+
 namespace handhold {
 namespace {
 
@@ -17,7 +19,6 @@ namespace {
 // still on both surfaces.
 constexpr double k_face_cosine = 0.996;
 constexpr double k_edge_sine = 0.09;
-constexpr double k_same_place_m = 1e-6;
 constexpr double k_no_limit_m = 1e30;
 
 // visit(from, to) for every edge of the core; of a round one for the line on its side that lies

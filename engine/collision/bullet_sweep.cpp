@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 1e-6;
+constexpr double k_sweep_touch_m = 1e-6;
 constexpr int k_steps =
     128;  // glancing turns close in slowly; the touch given is then early, never late
 constexpr double k_worn_share = 0.5;  // of the gap that a direction was found for
@@ -24,7 +24,7 @@ std::optional<double> skip_free_way(const RelativeMotion& motion, const Corners&
         const Vec3 centre = motion.from_ns() + fraction * motion.move();
         const Vec3 way = centre - closest_on_triangle(centre, corners_ns);
         const double distance = way.norm();
-        const double gap = distance - reach_m - k_touch_m;
+        const double gap = distance - reach_m - k_sweep_touch_m;
         if (gap <= 0.01 * reach_m) {
             break;
         }
@@ -85,14 +85,14 @@ Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, 
     // A direction that keeps them apart is as safe as the best one; it is kept until half of its
     // gap is gone: finding another costs ten times as much.
     double gap = approach.gap_m > 0.0 ? gap_along(placed, b, approach.impact.normal) : 0.0;
-    if (!(gap > std::max(k_worn_share * approach.gap_m, 10.0 * k_touch_m))) {
+    if (!(gap > std::max(k_worn_share * approach.gap_m, 10.0 * k_sweep_touch_m))) {
         const CoreSeparation separation = separate(placed, b);
         gap = separation.separation_m - placed.radius_m - b.radius_m;
         approach.gap_m = gap;
         approach.impact.fraction = approach.fraction;
         approach.impact.normal = separation.normal;
         approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
-        if (!(gap > k_touch_m)) {
+        if (!(gap > k_sweep_touch_m)) {
             return Way::touches;
         }
     }
@@ -106,7 +106,7 @@ Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, 
     if (!(closing_m > 0.0)) {
         return Way::misses;
     }
-    approach.fraction += (gap - 0.5 * k_touch_m) / closing_m;
+    approach.fraction += (gap - 0.5 * k_sweep_touch_m) / closing_m;
     return approach.fraction <= limit ? Way::goes_on : Way::misses;
 }
 

@@ -21,7 +21,6 @@ bool place_less(const NearContact& a, const NearContact& b) {
 }
 
 constexpr double k_same_normal_cosine = 1.0 - 1e-7;
-constexpr double k_same_place_m = 1e-6;
 
 // How far `point` lies to the left of the line from `from` to `to`, seen against the normal.
 double height_over_line(const NearContact& from, const NearContact& to, const NearContact& point) {

@@ -8,6 +8,8 @@
 // Of many contact points of one pair those that hold it.
 namespace handhold {
 
+inline constexpr double k_same_place_m = 1e-6;  // points nearer than this are one
+
 // A contact point of one pair in near space: b's axes about a's place.
 struct NearContact {
     Vec3 point_a_ns = Vec3::Zero();  // on a's surface

@@ -21,8 +21,6 @@ Mat3 offset_inertia(const Vec3& offset) {
     return inertia_of_covariance(offset * offset.transpose());
 }
 
-constexpr double k_pi = 3.14159265358979323846;
-
 MassProperties of_box(const Vec3& half) {
     const Vec3 squared = half.cwiseAbs2();
     const Vec3 moments = (Vec3::Constant(squared.sum()) - squared) / 3.0;

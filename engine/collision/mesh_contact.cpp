@@ -9,18 +9,18 @@
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 1e-5;    // parts that are modelled to meet do so within this
-constexpr double k_rise_sine = 1e-6;  // the most that a kept normal may be bent: 6e-5 degrees
-constexpr double k_face_sine = 1e-6;  // normals nearer to a face's than this are the face's
+constexpr double k_parts_meet_m = 1e-5;  // parts that are modelled to meet do so within this
+constexpr double k_rise_sine = 1e-6;     // the most that a kept normal may be bent: 6e-5 degrees
+constexpr double k_face_sine = 1e-6;     // normals nearer to a face's than this are the face's
 
 bool touches(const NearTriangle& triangle, const Vec3& point) {
-    return (closest_on_triangle(point, triangle.corners_ns) - point).norm() <= k_touch_m;
+    return (closest_on_triangle(point, triangle.corners_ns) - point).norm() <= k_parts_meet_m;
 }
 
 bool rises_above(const NearTriangle& triangle, const Vec3& point, const Vec3& normal) {
     return std::any_of(triangle.corners_ns.begin(), triangle.corners_ns.end(), [&](const Vec3& c) {
         const Vec3 leg = c - point;
-        return leg.dot(normal) > k_touch_m * 1e-3 + k_rise_sine * leg.norm();
+        return leg.dot(normal) > k_parts_meet_m * 1e-3 + k_rise_sine * leg.norm();
     });
 }
 
@@ -45,7 +45,7 @@ bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to
     const double before = (from - triangle.corners_ns[0]).dot(triangle.normal);
     const double after = (to - triangle.corners_ns[0]).dot(triangle.normal);
     const Vec3 through = from + before / (before - after) * (to - from);
-    return (closest_on_triangle(through, triangle.corners_ns) - through).norm() <= k_touch_m;
+    return (closest_on_triangle(through, triangle.corners_ns) - through).norm() <= k_parts_meet_m;
 }
 
 // A sphere about a's core with the margin misses the triangle: tells most of them apart before
@@ -87,7 +87,7 @@ void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle
 }  // namespace
 
 bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec3& normal) {
-    return !triangles.any_at(point, k_touch_m, [&](const NearTriangle& triangle) {
+    return !triangles.any_at(point, k_parts_meet_m, [&](const NearTriangle& triangle) {
         return touches(triangle, point) && rises_above(triangle, point, normal);
     });
 }

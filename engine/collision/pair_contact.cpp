@@ -37,7 +37,7 @@ void keep_first(const std::optional<Impact>& impact, std::optional<Impact>& firs
 }
 
 // Those nearest to a touch first: a heap's top is its greatest.
-bool is_later(const TriangleApproach& x, const TriangleApproach& y) {
+bool touches_later(const TriangleApproach& x, const TriangleApproach& y) {
     return x.approach.fraction != y.approach.fraction ? x.approach.fraction > y.approach.fraction
                                                       : x.triangle > y.triangle;
 }
@@ -68,13 +68,13 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
             queue.push_back({*approach, i});
         }
     }
-    std::ranges::make_heap(queue, is_later);
+    std::ranges::make_heap(queue, touches_later);
     while (!queue.empty()) {
-        std::ranges::pop_heap(queue, is_later);
+        std::ranges::pop_heap(queue, touches_later);
         TriangleApproach& next = queue.back();
         const Way way = advance(a, motion, place(next.triangle), limit, next.approach);
         if (way == Way::goes_on) {
-            std::ranges::push_heap(queue, is_later);
+            std::ranges::push_heap(queue, touches_later);
             continue;
         }
         Impact impact = next.approach.impact;

@@ -88,20 +88,20 @@ Borders find_borders(const SurfaceGraph& graph, const WeldLimits& limits) {
 }
 
 // A vertex on an open edge of a triangle.
-struct Cut {
+struct SeamCut {
     std::uint32_t triangle = 0;
     std::uint32_t side = 0;
     double along = 0.0;  // share of the way from corner `side` to the next
     std::uint32_t vertex = 0;
 };
 
-std::vector<Cut> find_cuts(const SurfaceGraph& graph, const Borders& borders) {
+std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders) {
     std::vector<Triangle> lines;
     for (const HalfEdge& edge : borders.edges) {
         lines.push_back({edge.low, edge.high, edge.high});
     }
     const TriangleBvh bvh(graph.positions, lines);
-    std::vector<Cut> cuts;
+    std::vector<SeamCut> cuts;
     for (std::uint32_t v = 0; v < borders.reaches_m.size(); ++v) {
         const double reach = borders.reaches_m[v];
         bvh.visit_in_sphere(graph.positions[v], reach, [&](std::uint32_t i) {
@@ -120,7 +120,7 @@ std::vector<Cut> find_cuts(const SurfaceGraph& graph, const Borders& borders) {
             }
         });
     }
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+    std::sort(cuts.begin(), cuts.end(), [](const SeamCut& a, const SeamCut& b) {
         return std::tie(a.triangle, a.side, a.along, a.vertex) <
                std::tie(b.triangle, b.side, b.along, b.vertex);
     });
@@ -141,7 +141,7 @@ Vec3 area_of(const SurfaceGraph& graph, const Triangle& corners) {
 
 // Cuts the piece that has the rest of the side; cuts of one side come in their order along it.
 // Returns false, and does nothing, where a part would be turned over or have no area.
-bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const Cut& cut,
+bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const SeamCut& cut,
                std::vector<Piece>& pieces) {
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -198,7 +198,7 @@ void sew_borders(SurfaceGraph& graph, const WeldLimits& limits) {
 
 void cut_borders(SurfaceGraph& graph, const WeldLimits& limits) {
     const Borders borders = find_borders(graph, limits);
-    const std::vector<Cut> cuts = find_cuts(graph, borders);
+    const std::vector<SeamCut> cuts = find_cuts(graph, borders);
     if (cuts.empty()) {
         return;
     }

@@ -9,14 +9,14 @@
 namespace handhold {
 namespace {
 
-bool place_less(const Vec3& a, const Vec3& b) {
+bool corner_less(const Vec3& a, const Vec3& b) {
     return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
 }
 
 // Sorted and each once: the order in which they were given decides nothing.
 std::vector<Vec3> sorted(std::span<const Vec3> points) {
     std::vector<Vec3> result(points.begin(), points.end());
-    std::sort(result.begin(), result.end(), place_less);
+    std::sort(result.begin(), result.end(), corner_less);
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
 }

@@ -53,8 +53,8 @@ class Locks {
 
     bool add_where_apart(const std::vector<Triangle>& coarse, double limit_m) {
         const TriangleBvh coarse_bvh(part_.positions, coarse);
-        const TriangleSet fine_set = {part_.positions, part_.triangles, bvh_};
-        const TriangleSet coarse_set = {part_.positions, coarse, coarse_bvh};
+        const TriangleSurface fine_set = {part_.positions, part_.triangles, bvh_};
+        const TriangleSurface coarse_set = {part_.positions, coarse, coarse_bvh};
         const std::vector<Uncovered> lost = find_uncovered(fine_set, coarse_set, limit_m);
         for (const Uncovered& triangle : lost) {
             lock(triangle.triangle);

@@ -11,10 +11,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_touch_m = 2e-5;  // nearer counts as touching
-constexpr double k_aim_m = 1e-5;    // so near an advance may come: less than touching, so that
-                                    // what comes near stops there at once
-constexpr double k_clear_m = 1e-4;  // what left an overlap by this much can touch again
+constexpr double k_disc_touch_m = 2e-5;  // nearer counts as touching
+constexpr double k_aim_m = 1e-5;         // so near an advance may come: less than touching, so that
+                                         // what comes near stops there at once
+constexpr double k_disc_clear_m = 1e-4;  // what left an overlap by this much can touch again
 constexpr double k_surely_apart_m = 3e-5;  // from here on the closed form does: Box2D, which has
                                            // the last word about touches, is 5e-7 m off at most
 constexpr int k_most_rounds = 20000;       // a guard: a few dozen are usual
@@ -307,7 +307,7 @@ class Closing {
         std::size_t near = 0;
         for (Pair& pair : pairs_) {
             const DiscSegment& segment = segments_[pair.segment];
-            const double reach_m = radius_m(pair) + k_touch_m + bulge_m[pair.link];
+            const double reach_m = radius_m(pair) + k_disc_touch_m + bulge_m[pair.link];
             const bool may_touch =
                 pair.leaving || way[pair.link].is_within(reach_m, {segment.a_ds, segment.b_ds});
             if (may_touch && pair.next <= end) {
@@ -381,8 +381,8 @@ class Closing {
             if (pair.separation_m < before_m - k_leave_noise_m) {
                 return true;
             }
-            pair.leaving = pair.separation_m < k_clear_m;
-        } else if (pair.separation_m <= k_touch_m) {
+            pair.leaving = pair.separation_m < k_disc_clear_m;
+        } else if (pair.separation_m <= k_disc_touch_m) {
             if (was_seen || gets_deeper(pair, at)) {
                 return true;
             }

@@ -7,18 +7,17 @@
 namespace handhold {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
 constexpr double k_same_angle_rad = 1e-6;
 
 // A half-edge of a crowded edge by where its triangle lies about it.
-struct Leaf {
+struct FaceLeaf {
     double angle_rad = 0.0;  // [0, 2 pi), from the first triangle's side, counter-clockwise seen
                              // against the edge
     const HalfEdge* half = nullptr;
 };
 
-std::vector<Leaf> sorted_about_edge(std::span<const HalfEdge> edge,
-                                    std::span<const Vec3> positions) {
+std::vector<FaceLeaf> sorted_about_edge(std::span<const HalfEdge> edge,
+                                        std::span<const Vec3> positions) {
     const Vec3 origin = positions[edge[0].low];
     const Vec3 along = (positions[edge[0].high] - origin).normalized();
     const auto off_edge = [&](const HalfEdge& half) -> Vec3 {
@@ -27,14 +26,14 @@ std::vector<Leaf> sorted_about_edge(std::span<const HalfEdge> edge,
     };
     const Vec3 x = off_edge(edge[0]).normalized();
     const Vec3 y = along.cross(x);
-    std::vector<Leaf> leaves;
+    std::vector<FaceLeaf> leaves;
     for (const HalfEdge& half : edge) {
         const Vec3 side = off_edge(half);
         double angle = arc_tangent2(side.dot(y), side.dot(x));
         angle += angle < -k_same_angle_rad ? 2.0 * k_pi : 0.0;
         leaves.push_back({std::max(angle, 0.0), &half});
     }
-    std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+    std::sort(leaves.begin(), leaves.end(), [](const FaceLeaf& a, const FaceLeaf& b) {
         return std::tuple(a.angle_rad, a.half->id) < std::tuple(b.angle_rad, b.half->id);
     });
     // What lies in one plane counts as at one angle, and there those come first that look back.
@@ -47,7 +46,7 @@ std::vector<Leaf> sorted_about_edge(std::span<const HalfEdge> edge,
         const auto at = [&](std::size_t i) {
             return leaves.begin() + static_cast<std::ptrdiff_t>(i);
         };
-        std::sort(at(first), at(last), [](const Leaf& a, const Leaf& b) {
+        std::sort(at(first), at(last), [](const FaceLeaf& a, const FaceLeaf& b) {
             return std::tuple(a.half->forward, a.half->id) <
                    std::tuple(b.half->forward, b.half->id);
         });
@@ -59,7 +58,7 @@ std::vector<Leaf> sorted_about_edge(std::span<const HalfEdge> edge,
 // A triangle on a forward half-edge looks towards greater angles, one on a backward half-edge
 // towards smaller: as brackets that open and close, matched once round and on to where it began.
 // Takes what was matched out of `leaves`.
-void pair_opposed(std::vector<Leaf>& leaves, std::vector<EdgePair>& pairs) {
+void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     std::vector<std::size_t> open;
     std::vector<bool> taken(leaves.size(), false);
     for (std::size_t step = 0; step < 2 * leaves.size(); ++step) {
@@ -85,7 +84,7 @@ void pair_opposed(std::vector<Leaf>& leaves, std::vector<EdgePair>& pairs) {
 }
 
 // Those that lie most nearly across from each other first.
-void pair_flattest(std::vector<Leaf>& leaves, std::vector<EdgePair>& pairs) {
+void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     constexpr std::size_t k_crowd = 32;  // beyond, any two will do: no surface is like that
     while (leaves.size() >= 2) {
         std::size_t best_a = 0;
@@ -153,7 +152,7 @@ void pair_half_edges(std::span<const HalfEdge> edge, std::span<const Vec3> posit
         pairs.push_back({edge[0].id, edge[1].id, edge[0].forward != edge[1].forward});
         return;
     }
-    std::vector<Leaf> leaves = sorted_about_edge(edge, positions);
+    std::vector<FaceLeaf> leaves = sorted_about_edge(edge, positions);
     pair_opposed(leaves, pairs);
     pair_flattest(leaves, pairs);
 }

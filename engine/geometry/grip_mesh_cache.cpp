@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 // One more with each change of the format, or of what a build makes of the same input.
 constexpr std::uint64_t k_version = 1;
-constexpr std::uint64_t k_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
-constexpr std::size_t k_header_words = 4;                 // magic, key, words, sum
+constexpr std::uint64_t k_cache_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
+constexpr std::size_t k_header_words = 4;                       // magic, key, words, sum
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
@@ -207,8 +207,8 @@ std::string write_grip_mesh(const GripMesh& grip, std::uint64_t key) {
     write_graph(grip.contact, body);
     write_graph(grip.search, body);
     body.add(pair_of(grip.turned, grip.full_triangles));
-    const std::array<std::uint64_t, k_header_words> header = {k_magic, key, body.words().size(),
-                                                              sum_of(body.words())};
+    const std::array<std::uint64_t, k_header_words> header = {
+        k_cache_magic, key, body.words().size(), sum_of(body.words())};
     std::string bytes(sizeof header + sizeof(std::uint64_t) * body.words().size(), '\0');
     std::memcpy(bytes.data(), header.data(), sizeof header);
     std::memcpy(bytes.data() + sizeof header, body.words().data(), bytes.size() - sizeof header);
@@ -223,7 +223,7 @@ std::optional<GripMesh> read_grip_mesh(std::string_view bytes, std::uint64_t key
     std::memcpy(header.data(), bytes.data(), sizeof header);
     std::vector<std::uint64_t> words((bytes.size() - sizeof header) / sizeof(std::uint64_t));
     std::memcpy(words.data(), bytes.data() + sizeof header, bytes.size() - sizeof header);
-    if (header[0] != k_magic || header[1] != key || header[2] != words.size() ||
+    if (header[0] != k_cache_magic || header[1] != key || header[2] != words.size() ||
         header[3] != sum_of(words)) {
         return std::nullopt;
     }

@@ -13,7 +13,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_none = k_no_triangle;
+constexpr std::uint32_t k_no_mesh = k_no_triangle;
 
 std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
@@ -67,7 +67,7 @@ GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, std::span<const Sha
 void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> wanted,
                           const GripMeshSettings& settings,
                           const std::filesystem::path& cache_directory) {
-    mesh_of_shape_.resize(shapes.size(), k_none);
+    mesh_of_shape_.resize(shapes.size(), k_no_mesh);
     const auto first = static_cast<std::uint32_t>(meshes_.size());
     std::vector<ShapeId> distinct;
     for (const ShapeId id : wanted) {
@@ -96,7 +96,7 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
 }
 
 bool GripMeshLibrary::has(ShapeId shape) const {
-    return shape.index < mesh_of_shape_.size() && mesh_of_shape_[shape.index] != k_none;
+    return shape.index < mesh_of_shape_.size() && mesh_of_shape_[shape.index] != k_no_mesh;
 }
 
 const GripMesh& GripMeshLibrary::at(ShapeId shape) const {

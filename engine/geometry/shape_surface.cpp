@@ -8,8 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
-
 // A whole number of steps around, a multiple of four so that the axes' ends are corners.
 std::uint32_t sectors(double step_rad) {
     const double wanted = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;

@@ -15,7 +15,7 @@ constexpr double k_finest = 0.02;
 
 class Cover {
   public:
-    Cover(const TriangleSet& target, double limit_m)
+    Cover(const TriangleSurface& target, double limit_m)
         : target_(target), limit_m_(limit_m), squared_limit_(limit_m * limit_m) {}
 
     bool covers(const Corners& piece, int cuts) {
@@ -118,7 +118,7 @@ class Cover {
         });
     }
 
-    const TriangleSet& target_;
+    const TriangleSurface& target_;
     double limit_m_;
     double squared_limit_;
     std::uint32_t hint_ = ~0U;  // the triangle last found near: neighbours come one after another
@@ -127,7 +127,8 @@ class Cover {
 
 }  // namespace
 
-std::vector<Uncovered> find_uncovered(const TriangleSet& a, const TriangleSet& b, double limit_m) {
+std::vector<Uncovered> find_uncovered(const TriangleSurface& a, const TriangleSurface& b,
+                                      double limit_m) {
     Cover cover(b, limit_m);
     std::vector<Uncovered> result;
     for (std::uint32_t t = 0; t < a.triangles.size(); ++t) {

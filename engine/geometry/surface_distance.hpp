@@ -10,7 +10,7 @@
 namespace handhold {
 
 // A surface as far as distances to it go. Refers to what it is made of.
-struct TriangleSet {
+struct TriangleSurface {
     std::span<const Vec3> positions;
     std::span<const std::array<std::uint32_t, 3>> triangles;
     const TriangleBvh& bvh;  // of these
@@ -27,6 +27,7 @@ struct Uncovered {
 // its corners near to one triangle of b: the distance to a convex set is convex, so what is between
 // them is near as well. Takes long where the limit is far below the triangles' size and they do not
 // lie on each other.
-std::vector<Uncovered> find_uncovered(const TriangleSet& a, const TriangleSet& b, double limit_m);
+std::vector<Uncovered> find_uncovered(const TriangleSurface& a, const TriangleSurface& b,
+                                      double limit_m);
 
 }  // namespace handhold

@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t k_no_vertex = std::numeric_limits<std::uint32_t>::max();
 // Cells are so much wider than the longest reach that few points look beyond their own.
 constexpr double k_cell_per_reach = 8.0;
 
@@ -23,8 +23,8 @@ class CellLists {
     CellLists(std::size_t points, double cell_m)
         : per_cell_(1.0 / cell_m),
           mask_(std::bit_ceil(2 * points + 1) - 1),
-          heads_(mask_ + 1, k_none),
-          next_(points, k_none) {}
+          heads_(mask_ + 1, k_no_vertex),
+          next_(points, k_no_vertex) {}
 
     void add(std::uint32_t index, const Vec3& point) {
         std::uint32_t& head = heads_[slot(cell(point.x()), cell(point.y()), cell(point.z()))];
@@ -39,7 +39,7 @@ class CellLists {
         for (double x = cell(low.x()); x <= cell(high.x()); x += 1.0) {
             for (double y = cell(low.y()); y <= cell(high.y()); y += 1.0) {
                 for (double z = cell(low.z()); z <= cell(high.z()); z += 1.0) {
-                    for (std::uint32_t i = heads_[slot(x, y, z)]; i != k_none; i = next_[i]) {
+                    for (std::uint32_t i = heads_[slot(x, y, z)]; i != k_no_vertex; i = next_[i]) {
                         visit(i);
                     }
                 }

@@ -13,11 +13,6 @@ constexpr int k_unsigned_short = 5123;
 constexpr int k_array_buffer = 34962;
 constexpr int k_element_array_buffer = 34963;
 
-void append_u32(std::string& bytes, std::uint32_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        bytes += static_cast<char>((value >> shift) & 0xFFU);
-    }
-}
 void append_floats(std::string& bytes, std::span<const float> values) {
     for (const float value : values) {
         append_u32(bytes, std::bit_cast<std::uint32_t>(value));
@@ -25,6 +20,12 @@ void append_floats(std::string& bytes, std::span<const float> values) {
 }
 
 }  // namespace
+
+void append_u32(std::string& bytes, std::uint32_t value) {
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+        bytes += static_cast<char>((value >> shift) & 0xFFU);
+    }
+}
 
 GltfJson gltf_material_json(const GltfMaterial& material) {
     GltfJson json;

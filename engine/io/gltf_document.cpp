@@ -5,16 +5,17 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "engine/io/gltf_buffer.hpp"
 #include "engine/io/json.hpp"
 
 namespace handhold {
 
 namespace {
 
-constexpr std::uint32_t k_magic = 0x46546C67;       // "glTF"
+constexpr std::uint32_t k_glb_magic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t k_json_chunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t k_bin_chunk = 0x004E4942;   // "BIN"
-constexpr std::size_t k_header_bytes = 12;
+constexpr std::size_t k_glb_header_bytes = 12;
 constexpr std::size_t k_chunk_header_bytes = 8;
 constexpr std::int64_t k_max_index = INT32_MAX;
 constexpr std::int64_t k_max_size = UINT32_MAX;
@@ -32,21 +33,15 @@ std::uint32_t read_u32(std::string_view bytes, std::size_t offset) {
     return value;
 }
 
-void append_u32(std::string& bytes, std::size_t value) {
-    for (std::size_t i = 0; i < 4; ++i) {
-        bytes += static_cast<char>((value >> (8 * i)) & 0xFF);
-    }
-}
-
 // Takes a .glb apart; anything that does not begin like one is taken for the JSON of a .gltf.
 Result<GltfSource> split_container(std::string_view bytes, const std::string& file) {
-    if (bytes.size() < 4 || read_u32(bytes, 0) != k_magic) {
+    if (bytes.size() < 4 || read_u32(bytes, 0) != k_glb_magic) {
         return GltfSource{bytes, {}};
     }
     const auto refuse = [&](std::size_t offset, std::string expected) {
         return FileError{file, "byte " + std::to_string(offset), std::move(expected)};
     };
-    if (bytes.size() < k_header_bytes + k_chunk_header_bytes) {
+    if (bytes.size() < k_glb_header_bytes + k_chunk_header_bytes) {
         return refuse(bytes.size(), "expected the header of a .glb, found the end of the file");
     }
     if (read_u32(bytes, 4) != 2) {
@@ -57,7 +52,7 @@ Result<GltfSource> split_container(std::string_view bytes, const std::string& fi
                              ", found " + std::to_string(read_u32(bytes, 8)));
     }
     GltfSource source;
-    for (std::size_t at = k_header_bytes, chunk = 0; at < bytes.size(); ++chunk) {
+    for (std::size_t at = k_glb_header_bytes, chunk = 0; at < bytes.size(); ++chunk) {
         if (bytes.size() - at < k_chunk_header_bytes) {
             return refuse(at, "expected a chunk header of 8 bytes, found " +
                                   std::to_string(bytes.size() - at));
@@ -249,18 +244,18 @@ std::string join_glb(std::string json, std::string_view binary) {
     const auto pad = [](std::size_t size) { return (4 - size % 4) % 4; };
     json.append(pad(json.size()), ' ');
     const std::size_t binary_size = binary.size() + pad(binary.size());
-    const std::size_t total = k_header_bytes + k_chunk_header_bytes + json.size() +
+    const std::size_t total = k_glb_header_bytes + k_chunk_header_bytes + json.size() +
                               (binary.empty() ? 0 : k_chunk_header_bytes + binary_size);
     std::string glb;
     glb.reserve(total);
-    append_u32(glb, k_magic);
+    append_u32(glb, k_glb_magic);
     append_u32(glb, 2);
-    append_u32(glb, total);
-    append_u32(glb, json.size());
+    append_u32(glb, static_cast<std::uint32_t>(total));
+    append_u32(glb, static_cast<std::uint32_t>(json.size()));
     append_u32(glb, k_json_chunk);
     glb += json;
     if (!binary.empty()) {
-        append_u32(glb, binary_size);
+        append_u32(glb, static_cast<std::uint32_t>(binary_size));
         append_u32(glb, k_bin_chunk);
         glb += binary;
         glb.append(pad(binary.size()), '\0');

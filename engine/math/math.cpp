@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace handhold {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr double k_two_over_pi = 0.63661977236758134308;
 // pi/2 = high + middle + low; the first two have trailing zeros, so that multiples up to 2^20 are
 // exact.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -10,6 +12,12 @@ namespace handhold {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
+
+inline constexpr double k_pi = std::numbers::pi;
+inline constexpr double k_half_pi = 0.5 * k_pi;
+inline constexpr double k_two_pi = 2.0 * k_pi;
+inline constexpr double k_degree = k_pi / 180.0;  // in radians
+inline constexpr double k_mm_per_m = 1000.0;
 
 // A rigid transform: rotation first, then position. `a * b` applies b, then a.
 struct Pose {
@@ -46,6 +54,12 @@ bool is_valid(const Pose& pose);
 // and these reach state. Absolute error below 1e-15 for |angle| <= 1e3, below 1e-14 up to 1e6. The
 // sine and cosine of 0 for angles of 1e6 and more, infinities and NaN; -0.0 is 0.0.
 void sin_cos(double angle_rad, double& sine, double& cosine);
+inline double sine(double angle_rad) {
+    double s = 0.0;
+    double c = 1.0;
+    sin_cos(angle_rad, s, c);
+    return s;
+}
 // Angle of (x, y) from +X towards +Y in (-pi, pi]; error below 1e-15. Only lengths' ratios count:
 // any of them may be tiny, huge or infinite; -0.0 is 0.0. 0 for (0, 0) and where either is NaN. See
 // sin_cos for why.

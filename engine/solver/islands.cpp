@@ -4,18 +4,12 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/core/disjoint_sets.hpp"
+
 namespace handhold {
 namespace {
 
 constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
-
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t node) {
-    while (parent[node] != node) {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    return node;
-}
 
 bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
 

@@ -9,7 +9,7 @@ namespace {
 // Nodes are three rows wide nearly always: loops of a length known to the compiler cost half. 0:
 // known at run time only. The order of operations is the same.
 template <std::size_t KnownWidth>
-struct Kernels {
+struct RowKernels {
     // J and W J^T of one side of a node; adds J W J^T to its rows' diagonal.
     static void write_end(std::span<const Row> rows, bool is_a, double inverse_mass,
                           const Mat3& inverse_inertia, double* jacobian, double* response,
@@ -136,7 +136,7 @@ void RowMatrix::write_jacobians(std::span<const SolverBody> bodies,
         const double inverse_mass =
             bodies[is_a ? rows[node.first_row].a : rows[node.first_row].b].inverse_mass;
         const std::span<const Row> of = rows.subspan(node.first_row, node.width);
-        const auto write = node.width == 3 ? Kernels<3>::write_end : Kernels<0>::write_end;
+        const auto write = node.width == 3 ? RowKernels<3>::write_end : RowKernels<0>::write_end;
         write(of, is_a, inverse_mass, inverse_inertia_ws[slot], &jacobians_[end_begin(end)],
               &responses_[end_begin(end)], &diagonal_[node.first_row]);
     }
@@ -151,10 +151,10 @@ void RowMatrix::multiply_out() {
         const Node& later_node = nodes_[coupling.later_end / 2];
         double* const out = &matrix_[coupling.target];
         if (panel_node.is_point && later_node.is_point) {
-            Kernels<3>::add_point_product(response, jacobian, out, coupling.stride);
+            RowKernels<3>::add_point_product(response, jacobian, out, coupling.stride);
         } else {
-            Kernels<0>::add_product(response, panel_node.width, jacobian, later_node.width, out,
-                                    coupling.stride);
+            RowKernels<0>::add_product(response, panel_node.width, jacobian, later_node.width, out,
+                                       coupling.stride);
         }
     }
 }
@@ -266,9 +266,9 @@ void RowMatrix::gather_moves(std::span<const double> lambda) {
         Twist& move = moves_[node.slots[end % 2]];
         const double* const response = &responses_[end_begin(end)];
         if (node.width == 3) {
-            Kernels<3>::add_move(response, &lambda[node.first_row], 3, move);
+            RowKernels<3>::add_move(response, &lambda[node.first_row], 3, move);
         } else {
-            Kernels<0>::add_move(response, &lambda[node.first_row], node.width, move);
+            RowKernels<0>::add_move(response, &lambda[node.first_row], node.width, move);
         }
     }
 }

@@ -7,8 +7,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_pi = 3.14159265358979323846;
-
 // The two bodies' ends of a block, in the world's axes.
 struct Ends {
     Vec3 arm_a;  // from each body's centre to its point

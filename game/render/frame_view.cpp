@@ -8,7 +8,7 @@ namespace {
 
 constexpr double k_far_m = 4000.0;
 
-Matrix4 to_floats(const Eigen::Matrix4d& m) {
+Matrix4 to_matrix4(const Eigen::Matrix4d& m) {
     Matrix4 out{};
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
@@ -38,7 +38,7 @@ FrameView make_frame_view(const Camera& camera, int width_px, int height_px) {
     projection(3, 2) = -1.0;
     Eigen::Matrix4d to_view = Eigen::Matrix4d::Identity();
     to_view.topLeftCorner<3, 3>() = view.from_view.conjugate().toRotationMatrix();
-    view.cs_to_clip = to_floats(projection * to_view);
+    view.cs_to_clip = to_matrix4(projection * to_view);
     return view;
 }
 
@@ -88,8 +88,8 @@ ShadowView make_shadow_view(const KeyLight& key, const FrameView& view, int size
     Eigen::Matrix4d to_texture = to_clip;
     to_texture.topRows<3>() *= 0.5;
     to_texture.col(3).head<3>() += Vec3::Constant(0.5);
-    shadow.cs_to_clip = to_floats(to_clip);
-    shadow.cs_to_texture = to_floats(to_texture);
+    shadow.cs_to_clip = to_matrix4(to_clip);
+    shadow.cs_to_texture = to_matrix4(to_texture);
     return shadow;
 }
 
@@ -104,7 +104,7 @@ Matrix4 make_model_matrix(const Quat& rotation, const Vec3& origin_cs) {
     Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
     m.topLeftCorner<3, 3>() = rotation.toRotationMatrix();
     m.col(3).head<3>() = origin_cs;
-    return to_floats(m);
+    return to_matrix4(m);
 }
 
 std::vector<Lamp> choose_lamps(const RenderFrame& frame, std::size_t limit) {

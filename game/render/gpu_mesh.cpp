@@ -3,14 +3,6 @@
 #include <array>
 
 namespace handhold {
-namespace {
-
-std::array<float, 3> to_floats(const Vec3& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-}  // namespace
-
 GpuMesh make_gpu_mesh(const ShadingMesh& shading, const Color& color) {
     GpuMesh gpu;
     gpu.center = shading.center;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct GpuMesh {
     double radius_m = 0.0;
     Color color{};
 };
+
+inline std::array<float, 3> to_floats(const Vec3& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
 
 // The context that is to own it must be current, as for everything below.
 GpuMesh make_gpu_mesh(const ShadingMesh& shading, const Color& color);

@@ -7,13 +7,10 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "game/render/mesh_edit.hpp"
 
 namespace handhold {
 namespace {
-
-constexpr double k_two_pi = 6.28318530717958647692;
-
-std::uint32_t index_of(std::size_t i) { return static_cast<std::uint32_t>(i); }
 
 // Skin between the rings that start at vertices `low` and `high`; either may be one point.
 void add_band(Mesh& mesh, std::pair<std::uint32_t, std::size_t> low,

@@ -10,8 +10,6 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-std::uint32_t index_of(std::size_t i) { return static_cast<std::uint32_t>(i); }
-
 }  // namespace
 
 void append(Mesh& into, const Mesh& part, const Pose& at) {

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "engine/geometry/mesh.hpp"
 
 namespace handhold {
+
+// As triangles name a vertex.
+inline std::uint32_t index_of(std::size_t vertex) { return static_cast<std::uint32_t>(vertex); }
 
 // Adds a copy of `part`, moved by `at`, to `into`; name and colour of `into` stay.
 void append(Mesh& into, const Mesh& part, const Pose& at = {});

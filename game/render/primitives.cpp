@@ -13,11 +13,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_two_pi = 6.28318530717958647692;
-
 using Triangle = std::array<std::uint32_t, 3>;
-
-std::uint32_t index_of(std::size_t i) { return static_cast<std::uint32_t>(i); }
 
 void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     mesh.triangles.push_back({a, b, c});

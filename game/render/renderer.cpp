@@ -28,10 +28,6 @@ struct Visible {
     double distance_m = 0.0;
 };
 
-std::array<float, 3> to_floats(const Vec3& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 float to_srgb(float x) {
     return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1.0F / 2.4F) - 0.055F;
 }

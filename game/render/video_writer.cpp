@@ -76,7 +76,7 @@ std::string output_of(const std::vector<std::string>& arguments, std::string& wh
     std::string text;
     std::array<char, 4096> buffer{};
     while (process >= 0) {
-        const ssize_t count = read(ends[0], buffer.data(), buffer.size());
+        const ssize_t count = ::read(ends[0], buffer.data(), buffer.size());
         if (count > 0) {
             text.append(buffer.data(), static_cast<std::size_t>(count));
         } else if (count == 0 || errno != EINTR) {

@@ -20,7 +20,6 @@ constexpr char k_bodies_header[] = "frame,t,body,mass_kg,x,y,z,qx,qy,qz,qw,vx,vy
 // A little more than rows have on average: one allocation for nearly all runs.
 constexpr std::size_t k_bytes_per_player_row = 560;
 constexpr std::size_t k_bytes_per_body_row = 300;
-constexpr double k_mm_per_m = 1000.0;
 
 // Cells of a row, each with the comma before it; the first one is written without.
 class RowWriter {

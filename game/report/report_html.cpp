@@ -10,8 +10,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_mm_per_m = 1000.0;
-
 constexpr char k_page_css[] = R"(
 :root{color-scheme:light dark;--page:#f4f5f7;--line:#dfe3e8;--ink:#1f2328;--soft:#59636e}
 @media (prefers-color-scheme:dark){:root{--page:#0d1117;--line:#2b3138;--ink:#e6edf3;--soft:#a5afba}}

@@ -13,7 +13,6 @@ namespace {
 // Keys stay in the order in which they are set: a person reads this file too.
 using Json = nlohmann::ordered_json;
 
-constexpr double k_mm_per_m = 1000.0;
 constexpr std::array<const char*, MomentumLedger::receiver_count> k_receivers = {
     "objects", "players", "virtual_player", "statics"};
 

@@ -8,8 +8,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_mm_per_m = 1000.0;
-
 std::string make_head(std::initializer_list<const char*> texts,
                       std::initializer_list<const char*> numbers) {
     std::string row = "<tr>";

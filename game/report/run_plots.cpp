@@ -9,7 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_mm_per_m = 1000.0;
 constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr char k_time_label[] = "time (s)";
 

@@ -12,12 +12,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_scale_eye_m = 1.6;
-
-// Faster than hands and heads move: what jumps farther in a frame was put there.
-constexpr double k_jump_speed_mps = 20.0;
-constexpr double k_jump_m = 0.15;
-
 double cross_y(const Vec3& a, const Vec3& b) { return a.z() * b.x() - a.x() * b.z(); }
 
 // A level vector turned about +Y by the angle whose cosine and sine are given.
@@ -62,7 +56,7 @@ Vec3 any_square_to(const Vec3& axis) {
 }
 
 bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
-    return (now - before).norm() > k_jump_m + k_jump_speed_mps * dt_s;
+    return is_jump((now - before).norm(), dt_s);
 }
 
 struct Player {

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double k_tick_s = 1.0 / 120.0;
 constexpr double k_longest_s = 0.5;
-constexpr double k_scale_eye_m = 1.6;
-// A chest that moves farther in play space in one frame was put there.
-constexpr double k_jump_m = 0.15;
-constexpr double k_jump_speed_mps = 20.0;
 
 constexpr std::size_t k_chest = k_body_links;  // as a parent
 enum class LinkKind { spine, thigh, shin };
@@ -275,7 +271,7 @@ void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
         const Pose& chest_ps = io.estimate.at(player).chest_ps;
         const Vec3& reference_ws = io.reference.at(player).linear_mps;
         const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
-        if (!memory.known || own_m.norm() > k_jump_m + k_jump_speed_mps * io.dt_s) {
+        if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
             rest_at(chest_ps.rotation, scale, memory);
             memory.known = true;
         } else {

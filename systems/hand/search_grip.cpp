@@ -17,7 +17,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_most_pops = 300;
+constexpr std::uint32_t k_most_search_pops = 300;
 constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
 
 struct Palm {
@@ -68,9 +68,9 @@ class GripSearcher {
           seen_(scratch.seen),
           found_(scratch.found) {
         open_.clear();
-        open_.reserve(3 * k_most_pops + 16);
+        open_.reserve(3 * k_most_search_pops + 16);
         found_.clear();
-        found_.reserve(k_most_pops);
+        found_.reserve(k_most_search_pops);
     }
 
     void add_seed(std::uint32_t triangle) {
@@ -83,7 +83,7 @@ class GripSearcher {
     // Goes on until `patience` pops in a row found nothing cheaper; may be called again.
     void run(std::uint32_t patience) {
         std::uint32_t idle = 0;
-        while (pops_ < k_most_pops && idle < patience && !open_.empty()) {
+        while (pops_ < k_most_search_pops && idle < patience && !open_.empty()) {
             ++pops_;
             std::pop_heap(open_.begin(), open_.end(), later);
             const GripSearchScratch::Node node = open_.back();
@@ -243,7 +243,7 @@ class PalmHolder {
                 searcher.add_seed(near ? near->triangle : GripSurface::k_none);
             }
         }
-        searcher.run(k_most_pops);
+        searcher.run(k_most_search_pops);
     }
 
     GripSurface surface_at(const PlacedMesh& placed, const Palm& palm,

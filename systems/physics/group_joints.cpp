@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/core/disjoint_sets.hpp"
+
 namespace handhold {
 namespace {
-
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t row) {
-    while (parent[row] != row) {
-        parent[row] = parent[parent[row]];
-        row = parent[row];
-    }
-    return row;
-}
 
 bool is_light(const RigidBody& body, const PhaseTuning& tuning) {
     return body.kind == BodyKind::free && body.mass_kg < tuning.heavy_body_kg;

@@ -9,7 +9,7 @@
 #include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
 
-namespace handhold {
+namespace handhold::climber_bench {
 namespace {
 
 void climbers(benchmark::State& state) {
@@ -54,6 +54,6 @@ BENCHMARK(climbers)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::climber_bench
 
 #endif

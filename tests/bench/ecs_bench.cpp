@@ -14,7 +14,7 @@
 #include "engine/ecs/join.hpp"
 #include "engine/math/math.hpp"
 
-namespace handhold {
+namespace handhold::ecs_bench {
 namespace {
 
 constexpr double k_dt_s = 1.0 / 90.0;
@@ -150,4 +150,4 @@ void join_three(benchmark::State& state, std::size_t count, Order order) {
 }();
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::ecs_bench

@@ -10,7 +10,7 @@
 #include "game/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 
-namespace handhold {
+namespace handhold::frame_bench {
 namespace {
 
 // The scene's session over and over; time is that of step_frame alone.
@@ -61,6 +61,6 @@ BENCHMARK(ship_session)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::frame_bench
 
 #endif

@@ -14,7 +14,7 @@
 #include "game/built_in_scenes.hpp"
 #endif
 
-namespace handhold {
+namespace handhold::geometry_bench {
 namespace {
 
 // A wavy sheet of 2 n^2 triangles with edges of 7 mm, as dense as a scan; hills of 2 cm.
@@ -174,4 +174,4 @@ BENCHMARK(station_library)->Name("geometry/station_library")->Unit(benchmark::kM
 #endif
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::geometry_bench

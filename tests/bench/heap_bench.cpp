@@ -9,7 +9,7 @@
 #include "engine/core/profile.hpp"
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::heap_bench {
 namespace {
 
 constexpr double k_half_m = 0.1;
@@ -59,4 +59,4 @@ void shove_into_heap(benchmark::State& state) {
 BENCHMARK(shove_into_heap)->Name("frame/heap")->DenseRange(2, 4)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::heap_bench

@@ -7,7 +7,7 @@
 #include "systems/frame.hpp"
 #include "systems/snapshot.hpp"
 
-namespace handhold {
+namespace handhold::snapshot_bench {
 namespace {
 
 Scene station_with(std::int64_t players) {
@@ -53,6 +53,6 @@ BENCHMARK(restore)->Name("snapshot/restore")->Arg(1)->Arg(100);
 BENCHMARK(hash)->Name("snapshot/hash")->Arg(1)->Arg(100);
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::snapshot_bench
 
 #endif

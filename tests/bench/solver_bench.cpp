@@ -11,7 +11,7 @@
 #include "engine/solver/newton.hpp"
 #include "engine/solver/velocities.hpp"
 
-namespace handhold {
+namespace handhold::solver_bench {
 namespace {
 
 constexpr double k_dt_s = 1.0 / 90.0;
@@ -162,4 +162,4 @@ BENCHMARK(run_chain)
 BENCHMARK(run_hub)->Name("solver/hub")->Arg(16)->Arg(64)->Arg(256)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_bench

@@ -5,7 +5,7 @@
 
 #include "engine/anim/crawler_leg.hpp"
 
-namespace handhold {
+namespace handhold::anim_crawler_leg_test {
 namespace {
 
 constexpr CrawlerGait k_gait = {1.25, 0.6, 0.3};
@@ -119,4 +119,4 @@ TEST(CrawlerBones, MeetAtTheKneeAndHangFromTheTorso) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::anim_crawler_leg_test

@@ -10,10 +10,8 @@
 #include "engine/anim/pose_path.hpp"
 #include "engine/core/check.hpp"
 
-namespace handhold {
+namespace handhold::anim_pose_path_test {
 namespace {
-
-constexpr double k_pi = 3.14159265358979323846;
 
 double angle_between(const Quat& a, const Quat& b) {
     return rotation_to_vector(a * b.conjugate()).norm();
@@ -148,4 +146,4 @@ TEST(PosePath, RefusesWhatIsNoPath) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::anim_pose_path_test

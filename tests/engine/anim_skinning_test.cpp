@@ -5,7 +5,7 @@
 #include "engine/anim/skinning.hpp"
 #include "engine/core/check.hpp"
 
-namespace handhold {
+namespace handhold::anim_skinning_test {
 namespace {
 
 struct Strip {
@@ -61,4 +61,4 @@ TEST(SkinVertices, AskForAPoseOfEachJoint) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::anim_skinning_test

@@ -4,7 +4,7 @@
 
 #include "engine/anim/two_bone_ik.hpp"
 
-namespace handhold {
+namespace handhold::anim_two_bone_ik_test {
 namespace {
 
 TEST(TwoBoneIk, BonesKeepTheirLengthsWhereTheTipCanBeReached) {
@@ -47,4 +47,4 @@ TEST(TwoBoneIk, IsContinuousThroughEveryDistance) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::anim_two_bone_ik_test

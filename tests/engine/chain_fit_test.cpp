@@ -6,7 +6,7 @@
 #include "sunk_oracle.hpp"
 #include "surface_cuts.hpp"
 
-namespace handhold {
+namespace handhold::chain_fit_test {
 namespace {
 
 using test::Random;
@@ -291,4 +291,4 @@ TEST(FindSunk, IsTheDeepestOfAllTrianglesInAnyFrame) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::chain_fit_test

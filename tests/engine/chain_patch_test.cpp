@@ -7,7 +7,7 @@
 #include "broken_meshes.hpp"
 #include "surface_cuts.hpp"
 
-namespace handhold {
+namespace handhold::chain_patch_test {
 namespace {
 
 using test::Random;
@@ -99,4 +99,4 @@ TEST(ChainPatch, AsksOnlyWhatIsInReach) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::chain_patch_test

@@ -5,7 +5,7 @@
 #include "allocation_count.hpp"
 #include "collision_scene.hpp"
 
-namespace handhold {
+namespace handhold::collision_allocation_test {
 namespace {
 
 using test::at;
@@ -72,4 +72,4 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_allocation_test

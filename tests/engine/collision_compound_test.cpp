@@ -7,7 +7,7 @@
 // Sweeps of every kind of body against every kind of thing, compounds and spinning included. The
 // oracle is the distance at rest (certified in collision_shapes_test.cpp) at small steps of the
 // way.
-namespace handhold {
+namespace handhold::collision_compound_test {
 namespace {
 
 using test::at;
@@ -246,4 +246,4 @@ TEST(CompoundContacts, ThingInItsHollowTouchesTheWallsNotTheHull) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_compound_test

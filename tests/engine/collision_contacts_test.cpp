@@ -6,7 +6,7 @@
 
 // Resting bodies against a flat floor (a box's top, a mesh of many triangles): every separation has
 // a closed form.
-namespace handhold {
+namespace handhold::collision_contacts_test {
 namespace {
 
 using test::at;
@@ -236,4 +236,4 @@ TEST(Contacts, DeepConvexPairsTakeTheShallowestWay) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_contacts_test

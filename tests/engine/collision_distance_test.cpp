@@ -5,7 +5,7 @@
 // The oracle of most tests here is a certificate: two points, one on each convex body, are the
 // closest pair if and only if no point of either body lies between the planes through them across
 // the line between them.
-namespace handhold {
+namespace handhold::collision_distance_test {
 namespace {
 
 using test::Random;
@@ -191,4 +191,4 @@ TEST(ClosestPoint, InsidePointsOfATriangleAreTheirOwn) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_distance_test

@@ -5,7 +5,7 @@
 #include "engine/core/check.hpp"
 
 // Expected values are the textbooks' closed forms, of boxes and cylinders put together.
-namespace handhold {
+namespace handhold::collision_mass_test {
 namespace {
 
 using test::at;
@@ -141,4 +141,4 @@ TEST(AddCentred, TurnsTheAxesAsLittleAsItCan) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_mass_test

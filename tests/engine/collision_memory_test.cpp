@@ -3,7 +3,7 @@
 
 #include "tests/engine/collision_scene.hpp"
 
-namespace handhold::test {
+namespace handhold::test::collision_memory_test {
 namespace {
 
 bool same(const ContactPoint& x, const ContactPoint& y) {
@@ -68,4 +68,4 @@ TEST(PairMemory, GivesBackWhatANewWorldFinds) {
 }
 
 }  // namespace
-}  // namespace handhold::test
+}  // namespace handhold::test::collision_memory_test

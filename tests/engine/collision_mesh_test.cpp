@@ -9,7 +9,7 @@
 #include "tests/places.hpp"
 
 // What meshes alone can get wrong: internal edges, sides, slivers.
-namespace handhold {
+namespace handhold::collision_mesh_test {
 namespace {
 
 using test::at;
@@ -400,4 +400,4 @@ TEST(MeshContacts, BoxInARealLevelIsAsNearAsItsNearestTriangle) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_mesh_test

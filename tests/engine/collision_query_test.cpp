@@ -6,7 +6,7 @@
 #include "collision_scene.hpp"
 #include "engine/collision/closest_point.hpp"
 
-namespace handhold {
+namespace handhold::collision_query_test {
 namespace {
 
 using test::at;
@@ -248,4 +248,4 @@ TEST(ClosestPointQuery, OnTheSurfaceTheNormalIsTheTriangles) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_query_test

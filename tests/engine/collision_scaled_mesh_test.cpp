@@ -6,7 +6,7 @@
 #include "engine/io/gltf.hpp"
 
 // A scaled mesh is the mesh whose positions were multiplied: that one is the oracle.
-namespace handhold {
+namespace handhold::collision_scaled_mesh_test {
 namespace {
 
 using test::at;
@@ -104,4 +104,4 @@ TEST(ScaledMesh, CopiesOfOneMeshShareItsTree) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_scaled_mesh_test

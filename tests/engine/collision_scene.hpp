@@ -2,42 +2,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "engine/collision/collision_world.hpp"
+#include "tests/random.hpp"
 
-// What the collision tests share: small scenes, meshes made on the spot, random numbers that are
-// the same everywhere.
+// What the collision tests share: small scenes, meshes made on the spot.
 namespace handhold::test {
-
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    // Uniform; the standard distributions differ between libraries.
-    double between(double low, double high) {
-        return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-    }
-    Vec3 vector(double size) {
-        return {between(-size, size), between(-size, size), between(-size, size)};
-    }
-    Vec3 direction() {
-        for (;;) {
-            const Vec3 v = vector(1.0);
-            if (v.norm() > 0.1 && v.norm() < 1.0) {
-                return v.normalized();
-            }
-        }
-    }
-    Quat rotation() {
-        const Vec3 axis = direction();  // first: compilers order arguments as they like
-        return rotation_about(axis, between(-3.0, 3.0));
-    }
-    std::mt19937_64& engine() { return engine_; }
-
-  private:
-    std::mt19937_64 engine_;
-};
 
 inline Pose at(const Vec3& position, const Quat& rotation = Quat::Identity()) {
     return {position, rotation};

@@ -6,7 +6,7 @@
 #include "engine/collision/shape_library.hpp"
 #include "engine/core/check.hpp"
 
-namespace handhold {
+namespace handhold::collision_shape_library_test {
 namespace {
 
 TEST(ShapeLibrary, IdsAreGivenInOrderFromZero) {
@@ -109,4 +109,4 @@ TEST(ShapeLibrary, BoxAndSphereInertiaAreTheTextbooks) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_shape_library_test

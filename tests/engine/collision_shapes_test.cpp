@@ -7,7 +7,7 @@
 
 // Cylinders, hulls and compounds: distances carry their certificate (collision_distance_test.cpp),
 // and what is a box by other means behaves as the box does.
-namespace handhold {
+namespace handhold::collision_shapes_test {
 namespace {
 
 using test::at;
@@ -375,4 +375,4 @@ TEST(Shapes, RefuseWhatTheyCannotBe) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_shapes_test

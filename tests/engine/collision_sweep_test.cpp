@@ -5,7 +5,7 @@
 #include "collision_oracle.hpp"
 
 // Bodies that move far in one call: contacts where they first touch, depth at the end of the way.
-namespace handhold {
+namespace handhold::collision_sweep_test {
 namespace {
 
 using test::at;
@@ -281,4 +281,4 @@ TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_sweep_test

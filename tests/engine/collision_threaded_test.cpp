@@ -7,7 +7,7 @@
 #include "engine/core/parallel.hpp"
 
 // Four threads ask one world at the same time; preset tsan runs what is called Threaded.
-namespace handhold {
+namespace handhold::collision_threaded_test {
 namespace {
 
 using test::at;
@@ -126,4 +126,4 @@ TEST(CollisionThreaded, ContactsDoNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_threaded_test

@@ -9,7 +9,7 @@
 #include "engine/core/hash.hpp"
 
 // The world as a cache: equal proxies give equal answers, whatever it saw before.
-namespace handhold {
+namespace handhold::collision_world_test {
 namespace {
 
 using test::at;
@@ -222,4 +222,4 @@ TEST(CollisionWorld, LeavesOutWhatHasNoPlaceUntilItHasOneAgain) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::collision_world_test

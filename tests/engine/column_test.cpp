@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace handhold {
+namespace handhold::column_test {
 namespace {
 
 constexpr Entity entity_of(std::uint32_t slot, std::uint32_t generation = 1) {
@@ -210,4 +210,4 @@ RC_GTEST_PROP(Column, AgreesWithAMapUnderAnyOperations, ()) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::column_test

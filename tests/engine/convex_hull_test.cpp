@@ -14,7 +14,7 @@
 
 // The oracle is what a hull is: no given point outside of it, every corner a given point, and a
 // surface that closes.
-namespace handhold {
+namespace handhold::convex_hull_test {
 namespace {
 
 using test::Random;
@@ -206,4 +206,4 @@ TEST(ConvexHull, OfRealObjectsHoldsThem) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::convex_hull_test

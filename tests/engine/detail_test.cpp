@@ -14,7 +14,7 @@
 
 // Oracle: distances of points spread over one surface to the other, by number only; what is claimed
 // is proven in the code by other means.
-namespace handhold {
+namespace handhold::detail_test {
 namespace {
 
 using test::Random;
@@ -152,8 +152,8 @@ TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
         }
         const TriangleBvh sheet_bvh(sheet.positions, sheet.triangles);
         const TriangleBvh lifted_bvh(lifted, coarse.triangles);
-        const TriangleSet a = {sheet.positions, sheet.triangles, sheet_bvh};
-        const TriangleSet b = {lifted, coarse.triangles, lifted_bvh};
+        const TriangleSurface a = {sheet.positions, sheet.triangles, sheet_bvh};
+        const TriangleSurface b = {lifted, coarse.triangles, lifted_bvh};
         EXPECT_TRUE(find_uncovered(a, b, gap + 1e-4).empty());
         EXPECT_TRUE(find_uncovered(b, a, gap + 1e-4).empty());
         EXPECT_FALSE(find_uncovered(a, b, gap - 1e-6).empty());
@@ -168,12 +168,12 @@ TEST(SurfaceDistance, SeesAHoleThatNoCornerIsIn) {
     holed.triangles.erase(holed.triangles.begin() + 900, holed.triangles.begin() + 902);
     const TriangleBvh whole_bvh(whole.positions, whole.triangles);
     const TriangleBvh holed_bvh(holed.positions, holed.triangles);
-    const TriangleSet a = {whole.positions, whole.triangles, whole_bvh};
-    const TriangleSet b = {holed.positions, holed.triangles, holed_bvh};
+    const TriangleSurface a = {whole.positions, whole.triangles, whole_bvh};
+    const TriangleSurface b = {holed.positions, holed.triangles, holed_bvh};
     EXPECT_TRUE(find_uncovered(b, a, 1e-4).empty());
     EXPECT_FALSE(find_uncovered(a, b, 4.9e-3).empty());  // the hole is a square of 10 mm
     EXPECT_TRUE(find_uncovered(a, b, 5.1e-3).empty());
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::detail_test

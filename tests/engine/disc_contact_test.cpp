@@ -9,7 +9,7 @@
 #include "allocation_count.hpp"
 #include "disc_oracle.hpp"
 
-namespace handhold {
+namespace handhold::disc_contact_test {
 namespace {
 
 using test::ClosingOracle;
@@ -394,4 +394,4 @@ TEST(CloseChain, AllocatesNothingOnceWarm) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::disc_contact_test

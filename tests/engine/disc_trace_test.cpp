@@ -9,7 +9,7 @@
 #include "engine/geometry/triangle_bvh.hpp"
 #include "surface_cuts.hpp"
 
-namespace handhold {
+namespace handhold::disc_trace_test {
 namespace {
 
 using test::cut_by_hand;
@@ -249,4 +249,4 @@ TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::disc_trace_test

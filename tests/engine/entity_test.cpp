@@ -8,7 +8,7 @@
 
 #include "engine/core/check.hpp"
 
-namespace handhold {
+namespace handhold::entity_test {
 namespace {
 
 TEST(EntityPool, NullIsNeverAliveNorDestroyed) {
@@ -106,4 +106,4 @@ TEST(EntityPool, BrokenSnapshotIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::entity_test

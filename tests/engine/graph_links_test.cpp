@@ -6,7 +6,7 @@
 #include "data_meshes.hpp"
 #include "graph_claims.hpp"
 
-namespace handhold {
+namespace handhold::graph_links_test {
 namespace {
 
 using test::Random;
@@ -110,4 +110,4 @@ TEST(WindAlike, OfRealMeshesLeavesLinksAndBordersSound) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::graph_links_test

@@ -7,7 +7,7 @@
 
 #include "broken_meshes.hpp"
 
-namespace handhold {
+namespace handhold::grip_mesh_cache_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST(GripMeshCache, WithoutADirectoryOnlyBuilds) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::grip_mesh_cache_test

@@ -6,7 +6,7 @@
 #include "engine/core/check.hpp"
 #include "engine/core/parallel.hpp"
 
-namespace handhold {
+namespace handhold::grip_mesh_library_test {
 namespace {
 
 TEST(GripMeshLibraryThreaded, SharesWhatIsEqualAndDoesNotDependOnThreads) {
@@ -67,4 +67,4 @@ TEST(GripMeshLibrary, AddMakesOnlyWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::grip_mesh_library_test

@@ -10,7 +10,7 @@
 #include "graph_claims.hpp"
 
 // The closed forms of shape_query.hpp and plain formulas are the oracle for tessellated shapes.
-namespace handhold {
+namespace handhold::grip_mesh_test {
 namespace {
 
 using test::Random;
@@ -131,4 +131,4 @@ TEST(GripMesh, OfAScaledMeshIsTheStretchedMesh) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::grip_mesh_test

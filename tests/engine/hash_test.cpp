@@ -8,7 +8,7 @@
 
 #include "engine/ecs/entity.hpp"
 
-namespace handhold {
+namespace handhold::hash_test {
 namespace {
 
 // First outputs of SplitMix64 from the seed 1234567, as its users publish them.
@@ -66,4 +66,4 @@ TEST(Hash, PersistentIdFollowsTheNameAndIsNeverNobody) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::hash_test

@@ -6,7 +6,7 @@
 
 #include "engine/io/csv.hpp"
 
-namespace handhold {
+namespace handhold::io_csv_test {
 namespace {
 
 FileError error_of(const std::string& text, NanCells nan = NanCells::refused) {
@@ -100,4 +100,4 @@ RC_GTEST_PROP(Csv, AnyBytesGiveATableOrAnErrorWithItsLine, (std::string bytes)) 
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_csv_test

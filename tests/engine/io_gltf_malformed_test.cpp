@@ -9,7 +9,7 @@
 #include "tests/engine/allocation_count.hpp"
 #include "tests/engine/io_gltf_builder.hpp"
 
-namespace handhold {
+namespace handhold::io_gltf_malformed_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -279,4 +279,4 @@ TEST(LoadGltfLevel, RefusesAbsentFileAndFolder) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_gltf_malformed_test

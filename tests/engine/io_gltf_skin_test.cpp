@@ -8,7 +8,7 @@
 #include "tests/engine/io_gltf_builder.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::io_gltf_skin_test {
 namespace {
 
 using test::GltfBuilder;
@@ -195,4 +195,4 @@ TEST(GltfSkinRealData, BothHandsLoad) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_gltf_skin_test

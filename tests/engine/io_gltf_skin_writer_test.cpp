@@ -3,7 +3,7 @@
 #include "engine/core/check.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
 
-namespace handhold {
+namespace handhold::io_gltf_skin_writer_test {
 namespace {
 
 GltfSkin two_jointed() {
@@ -63,4 +63,4 @@ TEST(WriteSkinnedGlb, RefusesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_gltf_skin_writer_test

@@ -9,7 +9,7 @@
 #include "engine/math/math.hpp"
 #include "tests/engine/io_gltf_builder.hpp"
 
-namespace handhold {
+namespace handhold::io_gltf_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -298,4 +298,4 @@ TEST(LoadGltfLevel, ReadsBufferInDataUri) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_gltf_test

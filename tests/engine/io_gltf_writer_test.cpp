@@ -10,7 +10,7 @@
 #include "engine/io/gltf_writer.hpp"
 #include "io_gltf_builder.hpp"
 
-namespace handhold {
+namespace handhold::io_gltf_writer_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -125,4 +125,4 @@ TEST(LoadGltfLevel, MaterialsWithoutMeaningAreRefusedAtTheirPlace) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_gltf_writer_test

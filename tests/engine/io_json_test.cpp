@@ -5,7 +5,7 @@
 
 #include "engine/io/json.hpp"
 
-namespace handhold {
+namespace handhold::io_json_test {
 namespace {
 
 FileError error_of_parse(const std::string& text) {
@@ -170,4 +170,4 @@ TEST(Json, DumpsAPartForAnotherParser) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_json_test

@@ -13,7 +13,7 @@
 #include "tests/places.hpp"
 
 // The folder's SOURCE.md and MANIFEST.json say what is in the files.
-namespace handhold {
+namespace handhold::io_real_data_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST(RealMeshes, AddedDegenerateTrianglesAreCounted) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_real_data_test

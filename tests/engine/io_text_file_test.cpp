@@ -6,7 +6,7 @@
 
 #include "engine/io/text_file.hpp"
 
-namespace handhold {
+namespace handhold::io_text_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ TEST_F(TextFile, RefusesAbsentFolderDeviceAndTooLarge) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::io_text_file_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace handhold {
+namespace handhold::join_test {
 namespace {
 
 using Visited =
@@ -213,4 +213,4 @@ TEST(Join, AMillionEntitiesAreCreatedDestroyedAndJoined) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::join_test

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -11,10 +10,9 @@
 
 #include "engine/core/hash.hpp"
 
-namespace handhold {
+namespace handhold::math_test {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr double k_above_pi = k_pi * (1.0 + 1e-15);  // pi and what a length's last bits may add
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
@@ -404,4 +402,4 @@ TEST(MathGolden, BitsAreEqualOnAllCompilers) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::math_test

@@ -12,7 +12,7 @@
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
 
-namespace handhold {
+namespace handhold::parallel_test {
 namespace {
 
 // Sets the count for one test.
@@ -160,4 +160,4 @@ TEST(ParallelThreaded, CountMayChangeBetweenCalls) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::parallel_test

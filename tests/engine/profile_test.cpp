@@ -13,7 +13,7 @@
 
 #include "allocation_count.hpp"
 
-namespace handhold {
+namespace handhold::profile_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -249,4 +249,4 @@ TEST(ProfileThreaded, TracesMayStartStopAndBeWrittenWhileThreadsOpenZones) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::profile_test

@@ -6,7 +6,7 @@
 
 #include "sunk_oracle.hpp"
 
-namespace handhold {
+namespace handhold::segment_triangle_test {
 namespace {
 
 using test::Random;
@@ -68,4 +68,4 @@ TEST(NearestBetween, TakesAPointForASegment) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::segment_triangle_test

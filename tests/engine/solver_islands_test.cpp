@@ -11,7 +11,7 @@
 #include "engine/solver/islands.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_islands_test {
 namespace {
 
 using test::Random;
@@ -263,4 +263,4 @@ TEST(ReplaceContactRows, ContactOfAnUnknownBodyIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_islands_test

@@ -8,12 +8,11 @@
 
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_joint_rows_test {
 namespace {
 
 using test::Random;
 
-constexpr double k_pi = 3.14159265358979323846;
 constexpr std::array k_joints = {RowKind::ball, RowKind::hinge, RowKind::slider, RowKind::fixed,
                                  RowKind::distance};
 
@@ -299,4 +298,4 @@ TEST(JointRows, LockTellsTheImpulseThatItTook) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_joint_rows_test

@@ -9,7 +9,7 @@
 
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_net_test {
 namespace {
 
 using test::Random;
@@ -176,4 +176,4 @@ TEST(Nets, ThatFloatFreelyKeepTheirMomentumAndMoveAsJointsAllow) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_net_test

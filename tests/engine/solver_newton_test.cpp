@@ -8,7 +8,7 @@
 #include "engine/solver/newton.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_newton_test {
 namespace {
 
 using test::Random;
@@ -262,4 +262,4 @@ RC_GTEST_PROP(SolvePositions, MovedAndRotatedIslandIsSolvedAlike, (std::uint64_t
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_newton_test

@@ -8,7 +8,7 @@
 #include "engine/solver/rows.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_rows_test {
 namespace {
 
 using test::Random;
@@ -250,4 +250,4 @@ RC_GTEST_PROP(Rows, InverseInertiaInTheWorldUndoesTheTurnedInertia, (std::uint64
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_rows_test

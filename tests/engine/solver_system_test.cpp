@@ -12,7 +12,7 @@
 #include "engine/solver/row_system.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_system_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -408,4 +408,4 @@ TEST(RowSystem, NoRowsAreSolvedByNothing) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_system_test

@@ -11,7 +11,7 @@
 #include "engine/solver/triad_system.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_triads_test {
 namespace {
 
 using test::Random;
@@ -371,4 +371,4 @@ TEST(Triads, ThatRepeatEachOtherStayFinite) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_triads_test

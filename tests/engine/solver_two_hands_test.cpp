@@ -8,7 +8,7 @@
 #include "engine/solver/two_hands.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_two_hands_test {
 namespace {
 
 using test::Random;
@@ -197,4 +197,4 @@ RC_GTEST_PROP(TwoHandRows, GiveTheBodyExactlyWhatTheyTakeFromThePlayer, (std::ui
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_two_hands_test

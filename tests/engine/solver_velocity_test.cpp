@@ -8,7 +8,7 @@
 #include "engine/solver/newton.hpp"
 #include "solver_scene.hpp"
 
-namespace handhold {
+namespace handhold::solver_velocity_test {
 namespace {
 
 using test::Random;
@@ -282,4 +282,4 @@ RC_GTEST_PROP(SolveVelocities, NoContactApproachesAndNonePulls, (std::uint64_t s
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::solver_velocity_test

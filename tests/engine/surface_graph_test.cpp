@@ -10,7 +10,7 @@
 #include "engine/geometry/graph_links.hpp"
 #include "graph_claims.hpp"
 
-namespace handhold {
+namespace handhold::surface_graph_test {
 namespace {
 
 using test::expect_sound_graph;
@@ -278,4 +278,4 @@ RC_GTEST_PROP(SurfaceGraph, LinksDoNotDependOnHowTheMeshLies, (std::uint64_t see
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::surface_graph_test

@@ -12,7 +12,7 @@
 #include "engine/collision/closest_point.hpp"
 
 // The oracle looks at every triangle.
-namespace handhold {
+namespace handhold::triangle_bvh_test {
 namespace {
 
 using test::Random;
@@ -296,4 +296,4 @@ TEST(TriangleBvh, RefusesIndicesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::triangle_bvh_test

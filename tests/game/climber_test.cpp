@@ -13,7 +13,7 @@
 #include "systems/input/read_tracking.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::climber_test {
 namespace {
 
 Vec3 spawn_head(const Scene& scene) { return head_over(scene.spawns.front().pose_ws); }
@@ -211,4 +211,4 @@ TEST(RecordedClimb, EndsALittleAfterTheLastWaypoint) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::climber_test

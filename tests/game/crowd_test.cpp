@@ -18,7 +18,7 @@
 #include "game/session_run.hpp"
 #include "tests/game/finite_world.hpp"
 
-namespace handhold {
+namespace handhold::crowd_test {
 namespace {
 
 double number_from_environment(const char* name, double otherwise) {
@@ -178,4 +178,4 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::crowd_test

@@ -6,7 +6,7 @@
 #include "systems/frame.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::desktop_body_test {
 namespace {
 
 constexpr double k_dt_s = 1.0 / 90.0;
@@ -155,4 +155,4 @@ TEST(DesktopBody, CarriesALooseThingAsHeLooksAbout) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::desktop_body_test

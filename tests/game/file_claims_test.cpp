@@ -11,7 +11,7 @@
 #include "game/session_run.hpp"
 #include "tests/engine/allocation_count.hpp"
 
-namespace handhold {
+namespace handhold::file_claims_test {
 namespace {
 
 constexpr std::size_t k_megabyte = std::size_t{1} << 20U;
@@ -88,4 +88,4 @@ TEST_F(FileClaims, RecordingsOfManyYearsTakeMemoryAsTheyArePlayed) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::file_claims_test

@@ -8,7 +8,7 @@
 #include "tests/fuzz/targets.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::fuzz_corpus_test {
 namespace {
 
 struct Target {
@@ -39,4 +39,4 @@ INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
                                          Target{"snapshot", fuzz::run_snapshot}));
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::fuzz_corpus_test

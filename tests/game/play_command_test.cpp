@@ -12,7 +12,7 @@
 #include "game/session_run.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::play_command_test {
 namespace {
 
 // SDL's choice of a display, for one test.
@@ -156,4 +156,4 @@ TEST(PlayCommand, WhatItCannotKeepOrFindIsRefusedBeforeItPlays) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::play_command_test

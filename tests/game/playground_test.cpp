@@ -8,7 +8,7 @@
 #include "game/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 
-namespace handhold {
+namespace handhold::playground_test {
 namespace {
 
 struct Span {
@@ -73,4 +73,4 @@ TEST_F(Playground, SessionWorksEveryContraptionAndJointsHold) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::playground_test

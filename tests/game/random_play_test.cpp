@@ -12,7 +12,7 @@
 #include "tests/game/finite_world.hpp"
 #include "tests/game/hostile_player.hpp"
 
-namespace handhold {
+namespace handhold::random_play_test {
 namespace {
 
 std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
@@ -163,4 +163,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
                          [](const auto& test) { return std::string(test.param.scene); });
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::random_play_test

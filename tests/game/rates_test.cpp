@@ -14,7 +14,7 @@
 #include "game/random.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::rates_test {
 namespace {
 
 constexpr double k_compare_hz = 6.0;  // divides every rate
@@ -114,4 +114,4 @@ TEST(SessionRates, SingleSupportPathsAgree) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::rates_test

@@ -12,7 +12,7 @@
 #include "engine/io/text_file.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -269,4 +269,4 @@ TEST(RealRecordings, AllTwentyLoad) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::recording_test

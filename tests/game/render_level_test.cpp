@@ -10,7 +10,7 @@
 #include "game/render/renderer.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::render_level_test {
 namespace {
 
 TEST(LevelMeshes, OneMeshAColourWithItsOwnVertices) {
@@ -64,4 +64,4 @@ TEST(LevelMeshes, RealStationFillsThePicture) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::render_level_test

@@ -11,7 +11,7 @@
 #include "game/render/image.hpp"
 #include "game/render/video_writer.hpp"
 
-namespace handhold {
+namespace handhold::render_output_test {
 namespace {
 
 Image make_gradient(int width_px, int height_px) {
@@ -152,4 +152,4 @@ TEST(Film, PictureOfAnotherSizeIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::render_output_test

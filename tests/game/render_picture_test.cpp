@@ -12,7 +12,7 @@
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
 
-namespace handhold {
+namespace handhold::render_picture_test {
 namespace {
 
 constexpr int k_width_px = 160;
@@ -260,4 +260,4 @@ TEST_F(RenderPicture, UnknownMeshIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::render_picture_test

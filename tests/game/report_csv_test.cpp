@@ -16,7 +16,7 @@
 #include "game/report/text.hpp"
 #include "tests/game/report_log.hpp"
 
-namespace handhold {
+namespace handhold::report_csv_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -228,4 +228,4 @@ TEST(ReportText, FiguresAreShortAndGrouped) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::report_csv_test

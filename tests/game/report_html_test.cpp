@@ -13,7 +13,7 @@
 #include "game/report/report_tables.hpp"
 #include "tests/game/report_log.hpp"
 
-namespace handhold {
+namespace handhold::report_html_test {
 namespace {
 
 // The first thing that is not well-formed: a tag that closes another one, or is never closed; a
@@ -186,4 +186,4 @@ TEST(ReportHtml, Base64AgreesWithTheVectorsOfRfc4648) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::report_html_test

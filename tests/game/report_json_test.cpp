@@ -14,7 +14,7 @@
 #include "game/report/run_summary.hpp"
 #include "tests/game/report_log.hpp"
 
-namespace handhold {
+namespace handhold::report_json_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -223,4 +223,4 @@ RC_GTEST_PROP(SummarizeTimes, AtLeastTheGivenShareIsNotAbove, ()) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::report_json_test

@@ -12,7 +12,7 @@
 #include "game/report/plot_axis.hpp"
 #include "game/report/svg_plot.hpp"
 
-namespace handhold {
+namespace handhold::report_plot_test {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
@@ -228,4 +228,4 @@ RC_GTEST_PROP(PlotAxis, StepsAreOneTwoOrFiveTimesAPowerOfTen, ()) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::report_plot_test

@@ -11,7 +11,7 @@
 #include "game/hand_export.hpp"
 #include "game/render/hand_figures.hpp"
 
-namespace handhold {
+namespace handhold::robot_hand_test {
 namespace {
 
 double to_segment(const Vec3& point, const Vec3& b) {
@@ -170,4 +170,4 @@ TEST(ExportRobotHand, JointsHangBelowTheOnesThatMoveThem) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::robot_hand_test

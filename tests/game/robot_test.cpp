@@ -8,7 +8,7 @@
 #include "game/built_in_scenes.hpp"
 #include "systems/frame.hpp"
 
-namespace handhold {
+namespace handhold::robot_test {
 namespace {
 
 TEST(RobotPath, StaysLevelOverTheHullAndHeadsAlongItsWay) {
@@ -91,4 +91,4 @@ TEST(RobotScene, BodiesFollowTheClosedFormWhateverTheFrameRate) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::robot_test

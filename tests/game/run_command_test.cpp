@@ -13,7 +13,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/climber_session.hpp"
 
-namespace handhold {
+namespace handhold::run_command_test {
 namespace {
 
 class RunCommand : public testing::Test {
@@ -258,4 +258,4 @@ TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::run_command_test

@@ -5,7 +5,7 @@
 #include "game/report/run_summary.hpp"
 #include "tests/game/report_log.hpp"
 
-namespace handhold {
+namespace handhold::run_tally_test {
 namespace {
 
 TEST(RunTally, GivesTheFiguresOfTheWholeLog) {
@@ -70,4 +70,4 @@ TEST(RunTally, OfNoFramesIsAllZero) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::run_tally_test

@@ -10,7 +10,7 @@
 #include "engine/io/text_file.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::scene_file_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -268,4 +268,4 @@ TEST(SceneFile, AbsentFileIsAnError) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scene_file_test

@@ -2,7 +2,6 @@
 #include "game/scene_joint.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,12 +10,10 @@
 #include "game/scene.hpp"
 #include "game/scene_file.hpp"
 
-namespace handhold {
+namespace handhold::scene_joint_test {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr double k_degree = std::numbers::pi / 180.0;
 
 Json ball(const char* name, const char* kind, const Json& position) {
     Json body = {{"name", name},
@@ -224,4 +221,4 @@ const BadJoint k_bad_joints[] = {
 INSTANTIATE_TEST_SUITE_P(Files, MalformedJoint, ::testing::ValuesIn(k_bad_joints));
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scene_joint_test

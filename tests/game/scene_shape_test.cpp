@@ -10,7 +10,7 @@
 #include "game/scene_file.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::scene_shape_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -210,4 +210,4 @@ TEST(SceneShape, PicturesOfSolidsAreClosed) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scene_shape_test

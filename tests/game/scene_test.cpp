@@ -5,7 +5,7 @@
 
 #include "systems/frame.hpp"
 
-namespace handhold {
+namespace handhold::scene_test {
 namespace {
 
 Scene build(const std::string& json) {
@@ -79,4 +79,4 @@ TEST(BuildScene, BodyIsDrawnByItsVisual) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scene_test

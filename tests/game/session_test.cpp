@@ -12,7 +12,7 @@
 #include "game/spawn.hpp"
 #include "tests/places.hpp"
 
-namespace handhold {
+namespace handhold::session_test {
 namespace {
 
 const std::filesystem::path k_data = data_dir();
@@ -175,4 +175,4 @@ TEST(RealRecordings, CrawlThroughARealLevel) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::session_test

@@ -17,7 +17,7 @@
 #include "game/station_tools.hpp"
 #include "systems/frame.hpp"
 
-namespace handhold {
+namespace handhold::station_scene_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -251,4 +251,4 @@ TEST(StationDescription, EveryCutIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::station_scene_test

@@ -18,7 +18,7 @@
 #include "game/render/primitives.hpp"
 #include "game/station_description.hpp"
 
-namespace handhold {
+namespace handhold::station_test {
 namespace {
 
 const Structure& station() {
@@ -319,7 +319,6 @@ TEST(Rock, IsAboutSixteenCentimetresAcross) {
 // Closed forms: inscribed polygons and polyhedra of n segments lose a known share of the round
 // volume.
 TEST(Primitives, AreClosedAndHaveTheVolumeOfTheirFormula) {
-    constexpr double k_pi = 3.14159265358979323846;
     const auto polygon_share = [](int n) { return std::sin(2.0 * k_pi / n) * n / (2.0 * k_pi); };
     const std::array<Vec3, 3> bent = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)};
     const struct {
@@ -360,4 +359,4 @@ TEST(Primitives, LookAlongTurnsMinusZForward) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::station_test

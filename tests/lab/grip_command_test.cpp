@@ -5,7 +5,7 @@
 #include "lab_files.hpp"
 #include "tests/places.hpp"
 
-namespace handhold::lab {
+namespace handhold::lab::grip_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -190,4 +190,4 @@ TEST_F(GripCommand, RefusesFilesWithOneLineAndLeavesNoOutput) {
 }
 
 }  // namespace
-}  // namespace handhold::lab
+}  // namespace handhold::lab::grip_command_test

@@ -3,7 +3,7 @@
 #include "tools/lab/hand_viewpoint.hpp"
 #include "tools/lab/posed_hands.hpp"
 
-namespace handhold::lab {
+namespace handhold::lab::hands_picture_test {
 namespace {
 
 const char* const k_line =
@@ -53,4 +53,4 @@ TEST(HandViewpoint, FarTrianglesDoNotCount) {
 }
 
 }  // namespace
-}  // namespace handhold::lab
+}  // namespace handhold::lab::hands_picture_test

@@ -5,7 +5,7 @@
 #include "tests/places.hpp"
 #include "tools/lab/lab_scene.hpp"
 
-namespace handhold::lab {
+namespace handhold::lab::lab_command_test {
 namespace {
 
 class LabCommand : public LabTest {
@@ -76,4 +76,4 @@ TEST_F(LabCommand, WritesCompleteFilesForEveryScene) {
 }
 
 }  // namespace
-}  // namespace handhold::lab
+}  // namespace handhold::lab::lab_command_test

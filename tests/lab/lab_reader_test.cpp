@@ -5,7 +5,7 @@
 
 #include "lab_files.hpp"
 
-namespace handhold::lab {
+namespace handhold::lab::lab_reader_test {
 namespace {
 
 using V = std::array<double, 3>;
@@ -180,4 +180,4 @@ TEST_F(LabReader, FindsNoPartOfARockInTheWall) {
 }
 
 }  // namespace
-}  // namespace handhold::lab
+}  // namespace handhold::lab::lab_reader_test

@@ -5,7 +5,7 @@
 #include "lab_files.hpp"
 #include "tools/lab/lab_scene.hpp"
 
-namespace handhold::lab {
+namespace handhold::lab::lab_scenes_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -142,4 +142,4 @@ TEST_F(LabScenes, ResidualsFallFromIterationToIteration) {
 }
 
 }  // namespace
-}  // namespace handhold::lab
+}  // namespace handhold::lab::lab_scenes_test

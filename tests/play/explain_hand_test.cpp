@@ -8,7 +8,7 @@
 #include "game/play_tally.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::explain_hand_test {
 namespace {
 
 // Beside the tunnel's rail, looking at it; his left hand rests in front of him.
@@ -150,4 +150,4 @@ TEST(PlayTally, CountsAsClimbedOnlyWhatHandsCarried) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::explain_hand_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace handhold {
+namespace handhold::gamepad_test {
 namespace {
 
 constexpr double k_dt_s = 0.01;
@@ -102,4 +102,4 @@ TEST(Gamepad, TogetherWithKeysWhatEitherHoldsIsHeld) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::gamepad_test

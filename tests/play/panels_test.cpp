@@ -11,7 +11,7 @@
 #include "game/ui/overlay.hpp"
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::panels_test {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> k_red = {255, 0, 0, 255};
@@ -132,4 +132,4 @@ TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::panels_test

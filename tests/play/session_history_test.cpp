@@ -7,7 +7,7 @@
 
 #include "tests/game/climber_scene.hpp"
 
-namespace handhold {
+namespace handhold::session_history_test {
 namespace {
 
 const Pose k_origin_ws{Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()};
@@ -102,4 +102,4 @@ TEST(SessionHistory, FramesPlayedAgainHaveTheTuningThatWasTheirs) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::session_history_test

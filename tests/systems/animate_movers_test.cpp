@@ -8,7 +8,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::animate_movers_test {
 namespace {
 
 using test::distance;
@@ -49,7 +49,7 @@ TEST(MoverPose, TurningVelocityRunsRoundACircleOfRadiusSpeedOverSpin) {
         const Vec3 expected(-k_radius * (1.0 - std::cos(angle)), 0.0, -k_radius * std::sin(angle));
         EXPECT_LT((mover_pose(mover, t_s).position - expected).norm(), 1e-13) << t_s;
     }
-    EXPECT_LT(mover_pose(mover, 2.0 * test::k_pi / k_spin).position.norm(), 1e-13);
+    EXPECT_LT(mover_pose(mover, 2.0 * k_pi / k_spin).position.norm(), 1e-13);
 }
 
 RC_GTEST_PROP(MoverPose, IsTheIntegralOfTheMoversVelocity, (std::uint64_t seed)) {
@@ -168,7 +168,7 @@ TEST(AnimateMovers, OrderDoesNotMatterAndBodiesWithoutAMoverStay) {
 PosePath loop() {
     std::array<Pose, 6> poses;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        const Quat turn = rotation_about(Vec3::UnitY(), test::k_pi / 3.0 * static_cast<double>(i));
+        const Quat turn = rotation_about(Vec3::UnitY(), k_pi / 3.0 * static_cast<double>(i));
         poses[i] = {turn * Vec3(4.0, 0.0, 0.0) + Vec3(0.0, 0.8, 0.0), turn};
     }
     return make_pose_path(poses, 30.0);
@@ -257,4 +257,4 @@ TEST(AnimateMovers, BoneVelocitiesAreThePosesDerivativeWithinTheStatedError) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::animate_movers_test

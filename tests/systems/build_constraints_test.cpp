@@ -8,7 +8,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::build_constraints_test {
 namespace {
 
 using test::distance;
@@ -322,4 +322,4 @@ TEST(BuildConstraints, OrderOfHandsAndBodiesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::build_constraints_test

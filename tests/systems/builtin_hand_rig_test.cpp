@@ -1,15 +1,12 @@
 #include "components/builtin_hand_rig.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
 
-namespace handhold {
+namespace handhold::builtin_hand_rig_test {
 namespace {
-
-constexpr double k_degree = std::numbers::pi / 180.0;
 
 Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
 
@@ -170,4 +167,4 @@ TEST(MirrorHandRig, TwiceIsTheSameRig) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::builtin_hand_rig_test

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 
 #include "components/stats.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
+#include "tests/random.hpp"
 
-// What the systems' own tests share: entities by number, random numbers that are the same
-// everywhere, mirrors.
+// What the systems' own tests share: entities by number, mirrors.
 namespace handhold::test {
-
-constexpr double k_pi = 3.14159265358979323846;
 
 constexpr Entity entity(std::uint32_t number) { return {number, 1}; }
 // Who is in most of the scenes.
@@ -31,23 +28,6 @@ inline std::uint64_t count_of_all(const StageStats& stats) {
     }
     return sum;
 }
-
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
-    // Uniform; the standard distributions differ between libraries.
-    double between(double low, double high) {
-        return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-    }
-    Vec3 vector(double size) {
-        return {between(-size, size), between(-size, size), between(-size, size)};
-    }
-    Quat rotation() { return rotation_from_vector(vector(1.8)); }
-    Pose pose(double size_m = 2.0) { return {vector(size_m), rotation()}; }
-
-  private:
-    std::mt19937_64 engine_;
-};
 
 inline Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 

@@ -18,7 +18,7 @@
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
 
-namespace handhold {
+namespace handhold::components_test {
 namespace {
 
 using test::Random;
@@ -384,4 +384,4 @@ TEST(TuningJson, NumbersJustOutsideTheirRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::components_test

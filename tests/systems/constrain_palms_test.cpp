@@ -5,7 +5,7 @@
 #include "components/palm_fit.hpp"
 #include "fitted_hand.hpp"
 
-namespace handhold {
+namespace handhold::constrain_palms_test {
 namespace {
 
 using test::FittedHand;
@@ -120,4 +120,4 @@ TEST_F(ConstrainPalms, EmptyHandReturnsToTracking) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::constrain_palms_test

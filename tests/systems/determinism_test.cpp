@@ -11,7 +11,7 @@
 #include "systems/snapshot.hpp"
 #include "tests/systems/crowd.hpp"
 
-namespace handhold {
+namespace handhold::determinism_test {
 namespace {
 
 using test::Crowd;
@@ -130,4 +130,4 @@ TEST(Determinism, RowsMayStandInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::determinism_test

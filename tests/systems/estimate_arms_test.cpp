@@ -7,11 +7,10 @@
 #include "column_scene.hpp"
 #include "systems/arm/pose_arms.hpp"
 
-namespace handhold {
+namespace handhold::estimate_arms_test {
 namespace {
 
 using test::k_left;
-using test::k_pi;
 using test::k_player;
 using test::k_right;
 using test::mirrored;
@@ -190,4 +189,4 @@ TEST(EstimateArms, TeleportsAndNonsenseStayFinite) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::estimate_arms_test

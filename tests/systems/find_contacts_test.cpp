@@ -7,7 +7,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::find_contacts_test {
 namespace {
 
 using test::entity;
@@ -213,4 +213,4 @@ TEST(FindContacts, OrderOfColumnsDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::find_contacts_test

@@ -13,7 +13,7 @@
 #include "engine/core/check.hpp"
 #include "systems/frame.hpp"
 
-namespace handhold {
+namespace handhold::frame_hash_test {
 namespace {
 
 using test::Random;
@@ -256,4 +256,4 @@ TEST(StepFrame, EmptyWorldOnlyGrowsOlder) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::frame_hash_test

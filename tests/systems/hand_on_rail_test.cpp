@@ -4,7 +4,7 @@
 
 #include "fitted_hand.hpp"
 
-namespace handhold {
+namespace handhold::hand_on_rail_test {
 namespace {
 
 using test::FittedHand;
@@ -25,7 +25,7 @@ Mesh make_bar() {
     Mesh mesh;
     for (std::uint32_t ring = 0; ring <= k_rings; ++ring) {
         for (std::uint32_t k = 0; k < k_around; ++k) {
-            const double angle_rad = 2.0 * test::k_pi * k / k_around;
+            const double angle_rad = 2.0 * k_pi * k / k_around;
             mesh.positions.emplace_back(0.8 * ring / k_rings - 0.4,
                                         k_bar_height_m + k_bar_radius_m * std::cos(angle_rad),
                                         k_bar_radius_m * std::sin(angle_rad));
@@ -121,4 +121,4 @@ TEST(HandOnARail, IsShownOnTheSideItReachedFromThoughItWentThrough) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::hand_on_rail_test

@@ -5,7 +5,7 @@
 #include "fitted_hand.hpp"
 #include "tests/engine/data_meshes.hpp"
 
-namespace handhold {
+namespace handhold::hand_real_data_test {
 namespace {
 
 using test::FittedHand;
@@ -91,4 +91,4 @@ TEST(HandsOnRealMeshes, AreFiniteAndCountedOnObjects) { hold_all_of("objects"); 
 TEST(HandsOnRealMeshes, AreFiniteAndCountedOnBrokenOnes) { hold_all_of("nasty"); }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::hand_real_data_test

@@ -11,7 +11,7 @@
 #include "tests/places.hpp"
 #include "tests/systems/tube_hand.hpp"
 
-namespace handhold {
+namespace handhold::hand_rig_fit_test {
 namespace {
 
 using test::make_tube_hand;
@@ -268,4 +268,4 @@ TEST(HandRigFitRealData, SharedHandsMirrorEachOther) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::hand_rig_fit_test

@@ -7,7 +7,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::locomote_players_test {
 namespace {
 
 using test::angle_between;
@@ -285,7 +285,7 @@ TEST(LocomotePlayers, BrakingForASecondApproachesExponentialDecay) {
 
 TEST(LocomotePlayers, ThrustersPushAlongThePlaySpaceAndOnlyWhereAllowed) {
     Locomotion player;
-    player.play_space().rotation = rotation_about(Vec3::UnitY(), 0.5 * test::k_pi);
+    player.play_space().rotation = rotation_about(Vec3::UnitY(), 0.5 * k_pi);
     player.command().thrust_ps = Vec3(0.0, 0.5, -3.0);
     player.run();
     EXPECT_EQ(player.speed(), Vec3(Vec3::Zero()));
@@ -355,4 +355,4 @@ TEST(LocomotePlayers, PlayersDoNotSeeEachOthersHands) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::locomote_players_test

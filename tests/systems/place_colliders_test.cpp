@@ -8,7 +8,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::place_colliders_test {
 namespace {
 
 using test::distance;
@@ -182,4 +182,4 @@ TEST(PlaceColliders, CollisionWorldKnowsThem) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::place_colliders_test

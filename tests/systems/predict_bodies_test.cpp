@@ -7,7 +7,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::predict_bodies_test {
 namespace {
 
 using test::entity;
@@ -223,4 +223,4 @@ RC_GTEST_PROP(PredictBodies, RotatedWorldTumblesAlike, (std::uint64_t seed)) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::predict_bodies_test

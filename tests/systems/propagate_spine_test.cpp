@@ -8,10 +8,9 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::propagate_spine_test {
 namespace {
 
-using test::k_pi;
 using test::k_player;
 
 struct Body {
@@ -173,4 +172,4 @@ TEST(PropagateSpine, PlayersPutElsewhereAndLongFramesStayWhole) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::propagate_spine_test

@@ -5,7 +5,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::publish_pose_test {
 namespace {
 
 using test::distance;
@@ -138,4 +138,4 @@ TEST(PublishPose, OrderOfHandsDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::publish_pose_test

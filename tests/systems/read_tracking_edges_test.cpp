@@ -7,7 +7,7 @@
 #include "tracked_devices.hpp"
 
 // Button edges, and the velocities that are measured at them.
-namespace handhold {
+namespace handhold::read_tracking_edges_test {
 namespace {
 
 using test::Devices;
@@ -176,4 +176,4 @@ TEST(ReadTracking, ReleaseOfASingleSampleIsStillAndOfTwoIsTheirDifference) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::read_tracking_edges_test

@@ -10,7 +10,7 @@
 #include "engine/core/check.hpp"
 #include "tracked_devices.hpp"
 
-namespace handhold {
+namespace handhold::read_tracking_test {
 namespace {
 
 using test::count_of;
@@ -431,4 +431,4 @@ TEST(ReadTracking, FrameWithoutLengthIsRefused) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::read_tracking_test

@@ -47,7 +47,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 #endif
 
-namespace handhold {
+namespace handhold::scenario_allocation_test {
 namespace {
 
 TEST(WarmFrame, AllocatesNothing) {
@@ -101,4 +101,4 @@ TEST(WarmFrame, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_allocation_test

@@ -7,7 +7,7 @@
 
 #include "joint_errors.hpp"
 
-namespace handhold {
+namespace handhold::scenario_cable_test {
 namespace {
 
 using test::error_of;
@@ -111,4 +111,4 @@ TEST(Joints, HoldBodiesWithoutColliderThatPassThroughEachOther) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_cable_test

@@ -11,7 +11,7 @@
 #include "scenario.hpp"
 #include "tests/engine/collision_scene.hpp"
 
-namespace handhold {
+namespace handhold::scenario_clutter_test {
 namespace {
 
 using test::Random;
@@ -144,4 +144,4 @@ TEST(Clutter, NeitherIntoTheFarSideOfWhatItTouches) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_clutter_test

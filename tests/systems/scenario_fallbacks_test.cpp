@@ -3,7 +3,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_fallbacks_test {
 namespace {
 
 // A player holds on to a wall while a press comes at his head: both cannot be met.
@@ -71,4 +71,4 @@ TEST(ContactRounds, AreCountedWhereTheyDoNotSuffice) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_fallbacks_test

@@ -7,7 +7,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_hostile_test {
 namespace {
 
 // Reproducible numbers in [0, 1).
@@ -198,4 +198,4 @@ TEST_P(RandomPlay, StaysFiniteInsideAndSlow) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPlay, testing::Range<std::uint64_t>(1, 9));
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_hostile_test

@@ -4,7 +4,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_invariance_test {
 namespace {
 
 // Crawls along a wall, waves a rock, shoves it into the wall, lets go, drifts: everything the frame
@@ -102,4 +102,4 @@ TEST_P(Rates, SingleSupportPathAgrees) {
 INSTANTIATE_TEST_SUITE_P(Hz, Rates, testing::Values(60.0, 72.0, 90.0, 120.0, 144.0));
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_invariance_test

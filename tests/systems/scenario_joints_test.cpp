@@ -8,11 +8,10 @@
 
 #include "joint_errors.hpp"
 
-namespace handhold {
+namespace handhold::scenario_joints_test {
 namespace {
 
 using test::error_of;
-using test::k_pi;
 
 constexpr double k_frame_s = 1.0 / 90.0;
 
@@ -357,4 +356,4 @@ TEST(Joints, DestroyedBodyTakesItsJointsAlong) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_joints_test

@@ -7,7 +7,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_physics_test {
 namespace {
 
 constexpr double k_half_turn_rad = 3.14159265358979323846;
@@ -311,4 +311,4 @@ TEST(PushOff, ExchangesMomentumExactlyWhereKappaIsOne) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_physics_test

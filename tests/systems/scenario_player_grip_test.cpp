@@ -10,7 +10,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_player_grip_test {
 namespace {
 
 constexpr double k_step_s = 1.0 / 90.0;
@@ -219,4 +219,4 @@ TEST(PlayerGrip, EndsWhereTheOtherIsGone) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_player_grip_test

@@ -8,7 +8,7 @@
 
 #include "tests/systems/scenario.hpp"
 
-namespace handhold {
+namespace handhold::scenario_two_hands_test {
 namespace {
 
 constexpr double k_half_length_m = 0.4;
@@ -356,4 +356,4 @@ TEST(TwoHandsMirrored, BarMovesAsInAMirror) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::scenario_two_hands_test

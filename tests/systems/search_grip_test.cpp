@@ -6,7 +6,7 @@
 #include "engine/collision/closest_point.hpp"
 #include "fitted_hand.hpp"
 
-namespace handhold {
+namespace handhold::search_grip_test {
 namespace {
 
 using test::FittedHand;
@@ -121,4 +121,4 @@ TEST(SearchGrip, LeavesHandsOutOfReachWithoutASurfaceAndCountsThem) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::search_grip_test

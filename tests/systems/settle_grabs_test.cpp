@@ -5,7 +5,7 @@
 
 #include "column_scene.hpp"
 
-namespace handhold {
+namespace handhold::settle_grabs_test {
 namespace {
 
 using test::count_of;
@@ -449,4 +449,4 @@ RC_GTEST_PROP(SettleGrabs, MovedAndRotatedWorldGivesTheSameAnchors, (std::uint64
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::settle_grabs_test

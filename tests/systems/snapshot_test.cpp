@@ -18,7 +18,7 @@
 #include "tests/systems/crowd.hpp"
 #include "tests/systems/snapshot_bytes.hpp"
 
-namespace handhold {
+namespace handhold::snapshot_test {
 namespace {
 
 using test::Crowd;
@@ -455,4 +455,4 @@ TEST(SnapshotSchema, DifferenceIsTheFirstLineThatDiffersAndPrintable) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::snapshot_test

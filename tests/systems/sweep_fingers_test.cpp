@@ -5,7 +5,7 @@
 #include "components/finger_chain.hpp"
 #include "fitted_hand.hpp"
 
-namespace handhold {
+namespace handhold::sweep_fingers_test {
 namespace {
 
 using test::FittedHand;
@@ -230,4 +230,4 @@ TEST_F(SweepFingers, ThumbOfAnEmptyHandRests) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::sweep_fingers_test

@@ -10,7 +10,7 @@
 #include "column_scene.hpp"
 #include "components/play_space.hpp"
 
-namespace handhold {
+namespace handhold::update_grabs_test {
 namespace {
 
 using test::count_of;
@@ -126,7 +126,7 @@ TEST(UpdateGrabs, WhereTheRayMissesTheNearestSurfaceInReachIsGripped) {
     Grabs grabs;
     grabs.add_floor(1.0);
     // The palm looks up, away from the floor 6 cm below it.
-    grabs.close(k_left, Vec3(0.5, 1.06, 0.0), rotation_about(Vec3::UnitZ(), test::k_pi));
+    grabs.close(k_left, Vec3(0.5, 1.06, 0.0), rotation_about(Vec3::UnitZ(), k_pi));
     grabs.run();
     const Grab& grab = grabs.grab.at(k_left);
     EXPECT_EQ(grab.kind, GripKind::surface);
@@ -138,7 +138,7 @@ TEST(UpdateGrabs, NothingInReachIsCountedAndGripsNothing) {
     Grabs grabs;
     grabs.add_floor(1.0);
     grabs.close(k_left, Vec3(0.5, 1.0 + grabs.tuning.hand.reach_m + 0.001, 0.0),
-                rotation_about(Vec3::UnitZ(), test::k_pi));
+                rotation_about(Vec3::UnitZ(), k_pi));
     grabs.run();
     EXPECT_EQ(grabs.grab.at(k_left).kind, GripKind::none);
     EXPECT_EQ(count_of(grabs.stats, Fallback::grab_no_surface), 1U);
@@ -197,7 +197,7 @@ TEST(UpdateGrabs, HeadInTheWayHidesNoSurface) {
     Grabs beside;
     beside.add_floor(1.0);
     beside.add_head(Vec3(0.14, 1.08, 0.0));
-    beside.close(k_right, Vec3(0.0, 1.08, 0.0), rotation_about(Vec3::UnitZ(), test::k_pi));
+    beside.close(k_right, Vec3(0.0, 1.08, 0.0), rotation_about(Vec3::UnitZ(), k_pi));
     beside.run();
     EXPECT_EQ(beside.grab.at(k_right).body, k_wall);
 }
@@ -368,4 +368,4 @@ TEST(UpdateGrabs, OrderOfHandsAndBodiesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace handhold
+}  // namespace handhold::update_grabs_test

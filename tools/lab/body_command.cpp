@@ -10,17 +10,12 @@
 #include "systems/arm/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"
 #include "tools/lab/body_files.hpp"
+#include "tools/lab/exit_status.hpp"
 
 namespace handhold::lab {
 namespace {
 
-constexpr int k_exit_file = 2;
 constexpr double k_first_frame_s = 1.0 / 90.0;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "handhold-lab: %s\n", error.message().c_str());
-    return k_exit_file;
-}
 
 // One player in the columns that the systems take, at the origin of the world.
 class OnePlayer {

@@ -12,17 +12,11 @@
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/progress.hpp"
+#include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
 
 namespace handhold::lab {
 namespace {
-
-constexpr int k_exit_file = 2;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "handhold-lab: %s\n", error.message().c_str());
-    return k_exit_file;
-}
 
 // All parts of a file as one mesh, in the frame of its scene.
 Result<Mesh> load_mesh(const std::filesystem::path& path) {

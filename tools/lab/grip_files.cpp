@@ -12,7 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double k_mm_per_m = 1000.0;
 constexpr double k_deg_per_rad = 57.29577951308232;
 
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }

@@ -7,7 +7,6 @@
 // Ways that hands go.
 namespace handhold::lab {
 
-inline constexpr double k_pi = 3.14159265358979323846;
 inline constexpr double k_hand_speed_mps = 1.5;
 inline constexpr double k_twist_rad = 46.0 * k_pi / 180.0;
 

@@ -11,18 +11,13 @@
 #include "game/render/level_meshes.hpp"
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
+#include "tools/lab/exit_status.hpp"
 #include "tools/lab/posed_hands.hpp"
 
 namespace handhold::lab {
 namespace {
 
-constexpr int k_exit_bad_file = 2;
 constexpr double k_fov_rad = 0.55;
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "%s\n", error.message().c_str());
-    return k_exit_bad_file;
-}
 
 Color color_of(const HandCapsule& capsule) {
     static const std::map<std::string, Color> colors = {
@@ -36,13 +31,13 @@ Color color_of(const HandCapsule& capsule) {
     return color;
 }
 
-std::vector<PosedHand> choose_hands(std::vector<PosedHand> all,
+std::vector<DrawnHand> choose_hands(std::vector<DrawnHand> all,
                                     const HandsPictureOptions& options) {
-    std::vector<PosedHand> chosen;
+    std::vector<DrawnHand> chosen;
     if (!options.ids.empty()) {
         for (const std::int64_t id : options.ids) {
             const auto found = std::find_if(all.begin(), all.end(),
-                                            [&](const PosedHand& hand) { return hand.id == id; });
+                                            [&](const DrawnHand& hand) { return hand.id == id; });
             if (found != all.end()) {
                 chosen.push_back(*found);
             }
@@ -76,13 +71,13 @@ RenderFrame make_frame(const HandView& view, double distance_m) {
 }
 
 // What is drawn of one file's mesh, and the triangles themselves.
-struct Stage {
+struct Studio {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
 };
 
-Stage build_stage(GltfLevel level, Renderer& renderer) {
-    Stage stage;
+Studio build_stage(GltfLevel level, Renderer& renderer) {
+    Studio stage;
     for (const LevelMesh& part : make_level_meshes(level)) {
         stage.instances.push_back({renderer.add_mesh(part.mesh), {}, std::nullopt, part.look});
     }
@@ -92,7 +87,7 @@ Stage build_stage(GltfLevel level, Renderer& renderer) {
     return stage;
 }
 
-void add_capsules(const PosedHand& hand, Renderer& renderer, RenderFrame& frame) {
+void add_capsules(const DrawnHand& hand, Renderer& renderer, RenderFrame& frame) {
     for (const HandCapsule& capsule : hand.capsules) {
         const Vec3 way = capsule.b_m - capsule.a_m;
         // A sphere where both ends are one point.
@@ -117,11 +112,11 @@ void copy_into(const Image& picture, int column, int row, Image& sheet) {
 }  // namespace
 
 int hands_picture_command(const HandsPictureOptions& options) {
-    Result<std::vector<PosedHand>> loaded = load_posed_hands(options.hands);
+    Result<std::vector<DrawnHand>> loaded = load_posed_hands(options.hands);
     if (!loaded) {
         return refuse(loaded.error());
     }
-    const std::vector<PosedHand> hands = choose_hands(std::move(loaded.value()), options);
+    const std::vector<DrawnHand> hands = choose_hands(std::move(loaded.value()), options);
     if (hands.empty()) {
         return refuse(
             {options.hands.string(), "", "expected at least one hand that was asked for"});
@@ -138,7 +133,7 @@ int hands_picture_command(const HandsPictureOptions& options) {
     if (!renderer) {
         return refuse({options.out.string(), "", "expected pictures to be possible: " + why_not});
     }
-    const Stage stage = build_stage(std::move(level.value()), *renderer);
+    const Studio stage = build_stage(std::move(level.value()), *renderer);
     const int columns = std::min(options.columns, static_cast<int>(hands.size()));
     const int rows = (static_cast<int>(hands.size()) + columns - 1) / columns;
     Image sheet{columns * options.width_px, rows * options.height_px, {}};

@@ -23,8 +23,8 @@ HandCapsule read_capsule(const JsonValue& json) {
     return capsule;
 }
 
-PosedHand read_hand(const JsonValue& json) {
-    PosedHand hand;
+DrawnHand read_hand(const JsonValue& json) {
+    DrawnHand hand;
     hand.id = json["id"].integer(0, INT32_MAX);
     hand.wrist = {json["wrist"]["position_m"].vector(), json["wrist"]["rotation_xyzw"].rotation()};
     for (const JsonValue& capsule : json["capsules"].items()) {
@@ -35,8 +35,8 @@ PosedHand read_hand(const JsonValue& json) {
 
 }  // namespace
 
-Result<std::vector<PosedHand>> parse_posed_hands(std::string_view text, const std::string& file) {
-    std::vector<PosedHand> hands;
+Result<std::vector<DrawnHand>> parse_posed_hands(std::string_view text, const std::string& file) {
+    std::vector<DrawnHand> hands;
     std::size_t number = 0;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -62,7 +62,7 @@ Result<std::vector<PosedHand>> parse_posed_hands(std::string_view text, const st
     return hands;
 }
 
-Result<std::vector<PosedHand>> load_posed_hands(const std::filesystem::path& path) {
+Result<std::vector<DrawnHand>> load_posed_hands(const std::filesystem::path& path) {
     const Result<std::string> text = read_file(path);
     if (!text) {
         return text.error();

@@ -10,7 +10,7 @@
 namespace handhold::lab {
 
 // One line of a G.jsonl: what a picture needs of it. In the mesh's frame.
-struct PosedHand {
+struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // as shown
     std::vector<HandCapsule> capsules;
@@ -18,7 +18,7 @@ struct PosedHand {
 
 // Blank lines are skipped. Refused with the line and the JSON pointer: anything that is no such
 // hand.
-Result<std::vector<PosedHand>> parse_posed_hands(std::string_view text, const std::string& file);
-Result<std::vector<PosedHand>> load_posed_hands(const std::filesystem::path& path);
+Result<std::vector<DrawnHand>> parse_posed_hands(std::string_view text, const std::string& file);
+Result<std::vector<DrawnHand>> load_posed_hands(const std::filesystem::path& path);
 
 }  // namespace handhold::lab

@@ -8,6 +8,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/progress.hpp"
 #include "tools/lab/bullet_run.hpp"
+#include "tools/lab/exit_status.hpp"
 #include "tools/lab/gauss_seidel.hpp"
 #include "tools/lab/measure.hpp"
 #include "tools/lab/residual_probe.hpp"
@@ -16,9 +17,6 @@
 
 namespace handhold::lab {
 namespace {
-
-constexpr int k_exit_usage = 1;
-constexpr int k_exit_file = 2;
 
 PositionSolver position_solver(const std::string& name) {
     if (name == "plain") {
@@ -89,11 +87,6 @@ void run_bullet(const SolveOptions& options, const LabScene& scene, Holder holde
         outcome.curve = {options.residual_frame,
                          bullet_residuals(scene, holder, options.hz, options.residual_frame)};
     }
-}
-
-int refuse(const FileError& error) {
-    std::fprintf(stderr, "handhold-lab: %s\n", error.message().c_str());
-    return k_exit_file;
 }
 
 }  // namespace
