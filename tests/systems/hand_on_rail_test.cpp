@@ -101,7 +101,8 @@ TEST(HandOnARail, IsShownOnTheSideItReachedFromThoughItWentThrough) {
         const RailMeshes meshes(rail_bs);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             const HandRig rig = builtin_hand_rig(side);
-            // While the palm's middle is in the bar: of one behind it nothing tells where it came from.
+            // While the palm's middle is in the bar: of one behind it nothing tells where it came
+            // from.
             for (double over_front_m = 0.03; over_front_m > -0.0301; over_front_m -= 0.005) {
                 const Vec3 center = {
                     random.between(-0.1, 0.1),
