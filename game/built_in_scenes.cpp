@@ -4,6 +4,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/crowd_scene.hpp"
+#include "game/player_defaults.hpp"
 #include "game/playground.hpp"
 #include "game/robot_scene.hpp"
 #include "game/session_script.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
+#include "game/player_defaults.hpp"
 #include "game/render/primitives.hpp"
 #include "systems/input/read_tracking.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/place_scene.hpp"
+#include "game/player_defaults.hpp"
 
 namespace handhold {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "game/crowd.hpp"
+#include "game/player_defaults.hpp"
 #include "game/random.hpp"
 #include "game/render/primitives.hpp"
 

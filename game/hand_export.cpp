@@ -1,7 +1,6 @@
 #include "game/hand_export.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -147,8 +146,7 @@ int export_hands_command(const std::string& folder) {
             (side == HandSide::left ? "robot_hand_left.glb" : "robot_hand_right.glb");
         if (const auto error =
                 write_file_atomically(file, export_robot_hand(builtin_hand_rig(side)))) {
-            std::fprintf(stderr, "%s\n", error->message().c_str());
-            return k_exit_bad_file;
+            return refuse(*error);
         }
     }
     return 0;

@@ -7,6 +7,7 @@
 
 #include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
+#include "game/player_defaults.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/scene_picture.hpp"
 #include "systems/frame.hpp"

@@ -8,6 +8,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
 #include "game/play_loop.hpp"
+#include "game/player_defaults.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "game/player_defaults.hpp"
 #include "game/render/mesh_edit.hpp"
 #include "game/robot.hpp"
 

@@ -12,6 +12,7 @@
 #include "game/crowd.hpp"
 #include "game/exit_status.hpp"
 #include "game/film.hpp"
+#include "game/player_defaults.hpp"
 #include "game/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"

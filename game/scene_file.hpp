@@ -21,10 +21,6 @@
 // made relative to the scene file's folder.
 namespace handhold {
 
-inline constexpr double k_eye_height_m = 1.6;  // of who stands in play space
-inline constexpr double k_jets_mps2 = 0.5;     // where a scene has no thrusters and needs some
-inline constexpr double k_head_clear_m = 0.3;  // of a head's centre from surfaces, for ease
-
 struct SceneLevel {
     std::filesystem::path file;  // .glb or .gltf
     Pose pose;                   // of the file's frame in the scene

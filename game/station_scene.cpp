@@ -9,6 +9,7 @@
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
+#include "game/player_defaults.hpp"
 #include "game/render/shading_mesh.hpp"
 #include "game/scene_file_writer.hpp"
 #include "game/station_tools.hpp"
