@@ -108,6 +108,8 @@ const char* name_of(Fallback reason) {
             return "finger_touches_nothing";
         case Fallback::palm_lifted:
             return "palm_lifted";
+        case Fallback::body_no_surface:
+            return "body_no_surface";
         case Fallback::palm_no_surface:
             return "palm_no_surface";
         case Fallback::count:

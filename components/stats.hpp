@@ -65,6 +65,7 @@ enum class Fallback : std::uint8_t {
     finger_opened,           // and opened a little, since it was sunk still
     finger_touches_nothing,  // a finger or thumb of a gripping hand rests in the air
     palm_lifted,             // a hand was lifted off its surface, since its fingers did not fit
+    body_no_surface,         // a gripped body without a grip mesh: the hand is shown as tracked
     palm_no_surface,         // a gripping hand with nothing under its palm is shown as tracked
     count
 };

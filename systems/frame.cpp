@@ -148,10 +148,11 @@ void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameI
     HandScratch& hands = caches.hands;
     {
         const StageTimer timer(Stage::gather_surroundings, stats);
-        gather_surroundings({caches.meshes_for_hands, caches.hand_rigs, caches.graph,
-                             w.persistent_id, w.hand_owner, w.hand_tracking, w.grab,
-                             w.player_origin, w.head_tracking, w.body_pose, w.collider,
-                             hands.surroundings});
+        gather_surroundings(
+            {caches.meshes_for_hands, caches.hand_rigs, caches.graph, w.persistent_id, w.hand_owner,
+             w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose, w.collider,
+             hands.surroundings},
+            stats);
         hands.traces.assign(hands.surroundings.size(), {});
     }
     {

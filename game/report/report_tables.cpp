@@ -119,6 +119,8 @@ const char* meaning_of(Fallback reason) {
             return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
         case Fallback::palm_lifted:
             return "Fingers did not fit; the hand that is shown was lifted off its surface.";
+        case Fallback::body_no_surface:
+            return "A gripped body has no surface for hands; the hand is shown as it is tracked.";
         case Fallback::palm_no_surface:
             return "A gripping hand had nothing under its palm; it is shown as it is tracked.";
         case Fallback::count:

@@ -13,7 +13,7 @@ constexpr double k_hand_length_m = 0.25;
 
 class Gatherer {
   public:
-    explicit Gatherer(const GatherSurroundingsIo& io) : io_(io) {}
+    Gatherer(const GatherSurroundingsIo& io, StageStats& stats) : io_(io), stats_(stats) {}
 
     void gather(std::size_t row, HandSurroundings& out) const {
         const Entity hand = io_.owner.owners()[row];
@@ -45,6 +45,8 @@ class Gatherer {
             add_to(stream, grab.body, out.meshes.back());
             add_near(out, stream);
             out.signature = stream.value() | 1U;
+        } else if (io_.meshes != nullptr && io_.body_pose.contains(grab.body)) {
+            stats_.count(Fallback::body_no_surface);
         }
     }
 
@@ -99,13 +101,14 @@ class Gatherer {
     }
 
     const GatherSurroundingsIo& io_;
+    StageStats& stats_;
 };
 
 }  // namespace
 
-void gather_surroundings(const GatherSurroundingsIo& io) {
+void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats) {
     io.surroundings.resize(io.owner.size());
-    const Gatherer gatherer(io);
+    const Gatherer gatherer(io, stats);
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         gatherer.gather(row, io.surroundings[row]);
     }

@@ -9,6 +9,7 @@
 #include "components/grab.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/player.hpp"
+#include "components/stats.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
@@ -34,6 +35,7 @@ struct GatherSurroundingsIo {
 // where its grip holds it: on its anchor, turned as it is tracked, or, where it holds an object,
 // with the object. Bodies are near where the box around their mesh comes within a hand's length of
 // the palm. A held head is no surface: hands on it are shown as they are.
-void gather_surroundings(const GatherSurroundingsIo& io);
+// A held body that should have a surface and has none is counted.
+void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
 
 }  // namespace handhold

@@ -1,0 +1,94 @@
+#include "systems/hand/gather_surroundings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "column_scene.hpp"
+#include "components/builtin_hand_rig.hpp"
+#include "engine/collision/shape_library.hpp"
+
+namespace handhold::gather_surroundings_test {
+namespace {
+
+using test::k_player;
+using test::k_right;
+using test::k_wall;
+
+// A right hand on a box of a metre.
+struct OneHand {
+    ShapeLibrary shapes;
+    ShapeId box = shapes.add_box(Vec3(0.5, 0.5, 0.5));
+    std::array<HandRig, k_hand_count> rigs = {builtin_hand_rig(HandSide::left),
+                                              builtin_hand_rig(HandSide::right)};
+    FrameGraph frame;
+    Column<PersistentId> persistent_id;
+    Column<HandOwner> owner;
+    Column<HandTracking> hand;
+    Column<Grab> grab;
+    Column<PlayerOrigin> origin;
+    Column<HeadTracking> head;
+    Column<BodyPose> body_pose;
+    Column<Collider> collider;
+    std::vector<HandSurroundings> surroundings;
+    StageStats stats;
+
+    OneHand() {
+        owner.add(k_right) = {k_player, HandSide::right};
+        hand.add(k_right);
+        origin.add(k_player);
+        head.add(k_player);
+        persistent_id.add(k_wall).value = 7;
+        body_pose.add(k_wall);
+        collider.add(k_wall).shape = box;
+        Grab& on_wall = grab.add(k_right);
+        on_wall.kind = GripKind::surface;
+        on_wall.body = k_wall;
+        on_wall.anchor_bs.position = Vec3(0.0, 0.5, 0.0);
+    }
+
+    const HandSurroundings& gather(const GripMeshLibrary* meshes) {
+        gather_surroundings({meshes, rigs, frame, persistent_id, owner, hand, grab, origin, head,
+                             body_pose, collider, surroundings},
+                            stats);
+        return surroundings.front();
+    }
+    std::uint64_t counted() const { return test::count_of(stats, Fallback::body_no_surface); }
+};
+
+TEST(GatherSurroundings, GivesTheGrippedBodysSurfaceFirst) {
+    OneHand scene;
+    const GripMeshLibrary meshes(scene.shapes);
+    const HandSurroundings& hand = scene.gather(&meshes);
+    EXPECT_EQ(hand.body, k_wall);
+    ASSERT_EQ(hand.meshes.size(), 1U);
+    EXPECT_EQ(hand.meshes.front().mesh, &meshes.at(scene.box));
+    EXPECT_EQ(scene.counted(), 0U);
+}
+
+TEST(GatherSurroundings, CountsHandsOnABodyWithoutASurface) {
+    OneHand scene;
+    const GripMeshLibrary none;
+    const HandSurroundings& hand = scene.gather(&none);
+    EXPECT_EQ(hand.body, k_no_entity);
+    EXPECT_TRUE(hand.grips);
+    EXPECT_EQ(scene.counted(), 1U);
+}
+
+TEST(GatherSurroundings, CountsNothingWhereHandsAreNotFitted) {
+    OneHand scene;
+    scene.gather(nullptr);
+    EXPECT_EQ(scene.counted(), 0U);
+}
+
+TEST(GatherSurroundings, CountsNothingForEmptyHandsAndBodiesThatAreGone) {
+    OneHand scene;
+    const GripMeshLibrary none;
+    scene.grab.at(k_right) = {};
+    scene.gather(&none);
+    scene.grab.at(k_right).kind = GripKind::surface;
+    scene.grab.at(k_right).body = test::entity(77);
+    scene.gather(&none);
+    EXPECT_EQ(scene.counted(), 0U);
+}
+
+}  // namespace
+}  // namespace handhold::gather_surroundings_test
