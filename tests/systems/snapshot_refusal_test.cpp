@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "systems/snapshot.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/random.hpp"
 #include "tests/systems/played_crowd.hpp"
 #include "tests/systems/snapshot_bytes.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 
 using test::Crowd;
 using test::played_crowd;
+using test::Random;
 using test::saved;
 using test::SnapshotBytes;
 
