@@ -1,22 +1,34 @@
 #include "engine/anim/skinning.hpp"
 
+#include <algorithm>
+
 #include "engine/core/check.hpp"
 
 namespace handhold {
+namespace {
+
+// By the matrix of cofactors, which keeps a normal square to its surface whatever the scale.
+Vec3 turn_normal(const Mat3& turn, const Vec3& normal) {
+    const Vec3 x = turn.col(0);
+    const Vec3 y = turn.col(1);
+    const Vec3 z = turn.col(2);
+    return y.cross(z) * normal.x() + z.cross(x) * normal.y() + x.cross(y) * normal.z();
+}
+
+}  // namespace
 
 void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
                    std::vector<Vec3>& normals) {
     HH_CHECK(input.weights.size() == input.positions.size() &&
                  input.normals.size() == input.positions.size(),
              "weights and normals by vertex", input.weights.size());
-    HH_CHECK(input.bind.size() == input.pose.size(), "a pose for each joint", input.pose.size());
-    std::vector<Mat3> turns(input.bind.size());
-    std::vector<Vec3> moves(input.bind.size());
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        const Pose carry = input.pose[i] * inverse(input.bind[i]);
-        turns[i] = carry.rotation.toRotationMatrix();
-        moves[i] = carry.position;
+    std::size_t joints = 0;
+    for (const SkinWeights& weights : input.weights) {
+        for (const std::uint16_t joint : weights.joint) {
+            joints = std::max(joints, joint + std::size_t{1});
+        }
     }
+    HH_CHECK(joints <= input.carry.size(), "a way for each joint", input.carry.size());
     positions.resize(input.positions.size());
     normals.resize(input.positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -24,11 +36,12 @@ void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
         Vec3 move = Vec3::Zero();
         for (std::size_t k = 0; k < 4; ++k) {
             const double weight = static_cast<double>(input.weights[i].weight[k]);
-            turn += weight * turns[input.weights[i].joint[k]];
-            move += weight * moves[input.weights[i].joint[k]];
+            const Affine& carry = input.carry[input.weights[i].joint[k]];
+            turn += weight * carry.linear;
+            move += weight * carry.translation;
         }
         positions[i] = turn * input.positions[i] + move;
-        const Vec3 normal = turn * input.normals[i];
+        const Vec3 normal = turn_normal(turn, input.normals[i]);
         const double length = normal.norm();
         normals[i] = length > 1e-12 ? Vec3(normal / length) : input.normals[i];
     }

@@ -20,12 +20,11 @@ struct SkinVerticesInput {
     std::span<const Vec3> positions;
     std::span<const Vec3> normals;         // by vertex, unit
     std::span<const SkinWeights> weights;  // by vertex; joints below the number of joints
-    std::span<const Pose> bind;            // by joint: where the vertices hang on it
-    std::span<const Pose> pose;            // by joint: where it stands now, in the same frame
+    std::span<const Affine> carry;         // by joint: from the bind to where it takes them now
 };
 
 // Linear blend skinning: each vertex goes where its joints carry it, in the mean. Sizes of the
-// outputs become those of the input; normals stay unit.
+// outputs become those of the input; normals stay unit, and square to surfaces that are scaled.
 void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
                    std::vector<Vec3>& normals);
 

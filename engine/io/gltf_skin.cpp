@@ -33,17 +33,39 @@ std::optional<Pose> rigid_part(const Affine& frame) {
     return Pose{frame.translation, Quat(axes).normalized()};
 }
 
+// The rotation that is nearest to a frame, column by column.
+Pose nearest_pose(const Affine& frame) {
+    Vec3 y = frame.linear.col(1);
+    Vec3 z = frame.linear.col(2);
+    const double length_y = y.norm();
+    const double length_z = z.norm();
+    y = length_y > 1e-9 ? Vec3(y / length_y) : Vec3(Vec3::UnitY());
+    z = length_z > 1e-9 ? Vec3(z / length_z) : Vec3(Vec3::UnitZ());
+    const Vec3 x = y.cross(z);
+    const double across = x.norm();
+    if (!(across > 1e-6) || !std::isfinite(across)) {
+        return {frame.translation, Quat::Identity()};
+    }
+    Mat3 axes;
+    axes.col(0) = x / across;
+    axes.col(1) = y;
+    axes.col(2) = Vec3(axes.col(0)).cross(y);
+    return {frame.translation, Quat(axes).normalized()};
+}
+
+// Which nodes are joints: those that the one skin names, or all of the scene.
+enum class JointSource { skin, scene };
+
 // The first error stops it.
 class SkinReader {
   public:
-    SkinReader(const tinygltf::Model& model, std::string file)
-        : model_(model), reader_(model, file) {
+    SkinReader(const tinygltf::Model& model, std::string file, JointSource source)
+        : model_(model), reader_(model, file), source_(source) {
         skin_.file = std::move(file);
     }
 
     Result<SkinnedMesh> read() {
-        if (!reader_.place_scene(placed_) || !choose_skin() || !read_joints() || !read_binds() ||
-            !read_meshes()) {
+        if (!reader_.place_scene(placed_) || !choose_skin() || !read_joints() || !read_meshes()) {
             return reader_.error();
         }
         finish_normals();
@@ -55,32 +77,54 @@ class SkinReader {
         AccessorView positions, normals, joints, weights;
         bool has_normals = false;
     };
+    // What the vertices of a mesh name as joints: the joint, and the way from the mesh's bind
+    // space.
+    struct Slot {
+        std::uint16_t joint = 0;
+        Affine to_scene;
+    };
+    // Of one mesh: the slots of its skin, or its node alone.
+    struct Binding {
+        std::vector<Slot> slots;
+        bool is_skinned = false;
+    };
 
     bool refuse(std::string place, std::string expected) {
         return reader_.refuse(std::move(place), std::move(expected));
     }
     bool choose_skin();
     bool read_joints();
-    void find_parents(const std::map<int, std::int32_t>& joint_of_node);
-    bool read_binds();
+    bool list_joints(std::vector<int>& nodes);
+    bool append_joint(const PlacedNode& placed);
+    void find_parents();
+    bool bind_skin(int skin, Binding& binding);
+    bool undo_binds(int skin, Binding& binding);
     bool read_meshes();
-    bool read_primitive(const tinygltf::Primitive& primitive, const std::string& place);
-    bool view_vertices(const tinygltf::Primitive& primitive, const std::string& place,
-                       VertexViews& views);
-    bool append_vertex(const VertexViews& views, std::size_t i, const std::string& place);
-    bool append_weights(const VertexViews& views, std::size_t i, const std::string& place);
+    bool read_primitive(const tinygltf::Primitive& primitive, const Binding& binding,
+                        const std::string& place);
+    bool view_vertices(const tinygltf::Primitive& primitive, bool is_skinned,
+                       const std::string& place, VertexViews& views);
+    bool append_vertex(const VertexViews& views, std::size_t i, const Affine& to_scene,
+                       const std::string& place);
+    bool append_weights(const VertexViews& views, std::size_t i, const Binding& binding,
+                        const std::string& place, Affine& to_scene);
     void finish_normals();
 
     const tinygltf::Model& model_;
     GltfModelReader reader_;
+    JointSource source_;
     SkinnedMesh skin_;
-    int skin_index_ = -1;
+    int skin_index_ = -1;  // of JointSource::skin
     std::vector<PlacedNode> placed_;
-    std::vector<Affine> to_scene_;  // by joint: from the mesh's bind space
+    std::map<int, const PlacedNode*> by_node_;
+    std::map<int, std::uint16_t> joint_of_node_;
     std::vector<std::uint32_t> indices_;
 };
 
 bool SkinReader::choose_skin() {
+    if (source_ == JointSource::scene) {
+        return true;
+    }
     for (const PlacedNode& placed : placed_) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
         if (node.mesh == -1 || node.skin == -1) {
@@ -98,48 +142,73 @@ bool SkinReader::choose_skin() {
     return skin_index_ != -1 || refuse("/nodes", "expected a mesh with a skin");
 }
 
-bool SkinReader::read_joints() {
-    const std::vector<int>& joints = model_.skins[static_cast<std::size_t>(skin_index_)].joints;
-    const std::string place = gltf_pointer("skins", skin_index_) + "/joints";
-    if (joints.empty() || joints.size() > k_max_skin_joints) {
+// The nodes that are joints, in order.
+bool SkinReader::list_joints(std::vector<int>& nodes) {
+    if (source_ == JointSource::skin) {
+        nodes = model_.skins[static_cast<std::size_t>(skin_index_)].joints;
+    } else {
+        for (const PlacedNode& placed : placed_) {
+            nodes.push_back(placed.node);
+        }
+    }
+    const std::string place =
+        source_ == JointSource::skin ? gltf_pointer("skins", skin_index_) + "/joints" : "/nodes";
+    if (nodes.empty() || nodes.size() > k_max_skin_joints) {
         return refuse(place, "expected 1 to " + std::to_string(k_max_skin_joints) +
-                                 " joints, found " + std::to_string(joints.size()));
+                                 " joints, found " + std::to_string(nodes.size()));
     }
-    std::map<int, const PlacedNode*> by_node;
-    for (const PlacedNode& placed : placed_) {
-        by_node[placed.node] = &placed;
-    }
-    std::map<int, std::int32_t> joint_of_node;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        const std::string joint_place = place + "/" + std::to_string(i);
-        const auto node = by_node.find(joints[i]);
-        if (node == by_node.end()) {
-            return refuse(joint_place,
-                          "expected a node of the scene, found " + std::to_string(joints[i]));
-        }
-        if (!joint_of_node.emplace(joints[i], static_cast<std::int32_t>(i)).second) {
-            return refuse(joint_place, "expected every joint once");
-        }
-        const std::optional<Pose> pose = rigid_part(node->second->world);
-        if (!pose || pose->position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
-            return refuse(gltf_pointer("nodes", joints[i]),
-                          "expected a joint that is turned, moved and evenly scaled at most");
-        }
-        const tinygltf::Node& file_node = model_.nodes[static_cast<std::size_t>(joints[i])];
-        skin_.joints.push_back({file_node.name, -1, *pose, read_gltf_numbers(file_node.extras)});
-        to_scene_.push_back(node->second->world);
-    }
-    find_parents(joint_of_node);
     return true;
 }
 
-void SkinReader::find_parents(const std::map<int, std::int32_t>& joint_of_node) {
+bool SkinReader::read_joints() {
+    std::vector<int> nodes;
+    if (!list_joints(nodes)) {
+        return false;
+    }
+    for (const PlacedNode& placed : placed_) {
+        by_node_[placed.node] = &placed;
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto node = by_node_.find(nodes[i]);
+        const auto place = [&] {
+            return gltf_pointer("skins", skin_index_) + "/joints/" + std::to_string(i);
+        };
+        if (node == by_node_.end()) {
+            return refuse(place(),
+                          "expected a node of the scene, found " + std::to_string(nodes[i]));
+        }
+        if (!joint_of_node_.emplace(nodes[i], static_cast<std::uint16_t>(i)).second) {
+            return refuse(place(), "expected every joint once");
+        }
+        if (!append_joint(*node->second)) {
+            return false;
+        }
+    }
+    find_parents();
+    return true;
+}
+
+bool SkinReader::append_joint(const PlacedNode& placed) {
+    std::optional<Pose> pose = rigid_part(placed.world);
+    if (!pose && source_ == JointSource::scene && is_finite(placed.world.translation)) {
+        pose = nearest_pose(placed.world);
+    }
+    if (!pose || pose->position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
+        return refuse(gltf_pointer("nodes", placed.node),
+                      "expected a joint that is turned, moved and evenly scaled at most");
+    }
+    const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
+    skin_.joints.push_back({node.name, -1, *pose, read_gltf_numbers(node.extras)});
+    return true;
+}
+
+void SkinReader::find_parents() {
     std::map<int, std::int32_t> joint_above;    // by node
     for (const PlacedNode& placed : placed_) {  // parents first
-        const auto self = joint_of_node.find(placed.node);
+        const auto self = joint_of_node_.find(placed.node);
         const auto above = joint_above.find(placed.node);
         std::int32_t joint = above == joint_above.end() ? -1 : above->second;
-        if (self != joint_of_node.end()) {
+        if (self != joint_of_node_.end()) {
             skin_.joints[static_cast<std::size_t>(self->second)].parent = joint;
             joint = self->second;
         }
@@ -149,22 +218,36 @@ void SkinReader::find_parents(const std::map<int, std::int32_t>& joint_of_node) 
     }
 }
 
-bool SkinReader::read_binds() {
-    const int accessor = model_.skins[static_cast<std::size_t>(skin_index_)].inverseBindMatrices;
+bool SkinReader::bind_skin(int skin, Binding& binding) {
+    const std::vector<int>& nodes = model_.skins[static_cast<std::size_t>(skin)].joints;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto joint = joint_of_node_.find(nodes[i]);
+        if (joint == joint_of_node_.end()) {
+            return refuse(gltf_pointer("skins", skin) + "/joints/" + std::to_string(i),
+                          "expected a node of the scene, found " + std::to_string(nodes[i]));
+        }
+        binding.slots.push_back({joint->second, by_node_[nodes[i]]->world});
+    }
+    binding.is_skinned = true;
+    return undo_binds(skin, binding);
+}
+
+bool SkinReader::undo_binds(int skin, Binding& binding) {
+    const int accessor = model_.skins[static_cast<std::size_t>(skin)].inverseBindMatrices;
     if (accessor == -1) {  // then they are identities (specification, 3.7.3.1)
         return true;
     }
-    const std::string place = gltf_pointer("skins", skin_index_) + "/inverseBindMatrices";
+    const std::string place = gltf_pointer("skins", skin) + "/inverseBindMatrices";
     AccessorView view;
     if (!reader_.view_accessor(accessor, GltfElements::matrices, place, view)) {
         return false;
     }
-    if (view.count < to_scene_.size()) {
+    if (view.count < binding.slots.size()) {
         return refuse(place, "expected a matrix for each of the " +
-                                 std::to_string(to_scene_.size()) + " joints, found " +
+                                 std::to_string(binding.slots.size()) + " joints, found " +
                                  std::to_string(view.count));
     }
-    for (std::size_t i = 0; i < to_scene_.size(); ++i) {
+    for (std::size_t i = 0; i < binding.slots.size(); ++i) {
         Affine inverse_bind;
         for (std::size_t column = 0; column < 3; ++column) {
             for (std::size_t row = 0; row < 3; ++row) {
@@ -181,9 +264,7 @@ bool SkinReader::read_binds() {
             return refuse(place,
                           "expected finite matrices, found another at joint " + std::to_string(i));
         }
-        Affine& to_scene = to_scene_[i];
-        to_scene.translation += to_scene.linear * inverse_bind.translation;
-        to_scene.linear = (to_scene.linear * inverse_bind.linear).eval();
+        binding.slots[i].to_scene = binding.slots[i].to_scene * inverse_bind;
     }
     return true;
 }
@@ -191,27 +272,39 @@ bool SkinReader::read_binds() {
 bool SkinReader::read_meshes() {
     for (const PlacedNode& placed : placed_) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-        if (node.mesh == -1 || node.skin == -1) {
+        if (node.mesh == -1 || (node.skin == -1 && source_ == JointSource::skin)) {
             continue;
         }
         if (!is_gltf_index(node.mesh, model_.meshes.size())) {
             return reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/mesh", "mesh",
                                         model_.meshes.size(), node.mesh);
         }
+        if (node.skin != -1 && !is_gltf_index(node.skin, model_.skins.size())) {
+            return reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/skin", "skin",
+                                        model_.skins.size(), node.skin);
+        }
+        Binding binding;
+        if (node.skin == -1) {
+            binding.slots.push_back({joint_of_node_[placed.node], placed.world});
+        } else if (!bind_skin(node.skin, binding)) {
+            return false;
+        }
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const std::string place =
                 gltf_pointer("meshes", node.mesh) + "/primitives/" + std::to_string(i);
-            if (!read_primitive(mesh.primitives[i], place)) {
+            if (!read_primitive(mesh.primitives[i], binding, place)) {
                 return false;
             }
         }
     }
-    return !skin_.triangles.empty() || refuse("/meshes", "expected triangles on the skin");
+    return !skin_.triangles.empty() ||
+           refuse("/meshes", source_ == JointSource::skin ? "expected triangles on the skin"
+                                                          : "expected triangles");
 }
 
-bool SkinReader::view_vertices(const tinygltf::Primitive& primitive, const std::string& place,
-                               VertexViews& views) {
+bool SkinReader::view_vertices(const tinygltf::Primitive& primitive, bool is_skinned,
+                               const std::string& place, VertexViews& views) {
     const auto view = [&](const char* name, GltfElements elements, AccessorView& out) {
         const auto found = primitive.attributes.find(name);
         const std::string attribute_place = place + "/attributes/" + name;
@@ -233,17 +326,18 @@ bool SkinReader::view_vertices(const tinygltf::Primitive& primitive, const std::
     }
     views.has_normals = primitive.attributes.contains("NORMAL");
     return view("POSITION", GltfElements::vectors, views.positions) &&
-           view("JOINTS_0", GltfElements::joints, views.joints) &&
-           view("WEIGHTS_0", GltfElements::weights, views.weights) &&
+           (!is_skinned || (view("JOINTS_0", GltfElements::joints, views.joints) &&
+                            view("WEIGHTS_0", GltfElements::weights, views.weights))) &&
            (!views.has_normals || view("NORMAL", GltfElements::vectors, views.normals));
 }
 
-bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const std::string& place) {
+bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const Binding& binding,
+                                const std::string& place) {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
         return refuse(place + "/mode", "expected triangles");
     }
     VertexViews views;
-    if (!view_vertices(primitive, place, views) ||
+    if (!view_vertices(primitive, binding.is_skinned, place, views) ||
         !reader_.read_indices(primitive.indices, place + "/indices", views.positions.count,
                               indices_)) {
         return false;
@@ -259,7 +353,9 @@ bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const std:
                                  std::to_string(indices_.size()) + " corners");
     }
     for (std::size_t i = 0; i < views.positions.count; ++i) {
-        if (!append_weights(views, i, place) || !append_vertex(views, i, place)) {
+        Affine to_scene;
+        if (!append_weights(views, i, binding, place, to_scene) ||
+            !append_vertex(views, i, to_scene, place)) {
             return false;
         }
     }
@@ -275,25 +371,36 @@ bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const std:
     Mesh mesh;  // for its triangles without those that have no area
     mesh.positions.swap(skin_.positions);
     mesh.triangles.swap(skin_.triangles);
-    append_triangles(TriangleMode::list, Winding::kept, indices_, static_cast<std::uint32_t>(first),
-                     mesh);
+    const bool is_mirrored =
+        !binding.is_skinned && binding.slots.front().to_scene.linear.determinant() < 0.0;
+    append_triangles(TriangleMode::list, is_mirrored ? Winding::reversed : Winding::kept, indices_,
+                     static_cast<std::uint32_t>(first), mesh);
     mesh.positions.swap(skin_.positions);
     mesh.triangles.swap(skin_.triangles);
     return true;
 }
 
-bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const std::string& place) {
+// Also where these joints take the vertex as the file stands.
+bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const Binding& binding,
+                                const std::string& place, Affine& to_scene) {
+    if (!binding.is_skinned) {
+        const Slot& slot = binding.slots.front();
+        skin_.weights.push_back({{slot.joint, 0, 0, 0}, {1.0F, 0.0F, 0.0F, 0.0F}});
+        to_scene = slot.to_scene;
+        return true;
+    }
     SkinWeights weights;
+    std::array<std::size_t, 4> slots{};
     float sum = 0.0F;
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t joint = read_gltf_unsigned(views.joints, i, k);
-        if (joint >= skin_.joints.size()) {
-            return refuse(place + "/attributes/JOINTS_0", "expected joints below " +
-                                                              std::to_string(skin_.joints.size()) +
-                                                              ", found " + std::to_string(joint) +
-                                                              " at vertex " + std::to_string(i));
+        slots[k] = read_gltf_unsigned(views.joints, i, k);
+        if (slots[k] >= binding.slots.size()) {
+            return refuse(place + "/attributes/JOINTS_0",
+                          "expected joints below " + std::to_string(binding.slots.size()) +
+                              ", found " + std::to_string(slots[k]) + " at vertex " +
+                              std::to_string(i));
         }
-        weights.joint[k] = static_cast<std::uint16_t>(joint);
+        weights.joint[k] = binding.slots[slots[k]].joint;
         weights.weight[k] = read_gltf_share(views.weights, i, k);
         if (!(weights.weight[k] >= 0.0F) || weights.weight[k] > 1e6F) {
             return refuse(
@@ -307,23 +414,20 @@ bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const s
             place + "/attributes/WEIGHTS_0",
             "expected a sum of weights above 0, found none at vertex " + std::to_string(i));
     }
-    for (float& weight : weights.weight) {
-        weight /= sum;
+    to_scene = {Mat3::Zero(), Vec3::Zero()};
+    for (std::size_t k = 0; k < 4; ++k) {
+        weights.weight[k] /= sum;
+        const double weight = static_cast<double>(weights.weight[k]);
+        to_scene.linear += weight * binding.slots[slots[k]].to_scene.linear;
+        to_scene.translation += weight * binding.slots[slots[k]].to_scene.translation;
     }
     skin_.weights.push_back(weights);
     return true;
 }
 
-// After append_weights: where the joints carry the vertex as the file stands.
-bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const std::string& place) {
-    const SkinWeights& weights = skin_.weights.back();
-    Affine blend{Mat3::Zero(), Vec3::Zero()};
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double weight = static_cast<double>(weights.weight[k]);
-        blend.linear += weight * to_scene_[weights.joint[k]].linear;
-        blend.translation += weight * to_scene_[weights.joint[k]].translation;
-    }
-    const Vec3 position = blend.linear * read_gltf_vector(views.positions, i) + blend.translation;
+bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const Affine& to_scene,
+                               const std::string& place) {
+    const Vec3 position = transform_point(to_scene, read_gltf_vector(views.positions, i));
     if (!is_finite(position) || position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
         return refuse(
             place + "/attributes/POSITION",
@@ -331,7 +435,7 @@ bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const st
     }
     Vec3 normal = Vec3::Zero();
     if (views.has_normals) {
-        normal = blend.linear * read_gltf_vector(views.normals, i);
+        normal = to_scene.linear * read_gltf_vector(views.normals, i);
         if (!is_finite(normal)) {
             return refuse(place + "/attributes/NORMAL",
                           "expected finite normals, found another at vertex " + std::to_string(i));
@@ -360,9 +464,8 @@ void SkinReader::finish_normals() {
     }
 }
 
-}  // namespace
-
-Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path) {
+Result<SkinnedMesh> parse_joints(std::string_view bytes, const std::filesystem::path& path,
+                                 JointSource source) {
     const Result<std::string> glb = extract_geometry_glb(bytes, path.string(), GltfUse::skinned);
     if (!glb) {
         return glb.error();
@@ -371,15 +474,27 @@ Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesyste
     if (!model) {
         return model.error();
     }
-    return SkinReader(model.value(), path.string()).read();
+    return SkinReader(model.value(), path.string(), source).read();
+}
+
+}  // namespace
+
+Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path) {
+    return parse_joints(bytes, path, JointSource::skin);
+}
+
+Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path) {
+    return parse_joints(bytes, path, JointSource::scene);
 }
 
 Result<SkinnedMesh> load_gltf_skin(const std::filesystem::path& path) {
     const Result<std::string> bytes = read_file(path);
-    if (!bytes) {
-        return bytes.error();
-    }
-    return parse_gltf_skin(bytes.value(), path);
+    return bytes ? parse_gltf_skin(bytes.value(), path) : bytes.error();
+}
+
+Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path) {
+    const Result<std::string> bytes = read_file(path);
+    return bytes ? parse_gltf_figure(bytes.value(), path) : bytes.error();
 }
 
 }  // namespace handhold

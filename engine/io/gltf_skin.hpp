@@ -49,4 +49,11 @@ Result<SkinnedMesh> load_gltf_skin(const std::filesystem::path& path);
 // The same for bytes in memory; `path` is for messages and for external buffers.
 Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path);
 
+// A figure: every node of the default scene is a joint, carrying what hangs on it; meshes without
+// a skin go with their node as a whole, skins may be several. Otherwise as above, but that joints
+// may be squashed and mirrored too: then bind_ms has the nearest rotation. Refused besides: more
+// than k_max_skin_joints nodes.
+Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
+Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
+
 }  // namespace handhold

@@ -9,12 +9,6 @@
 
 namespace handhold {
 
-// x -> linear * x + translation. Unlike a Pose it may scale, shear and mirror.
-struct Affine {
-    Mat3 linear = Mat3::Identity();
-    Vec3 translation = Vec3::Zero();
-};
-
 // A node of a scene file, as it stands there: nothing about the indices is known.
 struct FileNode {
     Affine local;  // into the parent's frame

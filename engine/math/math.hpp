@@ -39,6 +39,21 @@ inline Pose inverse(const Pose& pose) {
     return {-(rotation * pose.position), rotation};
 }
 
+// x -> linear * x + translation. Unlike a Pose it may scale, shear and mirror.
+struct Affine {
+    Mat3 linear = Mat3::Identity();
+    Vec3 translation = Vec3::Zero();
+};
+inline Affine to_affine(const Pose& pose) {
+    return {pose.rotation.toRotationMatrix(), pose.position};
+}
+inline Vec3 transform_point(const Affine& affine, const Vec3& point) {
+    return affine.linear * point + affine.translation;
+}
+inline Affine operator*(const Affine& a, const Affine& b) {
+    return {a.linear * b.linear, transform_point(a, b.translation)};
+}
+
 // [v]x, the matrix with cross_matrix(v) * u == v.cross(u).
 inline Mat3 cross_matrix(const Vec3& v) {
     Mat3 m;

@@ -137,14 +137,14 @@ void HandFigures::add_skin(HandSide side, const Pose& wrist_ws,
         }
         copies.push_back(std::move(copy));
     }
-    std::vector<Pose> bind;
-    for (const SkinJoint& joint : skin.joints) {
-        bind.push_back(joint.bind_ms);
-    }
     // From the file's frame straight into hand space.
-    skin_vertices(
-        {skin.positions, skin.normals, skin.weights, bind, skeleton_pose(model.rig, fingers)},
-        positions_, normals_);
+    const std::vector<Pose> posed_hs = skeleton_pose(model.rig, fingers);
+    std::vector<Affine> carry;
+    carry.reserve(posed_hs.size());
+    for (std::size_t i = 0; i < posed_hs.size(); ++i) {
+        carry.push_back(to_affine(posed_hs[i] * inverse(skin.joints[i].bind_ms)));
+    }
+    skin_vertices({skin.positions, skin.normals, skin.weights, carry}, positions_, normals_);
     for (std::size_t run = 0; run < skin.color_runs.size(); ++run) {
         const MeshId mesh = copies[used][run];
         renderer.move_mesh(mesh, positions_, normals_);

@@ -18,7 +18,11 @@ struct Strip {
     std::vector<Vec3> out_positions, out_normals;
 
     void run(const std::vector<Pose>& pose) {
-        skin_vertices({positions, normals, weights, bind, pose}, out_positions, out_normals);
+        std::vector<Affine> carry;
+        for (std::size_t i = 0; i < pose.size(); ++i) {
+            carry.push_back(to_affine(pose[i] * inverse(bind[i])));
+        }
+        skin_vertices({positions, normals, weights, carry}, out_positions, out_normals);
     }
 };
 

@@ -194,5 +194,53 @@ TEST(GltfSkinRealData, BothHandsLoad) {
     }
 }
 
+// Beside the strip a triangle without a skin on a node that mirrors, and the skin's own node, which
+// is a joint that carries nothing.
+TEST(GltfFigure, EveryNodeIsAJointAndMeshesGoWithTheirNode) {
+    GltfBuilder builder = strip_file();
+    const int positions = builder.add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const int mesh = builder.add_mesh(positions, -1);
+    builder.json["nodes"].push_back(
+        {{"name", "flag"}, {"mesh", mesh}, {"translation", {0, 0, 4}}, {"scale", {-1, 1, 1}}});
+    builder.json["nodes"][2]["children"] = {4};  // on the second joint, which is turned by 90
+    const Result<SkinnedMesh> figure = parse_gltf_figure(builder.glb(), "figure.glb");
+    ASSERT_TRUE(figure.ok()) << figure.error().message();
+    const SkinnedMesh& found = figure.value();
+    ASSERT_EQ(found.joints.size(), 5U);
+    ASSERT_EQ(found.positions.size(), 7U);
+    const auto joint = [&](const char* name) {
+        for (std::size_t i = 0; i < found.joints.size(); ++i) {
+            if (found.joints[i].name == name) {
+                return i;
+            }
+        }
+        return std::size_t{99};
+    };
+    ASSERT_LT(joint("flag"), 5U);
+    EXPECT_EQ(found.joints[joint("flag")].parent, static_cast<std::int32_t>(joint("second")));
+    EXPECT_EQ(found.joints[joint("second")].parent, static_cast<std::int32_t>(joint("first")));
+    // (1, 0, 0) of the flag: mirrored, turned to -Y, half the size, from the second joint.
+    std::size_t flag = 0;
+    while (found.weights[flag].joint[0] != joint("flag")) {
+        ++flag;
+    }
+    EXPECT_NEAR((found.positions[flag] - Vec3(0.5, 2, 2)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((found.positions[flag + 1] - Vec3(0.5, 1.5, 2)).norm(), 0.0, 1e-6);
+    // Outside stays outside: the triangle's winding was turned with the mirror.
+    for (const auto& [a, b, c] : found.triangles) {
+        if (a >= flag && a < flag + 3) {
+            const Vec3 area = (found.positions[b] - found.positions[a])
+                                  .cross(found.positions[c] - found.positions[a]);
+            EXPECT_GT(area.z(), 0.0);
+        }
+    }
+}
+
+TEST(GltfFigure, NeedsTriangles) {
+    GltfBuilder builder;
+    builder.json["nodes"] = {{{"name", "alone"}}};
+    EXPECT_FALSE(parse_gltf_figure(builder.glb(), "alone.glb").ok());
+}
+
 }  // namespace
 }  // namespace handhold::io_gltf_skin_test
