@@ -1,0 +1,187 @@
+#include "components/body_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+// Where a bone is and how long; 0 where it ends in itself.
+struct PlacedBone {
+    Pose frame_ws;
+    double length_m = 0.0;
+};
+
+// Ends of the trunk's links from the pelvis up.
+std::array<Vec3, k_spine_links + 1> trunk_points(const SpinePose& spine) {
+    std::array<Vec3, k_spine_links + 1> points;
+    points[0] = spine.pelvis_ws.position;
+    for (std::size_t i = 0; i < k_spine_links; ++i) {
+        points[k_spine_links - i] = spine.spine_ws[i].position;
+    }
+    return points;
+}
+
+double trunk_length(const SpinePose& spine) {
+    const auto points = trunk_points(spine);
+    double length = 0.0;
+    for (std::size_t i = 0; i < k_spine_links; ++i) {
+        length += (points[i + 1] - points[i]).norm();
+    }
+    return length;
+}
+
+PlacedBone place_arm(const ArmPose::Arm& arm, BodyBone bone) {
+    switch (bone) {
+        case BodyBone::clavicle:
+            return {arm.clavicle_ws, (arm.upper_ws.position - arm.clavicle_ws.position).norm()};
+        case BodyBone::upper_arm:
+            return {arm.upper_ws, (arm.forearm_ws.position - arm.upper_ws.position).norm()};
+        case BodyBone::forearm:
+            return {arm.forearm_ws, (arm.hand_ws.position - arm.forearm_ws.position).norm()};
+        default:
+            return {arm.hand_ws, 0.0};
+    }
+}
+
+PlacedBone place_leg(const SpinePose::Leg& leg, BodyBone bone) {
+    switch (bone) {
+        case BodyBone::thigh:
+            return {leg.thigh_ws, (leg.shin_ws.position - leg.thigh_ws.position).norm()};
+        case BodyBone::shin:
+            return {leg.shin_ws, (leg.foot_ws.position - leg.shin_ws.position).norm()};
+        default:
+            return {leg.foot_ws, 0.0};
+    }
+}
+
+PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render) {
+    switch (carrier.bone) {
+        case BodyBone::trunk:
+        case BodyBone::neck:  // place_neck puts it where it is
+            return {trunk_at(render.spine, carrier.along), trunk_length(render.spine)};
+        case BodyBone::head:
+            return {render.head_ws, 0.0};
+        case BodyBone::clavicle:
+        case BodyBone::upper_arm:
+        case BodyBone::forearm:
+        case BodyBone::hand:
+            return place_arm(render.arms.arms[index_of(carrier.side)], carrier.bone);
+        case BodyBone::thigh:
+        case BodyBone::shin:
+        case BodyBone::foot:
+            break;
+    }
+    return place_leg(render.spine.legs[index_of(carrier.side)], carrier.bone);
+}
+
+// Between the chest that carries its lower end and the head that carries the upper one.
+PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest, const Quat& head) {
+    const Vec3 along = to_ws - from_ws;
+    const double length = along.norm();
+    const Quat between = chest.slerp(0.5, head);
+    if (length < 1e-6) {
+        return {{from_ws, between}, 0.0};
+    }
+    const Quat onto = rotation_between(between * Vec3::UnitY(), along / length);
+    return {{from_ws, (onto * between).normalized()}, length};
+}
+
+// How much thicker a player is than the rig.
+struct Girth {
+    double legs = 1.0;
+    double trunk = 1.0;
+    double others = 1.0;
+
+    double of(BodyBone bone) const {
+        return bone == BodyBone::trunk ? trunk : bone >= BodyBone::thigh ? legs : others;
+    }
+};
+
+// From the file to the world: into the bone, scaled there, and out with it.
+Affine stretch_onto(const BodyRig::Carrier& carrier, const PlacedBone& placed, const Girth& girth) {
+    Vec3 scale = Vec3::Constant(girth.of(carrier.bone));
+    if (carrier.length_m > 0.0 && placed.length_m > 0.0) {
+        const bool is_arm = carrier.bone == BodyBone::clavicle ||
+                            carrier.bone == BodyBone::upper_arm ||
+                            carrier.bone == BodyBone::forearm;
+        scale[is_arm ? 2 : 1] = placed.length_m / carrier.length_m;
+    }
+    const Affine scaling{scale.asDiagonal(), Vec3::Zero()};
+    return to_affine(placed.frame_ws) * scaling * to_affine(inverse(carrier.rest_ms));
+}
+
+bool is_identity(const Pose& pose) {
+    return pose.position == Vec3::Zero() && pose.rotation.coeffs() == Quat::Identity().coeffs();
+}
+
+}  // namespace
+
+Pose trunk_at(const SpinePose& spine, double along) {
+    const auto points = trunk_points(spine);
+    const double link = std::clamp(along, 0.0, 1.0) * static_cast<double>(k_spine_links);
+    const auto below = std::min(static_cast<std::size_t>(link), k_spine_links - 1);
+    const double share = link - static_cast<double>(below);
+    Pose at;
+    at.position = points[below] + share * (points[below + 1] - points[below]);
+    // Each link's turn is that of its middle; pelvis and chest are at the ends.
+    std::array<double, k_spine_links + 2> knots;
+    std::array<Quat, k_spine_links + 2> turns;
+    knots.front() = 0.0;
+    knots.back() = static_cast<double>(k_spine_links);
+    turns.front() = spine.pelvis_ws.rotation;
+    turns.back() = spine.chest_ws.rotation;
+    for (std::size_t i = 0; i < k_spine_links; ++i) {
+        knots[i + 1] = static_cast<double>(i) + 0.5;
+        turns[i + 1] = spine.spine_ws[k_spine_links - 1 - i].rotation;
+    }
+    std::size_t k = 0;
+    while (k + 2 < knots.size() && link > knots[k + 1]) {
+        ++k;
+    }
+    at.rotation = turns[k].slerp((link - knots[k]) / (knots[k + 1] - knots[k]), turns[k + 1]);
+    return at;
+}
+
+void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,
+                   SkeletonPose& out) {
+    Girth girth;
+    girth.legs = measures.eye_height_m / rig.eye_height_m;
+    girth.trunk = measures.shoulder_width_m / rig.shoulder_width_m;
+    girth.others = std::min(girth.legs, girth.trunk);
+    out.carrier_ws.resize(rig.carriers.size());
+    out.stretched.resize(rig.carriers.size());
+    for (std::size_t i = 0; i < rig.carriers.size(); ++i) {
+        const BodyRig::Carrier& carrier = rig.carriers[i];
+        PlacedBone placed = place_bone(carrier, render);
+        if (carrier.bone == BodyBone::neck) {
+            const Affine& chest = out.stretched[BodyRig::k_chest];
+            placed = place_neck(transform_point(chest, carrier.rest_ms.position),
+                                transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
+                                out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation);
+        }
+        out.carrier_ws[i] = placed.frame_ws;
+        out.stretched[i] = stretch_onto(carrier, placed, girth);
+    }
+    const std::size_t joints = rig.joints.size();
+    out.joint_ws.resize(joints);
+    out.joint_ls.resize(joints);
+    out.carry_ws.resize(joints);
+    for (std::size_t i = 0; i < joints; ++i) {
+        const BodyRig::Joint& joint = rig.joints[i];
+        out.carry_ws[i] = out.stretched[joint.carrier];
+        const Pose& bone_ws = out.carrier_ws[joint.carrier];
+        out.joint_ws[i] = is_identity(joint.in_bone)
+                              ? bone_ws
+                              : Pose{transform_point(out.carry_ws[i], joint.bind_ms.position),
+                                     (bone_ws.rotation * joint.in_bone.rotation).normalized()};
+    }
+    for (std::size_t i = 0; i < joints; ++i) {
+        const std::int32_t parent = rig.joints[i].parent;
+        out.joint_ls[i] =
+            parent < 0 ? out.joint_ws[i]
+                       : inverse(out.joint_ws[static_cast<std::size_t>(parent)]) * out.joint_ws[i];
+    }
+}
+
+}  // namespace handhold

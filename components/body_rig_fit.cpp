@@ -1,0 +1,357 @@
+#include "components/body_rig_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/body_bones.hpp"
+#include "engine/io/json.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_shortest_m = 1e-3;
+// The trunk ends this share of its length above the hips.
+constexpr double k_hips_below = 0.06;
+
+// The upright figure's own axes: +Y up, -Z where it faces.
+struct Stance {
+    Quat axes_ms = Quat::Identity();
+    Vec3 pelvis_ms = Vec3::Zero();     // where the trunk begins
+    Vec3 shoulders_ms = Vec3::Zero();  // and ends
+    Vec3 up_ms = Vec3::UnitY();
+    double trunk_m = 0.0;
+};
+
+// +Y (or, of arms, -Z) along the bone; the other axis as near to `aside` as that allows.
+Quat along_y(const Vec3& along, const Vec3& back) {
+    Mat3 axes;
+    axes.col(1) = along.normalized();
+    axes.col(0) = Vec3(axes.col(1)).cross(back).normalized();
+    axes.col(2) = Vec3(axes.col(0)).cross(Vec3(axes.col(1)));
+    return Quat(axes).normalized();
+}
+Quat along_minus_z(const Vec3& along, const Vec3& up) {
+    Mat3 axes;
+    axes.col(2) = -along.normalized();
+    axes.col(0) = up.cross(Vec3(axes.col(2))).normalized();
+    axes.col(1) = Vec3(axes.col(2)).cross(Vec3(axes.col(0)));
+    return Quat(axes).normalized();
+}
+
+class BodyFitter {
+  public:
+    BodyFitter(const SkinnedMesh& figure, const BodyBones& bones)
+        : figure_(figure), bones_(bones) {}
+
+    Result<BodyRig> fit() {
+        if (const auto error = find_stance()) {
+            return *error;
+        }
+        add({BodyBone::trunk,
+             HandSide::left,
+             1.0,
+             {stance_.shoulders_ms, stance_.axes_ms},
+             stance_.trunk_m});
+        add({BodyBone::head, HandSide::left, 0.0, {Vec3::Zero(), stance_.axes_ms}, 0.0});
+        rig_.head_joint_ms = place(*bones_.of_middle(BodyBone::head));
+        carrier_of_.assign(figure_.joints.size(), k_none);
+        carrier_of_[*bones_.of_middle(BodyBone::head)] = BodyRig::k_head;
+        add_neck();
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            add_arm(side);
+            add_leg(side);
+        }
+        if (!wrong_.empty()) {
+            return FileError{figure_.file, "/nodes", "expected a length of " + wrong_};
+        }
+        carry_joints();
+        find_eyes();
+        if (!find_eye_height()) {
+            return FileError{figure_.file, "/nodes", "expected a head above the pelvis"};
+        }
+        for (BodyRig::Joint& joint : rig_.joints) {
+            joint.in_bone = in_bone(rig_.carriers[joint.carrier].rest_ms, joint.bind_ms);
+        }
+        return std::move(rig_);
+    }
+
+  private:
+    static constexpr std::size_t k_none = ~std::size_t{0};
+
+    const Vec3& place(std::size_t joint) const { return place_of(figure_, joint); }
+    const Vec3& limb_place(HandSide side, BodyBone bone) const {
+        return place(*bones_.limb(side, bone));
+    }
+    Vec3 middle_of(BodyBone bone) const {
+        return 0.5 * (limb_place(HandSide::left, bone) + limb_place(HandSide::right, bone));
+    }
+    bool has_both(BodyBone bone) const {
+        return bones_.limb(HandSide::left, bone) && bones_.limb(HandSide::right, bone);
+    }
+
+    std::optional<FileError> find_stance() {
+        const auto refuse = [&](const char* expected) {
+            return FileError{figure_.file, "/nodes", expected};
+        };
+        stance_.shoulders_ms = middle_of(BodyBone::upper_arm);
+        if (has_both(BodyBone::thigh)) {
+            const Vec3 hips = middle_of(BodyBone::thigh);
+            stance_.pelvis_ms = hips + k_hips_below * (stance_.shoulders_ms - hips);
+        } else if (const auto& pelvis = bones_.of_middle(BodyBone::trunk)) {
+            stance_.pelvis_ms = place(*pelvis);
+        } else {
+            return refuse("expected joints of a body, found neither thighs nor a pelvis");
+        }
+        const Vec3 up = stance_.shoulders_ms - stance_.pelvis_ms;
+        const Vec3 right = limb_place(HandSide::right, BodyBone::upper_arm) -
+                           limb_place(HandSide::left, BodyBone::upper_arm);
+        stance_.trunk_m = up.norm();
+        rig_.shoulder_width_m = right.norm();
+        if (stance_.trunk_m < k_shortest_m || right.norm() < k_shortest_m) {
+            return refuse("expected a body with a length between hips and shoulders");
+        }
+        stance_.up_ms = up / stance_.trunk_m;
+        const Vec3 back = right.normalized().cross(stance_.up_ms);
+        if (stance_.up_ms.y() < 0.7 || back.norm() < 0.7) {
+            return refuse("expected an upright body, +Y up, shoulders level");
+        }
+        stance_.axes_ms = along_y(stance_.up_ms, back);
+        return std::nullopt;
+    }
+
+    std::size_t add(const BodyRig::Carrier& carrier) {
+        rig_.carriers.push_back(carrier);
+        return rig_.carriers.size() - 1;
+    }
+    void add_for(std::size_t joint, const BodyRig::Carrier& carrier) {
+        carrier_of_[joint] = add(carrier);
+    }
+    double checked(double length_m, const BodyJointName& name) {
+        if (!(length_m > k_shortest_m)) {
+            wrong_ += (wrong_.empty() ? "" : ", ") + body_joint_text(name);
+        }
+        return length_m;
+    }
+
+    void add_neck() {
+        const auto& neck = bones_.of_middle(BodyBone::neck);
+        if (!neck) {
+            return;
+        }
+        const Vec3 along = rig_.head_joint_ms - place(*neck);
+        const double length = checked(along.norm(), {BodyBone::neck, HandSide::left});
+        add_for(*neck, {BodyBone::neck,
+                        HandSide::left,
+                        1.0,
+                        {place(*neck), along_y(along, stance_.axes_ms * Vec3::UnitZ())},
+                        length});
+    }
+
+    void add_arm(HandSide side) {
+        const auto joint = [&](BodyBone bone) { return *bones_.limb(side, bone); };
+        const Vec3 back = stance_.axes_ms * Vec3::UnitZ();
+        const auto add_bone = [&](BodyBone bone, BodyBone next, const Vec3& aside) {
+            const Vec3 along = limb_place(side, next) - limb_place(side, bone);
+            const double length = checked(along.norm(), {bone, side});
+            add_for(
+                joint(bone),
+                {bone, side, 0.0, {limb_place(side, bone), along_minus_z(along, aside)}, length});
+        };
+        if (bones_.limb(side, BodyBone::clavicle)) {
+            add_bone(BodyBone::clavicle, BodyBone::upper_arm, stance_.up_ms);
+        }
+        add_bone(BodyBone::upper_arm, BodyBone::forearm, back);
+        add_bone(BodyBone::forearm, BodyBone::hand, back);
+        const std::size_t hand = joint(BodyBone::hand);
+        add_for(hand, {BodyBone::hand,
+                       side,
+                       0.0,
+                       {place(hand), along_minus_z(hand_direction(side), stance_.up_ms)},
+                       0.0});
+        for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
+            const auto guess = parse_body_joint_name(figure_.joints[i].name);
+            const bool is_hand = (guess && guess->name.bone == BodyBone::hand) ||
+                                 is_digit_name(figure_.joints[i].name);
+            if (is_hand && is_below(figure_, i, joint(BodyBone::forearm))) {
+                carrier_of_[i] = carrier_of_[hand];
+            }
+        }
+    }
+
+    // To the middle of what hangs on the hand; straight on where that is nothing.
+    Vec3 hand_direction(HandSide side) const {
+        const std::size_t hand = *bones_.limb(side, BodyBone::hand);
+        Vec3 sum = Vec3::Zero();
+        int count = 0;
+        for (const SkinJoint& joint : figure_.joints) {
+            if (joint.parent == static_cast<std::int32_t>(hand)) {
+                sum += joint.bind_ms.position - place(hand);
+                ++count;
+            }
+        }
+        if (count > 0 && sum.norm() > k_shortest_m) {
+            return sum;
+        }
+        return place(hand) - limb_place(side, BodyBone::forearm);
+    }
+
+    void add_leg(HandSide side) {
+        if (!bones_.limb(side, BodyBone::thigh) || !bones_.limb(side, BodyBone::shin)) {
+            return;
+        }
+        const Vec3 back = stance_.axes_ms * Vec3::UnitZ();
+        const Vec3 hip = limb_place(side, BodyBone::thigh);
+        const Vec3 knee = limb_place(side, BodyBone::shin);
+        const auto& foot = bones_.limb(side, BodyBone::foot);
+        // Feet that are not there, or not below the knee, end as far below it as the hip is above.
+        const Vec3 ankle = foot ? place(*foot) : Vec3(2.0 * knee - hip);
+        const double thigh_m = checked((knee - hip).norm(), {BodyBone::thigh, side});
+        const double shin_m = checked((ankle - knee).norm(), {BodyBone::shin, side});
+        add_for(*bones_.limb(side, BodyBone::thigh),
+                {BodyBone::thigh, side, 0.0, {hip, along_y(hip - knee, back)}, thigh_m});
+        add_for(*bones_.limb(side, BodyBone::shin),
+                {BodyBone::shin, side, 0.0, {knee, along_y(knee - ankle, back)}, shin_m});
+        if (foot) {
+            add_for(*foot, {BodyBone::foot, side, 0.0, {ankle, stance_.axes_ms}, 0.0});
+        }
+    }
+
+    // What is no bone goes with the limb or the head above it, else with the trunk.
+    void carry_joints() {
+        for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
+            const SkinJoint& joint = figure_.joints[i];
+            rig_.joints.push_back({joint.name, joint.parent, joint.bind_ms, find_carrier(i), {}});
+        }
+    }
+
+    std::size_t find_carrier(std::size_t joint) {
+        auto at = static_cast<std::int32_t>(joint);
+        for (; at >= 0; at = figure_.joints[static_cast<std::size_t>(at)].parent) {
+            const std::size_t carrier = carrier_of_[static_cast<std::size_t>(at)];
+            if (carrier != k_none && rig_.carriers[carrier].bone != BodyBone::trunk) {
+                return carrier;
+            }
+        }
+        const double above =
+            (place(joint) - stance_.pelvis_ms).dot(stance_.up_ms) / stance_.trunk_m;
+        const double along = std::clamp(above, 0.0, 1.0);
+        return add({BodyBone::trunk,
+                    HandSide::left,
+                    along,
+                    {stance_.pelvis_ms + along * stance_.trunk_m * stance_.up_ms, stance_.axes_ms},
+                    stance_.trunk_m});
+    }
+
+    void find_eyes() {
+        Vec3 sum = Vec3::Zero();
+        int eyes = 0;
+        for (const SkinJoint& joint : figure_.joints) {
+            if (is_eye_name(joint.name)) {
+                sum += joint.bind_ms.position;
+                ++eyes;
+            }
+        }
+        rig_.carriers[BodyRig::k_head].rest_ms.position =
+            eyes > 0 ? Vec3(sum / eyes) : eyes_from_skin();
+    }
+
+    // Above the lowest point; of a figure without legs what is usual above its pelvis.
+    bool find_eye_height() {
+        constexpr double k_share_above_pelvis = 0.43;
+        const auto above = [&](const Vec3& point) {
+            return (rig_.carriers[BodyRig::k_head].rest_ms.position - point).dot(stance_.up_ms);
+        };
+        const double above_pelvis = above(stance_.pelvis_ms);
+        rig_.eye_height_m = above_pelvis / k_share_above_pelvis;
+        if (has_both(BodyBone::shin)) {
+            rig_.eye_height_m = above_pelvis;
+            for (const Vec3& point : figure_.positions) {
+                rig_.eye_height_m = std::max(rig_.eye_height_m, above(point));
+            }
+        }
+        return above_pelvis > k_shortest_m;
+    }
+
+    static bool is_eye_name(const std::string& name) {
+        std::string low = name;
+        std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) {
+            return static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+        });
+        return low.ends_with("eye") || low.ends_with("eyes") || low.ends_with("eye_l") ||
+               low.ends_with("eye_r") || low.ends_with("eye.l") || low.ends_with("eye.r");
+    }
+
+    // In the middle of the head, at its front.
+    Vec3 eyes_from_skin() const {
+        Vec3 low = Vec3::Constant(1e30);
+        Vec3 high = Vec3::Constant(-1e30);
+        for (std::size_t i = 0; i < figure_.positions.size(); ++i) {
+            const std::uint16_t joint = figure_.weights[i].joint[0];
+            if (rig_.joints[joint].carrier == BodyRig::k_head) {
+                const Vec3 p =
+                    stance_.axes_ms.conjugate() * (figure_.positions[i] - rig_.head_joint_ms);
+                low = low.cwiseMin(p);
+                high = high.cwiseMax(p);
+            }
+        }
+        if (low.x() > high.x()) {
+            return rig_.head_joint_ms;
+        }
+        const Vec3 eyes(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z());
+        return rig_.head_joint_ms + stance_.axes_ms * eyes;
+    }
+
+    // Exactly nothing where rounding to float is all that is left.
+    static Pose in_bone(const Pose& bone_ms, const Pose& joint_ms) {
+        const Pose pose = inverse(bone_ms) * joint_ms;
+        const bool is_there = pose.position.norm() < 1e-6 && pose.rotation.vec().norm() < 1e-6;
+        return is_there ? Pose() : pose;
+    }
+
+    const SkinnedMesh& figure_;
+    const BodyBones& bones_;
+    Stance stance_;
+    BodyRig rig_;
+    std::vector<std::size_t> carrier_of_;  // by joint; k_none where it is no bone
+    std::string wrong_;
+};
+
+}  // namespace
+
+Result<BodyMap> load_body_map(const std::filesystem::path& path) {
+    Result<JsonDocument> document = JsonDocument::load(path);
+    if (!document) {
+        return document.error();
+    }
+    const JsonValue root = document.value().root();
+    root.allow_only({"joints"});
+    std::vector<std::string> keys;
+    for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            keys.push_back(body_joint_text({static_cast<BodyBone>(bone), side}));
+        }
+    }
+    const std::vector<std::string_view> allowed(keys.begin(), keys.end());
+    const JsonValue joints = root["joints"];
+    joints.allow_only(allowed);
+    BodyMap map;
+    for (const std::string& key : keys) {
+        if (joints[key].exists()) {
+            map[key] = joints[key].text();
+        }
+    }
+    if (document.value().failed()) {
+        return document.value().error();
+    }
+    return map;
+}
+
+Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map) {
+    const Result<BodyBones> bones = find_body_bones(figure, map);
+    if (!bones) {
+        return bones.error();
+    }
+    return BodyFitter(figure, bones.value()).fit();
+}
+
+}  // namespace handhold

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "components/body_rig.hpp"
+#include "engine/io/gltf_skin.hpp"
+#include "engine/io/result.hpp"
+
+// Body rigs out of any humanoid figure (load_gltf_figure): in T-pose or A-pose, +Y up, facing
+// either way, of any size and proportions.
+namespace handhold {
+
+// A bone of a body; sides are of limbs only.
+struct BodyJointName {
+    BodyBone bone = BodyBone::trunk;  // trunk: the pelvis
+    HandSide side = HandSide::left;
+    bool operator==(const BodyJointName&) const = default;
+};
+
+// How well a joint's name tells its bone: "UpperArm" does, "Arm" does where nothing else is there.
+struct BodyNameGuess {
+    BodyJointName name;
+    int doubt = 0;  // 0 or 1
+};
+// What a joint is by its name, whatever its letters' case and what stands around the words: "Bip01
+// L UpperArm", "mixamorig:LeftArm", "UpperArm.L" and "leftElbowPitchLink" are known. Nothing where
+// it is no joint of a body, and for fingers, toes, ends and faces.
+std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name);
+
+// Thumbs, fingers and toes.
+bool is_digit_name(std::string_view name);
+
+// "left_upper_arm", "pelvis": keys of a map's file.
+std::string body_joint_text(const BodyJointName& joint);
+
+// Which joint is which bone, where names do not tell it; what it leaves out is found by name.
+using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> name in the file
+// {"joints": {"pelvis": "Hips", "left_upper_arm": "arm_l_01"}}. Refused: other keys, joints that
+// are no text.
+Result<BodyMap> load_body_map(const std::filesystem::path& path);
+
+// Of several joints whose names are alike the one nearest to the root is taken, but shoulders and
+// hips of several joints in one place the last. What hangs on a forearm and is called hand, palm
+// or finger goes with the hand; other joints that are no bones go with the limb above them, or with
+// the trunk where they are. The trunk ends between the shoulders and a little above the hips. The
+// eyes are where joints of that name are, else in front of the middle of what the head carries.
+//
+// Refused, with the names: a head, shoulders, elbows or hands that are missing; a map's name that
+// is no joint's; bones without a length; figures that are not upright.
+Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map = {});
+
+}  // namespace handhold

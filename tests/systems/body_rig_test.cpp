@@ -1,0 +1,289 @@
+#include "components/body_rig.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "components/body_rig_fit.hpp"
+#include "tests/places.hpp"
+#include "tests/random.hpp"
+
+namespace handhold::body_rig_test {
+namespace {
+
+using test::Random;
+
+// A figure of sticks in T-pose, scaled, turned about Y, its joints' own axes anything.
+struct Sticks {
+    SkinnedMesh figure;
+
+    explicit Sticks(double scale = 1.0, double yaw_rad = 0.0, unsigned seed = 1) {
+        Random random(seed);
+        const Pose stand{Vec3(3.0, 0.0, -2.0), rotation_about(Vec3::UnitY(), yaw_rad)};
+        const auto add = [&](const char* name, std::int32_t parent, const Vec3& at) {
+            figure.joints.push_back(
+                {name, parent, {transform_point(stand, scale * at), random.rotation()}, {}});
+            figure.positions.push_back(figure.joints.back().bind_ms.position);
+            figure.weights.push_back(
+                {{static_cast<std::uint16_t>(figure.joints.size() - 1), 0, 0, 0}, {1, 0, 0, 0}});
+            return static_cast<std::int32_t>(figure.joints.size()) - 1;
+        };
+        figure.file = "sticks.glb";
+        const auto root = add("root", -1, Vec3::Zero());
+        const auto hips = add("Hips", root, Vec3(0, 0.95, 0));
+        const auto spine = add("Spine", hips, Vec3(0, 1.2, 0));
+        const auto neck = add("Neck", spine, Vec3(0, 1.5, 0));
+        const auto head = add("Head", neck, Vec3(0, 1.6, 0));
+        add("LeftEye", head, Vec3(-0.03, 1.68, -0.08));
+        add("RightEye", head, Vec3(0.03, 1.68, -0.08));
+        for (const double x : {-1.0, 1.0}) {
+            const std::string side = x < 0.0 ? "Left" : "Right";
+            const auto name = [&](const char* bone) { return side + bone; };
+            const auto collar = add(name("Shoulder").c_str(), spine, Vec3(x * 0.04, 1.45, 0));
+            const auto arm = add(name("Arm").c_str(), collar, Vec3(x * 0.2, 1.45, 0));
+            const auto elbow = add(name("ForeArm").c_str(), arm, Vec3(x * 0.5, 1.45, 0));
+            const auto hand = add(name("Hand").c_str(), elbow, Vec3(x * 0.8, 1.45, 0));
+            add(name("HandMiddle1").c_str(), hand, Vec3(x * 0.9, 1.45, 0));
+            const auto thigh = add(name("UpLeg").c_str(), hips, Vec3(x * 0.1, 0.9, 0));
+            const auto shin = add(name("Leg").c_str(), thigh, Vec3(x * 0.1, 0.5, 0));
+            const auto foot = add(name("Foot").c_str(), shin, Vec3(x * 0.1, 0.1, 0));
+            add(name("ToeBase").c_str(), foot, Vec3(x * 0.1, 0.0, -0.1));
+        }
+    }
+    std::size_t joint(const std::string& name) const {
+        for (std::size_t i = 0; i < figure.joints.size(); ++i) {
+            if (figure.joints[i].name == name) {
+                return i;
+            }
+        }
+        ADD_FAILURE() << name;
+        return 0;
+    }
+};
+
+// A player in any pose: the bones need not fit together.
+RenderPose any_pose(unsigned seed) {
+    Random random(seed);
+    RenderPose render;
+    render.head_ws = random.pose(2.0);
+    render.spine.chest_ws = random.pose(2.0);
+    render.spine.pelvis_ws = random.pose(2.0);
+    for (Pose& link : render.spine.spine_ws) {
+        link = random.pose(2.0);
+    }
+    for (SpinePose::Leg& leg : render.spine.legs) {
+        leg = {random.pose(2.0), random.pose(2.0), random.pose(2.0)};
+    }
+    for (ArmPose::Arm& arm : render.arms.arms) {
+        arm = {random.pose(2.0), random.pose(2.0), random.pose(2.0), random.pose(2.0)};
+    }
+    return render;
+}
+
+void expect_at(const Vec3& found, const Vec3& wanted, const char* what) {
+    EXPECT_NEAR((found - wanted).norm(), 0.0, 1e-9) << what;
+}
+
+TEST(BodyJointNames, AreKnownOfUsualRigs) {
+    const auto expect = [](const char* text, BodyBone bone, HandSide side, int doubt = 0) {
+        const auto guess = parse_body_joint_name(text);
+        ASSERT_TRUE(guess) << text;
+        EXPECT_EQ(guess->name, (BodyJointName{bone, side})) << text;
+        EXPECT_EQ(guess->doubt, doubt) << text;
+    };
+    expect("Bip01 L UpperArm", BodyBone::upper_arm, HandSide::left);
+    expect("mixamorig:RightForeArm", BodyBone::forearm, HandSide::right);
+    expect("mixamorig:RightArm", BodyBone::upper_arm, HandSide::right, 1);
+    expect("mixamorig:LeftUpLeg", BodyBone::thigh, HandSide::left);
+    expect("mixamorig:LeftLeg", BodyBone::shin, HandSide::left, 1);
+    expect("LowerArm.R", BodyBone::forearm, HandSide::right);
+    expect("upper_arm.L", BodyBone::upper_arm, HandSide::left);
+    expect("J_Bip_R_LowerLeg", BodyBone::shin, HandSide::right);
+    expect("leftKneePitchLink", BodyBone::shin, HandSide::left);
+    expect("hand_right", BodyBone::hand, HandSide::right);
+    expect("Bip01 Pelvis", BodyBone::trunk, HandSide::left);
+    expect("mixamorig:Hips", BodyBone::trunk, HandSide::left);
+    expect("Bip01 Head", BodyBone::head, HandSide::left);
+    for (const char* other :
+         {"Bip01 L Finger0", "mixamorig:LeftHandThumb1", "mixamorig:LeftToeBase", "Head_end",
+          "PoleTarget.L", "head_imu_link", "torso", ""}) {
+        EXPECT_FALSE(parse_body_joint_name(other)) << other;
+    }
+}
+
+TEST(PoseSkeleton, PutsEveryBoneWhereThePlayersIs) {
+    for (unsigned seed = 1; seed < 20; ++seed) {
+        const Sticks sticks(seed % 2 == 0 ? 0.4 : 2.5, 0.6 * seed, seed);
+        const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+        ASSERT_TRUE(rig.ok()) << rig.error().message();
+        const RenderPose render = any_pose(seed);
+        SkeletonPose pose;
+        pose_skeleton(rig.value(), {}, render, pose);
+        const auto at = [&](const std::string& name) {
+            return pose.joint_ws[sticks.joint(name)].position;
+        };
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            const std::string of = side == HandSide::left ? "Left" : "Right";
+            const ArmPose::Arm& arm = render.arms.arms[index_of(side)];
+            expect_at(at(of + "Shoulder"), arm.clavicle_ws.position, "clavicle");
+            expect_at(at(of + "Arm"), arm.upper_ws.position, "upper arm");
+            expect_at(at(of + "ForeArm"), arm.forearm_ws.position, "forearm");
+            expect_at(at(of + "Hand"), arm.hand_ws.position, "hand");
+            const SpinePose::Leg& leg = render.spine.legs[index_of(side)];
+            expect_at(at(of + "UpLeg"), leg.thigh_ws.position, "thigh");
+            expect_at(at(of + "Leg"), leg.shin_ws.position, "shin");
+            expect_at(at(of + "Foot"), leg.foot_ws.position, "foot");
+        }
+        expect_at(0.5 * (at("LeftEye") + at("RightEye")), render.head_ws.position, "eyes");
+    }
+}
+
+// What the upper arm carries ends where the forearm begins, however long the player's arm is.
+TEST(PoseSkeleton, StretchesVerticesFromJointToJoint) {
+    const Sticks sticks(1.3);
+    const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+    ASSERT_TRUE(rig.ok());
+    RenderPose render = any_pose(4);
+    ArmPose::Arm& arm = render.arms.arms[index_of(HandSide::right)];
+    arm.forearm_ws.position =
+        transform_point(arm.upper_ws, Vec3(0.0, 0.0, -0.37));  // along the bone
+    SkeletonPose pose;
+    pose_skeleton(rig.value(), {}, render, pose);
+    const Vec3 elbow_ms = sticks.figure.joints[sticks.joint("RightForeArm")].bind_ms.position;
+    expect_at(transform_point(pose.carry_ws[sticks.joint("RightArm")], elbow_ms),
+              arm.forearm_ws.position, "the upper arm's end");
+}
+
+TEST(PoseSkeleton, LocalPosesMakeUpTheWorldOnes) {
+    const Sticks sticks;
+    const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+    ASSERT_TRUE(rig.ok());
+    SkeletonPose pose;
+    pose_skeleton(rig.value(), {}, any_pose(7), pose);
+    for (std::size_t i = 0; i < rig.value().joints.size(); ++i) {
+        Pose made = pose.joint_ls[i];
+        for (std::int32_t at = rig.value().joints[i].parent; at >= 0;
+             at = rig.value().joints[static_cast<std::size_t>(at)].parent) {
+            made = pose.joint_ls[static_cast<std::size_t>(at)] * made;
+        }
+        EXPECT_NEAR((made.position - pose.joint_ws[i].position).norm(), 0.0, 1e-12);
+        EXPECT_LT(made.rotation.angularDistance(pose.joint_ws[i].rotation), 1e-7);
+    }
+}
+
+// The rig's hand has hand space's own axes: -Z to the fingers, +Y its back.
+TEST(PoseSkeleton, HandOfHandSpaceIsThePlayersBitForBit) {
+    Sticks sticks;
+    for (const char* name : {"LeftHand", "RightHand"}) {
+        const double out = std::string(name) == "LeftHand" ? -1.0 : 1.0;
+        Mat3 axes;
+        axes.col(2) = Vec3(-out, 0.0, 0.0);
+        axes.col(1) = Vec3::UnitY();
+        axes.col(0) = Vec3(axes.col(1)).cross(Vec3(axes.col(2)));
+        sticks.figure.joints[sticks.joint(name)].bind_ms.rotation = Quat(axes);
+    }
+    const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+    ASSERT_TRUE(rig.ok());
+    SkeletonPose pose;
+    for (unsigned seed = 1; seed < 50; ++seed) {
+        const RenderPose render = any_pose(seed);
+        pose_skeleton(rig.value(), {}, render, pose);
+        const Pose& hand = render.arms.arms[index_of(HandSide::left)].hand_ws;
+        const Pose& joint = pose.joint_ws[sticks.joint("LeftHand")];
+        EXPECT_EQ(joint.position, hand.position);
+        EXPECT_EQ(joint.rotation.coeffs(), hand.rotation.coeffs());
+    }
+}
+
+TEST(FitBodyRig, NamesWhatIsMissing) {
+    Sticks sticks;
+    sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";
+    sticks.figure.joints[sticks.joint("Head")].name = "b";
+    const Result<BodyRig> rig = fit_body_rig(sticks.figure);
+    ASSERT_FALSE(rig.ok());
+    EXPECT_NE(rig.error().message().find("head, left_forearm"), std::string::npos)
+        << rig.error().message();
+    const Result<BodyRig> told =
+        fit_body_rig(sticks.figure, {{"head", "b"}, {"left_forearm", "a"}});
+    EXPECT_TRUE(told.ok()) << told.error().message();
+    const Result<BodyRig> wrong = fit_body_rig(sticks.figure, {{"head", "nobody"}});
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_NE(wrong.error().message().find("\"nobody\" for head"), std::string::npos);
+}
+
+TEST(FitBodyRig, RefusesBonesWithoutALengthAndFiguresThatLie) {
+    Sticks folded;
+    folded.figure.joints[folded.joint("RightHand")].bind_ms.position =
+        folded.figure.joints[folded.joint("RightForeArm")].bind_ms.position;
+    const Result<BodyRig> short_one = fit_body_rig(folded.figure);
+    ASSERT_FALSE(short_one.ok());
+    EXPECT_NE(short_one.error().message().find("right_forearm"), std::string::npos);
+    Sticks lying;
+    for (SkinJoint& joint : lying.figure.joints) {
+        joint.bind_ms.position = rotation_about(Vec3::UnitX(), k_half_pi) * joint.bind_ms.position;
+    }
+    EXPECT_FALSE(fit_body_rig(lying.figure).ok());
+}
+
+TEST(LoadBodyMap, ReadsNamesAndRefusesWhatIsNone) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "handhold_body_map.json";
+    const auto load = [&](const char* text) {
+        std::ofstream(path) << text;
+        return load_body_map(path);
+    };
+    const Result<BodyMap> map = load(R"({"joints": {"head": "Kopf", "left_thigh": "x"}})");
+    ASSERT_TRUE(map.ok()) << map.error().message();
+    EXPECT_EQ(map.value(), (BodyMap{{"head", "Kopf"}, {"left_thigh", "x"}}));
+    EXPECT_FALSE(load(R"({"joints": {"tail": "x"}})").ok());
+    EXPECT_FALSE(load(R"({"joints": {"head": 3}})").ok());
+    std::filesystem::remove(path);
+}
+
+// Real figures: one without clavicles by that name, one that faces +Z in A-pose, a cartoon.
+TEST(FitBodyRig, FindsTheBonesOfRealFigures) {
+    const auto folder = data_dir() / "body";
+    if (!std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "no " << folder;
+    }
+    const auto fit = [&](const char* name) {
+        const Result<SkinnedMesh> figure = load_gltf_figure(folder / name);
+        EXPECT_TRUE(figure.ok()) << figure.error().message();
+        const Result<BodyRig> rig = fit_body_rig(figure.value());
+        EXPECT_TRUE(rig.ok()) << rig.error().message();
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+                const auto found = std::count_if(rig.value().carriers.begin(),
+                                                 rig.value().carriers.end(), [&](const auto& c) {
+                                                     return c.bone == static_cast<BodyBone>(bone) &&
+                                                            (!is_limb(c.bone) || c.side == side);
+                                                 });
+                EXPECT_GE(found, 1) << name << " " << bone;
+            }
+        }
+        return rig.value();
+    };
+    const auto length = [](const BodyRig& rig, BodyBone bone) {
+        for (const BodyRig::Carrier& carrier : rig.carriers) {
+            if (carrier.bone == bone) {
+                return carrier.length_m;
+            }
+        }
+        return 0.0;
+    };
+    // Figures of SOURCE.md.
+    const BodyRig valkyrie = fit("nasa_valkyrie.glb");
+    EXPECT_NEAR(valkyrie.shoulder_width_m, 0.50, 0.001);
+    EXPECT_NEAR(length(valkyrie, BodyBone::upper_arm), 0.33, 0.002);
+    EXPECT_NEAR(length(valkyrie, BodyBone::forearm), 0.287, 0.002);
+    const BodyRig rocketbox = fit("rocketbox_male_adult_04.glb");
+    EXPECT_NEAR(rocketbox.eye_height_m, 1.71, 0.05);  // of 1.87 m, soles and hair in it
+    EXPECT_GT((rocketbox.carriers[BodyRig::k_head].rest_ms.rotation * -Vec3::UnitZ()).z(), 0.9);
+    const BodyRig cartoon = fit("robot_expressive_cc0.glb");
+    EXPECT_LT(length(cartoon, BodyBone::hand), 1e-9);
+    EXPECT_GT((cartoon.carriers[BodyRig::k_head].rest_ms.rotation * -Vec3::UnitZ()).z(), 0.9);
+}
+
+}  // namespace
+}  // namespace handhold::body_rig_test
