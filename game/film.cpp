@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/collision/collision_world.hpp"
+#include "game/outside_camera.hpp"
 #include "game/player_view.hpp"
-#include "game/render/primitives.hpp"
 #include "game/render/video_writer.hpp"
 
 namespace handhold {
@@ -25,7 +24,7 @@ struct SessionFilm::Impl {
     std::optional<PlayerView> moving;
     std::unique_ptr<VideoWriter> video;
     std::string video_failure;
-    CollisionWorld walls;  // static surfaces, so that the outside camera stays in the room
+    OutsideCamera outside;
     double next_video_s = 0.0;
     double next_shot_s = 0.0;
     std::array<int, k_hand_count> last_grip{};
@@ -33,56 +32,14 @@ struct SessionFilm::Impl {
     Image image;
 
     Impl(const Scene& of_scene, const FilmSettings& with)
-        : scene(of_scene), settings(with), session_s(0.0), walls(*of_scene.shapes) {}
-
-    void place_walls() {
-        std::vector<ColliderProxy> proxies;
-        const World& world = scene.world;
-        for (std::size_t row = 0; row < world.body.size(); ++row) {
-            const Entity body = world.body.owners()[row];
-            if (world.body.rows()[row].kind != BodyKind::free) {
-                const Pose& pose = world.body_pose.at(body).pose_ws;
-                proxies.push_back({world.persistent_id.at(body).value,
-                                   world.collider.at(body).shape, pose, pose, false});
-            }
-        }
-        std::sort(proxies.begin(), proxies.end(),
-                  [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });
-        walls.set_proxies(proxies);
-    }
-
-    // Behind and above the head, in the room with it.
-    Pose outside_camera(const RenderPose& render) {
-        const Vec3 up = scene.up_ws;
-        Vec3 ahead = render.head_ws.rotation * -Vec3::UnitZ();
-        ahead = (ahead - up * up.dot(ahead)).normalized();
-        const Vec3 target = render.head_ws.position - 0.25 * up + 0.25 * ahead;
-        const Vec3 side = ahead.cross(up);
-        constexpr std::array<std::array<double, 3>, 5> k_tries = {{{-1.3, 0.45, 0.75},
-                                                                   {-1.3, 0.45, -0.75},
-                                                                   {-1.4, 0.2, 0.0},
-                                                                   {0.9, 0.3, 0.9},
-                                                                   {0.9, 0.3, -0.9}}};
-        Vec3 best = target - 0.3 * ahead;
-        place_walls();
-        for (const auto& [forward, height, sideways] : k_tries) {
-            const Vec3 wanted = target + forward * ahead + height * up + sideways * side;
-            const auto hit = walls.cast_sphere(0.08, target, wanted);
-            const double share = hit ? hit->distance_m / (wanted - target).norm() : 1.0;
-            const Vec3 place = target + std::max(0.0, share - 0.02) * (wanted - target);
-            if ((place - target).norm() > (best - target).norm() + 0.15) {
-                best = place;
-            }
-        }
-        return look_along(best, target - best, up);
-    }
+        : scene(of_scene), settings(with), session_s(0.0), outside(of_scene) {}
 
     void draw(PlayerView& stage, View view, double fov_rad) {
         const RenderPose& first = scene.world.render_pose.rows()[0];
         if (view == View::first_person) {
             stage.draw(first.head_ws, fov_rad, 0, image);
         } else {
-            stage.draw(outside_camera(first), fov_rad, std::nullopt, image);
+            stage.draw(outside.behind(first), fov_rad, std::nullopt, image);
         }
     }
 
@@ -135,7 +92,7 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
     impl->session_s = session_s;
     impl->next_shot_s = std::min(1.0, 0.1 * session_s);
     impl->still =
-        PlayerView::open(scene, settings.hands, settings.width_px, settings.height_px, why_not);
+        PlayerView::open(scene, settings.models, settings.width_px, settings.height_px, why_not);
     if (!impl->still) {
         return nullptr;
     }
@@ -146,7 +103,7 @@ std::unique_ptr<SessionFilm> SessionFilm::open(const Scene& scene, double sessio
         video.frames_per_s = settings.video_fps;
         impl->video = VideoWriter::open(settings.video.string(), video, impl->video_failure);
         if (impl->video != nullptr) {
-            impl->moving = PlayerView::open(scene, settings.hands, settings.video_width_px,
+            impl->moving = PlayerView::open(scene, settings.models, settings.video_width_px,
                                             settings.video_height_px, why_not);
             if (!impl->moving) {
                 return nullptr;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "game/render/hand_figures.hpp"
+#include "game/render/player_models.hpp"
 #include "game/run_log.hpp"
 #include "game/scene.hpp"
 
@@ -27,7 +27,7 @@ struct FilmSettings {
     double longest_video_s = 40.0;  // of the session
     int shots = 8;  // at most, spread over the session, at moments of grabbing where there are any
     std::filesystem::path video;  // empty: no video
-    HandModels hands = builtin_hand_models();
+    PlayerModels models;
 };
 
 // Pictures and a video of a session, drawn while it is played: first person, and from outside. Only

@@ -1,7 +1,9 @@
 #include "game/gizmos.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace handhold {
 namespace {
@@ -13,6 +15,8 @@ constexpr Color k_velocity = {0.85F, 0.3F, 1.0F};
 constexpr Color k_apart = {1.0F, 0.85F, 0.1F};
 constexpr Color k_overlaps = {1.0F, 0.05F, 0.05F};
 constexpr Color k_joint = {0.1F, 0.9F, 0.8F};
+constexpr Color k_bone = {1.0F, 0.6F, 0.15F};
+constexpr Color k_pole = {0.3F, 0.6F, 1.0F};
 constexpr Color k_residual = {1.0F, 0.1F, 0.3F};
 constexpr double k_residual_scale = 1000.0;   // a millimetre is shown as a metre,
 constexpr double k_longest_residual_m = 0.5;  // and cut off
@@ -72,6 +76,39 @@ void add_hands(const World& world, const GizmoSet& on, std::vector<Line>& out) {
                 {hit_ws, hit_ws + 0.08 * (body_ws.rotation * grab.hit_normal_bs), k_grip, 2.5});
         }
     }
+}
+
+// From point to point.
+void add_bones(const Vec3& from_ws, std::span<const Pose> joints_ws, const Color& color,
+               std::vector<Line>& out) {
+    Vec3 last = from_ws;
+    for (const Pose& joint_ws : joints_ws) {
+        out.push_back({last, joint_ws.position, color, 3.0});
+        last = joint_ws.position;
+    }
+}
+
+void add_arms(const ArmPose& pose, std::vector<Line>& out) {
+    for (const ArmPose::Arm& arm : pose.arms) {
+        const std::array<Pose, 4> joints = {arm.clavicle_ws, arm.upper_ws, arm.forearm_ws,
+                                            arm.hand_ws};
+        add_bones(pose.chest_ws.position, joints, k_bone, out);
+        const Pose& elbow = arm.forearm_ws;
+        out.push_back({elbow.position, elbow.position + 0.15 * (elbow.rotation * Vec3::UnitY()),
+                       k_pole, 2.5});
+    }
+}
+
+void add_spine(const SpinePose& pose, std::vector<Line>& out) {
+    const std::array<Pose, 3> spine = {pose.spine_ws[1], pose.spine_ws[2], pose.pelvis_ws};
+    add_bones(pose.chest_ws.position, spine, k_bone, out);
+    for (const SpinePose::Leg& leg : pose.legs) {
+        const std::array<Pose, 3> joints = {leg.thigh_ws, leg.shin_ws, leg.foot_ws};
+        add_bones(pose.pelvis_ws.position, joints, k_bone, out);
+        add_axes(leg.foot_ws, 0.1, out);
+    }
+    add_axes(pose.chest_ws, 0.15, out);
+    add_axes(pose.pelvis_ws, 0.15, out);
 }
 
 void add_velocities(const World& world, std::vector<Line>& out) {
@@ -169,6 +206,10 @@ GizmoInfo info_of(Gizmo gizmo) {
             return {"islands", "build_constraints", "what is solved together, in one colour"};
         case Gizmo::residuals:
             return {"residuals", "solve_phases", "what is still apart, a thousand times as long"};
+        case Gizmo::arms:
+            return {"arms", "pose_arms", "their bones, and where each elbow points"};
+        case Gizmo::spine:
+            return {"spine and legs", "propagate_spine", "the chain that trails; chest and pelvis"};
         case Gizmo::count:
             break;
     }
@@ -179,6 +220,14 @@ void add_gizmos(const World& world, const FrameGraph& graph, const GizmoSet& on,
                 std::vector<Line>& out) {
     const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
     add_hands(world, on, out);
+    for (const RenderPose& render : world.render_pose.rows()) {
+        if (shows(Gizmo::arms)) {
+            add_arms(render.arms, out);
+        }
+        if (shows(Gizmo::spine)) {
+            add_spine(render.spine, out);
+        }
+    }
     if (shows(Gizmo::velocities)) {
         add_velocities(world, out);
     }

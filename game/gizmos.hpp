@@ -22,6 +22,8 @@ enum class Gizmo : std::uint8_t {
     joints,         // build_constraints
     islands,        // build_constraints
     residuals,      // solve_phases
+    arms,           // pose_arms
+    spine,          // propagate_spine
     count
 };
 using GizmoSet = std::array<bool, static_cast<std::size_t>(Gizmo::count)>;

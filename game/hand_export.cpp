@@ -8,11 +8,10 @@
 #include "components/hand_joint_names.hpp"
 #include "components/hand_rig_fit.hpp"
 #include "engine/core/check.hpp"
-#include "engine/io/gltf_skin_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
+#include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
-#include "game/render/shading_mesh.hpp"
 
 namespace handhold {
 namespace {
@@ -76,26 +75,6 @@ void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
     }
 }
 
-// A part in hand space, on one joint.
-void append_part(const HandPart& part, const Pose& at, std::uint16_t joint,
-                 GltfSkinSurface& surface) {
-    const ShadingMesh shading = make_shading_mesh(part.mesh);
-    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-    for (std::size_t i = 0; i + 5 < shading.vertices.size(); i += 6) {
-        const float* const v = shading.vertices.data() + i;
-        const Vec3 position = Eigen::Vector3f(v[0], v[1], v[2]).cast<double>() + shading.center;
-        const Vec3 normal = Eigen::Vector3f(v[3], v[4], v[5]).cast<double>();
-        const Eigen::Vector3f position_hs = transform_point(at, position).cast<float>();
-        const Eigen::Vector3f normal_hs = (at.rotation * normal).cast<float>();
-        surface.vertices.push_back({{position_hs.x(), position_hs.y(), position_hs.z()},
-                                    {normal_hs.x(), normal_hs.y(), normal_hs.z()}});
-        surface.weights.push_back({{joint, 0, 0, 0}, {1.0F, 0.0F, 0.0F, 0.0F}});
-    }
-    for (const std::uint32_t index : shading.indices) {
-        surface.indices.push_back(first + index);
-    }
-}
-
 }  // namespace
 
 std::string export_robot_hand(const HandRig& rig) {
@@ -106,35 +85,21 @@ std::string export_robot_hand(const HandRig& rig) {
     const auto carrier = [&](std::int32_t finger, std::uint32_t link) {
         return finger == RigJoint::k_palm ? Pose() : frames[static_cast<std::size_t>(finger)][link];
     };
-    GltfSkin skin;
-    skin.name = rig.side == HandSide::left ? "robot_hand_left" : "robot_hand_right";
+    std::vector<SkinJoint> joints;
     for (std::size_t i = 0; i < rig.joints.size(); ++i) {
         const RigJoint& joint = rig.joints[i];
-        skin.joints.push_back({joint.name,
-                               parent_of(rig, i),
-                               carrier(joint.finger, joint.link) * joint.joint_in_link,
-                               {}});
+        joints.push_back({joint.name,
+                          parent_of(rig, i),
+                          carrier(joint.finger, joint.link) * joint.joint_in_link,
+                          {}});
     }
-    add_numbers(rig, skin.joints);
-    std::vector<GltfMaterial> materials;
-    std::array<GltfSkinSurface, k_figure_material_count> surfaces;
-    for (std::size_t i = 0; i < k_figure_material_count; ++i) {
-        const auto material = static_cast<FigureMaterial>(i);
-        materials.push_back({figure_material_text(material), figure_color(material), 0.0F, 1.0F,
-                             figure_gloss(material)});
-        surfaces[i].material = i;
-    }
+    add_numbers(rig, joints);
+    FigureSkin skin(rig.side == HandSide::left ? "robot_hand_left" : "robot_hand_right");
     for (const HandPart& part : make_robot_hand(rig)) {
-        append_part(part, carrier(part.finger, part.link),
-                    static_cast<std::uint16_t>(joint_of(rig, part.finger, part.link)),
-                    surfaces[static_cast<std::size_t>(part.material)]);
+        skin.add(part.material, part.mesh, carrier(part.finger, part.link),
+                 static_cast<std::uint16_t>(joint_of(rig, part.finger, part.link)));
     }
-    for (GltfSkinSurface& surface : surfaces) {
-        if (!surface.indices.empty()) {
-            skin.surfaces.push_back(std::move(surface));
-        }
-    }
-    return write_skinned_glb(materials, skin);
+    return skin.write(std::move(joints));
 }
 
 int export_hands_command(const std::string& folder) {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "game/body_export.hpp"
 #include "game/build_station_command.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
@@ -18,12 +19,18 @@ namespace {
 
 constexpr int k_exit_usage = 1;
 
-void add_hand_rig_option(CLI::App& command, std::vector<std::string>& files) {
+void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
     command
-        .add_option("--hand-rig", files,
+        .add_option("--hand-rig", files.hands,
                     "Two skinned hands with WebXR's joint names (.glb), left and right; default: "
                     "the robot's")
         ->expected(2);
+    CLI::Option* const body =
+        command.add_option("--body", files.body, "A humanoid figure (.glb); default: the robot's");
+    command
+        .add_option("--body-map", files.body_map,
+                    "How the figure's joints are called (.json), where their names do not tell")
+        ->needs(body);
 }
 
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
@@ -57,7 +64,7 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
             ->needs(snapshot));
     run.add_option("--resume", options.resume,
                    "Go on from a saved state of the same scene and players");
-    add_hand_rig_option(run, options.hand_rig);
+    add_model_options(run, options.models);
     run.add_flag("!--no-pictures", options.pictures,
                  "With --out: files only, no pictures and no video");
 }
@@ -81,7 +88,7 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
         ->check(CLI::Range(0.0, 1e4));
     pictures.add_option("--hands", options.hands, "Hold both hands before the eyes")
         ->check(CLI::IsMember({"open", "fist"}));
-    add_hand_rig_option(pictures, options.hand_rig);
+    add_model_options(pictures, options.models);
     pictures.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     pictures.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
@@ -116,10 +123,16 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
         ->check(CLI::IsMember({"Frame", "Hands", "Tuning", "Entities", "Gizmos"}));
     play.add_flag_callback(
         "--gizmos", [&options] { options.gizmos.fill(true); }, "Show what every stage did");
+    const std::map<std::string, handhold::PlayerViewpoint> viewpoints = {
+        {"eyes", handhold::PlayerViewpoint::eyes},
+        {"mirror", handhold::PlayerViewpoint::mirror},
+        {"behind", handhold::PlayerViewpoint::behind}};
+    play.add_option("--view", options.viewpoint, "eyes, mirror or behind (F4)")
+        ->transform(CLI::CheckedTransformer(viewpoints));
     play.add_flag("--menu", options.panels.menu, "Open scenes and settings at once (F3)");
     play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
         ->check(CLI::Range(0.01, 1e6));
-    add_hand_rig_option(play, options.hand_rig);
+    add_model_options(play, options.models);
     play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
@@ -164,6 +177,10 @@ int main(int argc, char** argv) {
     CLI::App* const export_hands =
         app.add_subcommand("export-hands", "Write the robot's hands for an animation package");
     export_hands->add_option("--out", hands_folder, "A folder")->required();
+    std::string body_file;
+    CLI::App* const export_body =
+        app.add_subcommand("export-body", "Write the robot's body for an animation package");
+    export_body->add_option("--out", body_file, "A file (.glb)")->required();
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -176,6 +193,9 @@ int main(int argc, char** argv) {
     }
     if (scenes->parsed()) {
         return list_scenes();
+    }
+    if (export_body->parsed()) {
+        return handhold::export_body_command(body_file);
     }
     if (export_hands->parsed()) {
         return handhold::export_hands_command(hands_folder);

@@ -58,9 +58,9 @@ int picture_command(const PictureOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
-    Result<HandModels> hands = choose_hand_models(options.hand_rig);
-    if (!hands) {
-        return refuse(hands.error());
+    Result<PlayerModels> models = choose_player_models(options.models);
+    if (!models) {
+        return refuse(models.error());
     }
     std::error_code failure;
     std::filesystem::create_directories(options.out, failure);
@@ -76,7 +76,7 @@ int picture_command(const PictureOptions& options) {
         return k_exit_bad_file;
     }
     const std::vector<MeshId> meshes = add_scene_meshes(scene, *renderer);
-    HandFigures figures(std::move(hands.value()), *renderer);
+    HandFigures figures(std::move(models.value().hands), *renderer);
     Image image;
     for (const SceneSpawnPoint& spawn : scene.spawns) {
         if (!options.spawn.empty() && options.spawn != spawn.name) {

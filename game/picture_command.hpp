@@ -3,17 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "game/render/player_models.hpp"
+
 namespace handhold {
 
 struct PictureOptions {
     std::string scene;
-    std::string out;                    // folder
-    std::string spawn;                  // one of the scene's; empty: all
-    double yaw_deg = 0.0;               // turned to the left from where the spawn faces
-    double pitch_deg = 0.0;             // up
-    double seconds = 0.0;               // into the scene
-    std::string hands;                  // "open", "fist": both hands before the eyes; empty: none
-    std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
+    std::string out;         // folder
+    std::string spawn;       // one of the scene's; empty: all
+    double yaw_deg = 0.0;    // turned to the left from where the spawn faces
+    double pitch_deg = 0.0;  // up
+    double seconds = 0.0;    // into the scene
+    std::string hands;       // "open", "fist": both hands before the eyes; empty: none
+    PlayerModelFiles models;
     int width_px = 960;
     int height_px = 540;
 };

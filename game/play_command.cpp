@@ -95,9 +95,9 @@ int play_command(PlayOptions options) {
             return refuse(*error);
         }
     }
-    Result<HandModels> hands = choose_hand_models(options.hand_rig);
-    if (!hands) {
-        return refuse(hands.error());
+    Result<PlayerModels> models = choose_player_models(options.models);
+    if (!models) {
+        return refuse(models.error());
     }
     const OpenFile status(options.status.empty() ? nullptr
                                                  : std::fopen(options.status.c_str(), "w"));
@@ -118,7 +118,7 @@ int play_command(PlayOptions options) {
             session.record();
         }
         std::string why_not;
-        auto view = PlayerView::open(session.scene(), hands.value(), options.width_px,
+        auto view = PlayerView::open(session.scene(), models.value(), options.width_px,
                                      options.height_px, why_not, options.settings.quality);
         if (!view) {
             return refuse_window(why_not);
@@ -133,13 +133,21 @@ int play_command(PlayOptions options) {
         window->set_title("Handhold: " + session.scene().name);
         Image picture;
         PlayTally tally;
-        PlayStage stage{session,         *window,
-                        *view,           hands.value(),
-                        overlay,         options.settings,
-                        panels,          tally,
-                        picture,         {options.width_px, options.height_px},
-                        options.gizmos,  options.page,
-                        options.seconds, status.get()};
+        PlayStage stage{session,
+                        *window,
+                        *view,
+                        models.value(),
+                        overlay,
+                        options.settings,
+                        panels,
+                        tally,
+                        picture,
+                        {options.width_px, options.height_px},
+                        options.gizmos,
+                        options.page,
+                        options.viewpoint,
+                        options.seconds,
+                        status.get()};
         const PlayEnd end = play(stage);
         std::printf("%s", tally.summary().c_str());
         if (const auto error = save(options, place, session, tally, picture)) {

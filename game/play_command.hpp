@@ -4,17 +4,18 @@
 #include <vector>
 
 #include "game/play_loop.hpp"
+#include "game/render/player_models.hpp"
 
 namespace handhold {
 
 // `handhold play`, as given on the command line.
 struct PlayOptions {
     std::string scene = "station";
-    std::string spawn;                  // empty: the scene's first
-    std::string record;                 // where the session is saved; empty: nowhere
-    std::string picture;                // a PNG of the last picture; empty: none
-    std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
-    std::string report;                 // figures and costs (.json) when it ends; empty: none
+    std::string spawn;    // empty: the scene's first
+    std::string record;   // where the session is saved; empty: nowhere
+    std::string picture;  // a PNG of the last picture; empty: none
+    PlayerModelFiles models;
+    std::string report;    // figures and costs (.json) when it ends; empty: none
     std::string status;    // a line of JSON every tenth of a second (.jsonl); empty: none
     bool jets = false;     // the keys push as well as pull
     double seconds = 0.0;  // 0: until the window is closed
@@ -24,6 +25,7 @@ struct PlayOptions {
     PlayPanels panels;  // that are open when it begins
     std::string page;   // of the inspector: "Tuning"; empty: its first
     GizmoSet gizmos = k_no_gizmos;
+    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;
 };
 
 // Opens a window in which scenes are played with keyboard, mouse and gamepad, in real time: where a

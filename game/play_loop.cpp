@@ -60,7 +60,11 @@ void gather(const DesktopInput& now, DesktopInput& input) {
 
 class Loop {
   public:
-    explicit Loop(PlayStage& stage) : stage_(stage), history_(stage.session) {
+    explicit Loop(PlayStage& stage)
+        : stage_(stage),
+          history_(stage.session),
+          outside_(stage.session.scene()),
+          viewpoint_(stage.viewpoint) {
         inspector_.gizmos = stage.gizmos;
         inspector_.turn_to = stage.page;
         hold_mouse(!stage.panels.inspector && !stage.panels.menu);
@@ -96,6 +100,9 @@ class Loop {
             case PlayKey::menu:
                 panels.menu = !panels.menu;
                 hold_mouse(!panels.inspector && !panels.menu);
+                break;
+            case PlayKey::view:
+                viewpoint_ = static_cast<PlayerViewpoint>((static_cast<int>(viewpoint_) + 1) % 3);
                 break;
             case PlayKey::free_mouse:
                 hold_mouse(!holds_mouse_);
@@ -205,8 +212,15 @@ class Loop {
         const std::int64_t begin_ns = now_ns();
         marks_.clear();
         add_gizmos(world(), stage_.session.caches().graph, inspector_.gizmos, marks_);
-        stage_.view.draw(world().render_pose.at(player).head_ws, stage_.settings.fov_rad,
-                         world().render_pose.find_row(player), stage_.picture, marks_, &ui);
+        const RenderPose& render = world().render_pose.at(player);
+        const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
+        const Pose camera_ws = own_eyes                                ? render.head_ws
+                               : viewpoint_ == PlayerViewpoint::mirror ? outside_.before(render)
+                                                                       : outside_.behind(render);
+        stage_.view.draw(
+            camera_ws, stage_.settings.fov_rad,
+            own_eyes ? std::optional(world().render_pose.find_row(player)) : std::nullopt,
+            stage_.picture, marks_, &ui);
         const double draw_us = us_since(begin_ns);
         const std::int64_t shown_ns = now_ns();
         stage_.window.show(stage_.picture);
@@ -242,7 +256,7 @@ class Loop {
         if (choice.quality) {
             std::string why_not;
             auto view =
-                PlayerView::open(stage_.session.scene(), stage_.hands, stage_.picture_size[0],
+                PlayerView::open(stage_.session.scene(), stage_.models, stage_.picture_size[0],
                                  stage_.picture_size[1], why_not, stage_.settings.quality);
             if (view) {
                 stage_.view = std::move(*view);
@@ -260,6 +274,8 @@ class Loop {
 
     PlayStage& stage_;
     SessionHistory history_;
+    OutsideCamera outside_;
+    PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
     std::vector<Line> marks_;  // reused
     Clock clock_;

@@ -6,6 +6,7 @@
 
 #include "game/desktop_session.hpp"
 #include "game/gizmos.hpp"
+#include "game/outside_camera.hpp"
 #include "game/platform/window.hpp"
 #include "game/play_settings.hpp"
 #include "game/play_tally.hpp"
@@ -26,17 +27,18 @@ struct PlayStage {
     DesktopSession& session;
     Window& window;
     PlayerView& view;
-    const HandModels& hands;
+    const PlayerModels& models;
     Overlay& overlay;
     PlaySettings& settings;
     PlayPanels& panels;
     PlayTally& tally;
-    Image& picture;                   // the last one
-    std::array<int, 2> picture_size;  // width and height in pixels
-    GizmoSet gizmos;                  // that are on when it begins
-    std::string page;                 // of the inspector; empty: its first
-    double end_s = 0.0;               // of the scene's clock; 0: never
-    std::FILE* status = nullptr;      // a line every tenth of a second; none: null
+    Image& picture;                                     // the last one
+    std::array<int, 2> picture_size;                    // width and height in pixels
+    GizmoSet gizmos;                                    // that are on when it begins
+    std::string page;                                   // of the inspector; empty: its first
+    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // when it begins
+    double end_s = 0.0;                                 // of the scene's clock; 0: never
+    std::FILE* status = nullptr;  // a line every tenth of a second; none: null
 };
 
 // How it ended.

@@ -1,6 +1,5 @@
 #include "game/player_view.hpp"
 
-#include "game/render/figures.hpp"
 #include "game/scene_picture.hpp"
 
 namespace handhold {
@@ -10,39 +9,29 @@ constexpr Color k_ray_color = {0.1F, 0.75F, 1.0F};
 constexpr Color k_hit_color = {0.2F, 1.0F, 0.35F};
 constexpr Color k_constraint_color = {1.0F, 0.55F, 0.05F};
 
-std::vector<MeshId> add_all(Renderer& renderer, const std::vector<Mesh>& meshes) {
-    std::vector<MeshId> ids;
-    ids.reserve(meshes.size());
-    for (const Mesh& mesh : meshes) {
-        ids.push_back(renderer.add_mesh(mesh));
-    }
-    return ids;
-}
-
 }  // namespace
 
-PlayerView::PlayerView(const Scene& scene, HandModels hands, Renderer renderer)
-    : scene_(&scene), renderer_(std::move(renderer)), hands_(std::move(hands), renderer_) {
+PlayerView::PlayerView(const Scene& scene, PlayerModels models, Renderer renderer)
+    : scene_(&scene),
+      renderer_(std::move(renderer)),
+      hands_(std::move(models.hands), renderer_),
+      body_(std::move(models.body), renderer_) {
     visuals_ = add_scene_meshes(scene, renderer_);
-    head_ = add_all(renderer_, make_head());
 }
 
-std::optional<PlayerView> PlayerView::open(const Scene& scene, HandModels hands, int width_px,
+std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels models, int width_px,
                                            int height_px, std::string& why_not,
                                            PictureQuality quality) {
     std::optional<Renderer> renderer = Renderer::create(width_px, height_px, why_not, quality);
     if (!renderer) {
         return std::nullopt;
     }
-    return PlayerView(scene, std::move(hands), std::move(*renderer));
+    return PlayerView(scene, std::move(models), std::move(*renderer));
 }
 
-void PlayerView::add_figure(const RenderPose& render, bool with_head, RenderFrame& frame) {
-    if (with_head) {
-        for (const MeshId mesh : head_) {
-            frame.instances.push_back({mesh, render.head_ws, std::nullopt, {}});
-        }
-    }
+void PlayerView::add_figure(const BodyMeasures& measures, const RenderPose& render,
+                            BodyFigures::Seen seen, RenderFrame& frame) {
+    body_.add(measures, render, seen, renderer_, frame);
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const RenderPose::Hand& hand = render.hands[side];
         const bool grips = hand.grip != GripKind::none;
@@ -63,9 +52,12 @@ void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
                       std::span<const Line> marks, const UiPicture* ui) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
     hands_.begin();
-    const auto players = scene_->world.render_pose.rows();
+    body_.begin();
+    const Column<RenderPose>& players = scene_->world.render_pose;
     for (std::size_t i = 0; i < players.size(); ++i) {
-        add_figure(players[i], without_head != i, frame);
+        using enum BodyFigures::Seen;
+        add_figure(scene_->world.body_measures.at(players.owners()[i]), players.rows()[i],
+                   without_head == i ? by_himself : by_others, frame);
     }
     frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
     frame.camera.pose_ws = camera_ws;

@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "components/render.hpp"
-#include "game/render/hand_figures.hpp"
+#include "game/render/player_models.hpp"
 #include "game/render/renderer.hpp"
 #include "game/scene.hpp"
 
 namespace handhold {
 
-// A scene with its players as a renderer draws them: their heads and hands, what their palms point
+// A scene with its players as a renderer draws them: their bodies and hands, what their palms point
 // at, and what holds them.
 class PlayerView {
   public:
     // Nothing, with the reason, where nothing can be drawn on this machine. `scene` must outlive
     // the view.
-    static std::optional<PlayerView> open(const Scene& scene, HandModels hands, int width_px,
+    static std::optional<PlayerView> open(const Scene& scene, PlayerModels models, int width_px,
                                           int height_px, std::string& why_not,
                                           PictureQuality quality = PictureQuality::quick);
 
@@ -31,14 +31,15 @@ class PlayerView {
     const RenderCounters& counters() const { return renderer_.counters(); }
 
   private:
-    PlayerView(const Scene& scene, HandModels hands, Renderer renderer);
-    void add_figure(const RenderPose& render, bool with_head, RenderFrame& frame);
+    PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
+    void add_figure(const BodyMeasures& measures, const RenderPose& render, BodyFigures::Seen seen,
+                    RenderFrame& frame);
 
     const Scene* scene_;
     Renderer renderer_;            // each has its own meshes
     std::vector<MeshId> visuals_;  // by Scene::visuals
-    std::vector<MeshId> head_;
     HandFigures hands_;
+    BodyFigures body_;
 };
 
 }  // namespace handhold

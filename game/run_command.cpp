@@ -258,14 +258,15 @@ struct Film {
     ReportMedia media;
 };
 
-Film open_film(const RunOptions& options, const Scene& scene, HandModels hands, double session_s) {
+Film open_film(const RunOptions& options, const Scene& scene, PlayerModels models,
+               double session_s) {
     Film film;
     if (options.out.empty() || !options.pictures) {
         return film;
     }
     FilmSettings settings;
     settings.video = std::filesystem::path(options.out) / "run.mp4";
-    settings.hands = std::move(hands);
+    settings.models = std::move(models);
     std::string why_not;
     film.camera = SessionFilm::open(scene, session_s, settings, why_not);
     if (film.camera == nullptr) {
@@ -313,9 +314,9 @@ int run_command(const RunOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
-    Result<HandModels> hands = choose_hand_models(options.hand_rig);
-    if (!hands) {
-        return refuse(hands.error());
+    Result<PlayerModels> models = choose_player_models(options.models);
+    if (!models) {
+        return refuse(models.error());
     }
     const Result<Session> session = load_session(options, scene);
     if (!session) {
@@ -348,7 +349,7 @@ int run_command(const RunOptions& options) {
     const Recording* const recording =
         session.value().recording ? &*session.value().recording : nullptr;
     Film film =
-        open_film(options, scene, std::move(hands.value()), session_length_s(recording, settings));
+        open_film(options, scene, std::move(models.value()), session_length_s(recording, settings));
     if (!options.trace.empty()) {
         start_trace();
     }

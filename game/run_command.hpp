@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "game/render/player_models.hpp"
+
 namespace handhold {
 
 // `handhold run`, as given on the command line.
@@ -22,7 +24,7 @@ struct RunOptions {
     std::uint64_t seed = 1;  // of places and climbers
     bool climbers = false;   // also the first player climbs instead of playing the session
     int threads = 1;
-    std::vector<std::string> hand_rig;  // two skinned hands, left and right; empty: the robot's
+    PlayerModelFiles models;
     bool pictures = true;
 };
 

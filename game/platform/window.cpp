@@ -12,10 +12,11 @@ namespace {
 
 constexpr double k_wheel_m = 0.04;  // a notch
 
-constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 7> k_play_keys = {{
+constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 8> k_play_keys = {{
     {SDL_SCANCODE_F1, PlayKey::help},
     {SDL_SCANCODE_F2, PlayKey::inspector},
     {SDL_SCANCODE_F3, PlayKey::menu},
+    {SDL_SCANCODE_F4, PlayKey::view},
     {SDL_SCANCODE_TAB, PlayKey::free_mouse},
     {SDL_SCANCODE_P, PlayKey::pause},
     {SDL_SCANCODE_O, PlayKey::step},

@@ -16,7 +16,7 @@
 namespace handhold {
 
 // Keys that mean something besides moving, in the order in which they were pressed.
-enum class PlayKey : std::uint8_t { help, inspector, menu, free_mouse, pause, step, leave };
+enum class PlayKey : std::uint8_t { help, inspector, menu, view, free_mouse, pause, step, leave };
 
 // What was done at a window since it was last asked.
 struct WindowEvents {

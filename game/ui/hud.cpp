@@ -16,7 +16,7 @@ struct HelpLine {
     const char* keys;
     const char* what;
 };
-constexpr std::array<HelpLine, 12> k_help = {{
+constexpr std::array<HelpLine, 13> k_help = {{
     {"Mouse", "look about; the mark is green where a hand can reach"},
     {"Left, right button", "that hand reaches, and grips while you hold it"},
     {"W A S D  Q E", "pull yourself by what you grip"},
@@ -27,6 +27,7 @@ constexpr std::array<HelpLine, 12> k_help = {{
     {"F1", "this help"},
     {"F2", "inspector: what the runtime does, and its numbers"},
     {"F3", "scenes and settings"},
+    {"F4", "see yourself: from before, from behind"},
     {"Tab, Esc", "free the mouse, leave"},
     {"Gamepad", "triggers grip, left stick pulls, right stick looks"},
 }};

@@ -1,0 +1,14 @@
+#include "game/body_export.hpp"
+
+#include "engine/io/text_file.hpp"
+#include "game/exit_status.hpp"
+#include "game/render/robot_body.hpp"
+
+namespace handhold {
+
+int export_body_command(const std::string& file) {
+    const auto error = write_file_atomically(file, make_robot_body_glb());
+    return error ? refuse(*error) : 0;
+}
+
+}  // namespace handhold

@@ -1,0 +1,70 @@
+#include "game/outside_camera.hpp"
+
+#include <algorithm>
+
+#include "game/render/primitives.hpp"
+
+namespace handhold {
+
+void OutsideCamera::place_walls() {
+    std::vector<ColliderProxy> proxies;
+    const World& world = scene_->world;
+    for (std::size_t row = 0; row < world.body.size(); ++row) {
+        const Entity body = world.body.owners()[row];
+        if (world.body.rows()[row].kind != BodyKind::free) {
+            const Pose& pose = world.body_pose.at(body).pose_ws;
+            proxies.push_back({world.persistent_id.at(body).value, world.collider.at(body).shape,
+                               pose, pose, false});
+        }
+    }
+    std::sort(proxies.begin(), proxies.end(),
+              [](const ColliderProxy& a, const ColliderProxy& b) { return a.id < b.id; });
+    walls_.set_proxies(proxies);
+}
+
+Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& target_ws,
+                              const Vec3& ahead_ws) {
+    constexpr double k_camera_radius_m = 0.08;
+    constexpr double k_worth_m = 0.15;
+    const Vec3 up = scene_->up_ws;
+    const Vec3 side = ahead_ws.cross(up);
+    Vec3 best = target_ws - 0.3 * ahead_ws;
+    place_walls();
+    for (const auto& [forward, height, sideways] : offsets) {
+        const Vec3 wanted = target_ws + forward * ahead_ws + height * up + sideways * side;
+        const auto hit = walls_.cast_sphere(k_camera_radius_m, target_ws, wanted);
+        const double share = hit ? hit->distance_m / (wanted - target_ws).norm() : 1.0;
+        const Vec3 place = target_ws + std::max(0.0, share - 0.02) * (wanted - target_ws);
+        if ((place - target_ws).norm() > (best - target_ws).norm() + k_worth_m) {
+            best = place;
+        }
+    }
+    return look_along(best, target_ws - best, up);
+}
+
+Vec3 OutsideCamera::level_ahead(const RenderPose& render) const {
+    const Vec3 up = scene_->up_ws;
+    Vec3 ahead = render.head_ws.rotation * -Vec3::UnitZ();
+    ahead -= up * up.dot(ahead);
+    const double length = ahead.norm();
+    return length > 1e-6 ? Vec3(ahead / length) : Vec3(up.unitOrthogonal());
+}
+
+Pose OutsideCamera::behind(const RenderPose& render) {
+    constexpr std::array<Offset, 5> k_tries = {{{-1.3, 0.45, 0.75},
+                                                {-1.3, 0.45, -0.75},
+                                                {-1.4, 0.2, 0.0},
+                                                {0.9, 0.3, 0.9},
+                                                {0.9, 0.3, -0.9}}};
+    const Vec3 ahead = level_ahead(render);
+    return look_from(k_tries, render.head_ws.position - 0.25 * scene_->up_ws + 0.25 * ahead, ahead);
+}
+
+Pose OutsideCamera::before(const RenderPose& render) {
+    constexpr std::array<Offset, 3> k_tries = {
+        {{1.5, 0.15, 0.0}, {1.3, 0.2, 0.7}, {1.3, 0.2, -0.7}}};
+    const Vec3 ahead = level_ahead(render);
+    return look_from(k_tries, render.head_ws.position - 0.3 * scene_->up_ws, ahead);
+}
+
+}  // namespace handhold

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "components/render.hpp"
+#include "engine/collision/collision_world.hpp"
+#include "game/scene.hpp"
+
+namespace handhold {
+
+// Where the camera of a play is.
+enum class PlayerViewpoint : std::uint8_t { eyes, mirror, behind };
+
+// Cameras that look at a player, in the room with him. Only reads the world.
+class OutsideCamera {
+  public:
+    // `scene` must outlive it.
+    explicit OutsideCamera(const Scene& scene) : scene_(&scene), walls_(*scene.shapes) {}
+
+    // Behind and above his head.
+    Pose behind(const RenderPose& render);
+    // Before him, looking back: hands go the other way, as in a photograph.
+    Pose before(const RenderPose& render);
+
+  private:
+    // Ahead, up and to the right of what is looked at, metres.
+    using Offset = std::array<double, 3>;
+    // The first of these places that no wall cuts much shorter than the best.
+    Pose look_from(std::span<const Offset> offsets, const Vec3& target_ws, const Vec3& ahead_ws);
+    Vec3 level_ahead(const RenderPose& render) const;
+    void place_walls();
+
+    const Scene* scene_;
+    CollisionWorld walls_;  // of what is not free to move
+};
+
+}  // namespace handhold

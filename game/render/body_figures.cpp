@@ -1,0 +1,164 @@
+#include "game/render/body_figures.hpp"
+
+#include <map>
+#include <utility>
+
+#include "engine/core/check.hpp"
+#include "game/render/robot_body.hpp"
+
+namespace handhold {
+namespace {
+
+enum class Region { body, head, hand };
+
+// What rises above the shoulders counts as head: it would stand before the eyes.
+Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights& weights) {
+    std::size_t heaviest = 0;
+    for (std::size_t k = 1; k < weights.weight.size(); ++k) {
+        if (weights.weight[k] > weights.weight[heaviest]) {
+            heaviest = k;
+        }
+    }
+    switch (rig.carriers[rig.joints[weights.joint[heaviest]].carrier].bone) {
+        case BodyBone::head:
+        case BodyBone::neck:
+            return Region::head;
+        case BodyBone::hand:
+            return Region::hand;
+        case BodyBone::trunk: {
+            const Pose& shoulders_ms = rig.carriers[BodyRig::k_chest].rest_ms;
+            const double above = inverse_transform_point(shoulders_ms, position_ms).y();
+            return above > 0.0 ? Region::head : Region::body;
+        }
+        default:
+            return Region::body;
+    }
+}
+
+}  // namespace
+
+BodyModel builtin_body_model() {
+    BodyModel model;
+    model.figure = make_robot_body();
+    Result<BodyRig> rig = fit_body_rig(model.figure);
+    HH_CHECK(rig.ok(), "the robot has a body's joints", rig.ok());
+    model.rig = std::move(rig.value());
+    return model;
+}
+
+Result<BodyModel> choose_body_model(const std::string& figure_file, const std::string& map_file) {
+    if (figure_file.empty()) {
+        return builtin_body_model();
+    }
+    BodyMap map;
+    if (!map_file.empty()) {
+        Result<BodyMap> loaded = load_body_map(map_file);
+        if (!loaded) {
+            return loaded.error();
+        }
+        map = std::move(loaded.value());
+    }
+    Result<SkinnedMesh> figure = load_gltf_figure(figure_file);
+    if (!figure) {
+        return figure.error();
+    }
+    Result<BodyRig> rig = fit_body_rig(figure.value(), map);
+    if (!rig) {
+        return rig.error();
+    }
+    return BodyModel{std::move(figure.value()), std::move(rig.value())};
+}
+
+BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move(model)) {
+    cut_pieces();
+    copies_.push_back(make_copy(renderer));
+}
+
+// A triangle belongs where most of its corners do; hands are left out.
+void BodyFigures::cut_pieces() {
+    const SkinnedMesh& figure = model_.figure;
+    std::vector<Region> regions;
+    for (std::size_t i = 0; i < figure.positions.size(); ++i) {
+        regions.push_back(region_of(model_.rig, figure.positions[i], figure.weights[i]));
+    }
+    for (std::size_t run = 0; run < figure.color_runs.size(); ++run) {
+        const ColorRun& color = figure.color_runs[run];
+        const std::size_t to = run + 1 < figure.color_runs.size()
+                                   ? figure.color_runs[run + 1].first_triangle
+                                   : figure.triangles.size();
+        std::array<Piece, 2> parts;  // body, head
+        std::array<std::map<std::uint32_t, std::uint32_t>, 2> places;
+        for (std::size_t i = color.first_triangle; i < to; ++i) {
+            const auto& corners = figure.triangles[i];
+            const Region second = regions[corners[1]];
+            const Region region = second == regions[corners[2]] ? second : regions[corners[0]];
+            if (region == Region::hand) {
+                continue;
+            }
+            const std::size_t part = region == Region::head ? 1 : 0;
+            std::array<std::uint32_t, 3> triangle{};
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const auto [place, is_new] = places[part].try_emplace(
+                    corners[corner], static_cast<std::uint32_t>(parts[part].vertices.size()));
+                if (is_new) {
+                    parts[part].vertices.push_back(corners[corner]);
+                }
+                triangle[corner] = place->second;
+            }
+            parts[part].triangles.push_back(triangle);
+        }
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (parts[part].triangles.empty()) {
+                continue;
+            }
+            parts[part].color = color.color;
+            parts[part].look.gloss = color.gloss;
+            parts[part].look.emissive = color.emissive;
+            parts[part].is_head = part == 1;
+            pieces_.push_back(std::move(parts[part]));
+        }
+    }
+}
+
+BodyFigures::Copy BodyFigures::make_copy(Renderer& renderer) const {
+    Copy copy;
+    for (const Piece& piece : pieces_) {
+        copy.push_back(renderer.add_moving_mesh(piece.triangles, piece.color));
+    }
+    return copy;
+}
+
+void BodyFigures::begin() { used_ = 0; }
+
+void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render, Seen seen,
+                      Renderer& renderer, RenderFrame& frame) {
+    if (used_ == copies_.size()) {
+        copies_.push_back(make_copy(renderer));
+    }
+    const SkinnedMesh& figure = model_.figure;
+    pose_skeleton(model_.rig, measures, render, pose_);
+    // Vertices about the head, where they keep their precision far from the origin.
+    const Pose origin_ws{render.head_ws.position, Quat::Identity()};
+    for (Affine& carry : pose_.carry_ws) {
+        carry.translation -= origin_ws.position;
+    }
+    skin_vertices({figure.positions, figure.normals, figure.weights, pose_.carry_ws}, positions_,
+                  normals_);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const Piece& piece = pieces_[i];
+        if (piece.is_head && seen == Seen::by_himself) {
+            continue;
+        }
+        piece_positions_.clear();
+        piece_normals_.clear();
+        for (const std::uint32_t vertex : piece.vertices) {
+            piece_positions_.push_back(positions_[vertex]);
+            piece_normals_.push_back(normals_[vertex]);
+        }
+        renderer.move_mesh(copies_[used_][i], piece_positions_, piece_normals_);
+        frame.instances.push_back({copies_[used_][i], origin_ws, std::nullopt, piece.look});
+    }
+    ++used_;
+}
+
+}  // namespace handhold

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/io/gltf_skin_writer.hpp"
+#include "game/render/figure_kit.hpp"
+
+// Figures of rigid parts as a skinned file: a surface for each material.
+namespace handhold {
+
+class FigureSkin {
+  public:
+    explicit FigureSkin(std::string name) : name_(std::move(name)) {}
+
+    // A part that stands at `at` in the figure's frame, rigid on one joint.
+    void add(FigureMaterial material, const Mesh& part, const Pose& at, std::uint16_t joint);
+    // All parts of a kit.
+    void add(const FigureKit& kit, const Pose& at, std::uint16_t joint, const std::string& name);
+
+    // The bytes of a .glb. Preconditions: write_skinned_glb's.
+    std::string write(std::vector<SkinJoint> joints) const;
+
+  private:
+    std::string name_;
+    std::array<GltfSkinSurface, k_figure_material_count> surfaces_;  // by FigureMaterial
+};
+
+}  // namespace handhold

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "game/render/body_figures.hpp"
+#include "game/render/hand_figures.hpp"
+
+// What players look like.
+namespace handhold {
+
+struct PlayerModels {
+    HandModels hands = builtin_hand_models();
+    BodyModel body = builtin_body_model();
+};
+
+// Of a command line; what is empty is the robot's.
+struct PlayerModelFiles {
+    std::vector<std::string> hands;  // two skins, left and right
+    std::string body;                // a figure
+    std::string body_map;            // names of its joints
+};
+Result<PlayerModels> choose_player_models(const PlayerModelFiles& files);
+
+}  // namespace handhold
