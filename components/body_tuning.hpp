@@ -42,6 +42,11 @@ struct ArmTuning {
     double chest_speed_radps = 12.0;
 };
 
+struct CalibrationTuning {
+    double hold_s = 1.0;
+    double still_m = 0.05;
+};
+
 struct SpineTuning {
     double spine_limit_rad = 0.4;
     double hip_limit_rad = 1.0471975511965976;
@@ -94,6 +99,10 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "share in which a bent arm's elbow stays where it was while the hand moves");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
         "the chest turns at most this fast");
+    see("calibration.hold_s", t.calibration.hold_s, "s", 0.1, 10.0,
+        "a T-pose is held so long before it is measured");
+    see("calibration.still_m", t.calibration.still_m, "m", 1e-3, 0.5,
+        "and the hands move no farther meanwhile");
     see("spine.spine_limit_rad", t.spine.spine_limit_rad, "rad", 0.01, 1.5,
         "bend of each link of the spine against the one above");
     see("spine.hip_limit_rad", t.spine.hip_limit_rad, "rad", 0.01, 1.5,

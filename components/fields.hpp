@@ -162,6 +162,7 @@ void visit_fields(const PlayerCommands& c, V&& visit) {
     visit("snap_turns", c.snap_turns);
     visit("brake", c.brake);
     visit("thrust_ps", c.thrust_ps);
+    visit("calibrate", c.calibrate);
 }
 template <typename V>
 void visit_fields(const ReferenceVelocity& c, V&& visit) {
@@ -194,6 +195,15 @@ void visit_fields(const BodyMeasures& c, V&& visit) {
     visit("shoulder_width_m", c.shoulder_width_m);
     visit("upper_arm_m", c.upper_arm_m);
     visit("forearm_m", c.forearm_m);
+}
+template <typename V>
+void visit_fields(const Calibration& c, V&& visit) {
+    visit("done", c.done);
+    visit("held_s", c.held_s);
+    visit("eyes_s_m", c.eyes_s_m);
+    visit("span_s_m", c.span_s_m);
+    visit("left_ps", c.left_ps);
+    visit("right_ps", c.right_ps);
 }
 template <typename V>
 void visit_fields(const ArmMemory::Arm& c, V&& visit) {

@@ -6,6 +6,8 @@ const char* name_of(Stage stage) {
     switch (stage) {
         case Stage::read_tracking:
             return "read_tracking";
+        case Stage::calibrate_players:
+            return "calibrate_players";
         case Stage::group_joints:
             return "group_joints";
         case Stage::update_grabs:

@@ -12,6 +12,7 @@ namespace handhold {
 // In the order of the frame.
 enum class Stage : std::uint8_t {
     read_tracking,
+    calibrate_players,
     group_joints,
     update_grabs,
     locomote_players,

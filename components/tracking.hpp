@@ -36,6 +36,7 @@ struct PlayerCommands {
     std::int32_t snap_turns = 0;    // turns to the left begun in this frame; negative to the right
     double brake = 0.0;             // [0, 1]
     Vec3 thrust_ps = Vec3::Zero();  // each in [-1, 1]; obeyed only where Tuning allows thrusters
+    bool calibrate = false;         // held while he holds a T-pose
 };
 
 // The frame's input of one player.

@@ -121,6 +121,7 @@ struct Tuning {
     ContactTuning contact;
     SolverTuning solver;
     ArmTuning arm;
+    CalibrationTuning calibration;
     SpineTuning spine;
 };
 

@@ -90,6 +90,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.last_valid.add(made.player, {description.origin_ws, false});
     world.render_pose.add(made.player);
     world.body_measures.add(made.player, description.measures);
+    world.calibration.add(made.player);
     world.arm_memory.add(made.player);
     world.arm_estimate.add(made.player);
     world.arm_pose.add(made.player);

@@ -5,6 +5,7 @@
 
 #include "components/arm.hpp"
 #include "components/body.hpp"
+#include "components/calibration.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
 #include "components/joint.hpp"
@@ -52,7 +53,8 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // these six: every player
+    Column<BodyMeasures> body_measures;  // these seven: every player
+    Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
     Column<ArmPose> arm_pose;
@@ -96,6 +98,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("head_ignores", world.head_ignores);
     visit("render_pose", world.render_pose);
     visit("body_measures", world.body_measures);
+    visit("calibration", world.calibration);
     visit("arm_memory", world.arm_memory);
     visit("arm_estimate", world.arm_estimate);
     visit("arm_pose", world.arm_pose);

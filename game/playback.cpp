@@ -1,5 +1,7 @@
 #include "game/playback.hpp"
 
+#include <algorithm>
+
 namespace handhold {
 
 Playback::Playback(const Recording& recording) {
@@ -14,6 +16,8 @@ Playback::Playback(const Recording& recording) {
             sample.controllers[side].grab = (recorded.hands[side].buttons & k_grab_buttons) != 0;
         }
         samples_.push_back(sample);
+        calibrates_.push_back(std::ranges::all_of(
+            recorded.hands, [](const auto& hand) { return (hand.buttons & k_button_menu) != 0; }));
     }
     duration_s_ = samples_.empty() ? 0.0 : samples_.back().t_s;
 }
@@ -25,6 +29,12 @@ std::span<const TrackingSample> Playback::window(double frame_end_s) {
     }
     const std::size_t end = next_ < samples_.size() ? next_ + 1 : next_;
     return std::span(samples_).subspan(begin, end - begin);
+}
+
+PlayerCommands Playback::commands() const {
+    PlayerCommands commands;
+    commands.calibrate = next_ > 0 && calibrates_[next_ - 1];
+    return commands;
 }
 
 }  // namespace handhold

@@ -19,10 +19,14 @@ class Playback {
     // The samples since the last call's end, up to frame_end_s, and the one after it where there is
     // one. Each sample before the frame's end is handed out once; frame_end_s must not fall.
     std::span<const TrackingSample> window(double frame_end_s);
+    // What sticks and buttons ask for as of the last sample that the last window has in its frame:
+    // both menu buttons ask for calibration.
+    PlayerCommands commands() const;
 
   private:
     std::vector<TrackingSample> samples_;
-    std::size_t next_ = 0;  // first sample not yet consumed
+    std::vector<bool> calibrates_;  // by sample
+    std::size_t next_ = 0;          // first sample not yet consumed
     double duration_s_ = 0.0;
 };
 

@@ -147,7 +147,8 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         const std::span<const TrackingSample> samples =
             playback ? playback->window(end_s) : std::span<const TrackingSample>{};
         for (std::size_t i = 0; i < recorded; ++i) {
-            inputs[i] = {players[i].player, samples, {}};
+            inputs[i] = {players[i].player, samples,
+                         playback ? playback->commands() : PlayerCommands{}};
         }
         climbers.drive(scene, caches, end_s, std::span(inputs).subspan(recorded));
         const std::int64_t begin_ns = now_ns();

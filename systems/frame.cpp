@@ -4,6 +4,7 @@
 #include "engine/core/profile.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
+#include "systems/body/calibrate_players.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
@@ -68,6 +69,12 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
         read_tracking({input.players, start_s, end_s, w.hand_owner, w.controller_to_hand,
                        w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
                       tuning, stats);
+    }
+    {
+        const StageTimer timer(Stage::calibrate_players, stats);
+        calibrate_players({input.dt_s, w.player_commands, w.head_tracking, w.hand_owner,
+                           w.hand_tracking, w.calibration, w.body_measures},
+                          tuning.calibration);
     }
     {
         const StageTimer timer(Stage::group_joints, stats);

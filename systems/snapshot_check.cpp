@@ -168,6 +168,7 @@ class BreachFinder {
 
     void check_figures() {
         require_both("player", w_.player, "body_measures", w_.body_measures);
+        require_both("player", w_.player, "calibration", w_.calibration);
         require_both("player", w_.player, "arm_memory", w_.arm_memory);
         require_both("player", w_.player, "arm_estimate", w_.arm_estimate);
         require_both("player", w_.player, "arm_pose", w_.arm_pose);
@@ -179,6 +180,11 @@ class BreachFinder {
                 std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
             check(least >= 0.05 && most <= 5.0, "body_measures", w_.body_measures.owners()[row], "",
                   "lengths of 0.05 to 5 m");
+        }
+        for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
+            const double held_s = w_.calibration.rows()[row].held_s;
+            check(held_s >= 0.0 && held_s <= 10.0, "calibration", w_.calibration.owners()[row],
+                  ".held_s", "0 to 10 s");
         }
         for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;

@@ -1,0 +1,115 @@
+#include "systems/body/calibrate_players.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/ecs/join.hpp"
+
+namespace handhold {
+namespace {
+
+// Shares of people: the shoulders' of the span, the span's of the eye height (docs/decisions.md).
+constexpr double k_shoulder_share = 0.25;
+constexpr double k_span_share = 0.95;
+// Eyes lower than this share of what the span says: he sits.
+constexpr double k_seated_share = 0.87;
+
+bool is_known(TrackingState state) { return state == TrackingState::tracked; }
+
+Calibration begin_at(const Vec3& left_ps, const Vec3& right_ps) {
+    Calibration begun;
+    begun.left_ps = left_ps;
+    begun.right_ps = right_ps;
+    return begun;
+}
+
+void hold(double dt_s, const HeadTracking& head, const std::array<Vec3, k_hand_count>& hands_ps,
+          const CalibrationTuning& tuning, Calibration& calibration, BodyMeasures& measures) {
+    const Vec3 eyes_ps = head.pose_ps.position;
+    const auto pose =
+        read_t_pose(eyes_ps - head.shift_m, hands_ps[0] - head.shift_m, hands_ps[1] - head.shift_m);
+    const bool is_still = (hands_ps[0] - calibration.left_ps).norm() < tuning.still_m &&
+                          (hands_ps[1] - calibration.right_ps).norm() < tuning.still_m;
+    if (!pose || !is_still) {
+        calibration = begin_at(hands_ps[0], hands_ps[1]);
+        return;
+    }
+    const double left_s = tuning.hold_s - calibration.held_s;
+    const double share_s = std::min(dt_s, left_s);
+    calibration.held_s += share_s;
+    calibration.eyes_s_m += share_s * pose->eyes_m;
+    calibration.span_s_m += share_s * pose->span_m;
+    if (dt_s >= left_s) {
+        measures = measures_of(
+            {calibration.eyes_s_m / calibration.held_s, calibration.span_s_m / calibration.held_s});
+        calibration = {};
+        calibration.done = true;
+    }
+}
+
+}  // namespace
+
+std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps) {
+    constexpr double k_level = 0.12;   // of the span: one hand above the other
+    constexpr double k_middle = 0.15;  // the head off the middle
+    constexpr double k_highest = 0.02;
+    constexpr double k_lowest = 0.30;  // the hands below the eyes
+    const Vec3 line = right_ps - left_ps;
+    const Vec3 level(line.x(), 0.0, line.z());
+    const double span = level.norm();
+    if (!is_finite(head_ps) || !(span >= 0.6) || !(span <= 2.4)) {
+        return std::nullopt;
+    }
+    const Vec3 middle = 0.5 * (left_ps + right_ps);
+    const Vec3 aside(head_ps.x() - middle.x(), 0.0, head_ps.z() - middle.z());
+    const double below = (head_ps.y() - middle.y()) / span;
+    const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
+                        below >= k_highest && below <= k_lowest && head_ps.y() > 0.3;
+    return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
+}
+
+BodyMeasures measures_of(const TPose& pose) {
+    const BodyMeasures usual;
+    const double upper_share = usual.upper_arm_m / (usual.upper_arm_m + usual.forearm_m);
+    BodyMeasures measures;
+    measures.shoulder_width_m = k_shoulder_share * pose.span_m;
+    const double arm_m = 0.5 * (pose.span_m - measures.shoulder_width_m);
+    measures.upper_arm_m = upper_share * arm_m;
+    measures.forearm_m = arm_m - measures.upper_arm_m;
+    const double standing_m = pose.span_m / k_span_share;
+    measures.eye_height_m = pose.eyes_m < k_seated_share * standing_m ? standing_m : pose.eyes_m;
+    return measures;
+}
+
+BodyMeasures measures_of_eye_height(double eye_height_m) {
+    return measures_of({eye_height_m, k_span_share * eye_height_m});
+}
+
+void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning) {
+    for (std::size_t row = 0; row < io.calibration.size(); ++row) {
+        const Entity player = io.calibration.owners()[row];
+        Calibration& calibration = io.calibration.rows()[row];
+        if (!io.commands.at(player).calibrate) {
+            calibration = {};
+        } else if (!calibration.done) {
+            const HeadTracking& head = io.head.at(player);
+            std::array<Vec3, k_hand_count> hands_ps{};
+            std::size_t known = is_known(head.state) ? 1 : 0;
+            for (std::size_t hand = 0; hand < io.owner.size(); ++hand) {
+                const HandOwner& owner = io.owner.rows()[hand];
+                const HandTracking& tracking = io.hand.at(io.owner.owners()[hand]);
+                if (owner.player == player && is_known(tracking.state)) {
+                    hands_ps[index_of(owner.side)] = tracking.pose_ps.position;
+                    ++known;
+                }
+            }
+            if (known == 1 + k_hand_count) {
+                hold(io.dt_s, head, hands_ps, tuning, calibration, io.measures.at(player));
+            } else {
+                calibration = {};
+            }
+        }
+    }
+}
+
+}  // namespace handhold
