@@ -345,6 +345,8 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("normal_bs", c.normal_bs);
     visit("wrist_bs", c.wrist_bs);
     visit("surroundings", c.surroundings);
+    visit("held_bs", c.held_bs);
+    visit("is_held", c.is_held);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -371,8 +373,10 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("solved_wrist_bs", c.solved_wrist_bs);
     visit("solved_surroundings", c.solved_surroundings);
     visit("solved", c.solved);
+    visit("arrived", c.arrived);
     visit("thumb_wrist_bs", c.thumb_wrist_bs);
     visit("thumb_solved", c.thumb_solved);
+    visit("thumb_arrived", c.thumb_arrived);
 }
 template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {

@@ -51,6 +51,22 @@ double hand_way_m(const Pose& from, const Pose& to) {
     return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm();
 }
 
+bool is_clearly_better(const ChainFit& fit, const ChainFit& than,
+                       const ChainFitSettings& settings) {
+    constexpr double k_clearly_m = 1e-3;
+    return fit.depth_m <= settings.open_depth_m || fit.depth_m < than.depth_m - k_clearly_m;
+}
+
+bool is_moment_later(const Pose& from, const Pose& to) {
+    constexpr double k_moment_m = 0.008;  // 0.7 m/s at 90 frames a second
+    return hand_way_m(from, to) < k_moment_m;
+}
+
+bool keeps_fit(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs) {
+    return pose.solved && pose.solved_body == hand.body &&
+           is_moment_later(pose.solved_wrist_bs, wrist_bs);
+}
+
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown) {
     for (std::size_t i = 0; i < k_most_links; ++i) {
         shown.curl_rad[i] = std::min(target.curl_rad[i], shown.curl_rad[i] + step_rad);

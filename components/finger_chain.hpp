@@ -22,6 +22,15 @@ ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
 // How far the parts of a hand have moved, roughly: a turn moves fingers by its angle times 0.1 m.
 double hand_way_m(const Pose& from, const Pose& to);
 
+// Of a chain sunk deeper than it should be: whether it is worth changing from one fit to another.
+bool is_clearly_better(const ChainFit& fit, const ChainFit& than, const ChainFitSettings& settings);
+
+// True where the hand's fingers were fitted a moment ago, with the wrist shown nearly at
+// `wrist_bs`: their angles are where to begin from.
+bool keeps_fit(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs);
+// The same of two places of the wrist on one body.
+bool is_moment_later(const Pose& from, const Pose& to);
+
 // Opens at once, closes by at most `step_rad` a hinge; opposition turns by as much either way.
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown);
 

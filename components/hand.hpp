@@ -24,6 +24,8 @@ struct GripSurface {
     // What it was chosen for: it is not looked for again while that stays.
     Pose wrist_bs;
     std::uint64_t surroundings = 0;
+    Pose held_bs;  // the wrist held to it, without a lift, where that is known
+    bool is_held = false;
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
@@ -60,8 +62,10 @@ struct FingerPose {
     Pose solved_wrist_bs;
     std::uint64_t solved_surroundings = 0;
     bool solved = false;
-    Pose thumb_wrist_bs;  // the same of the thumb
+    bool arrived = false;  // no target is on its way to where it turns
+    Pose thumb_wrist_bs;   // the same of the thumb
     bool thumb_solved = false;
+    bool thumb_arrived = false;
 };
 
 }  // namespace handhold

@@ -31,6 +31,7 @@ struct GripSearchScratch {
         double cost_m = 0.0;
         std::uint32_t triangle = 0;
         std::uint32_t order = 0;
+        Vec3 point = Vec3::Zero();  // as Found's
     };
     struct Found {
         std::uint32_t triangle = k_no_triangle;

@@ -1,6 +1,7 @@
 #include "components/palm_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/collision/closest_point.hpp"
@@ -60,17 +61,18 @@ class SunkPalm {
     }
 
     // How the deepest of the palm's spheres gets out; zero where none is sunk.
-    Vec3 way_out(const Pose& wrist) const {
+    Vec3 way_out(const Pose& wrist) {
         Vec3 deepest = Vec3::Zero();
+        std::size_t place = 0;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
             constexpr int k_spheres = 3;
             for (int i = 0; i < k_spheres; ++i) {
                 const double share = static_cast<double>(i) / (k_spheres - 1);
                 const Vec3 center =
                     transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
-                for (std::size_t m = 0; m < hand_.meshes.size(); ++m) {
-                    const Vec3 way =
-                        way_out_of(hand_.meshes[m], m == 0 ? side_ : 1.0, center, capsule.radius_m);
+                for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++place) {
+                    const Vec3 way = way_out_of(hand_.meshes[m], m == 0 ? side_ : 1.0,
+                                                {center, capsule.radius_m}, place);
                     deepest = way.squaredNorm() > deepest.squaredNorm() ? way : deepest;
                 }
             }
@@ -79,41 +81,77 @@ class SunkPalm {
     }
 
   private:
-    static Vec3 way_out_of(const PlacedMesh& placed, double side, const Vec3& center_bs,
-                           double radius_m) {
-        const Vec3 center = inverse_transform_point(placed.pose, center_bs);
-        const auto near =
-            placed.mesh->contact_bvh.closest_point(center, std::max(radius_m, k_far_inside_m));
+    struct Sphere {
+        Vec3 center;
+        double radius_m = 0.0;
+    };
+    // What a sphere found when it was last looked at: until it has moved so far that it may be sunk
+    // it need not be looked at again, and the nearest point is no farther than the last one.
+    struct Seen {
+        Vec3 center = Vec3::Zero();
+        Vec3 point = Vec3::Zero();
+        double clear_m = 0.0;
+        bool has_point = false;
+    };
+
+    Vec3 way_out_of(const PlacedMesh& placed, double side, const Sphere& sphere_bs,
+                    std::size_t place) {
+        const Vec3 center = inverse_transform_point(placed.pose, sphere_bs.center);
+        Seen overflow;
+        Seen& seen = place < seen_.size() ? seen_[place] : overflow;
+        if ((center - seen.center).squaredNorm() < seen.clear_m * seen.clear_m) {
+            return Vec3::Zero();
+        }
+        double look_m = std::max(sphere_bs.radius_m, k_far_inside_m);
+        if (seen.has_point) {
+            constexpr double k_noise_m = 1e-9;
+            look_m = std::min(look_m, (center - seen.point).norm() + k_noise_m);
+        }
+        const auto near = placed.mesh->contact_bvh.closest_point(center, look_m);
+        seen = {center, near ? near->point : Vec3::Zero(), 0.0, near.has_value()};
         if (!near) {
             return Vec3::Zero();
         }
-        const Vec3 outward = side * placed.mesh->contact.normals[near->triangle];
-        const Vec3 from_surface = center - near->point;
+        const Vec3 way = way_out_of(placed, side, *near, {center, sphere_bs.radius_m});
+        if (way.isZero(0.0)) {
+            seen.clear_m = near->distance_m - sphere_bs.radius_m;
+        }
+        return way;
+    }
+
+    // `sphere` in the mesh's frame.
+    static Vec3 way_out_of(const PlacedMesh& placed, double side, const TriangleHit& near,
+                           const Sphere& sphere) {
+        const Vec3 outward = side * placed.mesh->contact.normals[near.triangle];
+        const Vec3 from_surface = sphere.center - near.point;
         const double height_m = outward.dot(from_surface);
         // Beyond an edge a sphere is high over neither side, but not inside either.
         constexpr double k_surely_below = 0.5;
-        const bool is_inside = height_m < -k_surely_below * near->distance_m;
+        const bool is_inside = height_m < -k_surely_below * near.distance_m;
         const double depth_m =
-            is_inside ? radius_m + near->distance_m : radius_m - near->distance_m;
+            is_inside ? sphere.radius_m + near.distance_m : sphere.radius_m - near.distance_m;
         if (depth_m <= 0.0) {
             return Vec3::Zero();
         }
         constexpr double k_on_surface_m = 1e-9;
-        const Vec3 away = near->distance_m > k_on_surface_m
-                              ? Vec3((is_inside ? -1.0 : 1.0) / near->distance_m * from_surface)
+        const Vec3 away = near.distance_m > k_on_surface_m
+                              ? Vec3((is_inside ? -1.0 : 1.0) / near.distance_m * from_surface)
                               : outward;
         return depth_m * (placed.pose.rotation * away);
     }
 
+    static constexpr std::size_t k_most_seen = 64;  // the others are looked at every time
+
     const HandSurroundings& hand_;
     double side_ = 1.0;
+    std::array<Seen, k_most_seen> seen_;
 };
 
 }  // namespace
 
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                  const PalmTuning& tuning) {
-    const SunkPalm palm(hand, surface);
+    SunkPalm palm(hand, surface);
     Pose wrist = hold_to_limits(hand, surface, lift_m, tuning);
     Vec3 way = palm.way_out(wrist);
     PalmFit best = {wrist, way.norm()};

@@ -6,69 +6,6 @@
 namespace handhold {
 namespace {
 
-// Disc space (disc_contact.hpp) in space.
-Vec3 from_disc(const Pose& base, const Vec2& point_ds) {
-    return base.position + base.rotation * Vec3(0.0, -point_ds.y(), -point_ds.x());
-}
-
-double thickest_m(const HingeChain& chain) {
-    double thickest = 0.0;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        thickest = std::max(thickest, chain.radius_m[i]);
-    }
-    return thickest;
-}
-
-double reach_m(const HingeChain& chain) {
-    double reach = thickest_m(chain);
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        reach += chain.length_m[i];
-    }
-    return reach;
-}
-
-// The hinges, and the last link's end.
-std::array<Vec2, k_most_disc_links + 1> chain_points_ds(
-    const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad) {
-    std::array<Vec2, k_most_disc_links + 1> points;
-    points[0] = Vec2::Zero();
-    double angle = 0.0;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        angle += angle_rad[i];
-        double sine = 0.0;
-        double cosine = 1.0;
-        sin_cos(angle, sine, cosine);
-        points[i + 1] = points[i] + chain.length_m[i] * Vec2(cosine, sine);
-    }
-    return points;
-}
-
-double plane_offset_m(const HingeChain& chain, const ChainFitSettings& settings,
-                      std::size_t plane) {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        mean += chain.radius_m[i] / chain.link_count;
-    }
-    constexpr std::array<double, k_disc_planes> k_places = {0.0, 1.0, -1.0};
-    return k_places[plane] * settings.plane_offset * mean;
-}
-
-DiscChain flat_chain(const HingeChain& chain, const ChainFitSettings& settings) {
-    DiscChain flat;
-    flat.link_count = chain.link_count;
-    flat.length_m = chain.length_m;
-    flat.open_rad = chain.open_rad;
-    flat.closed_rad = chain.closed_rad;
-    for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
-        const double offset = plane_offset_m(chain, settings, plane);
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
-            const double squared = chain.radius_m[i] * chain.radius_m[i] - offset * offset;
-            flat.radius_m[plane][i] = squared > 0.0 ? std::sqrt(squared) : -1.0;
-        }
-    }
-    return flat;
-}
-
 // In the mesh's frame.
 Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& settings,
              std::size_t plane) {
@@ -77,7 +14,7 @@ Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& 
     disc.x_axis = base.rotation * -Vec3::UnitZ();
     disc.y_axis = base.rotation * -Vec3::UnitY();
     disc.normal = base.rotation * -Vec3::UnitX();
-    disc.center = base.position + plane_offset_m(chain, settings, plane) * disc.normal;
+    disc.center = base.position + plane_offset_m(chain, settings.plane_offset, plane) * disc.normal;
     disc.radius_m = reach_m(chain);
     disc.plane = static_cast<std::uint32_t>(plane);
     return disc;
@@ -89,7 +26,7 @@ class ChainFitter {
     ChainFitter(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                 const ChainFitSettings& settings, ChainFitScratch& scratch)
         : chain_(chain),
-          flat_(flat_chain(chain, settings)),
+          flat_(flat_chain(chain, settings.plane_offset)),
           meshes_(meshes),
           settings_(settings),
           scratch_(scratch) {}
@@ -127,7 +64,7 @@ class ChainFitter {
     }
 
   private:
-    using Angles = std::array<double, k_most_disc_links>;
+    using Angles = ChainAngles;
     struct CutRange {
         std::ptrdiff_t first = 0;
         std::ptrdiff_t end = 0;
@@ -140,14 +77,14 @@ class ChainFitter {
         scratch_.cuts.reserve(k_usual_segments);
         scratch_.segments.reserve(k_usual_segments);
         scratch_.disc.pairs.reserve(k_usual_segments);
-        const double half_width_m =
-            std::max(thickest_m(chain_), plane_offset_m(chain_, settings_, 1));
-        scratch_.patch.gather({chain_.base, reach_m(chain_), half_width_m}, meshes_);
+        scratch_.patch.gather(
+            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}},
+            meshes_);
         scratch_.cuts.clear();
         for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
             const std::size_t first = scratch_.cuts.size();
             const std::size_t of_first_mesh =
-                scratch_.patch.cut(plane_offset_m(chain_, settings_, plane),
+                scratch_.patch.cut(plane_offset_m(chain_, settings_.plane_offset, plane),
                                    static_cast<std::uint32_t>(plane), scratch_.cuts);
             own_cuts_[plane] = of_first_mesh;
             other_cuts_[plane] = {static_cast<std::ptrdiff_t>(first + of_first_mesh),
@@ -288,39 +225,14 @@ class ChainFitter {
         }
     }
 
-    // What is beyond the place where a surface goes through the chain is taken for sunk as well:
-    // whether it is, only a solid could tell.
-    struct Depth {
-        double depth_m = 0.0;
-        std::size_t link = 0;
-    };
-    Depth depth_of(const Angles& angle_rad) const {
-        Depth deepest;
-        const auto points_ds = chain_points_ds(chain_, angle_rad);
-        for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            const SunkCapsule sunk =
-                scratch_.patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain_.radius_m[i]);
-            double depth_m = sunk.depth_m;
-            if (sunk.crossed_at) {
-                depth_m += (1.0 - *sunk.crossed_at) * chain_.length_m[i];
-                for (std::size_t rest = i + 1; rest < chain_.link_count; ++rest) {
-                    depth_m += chain_.length_m[rest];
-                }
-            }
-            if (depth_m > deepest.depth_m) {
-                deepest = {depth_m, i};
-            }
-            if (sunk.crossed_at) {
-                break;
-            }
-        }
-        return deepest;
+    ChainDepth depth_of(const Angles& angle_rad) const {
+        return chain_depth(chain_, angle_rad, scratch_.patch);
     }
 
     // Opens the hinges up to the deepest link, step by step, as far as that helps.
     void open() {
         Angles angle_rad = fit_.angle_rad;
-        Depth depth = depth_of(angle_rad);
+        ChainDepth depth = depth_of(angle_rad);
         for (std::int32_t step = 0; step < settings_.open_steps; ++step) {
             for (std::size_t i = 0; i <= depth.link; ++i) {
                 angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
@@ -356,18 +268,6 @@ class ChainFitter {
 };
 
 }  // namespace
-
-std::array<Capsule, k_most_disc_links> chain_capsules(
-    const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad) {
-    const auto points_ds = chain_points_ds(chain, angle_rad);
-    std::array<Capsule, k_most_disc_links> capsules;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        capsules[i] = {
-            {from_disc(chain.base, points_ds[i]), from_disc(chain.base, points_ds[i + 1])},
-            chain.radius_m[i]};
-    }
-    return capsules;
-}
 
 SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
     const Vec3 along = capsule.ends[1] - capsule.ends[0];

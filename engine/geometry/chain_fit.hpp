@@ -9,6 +9,7 @@
 #include "engine/geometry/chain_patch.hpp"
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/disc_trace.hpp"
+#include "engine/geometry/hinge_chain.hpp"
 #include "engine/math/math.hpp"
 
 // Closes a chain of hinged capsules over meshes until it touches them.
@@ -20,25 +21,6 @@
 // lies between them nor a second surface that no neighbour leads to.
 // All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
 namespace handhold {
-
-// Link i begins at hinge i. At angle 0 all of them lie along the base's -Z; a positive angle turns
-// from -Z towards -Y.
-struct HingeChain {
-    Pose base;
-    std::uint32_t link_count = 3;  // 1 to k_most_disc_links
-    std::array<double, k_most_disc_links> length_m = {};
-    std::array<double, k_most_disc_links> radius_m = {};
-    std::array<double, k_most_disc_links> open_rad = {};
-    std::array<double, k_most_disc_links> closed_rad = {};
-    std::array<double, k_most_disc_links> relaxed_rad = {};  // where nothing is touched
-};
-
-struct Capsule {
-    std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};
-    double radius_m = 0.0;
-};
-std::array<Capsule, k_most_disc_links> chain_capsules(
-    const HingeChain& chain, const std::array<double, k_most_disc_links>& angle_rad);
 
 // Where the searches begin: a triangle of the first mesh's search detail, and a point on it, in
 // that mesh's frame.
@@ -74,6 +56,7 @@ struct ChainFit {
     double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0; where a surface goes
                            // through the chain's middle, with what is beyond
     ChainFallback fallback = ChainFallback::none;
+    bool is_on_its_way = false;  // of a refit (chain_refit.hpp): it would turn farther than it may
     bool wants_mending = false;  // only where ChainFitSettings::mends is off: with it, it would be
                                  // another
     std::uint32_t discs = 0;     // planes searched

@@ -54,6 +54,79 @@ class Middle {
     double length_m_;
 };
 
+// The reach in a mesh's frame.
+class ReachSlab {
+  public:
+    // `base` in the mesh's frame; `center`: of the disc, where boxes are asked about.
+    ReachSlab(const ChainReach& reach, const Pose& base, const Vec3& center)
+        : x_axis_(base.rotation * -Vec3::UnitZ()),
+          y_axis_(base.rotation * -Vec3::UnitY()),
+          across_(base.rotation * -Vec3::UnitX()),
+          x_steepness_(x_axis_.cwiseAbs()),
+          y_steepness_(y_axis_.cwiseAbs()),
+          steepness_(across_.cwiseAbs()),
+          center_(center),
+          low_(reach.box.low.cwiseMax(-reach.radius_m)),
+          high_(reach.box.high.cwiseMin(reach.radius_m)),
+          half_width_m_(reach.half_width_m),
+          radius_m2_(reach.radius_m * reach.radius_m),
+          far_m2_(radius_m2_ + half_width_m_ * half_width_m_) {}
+
+    // Of an upright box.
+    bool may_meet(const Vec3& middle, const Vec3& half) const {
+        const Vec3 to_box = middle - center_;
+        if (std::abs(across_.dot(to_box)) > steepness_.dot(half) + half_width_m_) {
+            return false;
+        }
+        const double x = x_axis_.dot(to_box);
+        const double x_half = x_steepness_.dot(half);
+        const double y = y_axis_.dot(to_box);
+        const double y_half = y_steepness_.dot(half);
+        return x - x_half <= high_.x() && x + x_half >= low_.x() && y - y_half <= high_.y() &&
+               y + y_half >= low_.y() &&
+               (to_box.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() <= far_m2_;
+    }
+
+    // True where the triangle may be in reach: then its corners in disc space, and the box around
+    // them. Most of what a leaf brings lies beside the slab.
+    bool place(const Corners& from_base, Corners& corners, ReachBox& box) const {
+        const std::array<double, 3> z = {across_.dot(from_base[0]), across_.dot(from_base[1]),
+                                         across_.dot(from_base[2])};
+        if (std::min({z[0], z[1], z[2]}) > half_width_m_ ||
+            std::max({z[0], z[1], z[2]}) < -half_width_m_) {
+            return false;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = {x_axis_.dot(from_base[i]), y_axis_.dot(from_base[i]), z[i]};
+        }
+        box.low =
+            corners[0].head<2>().cwiseMin(corners[1].head<2>()).cwiseMin(corners[2].head<2>());
+        box.high =
+            corners[0].head<2>().cwiseMax(corners[1].head<2>()).cwiseMax(corners[2].head<2>());
+        return box.low.x() <= high_.x() && box.high.x() >= low_.x() && box.low.y() <= high_.y() &&
+               box.high.y() >= low_.y() &&
+               box.low.cwiseMax(-box.high).cwiseMax(0.0).squaredNorm() <= radius_m2_;
+    }
+
+    Vec3 turned(const Vec3& direction) const {
+        return {x_axis_.dot(direction), y_axis_.dot(direction), across_.dot(direction)};
+    }
+
+  private:
+    Vec3 x_axis_;
+    Vec3 y_axis_;
+    Vec3 across_;
+    Vec3 x_steepness_;
+    Vec3 y_steepness_;
+    Vec3 steepness_;
+    Vec3 center_;
+    Vec2 low_;
+    Vec2 high_;
+    double half_width_m_;
+    double radius_m2_;
+    double far_m2_;
+};
+
 }  // namespace
 
 void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> meshes) {
@@ -75,49 +148,25 @@ void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) 
     const SurfaceGraph& surface = placed.mesh->contact;
     const TriangleBvh& bvh = placed.mesh->contact_bvh;
     const Pose base = inverse(placed.pose) * reach.base;
-    const Vec3 x_axis = base.rotation * -Vec3::UnitZ();
-    const Vec3 y_axis = base.rotation * -Vec3::UnitY();
-    const Vec3 across = base.rotation * -Vec3::UnitX();
-    const Vec3 steepness = across.cwiseAbs();
-    const Vec3 center = base.position - bvh.origin();
-    const double radius_m2 = reach.radius_m * reach.radius_m;
-    const double far_m2 = radius_m2 + reach.half_width_m * reach.half_width_m;
+    const ReachSlab slab(reach, base, base.position - bvh.origin());
     bvh.visit_boxes(
         [&](const Vec3& low, const Vec3& high) {
             const Vec3 half = 0.5 * (high - low);
-            const Vec3 from_box = center - (low + half);
-            return std::abs(across.dot(from_box)) <= steepness.dot(half) + reach.half_width_m &&
-                   (from_box.cwiseAbs() - half).cwiseMax(0.0).squaredNorm() <= far_m2;
+            return slab.may_meet(low + half, half);
         },
         [&](std::uint32_t number) {
             const auto& [a, b, c] = surface.triangles[number];
             const Corners from_base = {surface.positions[a] - base.position,
                                        surface.positions[b] - base.position,
                                        surface.positions[c] - base.position};
-            // Most of what a leaf brings lies beside the slab.
-            const std::array<double, 3> z = {across.dot(from_base[0]), across.dot(from_base[1]),
-                                             across.dot(from_base[2])};
-            if (std::min({z[0], z[1], z[2]}) > reach.half_width_m ||
-                std::max({z[0], z[1], z[2]}) < -reach.half_width_m) {
-                return;
-            }
             Triangle triangle;
-            Box box = {Vec2::Constant(std::numeric_limits<double>::infinity()),
-                       Vec2::Constant(-std::numeric_limits<double>::infinity())};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Vec2 flat(x_axis.dot(from_base[i]), y_axis.dot(from_base[i]));
-                box.low = box.low.cwiseMin(flat);
-                box.high = box.high.cwiseMax(flat);
-                triangle.corners[i] = {flat.x(), flat.y(), z[i]};
+            ReachBox box;
+            if (slab.place(from_base, triangle.corners, box)) {
+                triangle.normal = slab.turned(surface.normals[number]);
+                triangle.number = number;
+                boxes_.push_back(box);
+                triangles_.push_back(triangle);
             }
-            if (box.low.cwiseMax(-box.high).cwiseMax(0.0).squaredNorm() > radius_m2) {
-                return;
-            }
-            const Vec3& normal = surface.normals[number];
-            triangle.normal = {x_axis.dot(normal), y_axis.dot(normal), across.dot(normal)};
-            triangle.number = number;
-            boxes_.push_back(box);
-            triangles_.push_back(triangle);
         });
 }
 
@@ -158,7 +207,7 @@ SunkCapsule ChainPatch::find_sunk(const std::array<Vec2, 2>& middle_ds, double r
     double nearest_m = radius_m;
     SunkCapsule sunk;
     for (std::size_t t = 0; t < boxes_.size(); ++t) {
-        const Box& box = boxes_[t];
+        const ReachBox& box = boxes_[t];
         if (box.low.x() > high.x() + nearest_m || box.high.x() < low.x() - nearest_m ||
             box.low.y() > high.y() + nearest_m || box.high.y() < low.y() - nearest_m) {
             continue;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,11 +30,18 @@ struct SunkCapsule {
                                        // through its middle
 };
 
-// Where a chain's links can be: a disc with a thickness.
+// An upright box in disc space.
+struct ReachBox {
+    Vec2 low = Vec2::Constant(-std::numeric_limits<double>::infinity());
+    Vec2 high = Vec2::Constant(std::numeric_limits<double>::infinity());
+};
+
+// Where a chain's links can be: a disc with a thickness, and of that what is in a box.
 struct ChainReach {
     Pose base;                // the first hinge: links along -Z at angle 0, turning towards -Y
     double radius_m = 0;      // about the hinge, in the plane
     double half_width_m = 0;  // across the plane
+    ReachBox box;             // in the plane
 };
 
 // Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.
@@ -54,10 +62,6 @@ class ChainPatch {
     std::size_t size() const { return triangles_.size(); }
 
   private:
-    struct Box {
-        Vec2 low;
-        Vec2 high;
-    };
     struct Triangle {
         Corners corners;
         Vec3 normal;  // unit
@@ -66,7 +70,7 @@ class ChainPatch {
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
 
-    std::vector<Box> boxes_;  // around the triangles, in the plane
+    std::vector<ReachBox> boxes_;  // around the triangles, in the plane
     std::vector<Triangle> triangles_;
     std::size_t of_first_mesh_ = 0;
     double radius_m_ = 0.0;

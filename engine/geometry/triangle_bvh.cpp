@@ -56,6 +56,15 @@ double bounded_inverse(double x) {
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
 
+// No more than the triangle's distance from the point, squared, but for rounding: that of a box
+// around it.
+double box_squared(const Vec3& point, const Corners& corners) {
+    const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+    return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
+}
+constexpr double k_bound_slack = 1.0 + 1e-12;
+
 }  // namespace
 
 TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
@@ -70,7 +79,9 @@ std::size_t TriangleBvh::memory_bytes() const {
 
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
                                double squared_radius) const {
-    return (closest_on_triangle(center, corners(slot)) - center).squaredNorm() <= squared_radius;
+    const Corners triangle = corners(slot);
+    return box_squared(center, triangle) <= squared_radius * k_bound_slack &&
+           (closest_on_triangle(center, triangle) - center).squaredNorm() <= squared_radius;
 }
 
 std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& to) const {
@@ -168,7 +179,11 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
             continue;
         }
         for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            const Vec3 on_triangle = closest_on_triangle(point, corners(slot));
+            const Corners triangle = corners(slot);
+            if (box_squared(point, triangle) > best * k_bound_slack) {
+                continue;
+            }
+            const Vec3 on_triangle = closest_on_triangle(point, triangle);
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;

@@ -83,6 +83,18 @@ class TriangleBvh {
         }
         return sum;
     }
+    // Of the box's farthest corner.
+    static double farthest_squared(const Node& node, const Vec3& point_about_origin) {
+        double sum = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const double below = point_about_origin[axis] - static_cast<double>(node.low[i]);
+            const double above = static_cast<double>(node.high[i]) - point_about_origin[axis];
+            const double out = below > above ? below : above;
+            sum += out * out;
+        }
+        return sum;
+    }
     std::array<Vec3, 3> corners(std::uint32_t slot) const {
         const auto& [a, b, c] = slots_[slot];
         return {positions_[a], positions_[b], positions_[c]};
@@ -144,8 +156,9 @@ void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& v
             stack[depth++] = node.first;
             continue;
         }
+        const bool is_within = farthest_squared(node, local) <= squared_radius;
         for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            if (meets_sphere(slot, center, squared_radius)) {
+            if (is_within || meets_sphere(slot, center, squared_radius)) {
                 visit(numbers_[slot]);
             }
         }

@@ -12,6 +12,16 @@ namespace {
 constexpr double k_lifts_kept_m = 0.01;  // a hand that moved farther may try its surface again
 constexpr double k_lifts_kept_rad = 0.17;
 
+// search_grip knows already, but for lifts.
+Pose hold_wrist(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
+                const PalmTuning& tuning) {
+    const bool is_known = surface.is_held && lift_m == 0.0 &&
+                          surface.surroundings == hand.signature &&
+                          surface.wrist_bs.position == hand.wrist_bs.position &&
+                          surface.wrist_bs.rotation.coeffs() == hand.wrist_bs.rotation.coeffs();
+    return is_known ? surface.held_bs : fit_palm(hand, surface, lift_m, tuning).wrist_bs;
+}
+
 void set_target(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
                 PalmOffset& offset) {
     if (surface.triangle == GripSurface::k_none) {
@@ -34,7 +44,7 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
     offset.target_wrist_bs = hand.wrist_bs;
     offset.target_lift_m = offset.lift_m;
     const Pose target =
-        inverse(hand.wrist_bs) * fit_palm(hand, surface, offset.lift_m, tuning.palm).wrist_bs;
+        inverse(hand.wrist_bs) * hold_wrist(hand, surface, offset.lift_m, tuning.palm);
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/finger_chain.hpp"
+#include "engine/geometry/chain_refit.hpp"
 
 namespace handhold {
 namespace {
@@ -47,14 +48,18 @@ class ThumbPoser {
             pose.thumb_solved = false;
             return;
         }
-        if (pose.thumb_solved && same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+        if (pose.thumb_solved && pose.thumb_arrived &&
+            same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        const ThumbFit best = find_best(hand, thumb, f, pose);
+        const ThumbFit best = fit_thumb(hand, thumb, f, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
-        pose.seed_triangle[f] = best.fit.contact_triangle;
+        if (best.fit.contact_triangle != k_no_triangle) {
+            pose.seed_triangle[f] = best.fit.contact_triangle;
+        }
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
+        pose.thumb_arrived = !best.fit.is_on_its_way;
         if (best.fit.fallback == ChainFallback::relaxed) {
             stats_.count(Fallback::finger_touches_nothing);
         }
@@ -102,6 +107,30 @@ class ThumbPoser {
             (pose.target[f].opposition_rad - thumb.lower_opposition_rad) / range_rad;
         return static_cast<std::int32_t>(
             std::floor(std::clamp(share, 0.0, 1.0) * (steps - 1) + 0.5));
+    }
+
+    // As long as it touches there and is not sunk, a thumb keeps its opposition.
+    ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                       const FingerPose& pose) {
+        if (!pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+            return find_best(hand, thumb, f, pose);
+        }
+        const FingerAngles& last = pose.target[f];
+        ChainRefitSettings refit;
+        refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
+        ThumbFit kept;
+        kept.opposition_rad = last.opposition_rad;
+        kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
+                               last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
+        if (kept.fit.depth_m <= settings_.open_depth_m &&
+            kept.fit.fallback != ChainFallback::relaxed) {
+            return kept;
+        }
+        const ThumbFit anew = find_best(hand, thumb, f, pose);
+        const bool stays = kept.fit.fallback == ChainFallback::relaxed
+                               ? anew.fit.contact_link == DiscClosure::k_none
+                               : !is_clearly_better(anew.fit, kept.fit, settings_);
+        return stays ? kept : anew;
     }
 
     // A thumb that was posed before turns by one step at most, as long as it fits there.

@@ -93,8 +93,7 @@ class GripSearcher {
                 best_m_ = node.cost_m;
                 idle = 0;
             }
-            found_.push_back(
-                {node.triangle, cost_of(graph_, node.triangle, palm_, tuning_).point, node.cost_m});
+            found_.push_back({node.triangle, node.point, node.cost_m});
             for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
                 if (next != k_no_triangle) {
                     push(next);
@@ -134,7 +133,7 @@ class GripSearcher {
         if ((candidate.point - palm_.center).squaredNorm() > tuning_.reach_m * tuning_.reach_m) {
             return;
         }
-        open_.push_back({candidate.cost_m, triangle, pushed_++});
+        open_.push_back({candidate.cost_m, triangle, pushed_++, candidate.point});
         std::push_heap(open_.begin(), open_.end(), later);
     }
 
@@ -158,15 +157,12 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
     mesh.contact_bvh.visit_in_sphere(point, radius_m, [&](std::uint32_t triangle) {
         const auto& [a, b, c] = surface.triangles[triangle];
         const Corners corners = {surface.positions[a], surface.positions[b], surface.positions[c]};
-        Vec3 area = area_vector(corners);
-        const double facing = area.dot(outward);
-        // A triangle that reaches far out counts no more than the sphere's cut can.
-        const double most = 2.0 * std::numbers::pi * radius_m * radius_m;
-        if (area.norm() > most) {
-            area *= most / area.norm();
-        }
-        if (facing > 0.0) {
-            sum += area;
+        const Vec3 area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        if (area.dot(outward) > 0.0) {
+            // A triangle that reaches far out counts no more than the sphere's cut can.
+            const double most = 2.0 * std::numbers::pi * radius_m * radius_m;
+            const double squared = area.squaredNorm();
+            sum += squared > most * most ? Vec3(most / std::sqrt(squared) * area) : area;
         }
     });
     const double length = sum.norm();
@@ -217,11 +213,13 @@ class PalmHolder {
             }
             tried[tries] = *way;
             GripSurface surface = surface_at(placed, palm, *way);
-            const double sunk_m = fit_palm(hand_, surface, 0.0, tuning_.palm).sunk_m;
-            if (sunk_m <= k_roomy_m) {
+            const PalmFit fit = fit_palm(hand_, surface, 0.0, tuning_.palm);
+            surface.held_bs = fit.wrist_bs;
+            surface.is_held = true;
+            if (fit.sunk_m <= k_roomy_m) {
                 return surface;
             }
-            const double cost_m = way->cost_m + k_sunk_cost * sunk_m;
+            const double cost_m = way->cost_m + k_sunk_cost * fit.sunk_m;
             if (cost_m < best_cost_m) {
                 best = surface;
                 best_cost_m = cost_m;

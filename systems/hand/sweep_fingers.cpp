@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/finger_chain.hpp"
+#include "engine/geometry/chain_refit.hpp"
 
 namespace handhold {
 namespace {
@@ -12,7 +13,7 @@ constexpr double k_most_lifts = 3.0;
 
 bool stands(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs,
             double stroll_m) {
-    return pose.solved && pose.solved_surroundings == hand.signature &&
+    return pose.solved && pose.arrived && pose.solved_surroundings == hand.signature &&
            hand_way_m(pose.solved_wrist_bs, wrist_bs) < stroll_m;
 }
 
@@ -67,13 +68,14 @@ class HandCloser {
             pose.thumb_solved = false;
         }
         double depth_m = 0.0;
+        pose.arrived = true;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (hand.rig->fingers[f].name != FingerName::thumb) {
                 depth_m = std::max(depth_m, close_finger(place, f, wrist_bs, pose));
             }
         }
-        lift_if_sunk(hand, depth_m);
-        pose.solved = true;
+        const bool is_lifted = lift_if_sunk(hand, depth_m);  // then all close anew
+        pose.solved = !is_lifted;
         pose.solved_body = hand.body;
         pose.solved_surroundings = hand.signature;
         pose.solved_wrist_bs = wrist_bs;
@@ -83,13 +85,10 @@ class HandCloser {
     double close_finger(std::size_t place, std::size_t f, const Pose& wrist_bs, FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[place];
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
-        const ChainSeed seed =
-            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
-        const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        const ChainFit fit = close_on(hand, chain, f, wrist_bs, pose);
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
-        pose.seed_triangle[f] = fit.contact_triangle;
-        count_fallback(fit.fallback, stats_);
+        pose.arrived = pose.arrived && !fit.is_on_its_way;
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
                                     fit.contact_link, fit.fallback, fit.depth_m};
@@ -97,19 +96,48 @@ class HandCloser {
         return fit.depth_m;
     }
 
+    // Stays with the fit that the finger has, unless another is clearly less sunk.
+    ChainFit close_on(const HandSurroundings& hand, const HingeChain& chain, std::size_t f,
+                      const Pose& wrist_bs, FingerPose& pose) {
+        if (!keeps_fit(pose, hand, wrist_bs)) {
+            return close_anew(hand, chain, f, pose);
+        }
+        ChainRefitSettings refit;
+        refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
+        const ChainFit kept =
+            refit_chain(chain, pose.target[f].curl_rad, hand.meshes, settings_, refit, io_.scratch);
+        if (kept.depth_m <= settings_.open_depth_m) {
+            return kept;
+        }
+        const ChainFit anew = close_anew(hand, chain, f, pose);
+        return is_clearly_better(anew, kept, settings_) ? anew : kept;
+    }
+
+    ChainFit close_anew(const HandSurroundings& hand, const HingeChain& chain, std::size_t f,
+                        FingerPose& pose) {
+        const ChainSeed seed =
+            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
+        const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        pose.seed_triangle[f] = fit.contact_triangle;
+        count_fallback(fit.fallback, stats_);
+        return fit;
+    }
+
     // Not before the hand that is shown has come to where it is bound for: on its way there fingers
     // may well be sunk.
-    void lift_if_sunk(const HandSurroundings& hand, double depth_m) {
+    bool lift_if_sunk(const HandSurroundings& hand, double depth_m) {
         PalmOffset& offset = io_.offset.at(hand.hand);
         if (offset.shown_m != offset.target_m || offset.shown_turn_rad != offset.target_turn_rad) {
-            return;
+            return false;
         }
         const double most_m = k_most_lifts * tuning_.palm.lift_m;
         if (depth_m > tuning_.palm.lift_from_depth_m && offset.lift_m < most_m) {
             offset.lift_m = std::min(offset.lift_m + tuning_.palm.lift_m, most_m);
             offset.lifted_at_bs = hand.wrist_bs;
             stats_.count(Fallback::palm_lifted);
+            return true;
         }
+        return false;
     }
 
     const SweepFingersIo& io_;

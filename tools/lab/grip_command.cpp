@@ -93,14 +93,17 @@ void append(const WarmHand& one, WarmHand& all) {
     all.jumps += one.jumps;
 }
 
-void print_warm(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
-                const std::vector<Placement>& placements) {
+// Prints the figures; returns the hands as they are at the end of their slide.
+std::string slide_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
+                      const std::vector<Placement>& placements) {
     WarmHand all;
+    std::string text;
     Progress progress("warm");
     for (std::size_t i = 0; i < placements.size(); ++i) {
-        append(slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
-                          {options.warm_frames, options.speed_mps}),
-               all);
+        const WarmHand one = slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
+                                        {options.warm_frames, options.speed_mps});
+        append(one, all);
+        text += posed_hand_line(placements[i].id, rig, one.slid);
         progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
     }
     std::printf("slide_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
@@ -108,6 +111,7 @@ void print_warm(const GripOptions& options, const GripMesh& mesh, const HandRig&
                 quantile(all.stand_us, 0.5), quantile(all.stand_us, 0.99));
     std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames\n",
                 quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames);
+    return text;
 }
 
 }  // namespace
@@ -140,7 +144,12 @@ int grip_command(const GripOptions& options) {
         return refuse(*error);
     }
     if (options.warm_frames > 0) {
-        print_warm(options, grip_mesh, rig.value(), placements.value());
+        const std::string slid = slide_all(options, grip_mesh, rig.value(), placements.value());
+        if (!options.slid_out.empty()) {
+            if (const auto error = write_file_atomically(options.slid_out, slid)) {
+                return refuse(*error);
+            }
+        }
     }
     return 0;
 }

@@ -151,13 +151,8 @@ void add_pops(const std::array<FingerTrace, k_finger_count>& traces, WarmHand& w
     }
 }
 
-}  // namespace
-
-PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
-                         const Tuning& tuning, const GripVariant& variant) {
-    OneHand hand(mesh, rig, wrist);
-    PosedHand posed;
-    hand.run(tuning, variant, posed.us);
+// How the hand is shown now.
+void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, PosedHand& posed) {
     posed.gripped = hand.surface().triangle != GripSurface::k_none;
     posed.reason = posed.gripped ? "" : "no_surface";
     posed.wrist = hand.wrist();
@@ -176,6 +171,16 @@ PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& w
         posed.angles[f] = hand.fingers().shown[f];
         posed.traces[f] = hand.traces()[f];
     }
+}
+
+}  // namespace
+
+PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
+                         const Tuning& tuning, const GripVariant& variant) {
+    OneHand hand(mesh, rig, wrist);
+    PosedHand posed;
+    hand.run(tuning, variant, posed.us);
+    describe(hand, mesh, rig, posed);
     return posed;
 }
 
@@ -197,6 +202,7 @@ WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
         count_jumps(rig, before, hand.fingers(), warm);
         add_pops(hand.traces(), warm);
     }
+    describe(hand, mesh, rig, warm.slid);
     // The palm that is shown comes to rest first.
     constexpr int k_settle_frames = 45;
     for (int frame = 0; frame < k_settle_frames; ++frame) {

@@ -65,6 +65,8 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
             "--warm-frames", options.warm_frames,
             "Also let each hand slide for so many frames of 1/90 s, then stand: their times")
         ->check(CLI::Range(0, 100000));
+    grip.add_option("--slid-out", options.slid_out,
+                    "Hands as they are at the end of their slide, JSON lines");
     grip.add_option("--speed-mps", options.speed_mps, "Of hands that slide")
         ->check(CLI::Range(0.0, 10.0));
 }

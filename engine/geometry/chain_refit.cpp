@@ -1,0 +1,252 @@
+#include "engine/geometry/chain_refit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+class ChainRefitter {
+  public:
+    ChainRefitter(const HingeChain& chain, const ChainFitSettings& settings,
+                  const ChainRefitSettings& refit, ChainFitScratch& scratch)
+        : chain_(chain), settings_(settings), refit_(refit), scratch_(scratch) {}
+
+    ChainFit run(const ChainAngles& last_rad, std::span<const PlacedMesh> meshes) {
+        fit_.angle_rad = within_limits(last_rad);
+        gather_near(meshes);
+        const ChainDepth depth = depth_of(fit_.angle_rad, refit_.still_gap_m);
+        const double sunk_m = depth.depth_m - refit_.still_gap_m;
+        if (sunk_m > refit_.still_depth_m) {
+            if (!open()) {
+                return fit_;
+            }
+        } else if (depth.depth_m > 0.0) {
+            stay(std::max(0.0, sunk_m));
+            if (is_done()) {
+                return fit_;
+            }
+        }
+        close_on(meshes);
+        return fit_;
+    }
+
+  private:
+    // Hinges up to and with `last`, by a share of their way from open to closed.
+    ChainAngles moved_by(const ChainAngles& angle_rad, double share,
+                         std::size_t last = k_most_disc_links) const {
+        ChainAngles moved_rad = angle_rad;
+        for (std::size_t i = 0; i < chain_.link_count && i <= last; ++i) {
+            moved_rad[i] += share * (chain_.closed_rad[i] - chain_.open_rad[i]);
+        }
+        return within_limits(moved_rad);
+    }
+
+    ChainAngles within_limits(const ChainAngles& angle_rad) const {
+        ChainAngles limited_rad = {};
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            limited_rad[i] =
+                std::max(std::min(angle_rad[i], chain_.closed_rad[i]), chain_.open_rad[i]);
+        }
+        return limited_rad;
+    }
+
+    // What the chain can come to at once.
+    void gather_near(std::span<const PlacedMesh> meshes) {
+        const ChainAngles& angle_rad = fit_.angle_rad;
+        ChainReach reach = {
+            chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}};
+        const ChainAngles open_rad = moved_by(angle_rad, -refit_.open_share * refit_.open_steps);
+        const ChainAngles closed_rad = moved_by(angle_rad, refit_.close_share);
+        ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
+        reach.box = hinge;
+        std::array<double, 2> turn_rad = {};
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            turn_rad[0] += open_rad[i];
+            turn_rad[1] += closed_rad[i];
+            const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
+            hinge.low += chain_.length_m[i] * link.low;
+            hinge.high += chain_.length_m[i] * link.high;
+            reach.box.low = reach.box.low.cwiseMin(hinge.low);
+            reach.box.high = reach.box.high.cwiseMax(hinge.high);
+        }
+        const double margin_m = thickest_m(chain_) + refit_.still_gap_m;
+        reach.box.low.array() -= margin_m;
+        reach.box.high.array() += margin_m;
+        scratch_.patch.gather(reach, meshes);
+    }
+
+    // Around the unit circle's points from one angle to another.
+    static ReachBox arc_box(double from_rad, double to_rad) {
+        constexpr int k_pieces = 2;
+        const double piece_rad = (to_rad - from_rad) / k_pieces;
+        ReachBox box = {Vec2::Constant(1.0), Vec2::Constant(-1.0)};
+        for (int i = 0; i <= k_pieces; ++i) {
+            double sine = 0.0;
+            double cosine = 1.0;
+            sin_cos(from_rad + i * piece_rad, sine, cosine);
+            box.low = box.low.cwiseMin(Vec2(cosine, sine));
+            box.high = box.high.cwiseMax(Vec2(cosine, sine));
+        }
+        const double bulge = piece_rad * piece_rad / 8.0;  // no arc is farther from its chord
+        box.low.array() -= bulge;
+        box.high.array() += bulge;
+        return box;
+    }
+
+    ChainDepth depth_of(const ChainAngles& angle_rad, double more_m) const {
+        return chain_depth(chain_, angle_rad, scratch_.patch, more_m);
+    }
+
+    // Opens the hinges up to the deepest link until all is clear; false where it does not come
+    // clear: then as it is sunk least.
+    bool open() {
+        ChainAngles angle_rad = fit_.angle_rad;
+        ChainDepth depth = depth_of(angle_rad, 0.0);
+        fit_.depth_m = depth.depth_m;
+        fit_.contact_link = static_cast<std::int32_t>(depth.link);
+        for (std::int32_t step = 0; step < refit_.open_steps && depth.depth_m > 0.0; ++step) {
+            angle_rad = moved_by(angle_rad, -refit_.open_share, depth.link);
+            depth = depth_of(angle_rad, 0.0);
+            if (depth.depth_m < fit_.depth_m) {
+                fit_.angle_rad = angle_rad;
+                fit_.depth_m = depth.depth_m;
+                fit_.fallback = ChainFallback::opened;
+            }
+        }
+        return depth.depth_m <= 0.0;
+    }
+
+    // Of the way from open to closed, what no hinge turns farther by than it may.
+    double turn_share() const {
+        double most_rad = 0.0;
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            most_rad = std::max(most_rad, chain_.closed_rad[i] - chain_.open_rad[i]);
+        }
+        return refit_.most_turn_rad < most_rad ? refit_.most_turn_rad / most_rad : 1.0;
+    }
+
+    // Hinges up to and with the last link that touches keep their angles.
+    void stay(double depth_m) {
+        const auto points_ds = chain_points_ds(chain_, fit_.angle_rad);
+        fit_.depth_m = depth_m;
+        for (std::size_t i = chain_.link_count; kept_ == 0 && i > 0; --i) {
+            const double radius_m = chain_.radius_m[i - 1] + refit_.still_gap_m;
+            const std::array<Vec2, 2> middle_ds = {points_ds[i - 1], points_ds[i]};
+            kept_ = scratch_.patch.find_sunk(middle_ds, radius_m).depth_m > 0.0 ? i : 0;
+        }
+        fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
+    }
+
+    // Touches with its last link, or with one beyond which all are closed.
+    bool is_done() const {
+        constexpr double k_at_limit_rad = 1e-9;
+        if (fit_.contact_link == DiscClosure::k_none) {
+            return false;
+        }
+        bool is_closed = true;
+        for (auto i = static_cast<std::size_t>(fit_.contact_link) + 1; i < chain_.link_count; ++i) {
+            is_closed = is_closed && fit_.angle_rad[i] >= chain_.closed_rad[i] - k_at_limit_rad;
+        }
+        return is_closed;
+    }
+
+    // On from where the chain is clear, or where its first links touch.
+    void close_on(std::span<const PlacedMesh> meshes) {
+        const double turn = turn_share();
+        fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
+        cut();
+        const DiscClosure closure = closure_by(std::min(refit_.close_share, turn));
+        const bool touches = kept_ > 0 || closure.contact_link != DiscClosure::k_none;
+        if (touches) {
+            take(closure);
+            fit_.is_on_its_way = !is_done();
+        }
+        if (!touches || (fit_.is_on_its_way && turn > refit_.close_share)) {
+            kept_ = static_cast<std::size_t>(fit_.contact_link + 1);
+            close_far(meshes);
+        }
+    }
+
+    // Nothing near is touched: is there anything farther on?
+    void close_far(std::span<const PlacedMesh> meshes) {
+        scratch_.patch.gather(
+            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}},
+            meshes);
+        cut();
+        const DiscClosure whole = closure_by(1.0);
+        if (kept_ == 0 && whole.contact_link == DiscClosure::k_none) {
+            relax();
+            return;
+        }
+        take(turn_share() < 1.0 ? closure_by(turn_share()) : whole);
+        fit_.is_on_its_way = !is_done();
+    }
+
+    void cut() {
+        scratch_.segments.clear();
+        for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
+            scratch_.patch.cut(plane_offset_m(chain_, settings_.plane_offset, plane),
+                               static_cast<std::uint32_t>(plane), scratch_.segments);
+        }
+    }
+
+    DiscClosure closure_by(double share) {
+        DiscChain flat = flat_chain(chain_, settings_.plane_offset);
+        flat.open_rad = fit_.angle_rad;
+        flat.closed_rad = fit_.angle_rad;
+        for (std::size_t i = kept_; i < chain_.link_count; ++i) {
+            // As fast as ever, but no hinge beyond its limit.
+            flat.closed_rad[i] += std::min(chain_.closed_rad[i] - chain_.open_rad[i],
+                                           (chain_.closed_rad[i] - fit_.angle_rad[i]) / share);
+        }
+        return close_chain(flat, scratch_.segments, {0.0, share}, scratch_.disc);
+    }
+
+    void take(const DiscClosure& closure) {
+        const std::int32_t kept_link = static_cast<std::int32_t>(kept_) - 1;
+        fit_.contact_link = std::max(kept_link, closure.contact_link);
+        fit_.angle_rad = within_limits(closure.angle_rad);
+        fit_.depth_m = depth_of(fit_.angle_rad, 0.0).depth_m;
+        fit_.fallback = ChainFallback::none;
+    }
+
+    // As far as it may turn; stays where that is sunk.
+    void relax() {
+        fit_.fallback = ChainFallback::relaxed;
+        fit_.contact_link = DiscClosure::k_none;
+        double most_rad = 0.0;
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            most_rad = std::max(most_rad, std::abs(chain_.relaxed_rad[i] - fit_.angle_rad[i]));
+        }
+        const double share =
+            refit_.most_turn_rad < most_rad ? refit_.most_turn_rad / most_rad : 1.0;
+        ChainAngles angle_rad = fit_.angle_rad;
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            angle_rad[i] += share * (chain_.relaxed_rad[i] - angle_rad[i]);
+        }
+        const double depth_m = depth_of(angle_rad, 0.0).depth_m;
+        if (depth_m <= settings_.open_depth_m) {
+            fit_.angle_rad = angle_rad;
+            fit_.depth_m = depth_m;
+            fit_.is_on_its_way = share < 1.0;
+        }
+    }
+
+    const HingeChain& chain_;
+    const ChainFitSettings& settings_;
+    const ChainRefitSettings& refit_;
+    ChainFitScratch& scratch_;
+    ChainFit fit_;
+    std::size_t kept_ = 0;  // hinges that keep their angles: links up to there touch
+};
+
+}  // namespace
+
+ChainFit refit_chain(const HingeChain& chain, const ChainAngles& last_rad,
+                     std::span<const PlacedMesh> meshes, const ChainFitSettings& settings,
+                     const ChainRefitSettings& refit, ChainFitScratch& scratch) {
+    return ChainRefitter(chain, settings, refit, scratch).run(last_rad, meshes);
+}
+
+}  // namespace handhold

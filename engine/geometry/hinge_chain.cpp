@@ -1,0 +1,111 @@
+#include "engine/geometry/hinge_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+Vec3 from_disc(const Pose& base, const Vec2& point_ds) {
+    return base.position + base.rotation * Vec3(0.0, -point_ds.y(), -point_ds.x());
+}
+
+}  // namespace
+
+std::array<Capsule, k_most_disc_links> chain_capsules(const HingeChain& chain,
+                                                      const ChainAngles& angle_rad) {
+    const auto points_ds = chain_points_ds(chain, angle_rad);
+    std::array<Capsule, k_most_disc_links> capsules;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        capsules[i] = {
+            {from_disc(chain.base, points_ds[i]), from_disc(chain.base, points_ds[i + 1])},
+            chain.radius_m[i]};
+    }
+    return capsules;
+}
+
+std::array<Vec2, k_most_disc_links + 1> chain_points_ds(const HingeChain& chain,
+                                                        const ChainAngles& angle_rad) {
+    std::array<Vec2, k_most_disc_links + 1> points;
+    points[0] = Vec2::Zero();
+    double angle = 0.0;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        angle += angle_rad[i];
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(angle, sine, cosine);
+        points[i + 1] = points[i] + chain.length_m[i] * Vec2(cosine, sine);
+    }
+    return points;
+}
+
+double thickest_m(const HingeChain& chain) {
+    double thickest = 0.0;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        thickest = std::max(thickest, chain.radius_m[i]);
+    }
+    return thickest;
+}
+
+double reach_m(const HingeChain& chain) {
+    double reach = thickest_m(chain);
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        reach += chain.length_m[i];
+    }
+    return reach;
+}
+
+double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t plane) {
+    double mean = 0.0;
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        mean += chain.radius_m[i] / chain.link_count;
+    }
+    constexpr std::array<double, k_disc_planes> k_places = {0.0, 1.0, -1.0};
+    return k_places[plane] * plane_offset * mean;
+}
+
+double half_width_m(const HingeChain& chain, double plane_offset) {
+    return std::max(thickest_m(chain), plane_offset_m(chain, plane_offset, 1));
+}
+
+DiscChain flat_chain(const HingeChain& chain, double plane_offset) {
+    DiscChain flat;
+    flat.link_count = chain.link_count;
+    flat.length_m = chain.length_m;
+    flat.open_rad = chain.open_rad;
+    flat.closed_rad = chain.closed_rad;
+    for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
+        const double offset = plane_offset_m(chain, plane_offset, plane);
+        for (std::size_t i = 0; i < chain.link_count; ++i) {
+            const double squared = chain.radius_m[i] * chain.radius_m[i] - offset * offset;
+            flat.radius_m[plane][i] = squared > 0.0 ? std::sqrt(squared) : -1.0;
+        }
+    }
+    return flat;
+}
+
+ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
+                       const ChainPatch& patch, double more_m) {
+    ChainDepth deepest;
+    const auto points_ds = chain_points_ds(chain, angle_rad);
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        const SunkCapsule sunk =
+            patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + more_m);
+        double depth_m = sunk.depth_m;
+        if (sunk.crossed_at) {
+            depth_m += (1.0 - *sunk.crossed_at) * chain.length_m[i];
+            for (std::size_t rest = i + 1; rest < chain.link_count; ++rest) {
+                depth_m += chain.length_m[rest];
+            }
+        }
+        if (depth_m > deepest.depth_m) {
+            deepest = {depth_m, i};
+        }
+        if (sunk.crossed_at) {
+            break;
+        }
+    }
+    return deepest;
+}
+
+}  // namespace handhold

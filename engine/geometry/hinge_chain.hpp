@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/geometry/chain_patch.hpp"
+#include "engine/geometry/disc_contact.hpp"
+#include "engine/math/math.hpp"
+
+// A chain of hinged capsules in space, and what it is in its own plane: disc space (_ds,
+// disc_contact.hpp).
+namespace handhold {
+
+using ChainAngles = std::array<double, k_most_disc_links>;
+
+// Link i begins at hinge i. At angle 0 all of them lie along the base's -Z; a positive angle turns
+// from -Z towards -Y.
+struct HingeChain {
+    Pose base;
+    std::uint32_t link_count = 3;  // 1 to k_most_disc_links
+    std::array<double, k_most_disc_links> length_m = {};
+    std::array<double, k_most_disc_links> radius_m = {};
+    ChainAngles open_rad = {};
+    ChainAngles closed_rad = {};
+    ChainAngles relaxed_rad = {};  // where nothing is touched
+};
+
+struct Capsule {
+    std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};
+    double radius_m = 0.0;
+};
+std::array<Capsule, k_most_disc_links> chain_capsules(const HingeChain& chain,
+                                                      const ChainAngles& angle_rad);
+
+// The hinges, and the last link's end.
+std::array<Vec2, k_most_disc_links + 1> chain_points_ds(const HingeChain& chain,
+                                                        const ChainAngles& angle_rad);
+
+double thickest_m(const HingeChain& chain);
+double reach_m(const HingeChain& chain);  // from the first hinge
+
+// Where a plane lies across the chain: the middle one is plane 0, and of those beside it
+// `plane_offset` is the place in mean link radii.
+double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t plane);
+// Of all that the chain and its planes can meet.
+double half_width_m(const HingeChain& chain, double plane_offset);
+
+// As its planes cut it; closes from fully open to fully closed.
+DiscChain flat_chain(const HingeChain& chain, double plane_offset);
+
+// How deep a chain is sunk in what was gathered around it, and which link is sunk deepest. What is
+// beyond the place where a surface goes through the chain is taken for sunk as well: whether it
+// is, only a solid could tell.
+struct ChainDepth {
+    double depth_m = 0.0;
+    std::size_t link = 0;
+};
+// `more_m`: of a chain that is so much thicker.
+ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
+                       const ChainPatch& patch, double more_m = 0.0);
+
+}  // namespace handhold
