@@ -39,6 +39,8 @@ struct ArmTuning {
     double swivel_lag_s = 0.08;
     double swivel_speed_radps = 15.0;
     double elbow_inertia = 0.5;
+    Vec3 elbow_cone = Vec3(0.54, -0.64, -0.54);
+    double elbow_cone_cosine = -0.087;
     double chest_speed_radps = 12.0;
 };
 
@@ -91,6 +93,10 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "the elbow follows that this much later");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,
         "an elbow turns about the line to the hand at most this fast");
+    see("arm.elbow_cone", t.arm.elbow_cone, "", -1.0, 1.0,
+        "the middle of where a right upper arm can point, in torso axes");
+    see("arm.elbow_cone_cosine", t.arm.elbow_cone_cosine, "", -2.0, 1.0,
+        "and how far from it, as the cosine of the angle; -1 and below: anywhere");
     see("arm.elbow_inertia", t.arm.elbow_inertia, "", 0.0, 1.0,
         "share in which a bent arm's elbow stays where it was while the hand moves");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
