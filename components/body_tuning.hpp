@@ -39,6 +39,8 @@ struct ArmTuning {
     double swivel_lag_s = 0.08;
     double swivel_speed_radps = 15.0;
     double elbow_inertia = 0.5;
+    Vec3 elbow_cone = Vec3(0.54, -0.64, -0.54);
+    double elbow_cone_cosine = -0.087;
     double chest_speed_radps = 12.0;
 };
 
@@ -51,7 +53,8 @@ struct SpineTuning {
     double spine_limit_rad = 0.4;
     double hip_limit_rad = 1.0471975511965976;
     double knee_limit_rad = 1.2217304763960306;
-    double return_per_s = 4.0;
+    double limit_lag_s = 0.02;
+    double return_per_s = 1.5;
     double drag_per_s = 2.5;
     double hand_back = 0.5;
     double speed_max_mps = 12.0;
@@ -95,6 +98,10 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "the elbow follows that this much later");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,
         "an elbow turns about the line to the hand at most this fast");
+    see("arm.elbow_cone", t.arm.elbow_cone, "", -1.0, 1.0,
+        "the middle of where a right upper arm can point, in torso axes");
+    see("arm.elbow_cone_cosine", t.arm.elbow_cone_cosine, "", -2.0, 1.0,
+        "and how far from it, as the cosine of the angle; -1 and below: anywhere");
     see("arm.elbow_inertia", t.arm.elbow_inertia, "", 0.0, 1.0,
         "share in which a bent arm's elbow stays where it was while the hand moves");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
@@ -109,12 +116,15 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "swing of a thigh from its rest");
     see("spine.knee_limit_rad", t.spine.knee_limit_rad, "rad", 0.01, 2.5,
         "bend of a knee, backwards only");
+    see("spine.limit_lag_s", t.spine.limit_lag_s, "s", 0.0, 1.0,
+        "a link that swings towards a limit comes to rest there in about this time");
     see("spine.return_per_s", t.spine.return_per_s, "1/s", 0.0, 100.0,
         "how fast each link goes back to its rest against the one above");
     see("spine.drag_per_s", t.spine.drag_per_s, "1/s", 0.0, 100.0,
         "drag of the chain, against the reference velocity");
     see("spine.hand_back", t.spine.hand_back, "", 0.0, 1.0,
-        "share of what the chain corrects at a joint that its parent feels");
+        "share of what the chain corrects at a joint that its parent feels; above 0.5 it does not "
+        "settle");
     see("spine.speed_max_mps", t.spine.speed_max_mps, "m/s", 0.1, 1000.0,
         "no joint moves faster, against the reference velocity");
     see("spine.twist_lag_s", t.spine.twist_lag_s, "s", 0.0, 10.0,

@@ -251,12 +251,15 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("since_tick_s", c.since_tick_s);
     visit("moved_m", c.moved_m);
     visit("chest_ps", c.chest_ps);
+    visit("rate_mps", c.rate_mps);
+    visit("rate_span_s", c.rate_span_s);
     visit("tick_chest_ps", c.tick_chest_ps);
     visit("reference_ws_mps", c.reference_ws_mps);
     visit("offset_m", c.offset_m);
     visit("before_m", c.before_m);
     visit("velocity_mps", c.velocity_mps);
     visit("twist_rad", c.twist_rad);
+    visit("angle_rad", c.angle_rad);
 }
 template <typename V>
 void visit_fields(const SpinePose::Leg& c, V&& visit) {

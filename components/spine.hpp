@@ -23,16 +23,19 @@ inline BodyLinkVectors zero_vectors() {
 // What propagate_spine remembers. Offsets are from the chest to each link's lower end, in play
 // space's axes; velocities are against `reference_ws_mps`. The chain lives on a clock of its own.
 struct SpineMemory {
-    bool known = false;           // false: the next frame starts at rest
-    double since_tick_s = 0.0;    // [0, a tick)
-    Vec3 moved_m = Vec3::Zero();  // by the chest since the last tick, against the reference
-    Pose chest_ps;                // at the last frame's end
+    bool known = false;            // false: the next frame starts at rest
+    double since_tick_s = 0.0;     // [0, a tick)
+    Vec3 moved_m = Vec3::Zero();   // by the chest since the last tick, against the reference
+    Pose chest_ps;                 // at the last frame's end
+    Vec3 rate_mps = Vec3::Zero();  // of the chest in the last frame, as moved_m
+    double rate_span_s = 1.0;      // how long that was; > 0
     Quat tick_chest_ps = Quat::Identity();  // at the last tick
     Vec3 reference_ws_mps = Vec3::Zero();
     BodyLinkVectors offset_m = zero_vectors();  // at the last tick
     BodyLinkVectors before_m = zero_vectors();  // one tick earlier: what is shown lies between
     BodyLinkVectors velocity_mps = zero_vectors();
     std::array<double, k_spine_links> twist_rad{};  // of each link against the one above
+    std::array<double, k_body_links> angle_rad{};   // from the rest; of a knee, from straight
 };
 
 // Written by propagate_spine.

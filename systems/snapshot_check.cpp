@@ -190,6 +190,8 @@ class BreachFinder {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;
             check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[row],
                   ".since_tick_s", "a time in [0, 1] s");
+            check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
+                  w_.spine_memory.owners()[row], ".rate_span_s", "a time not below 0");
         }
     }
 

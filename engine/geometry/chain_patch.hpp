@@ -41,7 +41,7 @@ struct ChainReach {
     Pose base;                // the first hinge: links along -Z at angle 0, turning towards -Y
     double radius_m = 0;      // about the hinge, in the plane
     double half_width_m = 0;  // across the plane
-    ReachBox box;             // in the plane
+    ReachBox box = {};        // in the plane
 };
 
 // Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.

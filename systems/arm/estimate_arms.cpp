@@ -89,19 +89,27 @@ void estimate_arm(const Step& step, HandSide side, const Vec3& rest_ps, ArmMemor
     const double distance = reach_ts.norm();
     const Vec3 axis_ts = distance > 1e-6 ? Vec3(reach_ts / distance) : memory.axis_ts;
     const Vec3 pole_ts = elbow_pole(to_torso * hand_ps.rotation, side, tuning);
+    const double stretch = std::max(1.0, distance / (tuning.reach * arm_m));
+    const ElbowCircle circle =
+        elbow_circle(reach_ts, axis_ts, stretch * step.upper_m, stretch * (arm_m - step.upper_m));
+    const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
+    const double length = aside.norm();
     const bool fresh = afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    const Vec3 before_ts = fresh ? any_square_to(axis_ts) : carry_bend(memory, axis_ts, tuning);
+    const Vec3 wanted_ts =
+        reachable_bend(circle, length > 1e-6 ? Vec3(aside / length) : before_ts, side, tuning);
     if (fresh) {
-        const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
-        const double length = aside.norm();
-        memory.bend_ts = length > 1e-6 ? Vec3(aside / length) : any_square_to(axis_ts);
+        memory.bend_ts = wanted_ts;
     } else {
-        memory.bend_ts = follow_pole(memory, axis_ts, pole_ts, dt_s, tuning);
+        // How clearly the pole points to a side: near the axis it says nothing.
+        const double clear = smooth_step(length / std::max(pole_ts.norm(), 1e-9), 0.0, 0.5);
+        memory.bend_ts = turn_bend(
+            axis_ts, before_ts, wanted_ts,
+            {follow_share(dt_s * clear, tuning.swivel_lag_s), dt_s * tuning.swivel_speed_radps});
     }
     memory.axis_ts = axis_ts;
     memory.hand_ts = hand_rest_ts;
-    const double stretch = std::max(1.0, distance / (tuning.reach * arm_m));
-    memory.elbow_ts = solve_two_bone_ik({stretch * step.upper_m, stretch * (arm_m - step.upper_m),
-                                         Vec3::Zero(), reach_ts, memory.bend_ts});
+    memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
     out.shoulder_ps = rest_ps + step.torso_ps * shoulder_ts;
     out.bend_ps = step.torso_ps * memory.bend_ts;
     out.stretch = stretch;
@@ -234,8 +242,39 @@ Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning) {
     return pole;
 }
 
-Vec3 follow_pole(const ArmMemory::Arm& arm, const Vec3& axis_ts, const Vec3& pole_ts, double dt_s,
-                 const ArmTuning& tuning) {
+ElbowCircle elbow_circle(const Vec3& reach_ts, const Vec3& axis_ts, double upper_m,
+                         double forearm_m) {
+    const Vec3 middle_ts =
+        solve_two_bone_ik({upper_m, forearm_m, Vec3::Zero(), reach_ts, Vec3::Zero()});
+    const double aside = upper_m * upper_m - middle_ts.squaredNorm();
+    return {axis_ts, middle_ts, std::sqrt(std::max(0.0, aside))};
+}
+
+Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
+                    const ArmTuning& tuning) {
+    Vec3 cone_ts = tuning.elbow_cone.normalized();
+    cone_ts.x() *= side == HandSide::right ? 1.0 : -1.0;
+    const double upper_m =
+        std::sqrt(circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m);
+    // How far along the cone's axis the elbow must lie from the circle's middle.
+    const double needs_m = upper_m * tuning.elbow_cone_cosine - circle.middle_ts.dot(cone_ts);
+    if (circle.radius_m * bend_ts.dot(cone_ts) >= needs_m) {
+        return bend_ts;
+    }
+    const Vec3 aside = cone_ts - circle.axis_ts * circle.axis_ts.dot(cone_ts);
+    const double length = aside.norm();
+    if (length < 1e-6) {
+        return bend_ts;
+    }
+    // From the best side as little as is needed towards where it was to be.
+    const Vec3 best = aside / length;
+    const double cosine = std::clamp(needs_m / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
+    const Vec3 square = circle.axis_ts.cross(best);
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    return cosine * best + (square.dot(bend_ts) < 0.0 ? -sine : sine) * square;
+}
+
+Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning) {
     const Vec3 carried = rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts;
     // How bent the arm was: the elbow's way off the line, by the upper arm. Where it is little,
     // where the elbow was says nothing about its side.
@@ -243,21 +282,19 @@ Vec3 follow_pole(const ArmMemory::Arm& arm, const Vec3& axis_ts, const Vec3& pol
     const double bent = arm.elbow_ts.dot(arm.bend_ts) / upper_m;
     const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);
     const Vec3 side_then = (1.0 - stays) * carried + (stays / upper_m) * arm.elbow_ts;
-    Vec3 bend = side_then - axis_ts * axis_ts.dot(side_then);
-    const double bend_length = bend.norm();
-    bend = bend_length > 1e-6 ? Vec3(bend / bend_length) : any_square_to(axis_ts);
-    const Vec3 side = axis_ts.cross(bend);
-    const double x = bend.dot(pole_ts);
-    const double y = side.dot(pole_ts);
-    // How clearly the pole points to a side: near the axis it says nothing.
-    const double length = pole_ts.norm();
-    const double clear = std::sqrt(x * x + y * y) / std::max(length, 1e-9);
-    const double share = follow_share(dt_s * smooth_step(clear, 0.0, 0.5), tuning.swivel_lag_s);
-    const double most = dt_s * tuning.swivel_speed_radps;
+    const Vec3 bend = side_then - axis_ts * axis_ts.dot(side_then);
+    const double length = bend.norm();
+    return length > 1e-6 ? Vec3(bend / length) : any_square_to(axis_ts);
+}
+
+Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
+               const BendTurn& turn) {
+    const Vec3 side = axis_ts.cross(bend_ts);
+    const double angle = arc_tangent2(side.dot(wanted_ts), bend_ts.dot(wanted_ts));
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(std::clamp(share * arc_tangent2(y, x), -most, most), sine, cosine);
-    return (cosine * bend + sine * side).normalized();
+    sin_cos(std::clamp(turn.share * angle, -turn.most_rad, turn.most_rad), sine, cosine);
+    return (cosine * bend_ts + sine * side).normalized();
 }
 
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {

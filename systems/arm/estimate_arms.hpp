@@ -70,10 +70,32 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
 // To which side the elbow of a hand points, not of unit length; torso axes.
 Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning);
 
-// The elbow's side square to the line to the hand, low-passed about that line towards the pole.
-// `arm` has the last frame's; `axis_ts` is the line now. The side goes along with the line without
-// turning about it where the arm is straight; a bent arm's elbow rather stays where it was.
-Vec3 follow_pole(const ArmMemory::Arm& arm, const Vec3& axis_ts, const Vec3& pole_ts, double dt_s,
-                 const ArmTuning& tuning);
+// Where the bones let an elbow be: on a circle about the line to the hand. From the shoulder.
+struct ElbowCircle {
+    Vec3 axis_ts = -Vec3::UnitY();  // unit: to the hand
+    Vec3 middle_ts = Vec3::Zero();
+    double radius_m = 0.0;
+};
+ElbowCircle elbow_circle(const Vec3& reach_ts, const Vec3& axis_ts, double upper_m,
+                         double forearm_m);
+
+// The side nearest to `bend_ts` (unit, square to the axis) where a shoulder lets the upper arm
+// point: within a cone ahead, outward and down. Where the whole circle lies outside, the side that
+// is least so.
+Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
+                    const ArmTuning& tuning);
+
+// The last frame's side of the elbow, square to the line to the hand now. It goes along with the
+// line without turning about it where the arm is straight; a bent arm's elbow rather stays where it
+// was.
+Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning);
+
+// `bend_ts` turned about the axis towards `wanted_ts` by a share of the way, at most by an angle.
+struct BendTurn {
+    double share = 0.0;
+    double most_rad = 0.0;
+};
+Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
+               const BendTurn& turn);
 
 }  // namespace handhold

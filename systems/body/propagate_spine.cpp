@@ -1,6 +1,6 @@
 // Sources: dynamic follow-the-leader, after Mueller, Kim and Chentanez 2012 ("Fast simulation of
-// inextensible hair and fur"): joint by joint from the top, what a joint is corrected by is taken
-// from its parent's velocity.
+// inextensible hair and fur"): joint by joint from the top, what a joint is corrected by goes into
+// its velocity, and half of it is taken from its parent's.
 #include "systems/body/propagate_spine.hpp"
 
 #include <algorithm>
@@ -63,51 +63,70 @@ Vec3 base_of(const Chain& chain, const BodyLinkVectors& offset_m, const Link& li
     return offset_m[link.parent] + scale * (chain.frame[link.parent] * link.base_m);
 }
 
-// `towards` (unit) turned back to within an angle of `rest`, given by its cosine and sine.
-Vec3 within_cone(const Vec3& towards, const Vec3& rest, double cosine, double sine) {
+// A link nears the end of its range by at most a share of what is left a tick. A stop within one
+// tick would whip what hangs below, differently for each place in the tick at which it comes.
+struct Range {
+    double low_rad, high_rad, share;
+};
+double nearing(const Range& range, double before_rad, double now_rad) {
+    const double before = std::clamp(before_rad, range.low_rad, range.high_rad);
+    return std::clamp(now_rad, before + range.share * (range.low_rad - before),
+                      before + range.share * (range.high_rad - before));
+}
+
+// Spine and hips: a cone about `rest`. `angle_rad` is the angle to it, of the last tick, then of
+// this one.
+Vec3 within_cone(const Vec3& towards, const Vec3& rest, const Range& range, double& angle_rad) {
     const double along = towards.dot(rest);
-    if (along >= cosine) {
-        return towards;
-    }
     const Vec3 aside = towards - along * rest;
     const double length = aside.norm();
-    return length < 1e-9 ? rest : Vec3(cosine * rest + aside * (sine / length));
+    const double wanted = arc_tangent2(length, along);
+    // From the rest there is no way below.
+    angle_rad = std::min(wanted, nearing(range, angle_rad, std::max(wanted, angle_rad)));
+    if (angle_rad >= wanted) {
+        return towards;
+    }
+    if (length < 1e-9) {
+        return rest;
+    }
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(angle_rad, sine, cosine);
+    return cosine * rest + aside * (sine / length);
 }
 
 // A knee: in the plane of its hinge, which is the thigh's X, from straight back to its limit.
-Vec3 within_knee(const Vec3& towards, const Quat& thigh, const Vec3& straight, double limit_rad) {
-    const Vec3 hinge = thigh * Vec3::UnitX();
-    const Vec3 back = straight.cross(hinge);
-    const double x = towards.dot(straight);
-    const double y = towards.dot(back);
-    const double bend = std::clamp(arc_tangent2(y, x), 0.0, limit_rad);
+Vec3 within_knee(const Vec3& towards, const Quat& thigh, const Range& range, double& angle_rad) {
+    const Vec3 straight = thigh * -Vec3::UnitY();
+    const Vec3 back = thigh * Vec3::UnitZ();
+    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.dot(back), towards.dot(straight)));
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(bend, sine, cosine);
+    sin_cos(angle_rad, sine, cosine);
     return cosine * straight + sine * back;
 }
 
-struct Limits {
-    double spine_cosine, spine_sine, hip_cosine, hip_sine, knee_rad;
-};
-Limits limits_of(const SpineTuning& tuning) {
-    Limits out{};
-    sin_cos(tuning.spine_limit_rad, out.spine_sine, out.spine_cosine);
-    sin_cos(tuning.hip_limit_rad, out.hip_sine, out.hip_cosine);
-    out.knee_rad = tuning.knee_limit_rad;
-    return out;
+// How far `towards` is bent against the link above, as the limits measure it.
+double angle_of(const Vec3& towards, const Link& link, const Quat& above) {
+    if (link.kind == LinkKind::shin) {
+        return arc_tangent2(towards.dot(above * Vec3::UnitZ()),
+                            -towards.dot(above * Vec3::UnitY()));
+    }
+    const Vec3 rest = above * link.rest;
+    return arc_tangent2(rest.cross(towards).norm(), rest.dot(towards));
 }
 
-Vec3 within_limits(const Vec3& towards, const Link& link, const Quat& above, const Limits& limits) {
-    switch (link.kind) {
+Range range_of(LinkKind kind, const SpineTuning& tuning) {
+    const double share = k_tick_s / (k_tick_s + tuning.limit_lag_s);
+    switch (kind) {
         case LinkKind::spine:
-            return within_cone(towards, above * link.rest, limits.spine_cosine, limits.spine_sine);
+            return {0.0, tuning.spine_limit_rad, share};
         case LinkKind::thigh:
-            return within_cone(towards, above * link.rest, limits.hip_cosine, limits.hip_sine);
+            return {0.0, tuning.hip_limit_rad, share};
         case LinkKind::shin:
             break;
     }
-    return within_knee(towards, above, above * -Vec3::UnitY(), limits.knee_rad);
+    return {0.0, tuning.knee_limit_rad, share};
 }
 
 // The frame of a link that points along `towards`: the one above, turned by the least, twisted.
@@ -126,12 +145,12 @@ Quat between(const Quat& a, const Quat& b, double share) {
     return Quat((1.0 - share) * a.coeffs() + (share * sign) * b.coeffs()).normalized();
 }
 
-void rest_at(const Quat& chest, double scale, SpineMemory& memory) {
+void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     Chain chain{chest, {}};
     memory.velocity_mps.fill(Vec3::Zero());
     memory.twist_rad.fill(0.0);
     memory.moved_m = Vec3::Zero();
-    memory.since_tick_s = 0.0;
+    memory.since_tick_s = std::fmod(t_s, k_tick_s);
     memory.tick_chest_ps = chest;
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const Link& link = links()[i];
@@ -139,6 +158,7 @@ void rest_at(const Quat& chest, double scale, SpineMemory& memory) {
         const Vec3 towards = above * link.rest;
         memory.offset_m[i] =
             base_of(chain, memory.offset_m, link, scale) + scale * link.length_m * towards;
+        memory.angle_rad[i] = angle_of(towards, link, above);
         chain.frame[i] = frame_of(towards, above, 0.0);
     }
     memory.before_m = memory.offset_m;
@@ -159,7 +179,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
 }
 
 void tick(const Quat& chest, const Vec3& moved_m, double scale, const SpineTuning& tuning,
-          const Limits& limits, SpineMemory& memory) {
+          SpineMemory& memory) {
     pass_twist(memory.tick_chest_ps, chest, tuning, memory);
     memory.tick_chest_ps = chest;
     memory.before_m = memory.offset_m;
@@ -176,12 +196,14 @@ void tick(const Quat& chest, const Vec3& moved_m, double scale, const SpineTunin
         const double distance = towards.norm();
         const Vec3 rest = above * link.rest;
         towards = distance > 1e-6 ? Vec3(towards / distance) : rest;
-        // The return is no force: it leaves the velocity as it is.
         const Vec3 returned = ((1.0 - back) * towards + back * rest).normalized();
-        const Vec3 allowed = within_limits(returned, link, above, limits);
-        const Vec3 correction =
-            (base + length * allowed) - (predicted + length * (returned - towards));
+        const Range range = range_of(link.kind, tuning);
+        const Vec3 allowed = link.kind == LinkKind::shin
+                                 ? within_knee(returned, above, range, memory.angle_rad[i])
+                                 : within_cone(returned, rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + length * allowed;
+        // With the return in it the velocity swings past the rest; what is handed back damps that.
+        const Vec3 correction = memory.offset_m[i] - predicted;
         memory.velocity_mps[i] += correction / k_tick_s;
         if (link.parent != k_chest) {
             const double share = link.kind == LinkKind::thigh ? 0.5 : 1.0;  // there are two
@@ -236,28 +258,58 @@ void show(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
     }
 }
 
+// The chest's way in one frame, against the reference, in play space's axes: through where it was
+// at both ends of the last frame and is now, so that a steady acceleration looks the same at any
+// frame rate. Never back past either end.
+class Way {
+  public:
+    Way(const Vec3& moved_m, double span_s, const SpineMemory& memory)
+        : span_s_(span_s), rate_mps_(moved_m / span_s) {
+        const Vec3 change = rate_mps_ - memory.rate_mps;
+        bend_ = change / (span_s + memory.rate_span_s);
+        // Twice what the way leaves the straight line at its ends must not exceed the line.
+        const double most = rate_mps_.norm();
+        const double ends = bend_.norm() * span_s;
+        if (ends > most) {
+            bend_ *= most / ends;
+        }
+    }
+    Vec3 at(double t_s) const { return t_s * rate_mps_ + (t_s * (t_s - span_s_)) * bend_; }
+    const Vec3& rate_mps() const { return rate_mps_; }
+
+  private:
+    double span_s_;
+    Vec3 rate_mps_;
+    Vec3 bend_;  // half the acceleration
+};
+
 struct Motion {
     double dt_s;
+    double t_s;  // of the world's clock, at the end
     Pose chest_ps;
     Vec3 moved_m;  // by the chest in this frame, against the reference, in play space's axes
 };
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
-    const Limits limits = limits_of(tuning);
     const double span_s = std::min(motion.dt_s, k_longest_s);
+    const Way way(motion.moved_m, span_s, memory);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;
     while (memory.since_tick_s + (span_s - played_s) >= k_tick_s) {
-        const double step_s = k_tick_s - memory.since_tick_s;
-        played_s += step_s;
-        const Vec3 moved_m = memory.moved_m + motion.moved_m * (step_s / span_s);
+        const double until_s = played_s + (k_tick_s - memory.since_tick_s);
+        const Vec3 moved_m = memory.moved_m + (way.at(until_s) - way.at(played_s));
+        played_s = until_s;
         tick(between(from, motion.chest_ps.rotation, played_s / span_s), moved_m, scale, tuning,
-             limits, memory);
+             memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
     }
-    memory.since_tick_s = std::max(0.0, memory.since_tick_s + (span_s - played_s));
-    memory.moved_m += motion.moved_m * ((span_s - played_s) / span_s);
+    memory.since_tick_s = span_s < motion.dt_s
+                              ? std::fmod(motion.t_s, k_tick_s)
+                              : std::max(0.0, memory.since_tick_s + (span_s - played_s));
+    memory.moved_m += way.at(span_s) - way.at(played_s);
+    memory.rate_mps = way.rate_mps();
+    memory.rate_span_s = span_s;
 }
 
 }  // namespace
@@ -271,18 +323,21 @@ void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
         const Pose& chest_ps = io.estimate.at(player).chest_ps;
         const Vec3& reference_ws = io.reference.at(player).linear_mps;
         const Vec3 own_m = chest_ps.position - memory.chest_ps.position;
+        const Quat to_ps = origin_ws.rotation.conjugate();
+        const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
         if (!memory.known || is_jump(own_m.norm(), io.dt_s)) {
-            rest_at(chest_ps.rotation, scale, memory);
+            rest_at(chest_ps.rotation, scale, io.t_s, memory);
             memory.known = true;
+            memory.rate_mps = relative;
+            memory.rate_span_s = io.dt_s;
         } else {
-            const Quat to_ps = origin_ws.rotation.conjugate();
             // What counts as standing still has changed: nothing that moves has.
             const Vec3 shift = to_ps * (memory.reference_ws_mps - reference_ws);
             for (Vec3& velocity : memory.velocity_mps) {
                 velocity += shift;
             }
-            const Vec3 relative = to_ps * (io.velocity.at(player).linear_mps - reference_ws);
-            play({io.dt_s, chest_ps, own_m + io.dt_s * relative}, scale, tuning, memory);
+            memory.rate_mps += shift;
+            play({io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative}, scale, tuning, memory);
         }
         memory.reference_ws_mps = reference_ws;
         memory.chest_ps = chest_ps;

@@ -10,6 +10,7 @@ namespace handhold {
 
 struct PropagateSpineIo {
     double dt_s = 0.0;                           // in: > 0
+    double t_s = 0.0;                            // in: the world's clock at the frame's end
     const Column<PlayerOrigin>& origin;          // in
     const Column<PlayerVelocity>& velocity;      // in
     const Column<ReferenceVelocity>& reference;  // in
@@ -20,7 +21,8 @@ struct PropagateSpineIo {
 };
 
 // Stage 14. Spine and legs of every player: momentum snakes down from the chest, link by link.
-// Ticks at 120 Hz whatever the frame rate; what is shown lies between two ticks. Only velocities
+// Ticks at every 120th of a second of the world's clock, whatever the frames are; between two of
+// them what is shown goes on linearly, a tick late. Only velocities
 // count, against the reference velocity, and the chest's own motion in play space: turning the play
 // space, and whatever puts a player elsewhere, takes the chain along unmoved. Where the chest jumps
 // the chain starts at rest. Of a frame longer than half a second only half a second is played.

@@ -144,6 +144,45 @@ TEST(EstimateArms, HandOutOfReachTakesTheShoulderAlongThenStretches) {
     EXPECT_NEAR(-most.z(), tuning.shoulder_follow_m, 1e-12);
 }
 
+// Against a search over the whole circle.
+TEST(EstimateArms, ReachableBendIsTheNearestThatAShoulderAllows) {
+    Random random(17);
+    const ArmTuning tuning;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 axis = random.direction();
+        const ElbowCircle circle =
+            elbow_circle(random.between(0.02, 0.57) * axis, axis, 0.30, 0.28);
+        const Vec3 square = axis.cross(random.direction()).normalized();
+        const HandSide side = i % 2 == 0 ? HandSide::right : HandSide::left;
+        Vec3 cone = tuning.elbow_cone.normalized();
+        cone.x() *= side == HandSide::right ? 1.0 : -1.0;
+        const auto inside_by = [&](const Vec3& bend) {
+            return (circle.middle_ts + circle.radius_m * bend).dot(cone) / 0.30 -
+                   tuning.elbow_cone_cosine;
+        };
+        const Vec3 bend = reachable_bend(circle, square, side, tuning);
+        EXPECT_NEAR(bend.norm(), 1.0, 1e-9);
+        EXPECT_NEAR(bend.dot(axis), 0.0, 1e-9);
+        double most_inside = -10.0;
+        double nearest = -1.0;
+        for (int k = 0; k < 720; ++k) {
+            const double angle = k * 2.0 * k_pi / 720.0;
+            const Vec3 other =
+                std::cos(angle) * square + std::sin(angle) * Vec3(axis.cross(square));
+            most_inside = std::max(most_inside, inside_by(other));
+            if (inside_by(other) >= 0.0) {
+                nearest = std::max(nearest, other.dot(square));
+            }
+        }
+        if (most_inside < 0.0) {
+            EXPECT_NEAR(inside_by(bend), most_inside, 1e-4);
+        } else {
+            EXPECT_GT(inside_by(bend), -1e-9);
+            EXPECT_GT(bend.dot(square), nearest - 1e-9);
+        }
+    }
+}
+
 // Smooth ways through everything that is awkward: the elbow goes no faster than a few times what
 // the hand does, and every number is finite.
 TEST(EstimateArms, NothingPopsWhereHandsCrossReachTouchTheShoulderOrGoBehind) {
