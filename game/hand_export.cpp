@@ -98,15 +98,20 @@ void append_part(const HandPart& part, const Pose& at, std::uint16_t joint,
 
 }  // namespace
 
-std::string export_robot_hand(const HandRig& rig) {
+RobotHandSkin make_robot_hand_skin(const HandRig& rig,
+                                   const std::array<FingerAngles, k_finger_count>& fingers,
+                                   const Pose& wrist_ms) {
     std::vector<std::array<Pose, k_most_links>> frames;
-    for (const FingerRig& finger : rig.fingers) {
-        frames.push_back(finger_link_frames(finger, relaxed_angles(finger)));
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        frames.push_back(finger_link_frames(rig.fingers[i], fingers[i]));
     }
     const auto carrier = [&](std::int32_t finger, std::uint32_t link) {
-        return finger == RigJoint::k_palm ? Pose() : frames[static_cast<std::size_t>(finger)][link];
+        return finger == RigJoint::k_palm
+                   ? wrist_ms
+                   : wrist_ms * frames[static_cast<std::size_t>(finger)][link];
     };
-    GltfSkin skin;
+    RobotHandSkin made;
+    GltfSkin& skin = made.skin;
     skin.name = rig.side == HandSide::left ? "robot_hand_left" : "robot_hand_right";
     for (std::size_t i = 0; i < rig.joints.size(); ++i) {
         const RigJoint& joint = rig.joints[i];
@@ -116,12 +121,11 @@ std::string export_robot_hand(const HandRig& rig) {
                                {}});
     }
     add_numbers(rig, skin.joints);
-    std::vector<GltfMaterial> materials;
     std::array<GltfSkinSurface, k_figure_material_count> surfaces;
     for (std::size_t i = 0; i < k_figure_material_count; ++i) {
         const auto material = static_cast<FigureMaterial>(i);
-        materials.push_back({figure_material_text(material), figure_color(material), 0.0F, 1.0F,
-                             figure_gloss(material)});
+        made.materials.push_back({figure_material_text(material), figure_color(material), 0.0F,
+                                  1.0F, figure_gloss(material)});
         surfaces[i].material = i;
     }
     for (const HandPart& part : make_robot_hand(rig)) {
@@ -134,7 +138,16 @@ std::string export_robot_hand(const HandRig& rig) {
             skin.surfaces.push_back(std::move(surface));
         }
     }
-    return write_skinned_glb(materials, skin);
+    return made;
+}
+
+std::string export_robot_hand(const HandRig& rig) {
+    std::array<FingerAngles, k_finger_count> at_ease;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        at_ease[i] = relaxed_angles(rig.fingers[i]);
+    }
+    const RobotHandSkin hand = make_robot_hand_skin(rig, at_ease, {});
+    return write_skinned_glb(hand.materials, hand.skin);
 }
 
 int export_hands_command(const std::string& folder) {
