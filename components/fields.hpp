@@ -66,6 +66,32 @@ void visit_fields(const LastValidPose& c, V&& visit) {
     visit("known", c.known);
 }
 template <typename V>
+void visit_fields(const AuthoredHand& c, V&& visit) {
+    visit("is_there", c.is_there);
+    visit("wrist_bs", c.wrist_bs);
+    visit("is_posed", c.is_posed);
+    visit("fingers", c.fingers);
+}
+template <typename V>
+void visit_fields(const AuthoredGrip& c, V&& visit) {
+    visit("hands", c.hands);
+    visit("priority", c.priority);
+    visit("snap_radius_m", c.snap_radius_m);
+    visit("snap_angle_rad", c.snap_angle_rad);
+}
+template <typename V>
+void visit_fields(const AuthoredGrips& c, V&& visit) {
+    visit("grips", c.grips);
+    visit("count", c.count);
+}
+template <typename V>
+void visit_fields(const AuthoredHold& c, V&& visit) {
+    visit("body", c.body);
+    visit("grip", c.grip);
+    visit("hand", c.hand);
+    visit("leave_angle_rad", c.leave_angle_rad);
+}
+template <typename V>
 void visit_fields(const Mover& c, V&& visit) {
     visit("start_ws", c.start_ws);
     visit("velocity_ws_mps", c.velocity_ws_mps);

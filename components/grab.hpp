@@ -24,10 +24,11 @@ struct ControllerToHand {
 // Numbers as in frames.csv.
 enum class GripKind : std::uint8_t {
     none = 0,
-    surface = 1,  // a point of something fixed, driven or heavy: three rows, the hand may turn
-    held = 2,     // a free object: six rows, or three where it hangs on joints
-    player = 4,   // another player's head: three rows, and both move by their masses. 3 is an
-                  // authored grip's, which is yet to come
+    surface = 1,   // a point of something fixed, driven or heavy: three rows, the hand may turn
+    held = 2,      // a free object: six rows, or three where it hangs on joints
+    authored = 3,  // only what is shown and reported: a hand that sits in an authored grip
+                   // (AuthoredHold). Its Grab is a surface's or a held object's
+    player = 4,    // another player's head: three rows, and both move by their masses
 };
 
 enum class GrabPhase : std::uint8_t {

@@ -26,6 +26,29 @@ std::array<Vec3, k_most_links + 1> finger_points(const FingerRig& finger,
     return points;
 }
 
+FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rotations_hs) {
+    FingerAngles angles;
+    Quat at = finger.base_hs.rotation;
+    const bool turns = finger.lower_opposition_rad < finger.upper_opposition_rad;
+    if (turns && !rotations_hs.empty()) {
+        // A curl keeps the hinge, so what the hinge has turned about the axis is the opposition.
+        const Vec3& axis = finger.opposition_axis_hs;
+        const Vec3 from = at * Vec3::UnitX();
+        const Vec3 to = rotations_hs[0] * Vec3::UnitX();
+        const Vec3 from_flat = from - from.dot(axis) * axis;
+        const Vec3 to_flat = to - to.dot(axis) * axis;
+        angles.opposition_rad =
+            arc_tangent2(axis.dot(from_flat.cross(to_flat)), from_flat.dot(to_flat));
+        at = rotation_about(axis, angles.opposition_rad) * at;
+    }
+    for (std::size_t link = 0; link < finger.link_count && link < rotations_hs.size(); ++link) {
+        const Vec3 along = at.conjugate() * (rotations_hs[link] * -Vec3::UnitZ());
+        angles.curl_rad[link] = arc_tangent2(-along.y(), -along.z());
+        at = at * rotation_about(-Vec3::UnitX(), angles.curl_rad[link]);
+    }
+    return angles;
+}
+
 FingerAngles coupled_angles(const FingerRig& finger, double share) {
     FingerAngles angles;
     for (std::size_t link = 0; link < finger.link_count; ++link) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,11 @@ std::array<Pose, k_most_links> finger_link_frames(const FingerRig& finger,
 // i and i + 1.
 std::array<Vec3, k_most_links + 1> finger_points(const FingerRig& finger,
                                                  const FingerAngles& angles);
+
+// The angles at which finger_link_frames gives these rotations; of rotations that no angles give,
+// those whose opposition and hinges come nearest, one link after the other. Not limited to the
+// finger's range.
+FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rotations_hs);
 
 // All hinges at the same share of their way: 0 fully open, 1 fully curled. Opposition 0.
 FingerAngles coupled_angles(const FingerRig& finger, double share);

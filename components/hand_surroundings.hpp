@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/authored_grip.hpp"
 #include "components/hand_rig.hpp"
 #include "engine/ecs/entity.hpp"
 #include "engine/geometry/chain_fit.hpp"
@@ -23,6 +24,7 @@ struct HandSurroundings {
     std::uint64_t signature = 0;  // of the body and the meshes and where they are, within 0.1 mm:
                                   // while it stays, nothing around the hand has changed; 0: empty
     bool grips = false;           // also what is no body: a head
+    const AuthoredHand* authored = nullptr;  // how it sits in an authored grip; null: in none
 };
 
 // What search_grip works in: keeps its memory between calls.

@@ -114,6 +114,14 @@ const char* name_of(Fallback reason) {
             return "body_no_surface";
         case Fallback::palm_no_surface:
             return "palm_no_surface";
+        case Fallback::authored_grip_taken:
+            return "authored_grip_taken";
+        case Fallback::authored_grip_blocked:
+            return "authored_grip_blocked";
+        case Fallback::authored_grip_left:
+            return "authored_grip_left";
+        case Fallback::authored_finger_fitted:
+            return "authored_finger_fitted";
         case Fallback::count:
             break;
     }

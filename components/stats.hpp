@@ -68,6 +68,10 @@ enum class Fallback : std::uint8_t {
     palm_lifted,             // a hand was lifted off its surface, since its fingers did not fit
     body_no_surface,         // a gripped body without a grip mesh: the hand is shown as tracked
     palm_no_surface,         // a gripping hand with nothing under its palm is shown as tracked
+    authored_grip_taken,     // a hand closed where another sits in the grip: the next best
+    authored_grip_blocked,   // something else is between the hand and the grip: the next best
+    authored_grip_left,      // a hand turned far away from its grip: held on to as to any surface
+    authored_finger_fitted,  // a posed finger would be sunk: closed as on any surface
     count
 };
 

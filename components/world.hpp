@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "components/arm.hpp"
+#include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/calibration.hpp"
 #include "components/grab.hpp"
@@ -32,14 +33,15 @@ struct World {
     Column<PersistentId> persistent_id;          // every entity
 
     Column<RigidBody> body;
-    Column<BodyPose> body_pose;          // every body
-    Column<BodyStart> body_start;        // every body
-    Column<BodyVelocity> body_velocity;  // every body
-    Column<Collider> collider;           // bodies that can be touched; players: the head
-    Column<Mover> mover;                 // kinematic bodies that move by themselves
-    Column<PathMover> path_mover;        // kinematic bodies on closed paths
-    Column<LegMover> leg_mover;          // bones of those bodies' legs
-    Column<LastValidPose> last_valid;    // free bodies and players
+    Column<BodyPose> body_pose;            // every body
+    Column<BodyStart> body_start;          // every body
+    Column<BodyVelocity> body_velocity;    // every body
+    Column<Collider> collider;             // bodies that can be touched; players: the head
+    Column<Mover> mover;                   // kinematic bodies that move by themselves
+    Column<PathMover> path_mover;          // kinematic bodies on closed paths
+    Column<LegMover> leg_mover;            // bones of those bodies' legs
+    Column<LastValidPose> last_valid;      // free bodies and players
+    Column<AuthoredGrips> authored_grips;  // bodies that have some
 
     Column<Joint> joint;
     Column<JointState> joint_state;  // every joint
@@ -70,6 +72,7 @@ struct World {
     Column<PalmPose> palm_pose;
     Column<FingerPose> finger_pose;
     Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
+    Column<AuthoredHold> authored_hold;           // only hands that sit in an authored grip
 };
 
 // Calls visit(name, column) for every column. The one list of them: hashing, destroying and
@@ -86,6 +89,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("path_mover", world.path_mover);
     visit("leg_mover", world.leg_mover);
     visit("last_valid", world.last_valid);
+    visit("authored_grips", world.authored_grips);
     visit("joint", world.joint);
     visit("joint_state", world.joint_state);
     visit("player", world.player);
@@ -113,6 +117,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("palm_pose", world.palm_pose);
     visit("finger_pose", world.finger_pose);
     visit("controller_to_hand", world.controller_to_hand);
+    visit("authored_hold", world.authored_hold);
 }
 
 struct BodyDescription {

@@ -89,12 +89,21 @@ std::string how_body_counts(const World& world, const Tuning& tuning, const Grab
                      mass_kg);
 }
 
-void explain_grip(const Scene& scene, const Grab& grab, const Pose& hand_ws, HandStory& story) {
+void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStory& story) {
     const World& world = scene.world;
+    const Grab& grab = world.grab.at(hand);
     story.headline = (grab.kind == GripKind::held ? "holds " : "grips ") +
                      name_of_entity(scene, grab.body) +
                      say(", for %.1f s", world.clock.t_s - grab.since_s);
     story.reasons.push_back(how_body_counts(world, scene.tuning, grab));
+    const AuthoredHold* const hold = world.authored_hold.find(hand);
+    if (hold != nullptr && hold->body == grab.body) {
+        const auto grips = scene.grips.find(name_of_entity(scene, grab.body));
+        const bool is_named = grips != scene.grips.end() && hold->grip < grips->second.size();
+        story.reasons.push_back(
+            say("It closed in the zone of an authored grip, %s: the hand sits as that was posed.",
+                is_named ? grips->second[hold->grip].name.c_str() : "without a name"));
+    }
     const Pose body_ws =
         gripped_pose_ws(world.body_pose, world.player_origin, world.head_tracking, grab.body);
     story.reasons.push_back(
@@ -149,7 +158,7 @@ HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Enti
                 world.clock.t_s - tracking.sample_t_s));
     }
     if (grab.kind != GripKind::none) {
-        explain_grip(scene, grab, hand_ws, story);
+        explain_grip(scene, hand, hand_ws, story);
         return story;
     }
     if (tracking.pressed) {

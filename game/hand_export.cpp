@@ -77,13 +77,17 @@ void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
 
 }  // namespace
 
-std::string export_robot_hand(const HandRig& rig) {
+RobotHandSkin make_robot_hand_skin(const HandRig& rig,
+                                   const std::array<FingerAngles, k_finger_count>& fingers,
+                                   const Pose& wrist_ms) {
     std::vector<std::array<Pose, k_most_links>> frames;
-    for (const FingerRig& finger : rig.fingers) {
-        frames.push_back(finger_link_frames(finger, relaxed_angles(finger)));
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        frames.push_back(finger_link_frames(rig.fingers[i], fingers[i]));
     }
     const auto carrier = [&](std::int32_t finger, std::uint32_t link) {
-        return finger == RigJoint::k_palm ? Pose() : frames[static_cast<std::size_t>(finger)][link];
+        return finger == RigJoint::k_palm
+                   ? wrist_ms
+                   : wrist_ms * frames[static_cast<std::size_t>(finger)][link];
     };
     std::vector<SkinJoint> joints;
     for (std::size_t i = 0; i < rig.joints.size(); ++i) {
@@ -99,7 +103,16 @@ std::string export_robot_hand(const HandRig& rig) {
         skin.add(part.material, part.mesh, carrier(part.finger, part.link),
                  static_cast<std::uint16_t>(joint_of(rig, part.finger, part.link)));
     }
-    return skin.write(std::move(joints));
+    return {FigureSkin::materials(), skin.finish(std::move(joints))};
+}
+
+std::string export_robot_hand(const HandRig& rig) {
+    std::array<FingerAngles, k_finger_count> at_ease;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        at_ease[i] = relaxed_angles(rig.fingers[i]);
+    }
+    const RobotHandSkin hand = make_robot_hand_skin(rig, at_ease, {});
+    return write_skinned_glb(hand.materials, hand.skin);
 }
 
 int export_hands_command(const std::string& folder) {

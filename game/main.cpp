@@ -9,6 +9,7 @@
 #include "game/build_station_command.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
+#include "game/grip_command.hpp"
 #include "game/hand_export.hpp"
 #include "game/picture_command.hpp"
 #include "game/play_command.hpp"
@@ -88,6 +89,8 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
         ->check(CLI::Range(0.0, 1e4));
     pictures.add_option("--hands", options.hands, "Hold both hands before the eyes")
         ->check(CLI::IsMember({"open", "fist"}));
+    pictures.add_option("--grips-of", options.grips_of,
+                        "A body: hands in its authored grips, from four sides");
     add_model_options(pictures, options.models);
     pictures.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     pictures.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
@@ -137,6 +140,21 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
 }
 
+void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& options) {
+    command.add_option("--scene", options.scene, "As of run")->required();
+    command.add_option("--body", options.body, "Of the scene")->required();
+    command.add_option("--grip", options.grip, "An authored grip's name, or that of a new one")
+        ->required();
+    command.add_option("--hand", options.hand, "right or left")
+        ->check(CLI::IsMember({"right", "left"}));
+    command
+        .add_option("--wrist", options.wrist,
+                    "Of a new grip: where the hand closes, x y z and a quaternion x y z w in the "
+                    "frame of the body's shape")
+        ->expected(7);
+    command.add_option("--out", options.out, "The .glb")->required();
+}
+
 int list_scenes() {
     for (const std::string_view name : handhold::built_in_scenes()) {
         const auto scene = handhold::make_built_in_scene(name);
@@ -181,6 +199,16 @@ int main(int argc, char** argv) {
     CLI::App* const export_body =
         app.add_subcommand("export-body", "Write the robot's body for an animation package");
     export_body->add_option("--out", body_file, "A file (.glb)")->required();
+    handhold::ExportGripOptions grip_options;
+    CLI::App* const export_grip = app.add_subcommand(
+        "export-grip", "Write a hand in an authored grip, and what it holds, as a .glb");
+    add_export_grip_options(*export_grip, grip_options);
+    std::string grip_file;
+    std::string grip_json;
+    CLI::App* const import_grip = app.add_subcommand(
+        "import-grip", "Read such a .glb as a grip for a scene file's \"grips\"");
+    import_grip->add_option("file", grip_file, "The .glb")->required();
+    import_grip->add_option("--out", grip_json, "A .json; default: standard output");
     const CLI::App* const scenes = app.add_subcommand("scenes", "List the built-in scenes");
     try {
         app.parse(argc, argv);
@@ -199,6 +227,12 @@ int main(int argc, char** argv) {
     }
     if (export_hands->parsed()) {
         return handhold::export_hands_command(hands_folder);
+    }
+    if (export_grip->parsed()) {
+        return handhold::export_grip_command(grip_options);
+    }
+    if (import_grip->parsed()) {
+        return handhold::import_grip_command(grip_file, grip_json);
     }
     if (play->parsed()) {
         return handhold::play_command(play_options);

@@ -1,5 +1,6 @@
 #include "game/picture_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -7,8 +8,10 @@
 
 #include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
+#include "game/grip_fit.hpp"
 #include "game/player_defaults.hpp"
 #include "game/render/hand_figures.hpp"
+#include "game/render/primitives.hpp"
 #include "game/scene_picture.hpp"
 #include "systems/frame.hpp"
 
@@ -50,6 +53,75 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
     }
 }
 
+// Draws, saves and says what it took.
+class PictureSaver {
+  public:
+    PictureSaver(Renderer& renderer, std::filesystem::path folder)
+        : renderer_(renderer), folder_(std::move(folder)) {}
+
+    std::optional<FileError> save(const RenderFrame& frame, const std::string& name) {
+        const auto begin = std::chrono::steady_clock::now();
+        renderer_.draw(frame, image_);
+        const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;
+        const std::vector<std::uint8_t> png = encode_png(image_);
+        const std::filesystem::path file = folder_ / (name + ".png");
+        if (auto error = write_file_atomically(file, std::string(png.begin(), png.end()))) {
+            return error;
+        }
+        std::printf("%s: %.2f s, %d triangles in all passes\n", file.string().c_str(), cost.count(),
+                    renderer_.counters().triangles);
+        return std::nullopt;
+    }
+
+  private:
+    Renderer& renderer_;
+    std::filesystem::path folder_;
+    Image image_;
+};
+
+// A right hand in the first grip, a left one in the second.
+std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
+                                    const RenderFrame& bare, HandFigures& figures,
+                                    Renderer& renderer, PictureSaver& saver) {
+    const Entity body = find_by_id(scene.world, persistent_id_from_name(name));
+    const AuthoredGrips* const grips = scene.world.authored_grips.find(body);
+    const Collider* const collider = scene.world.collider.find(body);
+    if (grips == nullptr || collider == nullptr) {
+        return FileError{scene.name, "/bodies",
+                         "expected a body with grips, found none named \"" + name + "\""};
+    }
+    const Pose& body_ws = scene.world.body_pose.at(body).pose_ws;
+    RenderFrame frame = bare;
+    figures.begin();
+    for (std::size_t i = 0; i < std::min<std::size_t>(grips->count, k_hand_count); ++i) {
+        const HandSide side = i == 0 ? HandSide::right : HandSide::left;
+        const AuthoredHand& hand = grips->grips[i].hands[index_of(side)];
+        if (hand.is_there) {
+            const FittedGrip fit = fit_grip(scene.grip_meshes->at(collider->shape),
+                                            figures.rig(side), hand.wrist_bs, scene.tuning, &hand);
+            figures.add(side, body_ws * fit.wrist_bs, fit.fingers, renderer, frame);
+        }
+    }
+    const struct {
+        const char* name;
+        Vec3 from;
+    } views[] = {{"right", Vec3(0.40, 0.12, -0.02)},
+                 {"left", Vec3(-0.40, 0.10, -0.10)},
+                 {"behind", Vec3(0.10, 0.20, 0.38)},
+                 {"front", Vec3(-0.16, -0.04, -0.52)}};
+    frame.head_light = 0.8F;
+    const Vec3 middle_ws = transform_point(body_ws, Vec3(0.0, -0.02, 0.0));
+    for (const auto& view : views) {
+        const Vec3 eye_ws = transform_point(body_ws, view.from);
+        frame.camera.pose_ws =
+            look_along(eye_ws, middle_ws - eye_ws, body_ws.rotation * Vec3::UnitY());
+        if (auto error = saver.save(frame, name + "_" + view.name)) {
+            return error;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 int picture_command(const PictureOptions& options) {
@@ -77,7 +149,12 @@ int picture_command(const PictureOptions& options) {
     }
     const std::vector<MeshId> meshes = add_scene_meshes(scene, *renderer);
     HandFigures figures(std::move(models.value().hands), *renderer);
-    Image image;
+    PictureSaver saver(*renderer, options.out);
+    if (!options.grips_of.empty()) {
+        const auto error = draw_grips(scene, options.grips_of, make_scene_frame(scene, meshes),
+                                      figures, *renderer, saver);
+        return error ? refuse(*error) : 0;
+    }
     for (const SceneSpawnPoint& spawn : scene.spawns) {
         if (!options.spawn.empty() && options.spawn != spawn.name) {
             continue;
@@ -87,17 +164,9 @@ int picture_command(const PictureOptions& options) {
         if (!options.hands.empty()) {
             add_hands(options.hands, frame.camera.pose_ws, figures, *renderer, frame);
         }
-        const auto begin = std::chrono::steady_clock::now();
-        renderer->draw(frame, image);
-        const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;
-        const std::vector<std::uint8_t> png = encode_png(image);
-        const std::filesystem::path file =
-            std::filesystem::path(options.out) / (spawn.name + ".png");
-        if (const auto error = write_file_atomically(file, std::string(png.begin(), png.end()))) {
+        if (const auto error = saver.save(frame, spawn.name)) {
             return refuse(*error);
         }
-        std::printf("%s: %.2f s, %d triangles in all passes\n", file.string().c_str(), cost.count(),
-                    renderer->counters().triangles);
     }
     return 0;
 }

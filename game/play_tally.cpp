@@ -29,6 +29,8 @@ const char* name_of_grip(GripKind kind) {
             return "surface";
         case GripKind::held:
             return "held";
+        case GripKind::authored:
+            return "authored";
         case GripKind::player:
             return "player";
     }

@@ -4,6 +4,8 @@
 
 #include "engine/core/check.hpp"
 #include "game/assets.hpp"
+#include "game/gun.hpp"
+#include "game/station_scene.hpp"
 
 namespace handhold {
 namespace {
@@ -12,6 +14,10 @@ const Vec3 k_rail(0.0, 0.98, 0.16);  // along x
 constexpr double k_eyes_y_m = 1.48;
 constexpr double k_eyes_z_m = 0.62;
 constexpr double k_crawl_mps = 0.55;
+constexpr const char* k_gun_model = "gun.glb";  // made, not loaded
+
+// Floats to the right of where the session begins, and points across it to the left.
+Pose gun_place() { return {Vec3(-3.02, 1.31, 0.45), rotation_about(Vec3::UnitY(), 1.05)}; }
 
 Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
 
@@ -129,12 +135,69 @@ void work_rock(double t_s, SessionScript& script) {
     rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
 }
 
+// The wrist's place as a script has it.
+struct ScriptedWrist {
+    Vec3 palm, away, fingers;
+};
+ScriptedWrist scripted_wrist(const Pose& wrist) {
+    return {transform_point(wrist, HandTuning().palm_center_m), wrist.rotation * Vec3::UnitY(),
+            wrist.rotation * -Vec3::UnitZ()};
+}
+
+// The right hand closes near the handle and has it; it looks along the gun here and there, puts it
+// back, and takes it once more by its back, where no grip is near.
+void work_gun(double t_s, SessionScript& script) {
+    const GunModel gun = make_gun();
+    const Pose wrist_in_gun = gun.grips.front().grip.hands[index_of(HandSide::right)].wrist_bs;
+    const Pose beside{Vec3(0.020, -0.012, 0.015), rotation_about(Vec3::UnitZ(), 0.25)};
+    const Pose back = gun_place() * wrist_in_gun * beside;
+    const ScriptedWrist closed = scripted_wrist(back);
+    script.holds.push_back(
+        {HandSide::right, t_s, t_s + 5.0, closed.palm, closed.away, closed.fingers});
+    const auto aim = [&](double at_s, const Vec3& place, double yaw_rad, double pitch_rad) {
+        const Pose gun_ws{place, rotation_about(Vec3::UnitY(), yaw_rad) *
+                                     rotation_about(Vec3::UnitX(), pitch_rad)};
+        const ScriptedWrist wrist = scripted_wrist(gun_ws * wrist_in_gun);
+        script.reaches.push_back({HandSide::right, at_s, wrist.palm, wrist.away, wrist.fingers});
+    };
+    script.reaches.push_back(
+        {HandSide::right, t_s + 0.4, closed.palm, closed.away, closed.fingers});
+    aim(t_s + 1.3, Vec3(-3.25, 1.38, 0.44), 0.9, 0.35);
+    aim(t_s + 2.1, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
+    aim(t_s + 2.5, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
+    aim(t_s + 3.4, Vec3(-3.10, 1.38, 0.50), -0.8, 0.2);
+    // Where the hand let go the gun lies as the grip has it in that hand.
+    const Pose left_at = back * inverse(wrist_in_gun);
+    const Pose on_back{transform_point(left_at, Vec3(0.0, 0.076, -0.085)),
+                       left_at.rotation * rotation_about(Vec3::UnitY(), 1.2)};
+    const Vec3 up = on_back.rotation * Vec3::UnitY();
+    const Vec3 fingers = on_back.rotation * -Vec3::UnitZ();
+    script.holds.push_back({HandSide::right, t_s + 6.0, t_s + 7.2, on_back.position, up, fingers});
+    script.reaches.push_back(
+        {HandSide::right, t_s + 6.6, on_back.position + Vec3(0.05, 0.08, 0.05), up, fingers});
+}
+
 }  // namespace
 
 Scene make_playground_scene() {
     Result<SceneFile> file = parse_scene_file(game_asset("playground.json"), "playground.json");
     HH_CHECK(static_cast<bool>(file), "the playground's description is broken", 0);
-    Result<Scene> scene = build_scene(file.value(), "playground.json");
+    GunModel gun = make_gun();
+    SceneBody body;
+    body.name = "gun";
+    body.kind = BodyKind::free;
+    body.shape = std::move(gun.shape);
+    body.pose = gun_place();
+    body.mass_kg = gun.mass_kg;
+    body.restitution = 0.2;
+    body.visual = k_gun_model;
+    body.grips = gun.grips;
+    file.value().bodies.push_back(std::move(body));
+    const auto models = [&gun](const std::filesystem::path& model) -> Result<GltfLevel> {
+        HH_CHECK(model == k_gun_model, "the playground's only model is the gun", 0);
+        return level_of(gun.visual);
+    };
+    Result<Scene> scene = build_scene(file.value(), "playground.json", models);
     HH_CHECK(static_cast<bool>(scene), "the playground's description is broken", 0);
     scene.value().lamps = {{Vec3(-3.0, 2.5, 1.6), {2.6F, 2.5F, 2.4F}, 5.0},
                            {Vec3(0.0, 2.5, 1.6), {2.6F, 2.5F, 2.4F}, 5.0},
@@ -144,27 +207,27 @@ Scene make_playground_scene() {
 
 SessionScript playground_script() {
     SessionScript script;
-    script.duration_s = 36.0;
-    const double before_s = 0.8;
+    constexpr double k_gun_s = 8.2;  // before the contraptions
     script.body.push_back({0.0, eyes_before(-3.4), Vec3::Zero()});
-    stay(0.4, 4.4, -3.65, script);
-    work_lever(before_s + 0.4, script);
-    crawl(4.6, -3.4, -1.75, script);
-    stay(7.7, 11.3, -2.0, script);
-    work_drawer(8.2, script);
-    crawl(11.4, -1.75, -0.2, script);
-    stay(14.3, 18.6, -0.5, script);
-    work_door(14.8, script);
-    crawl(18.8, -0.2, 1.3, script);
-    stay(21.6, 25.0, 1.0, script);
-    work_valve(22.0, script);
-    crawl(25.2, 1.3, 2.45, script);
-    stay(27.4, 31.2, 2.2, script);
-    work_cable(27.7, script);
-    crawl(31.3, 2.45, 3.45, script);
-    stay(33.2, 34.4, 3.2, script);
-    work_rock(33.5, script);
-    script.duration_s = 38.0;
+    stay(0.4, k_gun_s + 4.4, -3.65, script);
+    work_gun(1.2, script);
+    work_lever(k_gun_s + 1.2, script);
+    crawl(k_gun_s + 4.6, -3.4, -1.75, script);
+    stay(k_gun_s + 7.7, k_gun_s + 11.3, -2.0, script);
+    work_drawer(k_gun_s + 8.2, script);
+    crawl(k_gun_s + 11.4, -1.75, -0.2, script);
+    stay(k_gun_s + 14.3, k_gun_s + 18.6, -0.5, script);
+    work_door(k_gun_s + 14.8, script);
+    crawl(k_gun_s + 18.8, -0.2, 1.3, script);
+    stay(k_gun_s + 21.6, k_gun_s + 25.0, 1.0, script);
+    work_valve(k_gun_s + 22.0, script);
+    crawl(k_gun_s + 25.2, 1.3, 2.45, script);
+    stay(k_gun_s + 27.4, k_gun_s + 31.2, 2.2, script);
+    work_cable(k_gun_s + 27.7, script);
+    crawl(k_gun_s + 31.3, 2.45, 3.45, script);
+    stay(k_gun_s + 33.2, k_gun_s + 34.4, 3.2, script);
+    work_rock(k_gun_s + 33.5, script);
+    script.duration_s = k_gun_s + 38.0;
     return script;
 }
 

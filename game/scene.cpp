@@ -241,6 +241,7 @@ class SceneBuilder {
         }
         const Entity entity = add_body(scene_.world, description);
         scene_.body_names.push_back(body.name);
+        add_grips(body, shape.frame, entity);
         if (body.kind == BodyKind::kinematic) {
             set_moving(body, entity);
         }
@@ -249,6 +250,20 @@ class SceneBuilder {
                 {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), body.color, {}});
         } else if (const std::optional<GltfLevel> drawn = load(body.visual)) {
             add_visuals(entity, *drawn, inverse(shape.frame));
+        }
+    }
+
+    void add_grips(const SceneBody& body, const Pose& shape_frame, Entity entity) {
+        AuthoredGrips grips;
+        for (const SceneGrip& grip : body.grips) {
+            grips.grips[grips.count++] = in_body_frame(grip.grip, shape_frame);
+        }
+        if (!body.grips.empty()) {
+            scene_.grips[body.name] = body.grips;
+        }
+        scene_.body_in_file[body.name] = shape_frame;
+        if (grips.count > 0) {
+            scene_.world.authored_grips.add(entity, grips);
         }
     }
 

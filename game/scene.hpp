@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,7 +69,11 @@ struct Scene {
     std::vector<SceneSpawnPoint> spawns;    // the first is the default; may be empty
     std::vector<ScenePlayerStart> players;  // that the scene asks for; may be empty
     std::vector<std::string> body_names;    // by world.body's rows at load
-    std::optional<SceneSession> session;    // what shows it
+    // Of a scene file's bodies by name: authored grips, in the frame that the file gives them in,
+    // and that frame, seen backwards: of the body in it, where they differ.
+    std::map<std::string, std::vector<SceneGrip>> grips;
+    std::map<std::string, Pose> body_in_file;
+    std::optional<SceneSession> session;  // what shows it
     int climbers = 0;  // scripted ones beside the first player, where nobody says how many
 };
 

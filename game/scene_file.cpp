@@ -34,6 +34,7 @@ class SceneReader {
     SceneLevel read_level(const JsonValue& value) const;
     SceneBody read_body(const JsonValue& value);
     static void read_free_body(const JsonValue& value, SceneBody& body);
+    static void read_grips(const JsonValue& value, SceneBody& body);
     static SceneMotion read_motion(const JsonValue& value);
     static ScenePath read_path_of_poses(const JsonValue& value);
     static Lamp read_lamp(const JsonValue& value);
@@ -153,7 +154,7 @@ void SceneReader::read_free_body(const JsonValue& value, SceneBody& body) {
 SceneBody SceneReader::read_body(const JsonValue& value) {
     value.allow_only({"name", "kind", "shape", "position_m", "rotation_xyzw", "mass_kg",
                       "inertia_kgm2", "velocity_mps", "angular_velocity_radps", "motion", "color",
-                      "visual", "restitution", "friction"});
+                      "visual", "restitution", "friction", "grips"});
     SceneBody body;
     body.name = read_new_name(value["name"], entity_names_);
     body.kind = read_kind(value["kind"]);
@@ -182,8 +183,20 @@ SceneBody SceneReader::read_body(const JsonValue& value) {
     }
     body.restitution = value["restitution"].number_or(body.restitution, k_unit_interval);
     body.friction = value["friction"].number_or(body.friction, k_friction);
+    read_grips(value["grips"], body);
     joint_names_.bodies.emplace(body.name, body.kind);
     return body;
+}
+
+void SceneReader::read_grips(const JsonValue& value, SceneBody& body) {
+    const std::vector<JsonValue> grips = value.optional_items();
+    if (grips.size() > k_most_authored_grips) {
+        value.refuse("at most " + std::to_string(k_most_authored_grips) + " grips");
+    }
+    std::set<std::string> names;
+    for (const JsonValue& grip : grips) {
+        body.grips.push_back(read_scene_grip(grip, names));
+    }
 }
 
 Lamp SceneReader::read_lamp(const JsonValue& value) {

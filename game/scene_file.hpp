@@ -12,6 +12,7 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/render/render_frame.hpp"
+#include "game/scene_grip.hpp"
 #include "game/scene_joint.hpp"
 #include "game/scene_shape.hpp"
 
@@ -60,6 +61,7 @@ struct SceneBody {
                                    // empty: the shape
     double restitution = 0.0;      // [0, 1]; the larger of two bodies' counts
     double friction = 0.4;         // Coulomb's coefficient; of two bodies the geometric mean
+    std::vector<SceneGrip> grips;  // at most k_most_authored_grips
 };
 
 struct SceneSpawn {

@@ -116,6 +116,9 @@ Json body_json(const SceneBody& body) {
     }
     json["restitution"] = body.restitution;
     json["friction"] = body.friction;
+    for (const SceneGrip& grip : body.grips) {
+        json["grips"].push_back(Json::parse(write_scene_grip(grip)));
+    }
     return json;
 }
 

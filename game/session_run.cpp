@@ -44,7 +44,7 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
         HandLog& hand = log.hands[side];
         hand.target_ws = render.hands[side].tracked_ws.position;
         hand.shown_ws = render.hands[side].shown_ws.position;
-        hand.grip = static_cast<int>(grab.kind);
+        hand.grip = static_cast<int>(render.hands[side].grip);
         hand.body = bodies.of(grab.body);
         hand.error_m = grab.kind != GripKind::none ? grab.error_m : 0.0;
     }

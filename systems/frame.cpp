@@ -83,10 +83,10 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
     {
         const StageTimer timer(Stage::update_grabs, stats);
         place(w, caches, tuning);
-        update_grabs(
-            {caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
-             w.head_tracking, w.body, w.body_pose, graph.joint_groups, w.grab, w.head_ignores},
-            tuning, stats);
+        update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
+                      w.player_origin, w.head_tracking, w.body, w.body_pose, graph.joint_groups,
+                      w.authored_grips, w.grab, w.authored_hold, w.head_ignores},
+                     tuning, stats);
     }
     {
         const StageTimer timer(Stage::locomote_players, stats);
@@ -107,9 +107,10 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
     }
     {
         const StageTimer timer(Stage::settle_grabs, stats);
-        settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start,
-                      w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.grab},
-                     stats);
+        settle_grabs(
+            {start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start, w.player_origin,
+             w.head_tracking, w.body_start, w.body_pose, w.authored_hold, w.grab},
+            tuning.palm, stats);
     }
 }
 
@@ -158,7 +159,7 @@ void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameI
         gather_surroundings(
             {caches.meshes_for_hands, caches.hand_rigs, caches.graph, w.persistent_id, w.hand_owner,
              w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose, w.collider,
-             hands.surroundings},
+             w.authored_hold, hands.surroundings},
             stats);
         hands.traces.assign(hands.surroundings.size(), {});
     }
@@ -208,9 +209,10 @@ void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInpu
     }
     {
         const StageTimer timer(Stage::publish_pose, stats);
-        publish_pose({caches.graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
-                      w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.render_pose},
-                     tuning);
+        publish_pose(
+            {caches.graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
+             w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
+            tuning);
         publish_body({w.arm_pose, w.spine_pose, w.render_pose});
     }
 }

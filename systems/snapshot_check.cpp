@@ -226,9 +226,18 @@ class BreachFinder {
             const Grab& grab = w_.grab.rows()[row];
             check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
                   w_.grab.owners()[row], ".phase", "a phase where there is a grip, and none else");
-            constexpr auto k_authored = static_cast<GripKind>(3);
-            check(grab.kind != k_authored, "grab", w_.grab.owners()[row], ".kind",
-                  "a kind of grip that this build knows");
+            check(grab.kind != GripKind::authored, "grab", w_.grab.owners()[row], ".kind",
+                  "a surface, a held object or a player: an authored grip is in authored_hold");
+        }
+        check_authored();
+    }
+
+    void check_authored() {
+        require("authored_grips", w_.authored_grips, "body", w_.body);
+        require("authored_hold", w_.authored_hold, "grab", w_.grab);
+        for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
+            check(w_.authored_grips.rows()[row].count <= k_most_authored_grips, "authored_grips",
+                  w_.authored_grips.owners()[row], ".count", "4 grips at most");
         }
     }
 

@@ -14,25 +14,6 @@
 namespace handhold {
 namespace {
 
-// A joint's three axes may differ in length and lean by so much: what float files leave of a
-// rotation.
-constexpr double k_most_shear = 0.02;
-
-// The rigid part of a joint's frame; nothing where there is none.
-std::optional<Pose> rigid_part(const Affine& frame) {
-    Mat3 axes = frame.linear;
-    const double scale = std::cbrt(std::abs(axes.determinant()));
-    if (!(scale > 1e-9) || !std::isfinite(scale) || !is_finite(frame.translation)) {
-        return std::nullopt;
-    }
-    axes /= scale;
-    const Mat3 off = axes.transpose() * axes - Mat3::Identity();
-    if (axes.determinant() < 0.0 || off.cwiseAbs().maxCoeff() > 2.0 * k_most_shear) {
-        return std::nullopt;
-    }
-    return Pose{frame.translation, Quat(axes).normalized()};
-}
-
 // The rotation that is nearest to a frame, column by column.
 Pose nearest_pose(const Affine& frame) {
     Vec3 y = frame.linear.col(1);

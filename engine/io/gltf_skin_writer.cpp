@@ -9,6 +9,22 @@
 namespace handhold {
 namespace {
 
+GltfJson posed_node(const std::string& name, const Pose& pose) {
+    const Quat& turn = pose.rotation;
+    return {{"name", name},
+            {"translation", {pose.position.x(), pose.position.y(), pose.position.z()}},
+            {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+}
+
+void check_surface(std::size_t materials, std::size_t vertices, std::size_t material,
+                   const std::vector<std::uint32_t>& indices) {
+    HH_CHECK(!indices.empty() && indices.size() % 3 == 0, "a surface has triangles",
+             indices.size());
+    HH_CHECK(*std::max_element(indices.begin(), indices.end()) < vertices, "no such vertex",
+             vertices);
+    HH_CHECK(material < materials, "no such material", material);
+}
+
 void check_skin(std::size_t materials, const GltfSkin& skin) {
     HH_CHECK(!skin.joints.empty() && skin.joints.size() <= k_max_skin_joints, "joints",
              skin.joints.size());
@@ -17,14 +33,9 @@ void check_skin(std::size_t materials, const GltfSkin& skin) {
         HH_CHECK(skin.joints[i].parent < static_cast<std::int32_t>(i), "parents come first", i);
     }
     for (const GltfSkinSurface& surface : skin.surfaces) {
-        HH_CHECK(!surface.indices.empty() && surface.indices.size() % 3 == 0,
-                 "a surface has triangles", surface.indices.size());
-        HH_CHECK(*std::max_element(surface.indices.begin(), surface.indices.end()) <
-                     surface.vertices.size(),
-                 "no such vertex", surface.vertices.size());
+        check_surface(materials, surface.vertices.size(), surface.material, surface.indices);
         HH_CHECK(surface.weights.size() == surface.vertices.size(), "weights by vertex",
                  surface.weights.size());
-        HH_CHECK(surface.material < materials, "no such material", surface.material);
         for (const SkinWeights& weights : surface.weights) {
             for (const std::uint16_t joint : weights.joint) {
                 HH_CHECK(joint < skin.joints.size(), "no such joint", joint);
@@ -49,11 +60,7 @@ void add_nodes(const GltfSkin& skin, GltfJson& root) {
             local = inverse(skin.joints[above].bind_ms) * joint.bind_ms;
             parent = above + k_first_joint;
         }
-        const Quat& turn = local.rotation;
-        GltfJson node = {
-            {"name", joint.name},
-            {"translation", {local.position.x(), local.position.y(), local.position.z()}},
-            {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+        GltfJson node = posed_node(joint.name, local);
         for (const auto& [name, numbers] : joint.numbers) {
             node["extras"][name] = numbers;
         }
@@ -83,9 +90,32 @@ std::array<float, 16> inverse_bind(const Pose& bind) {
     return matrix;
 }
 
+void add_object(const GltfObject& object, std::size_t materials, GltfBufferWriter& buffer,
+                GltfJson& root) {
+    GltfJson& nodes = root["nodes"];
+    const std::size_t own = nodes.size();
+    nodes.push_back(posed_node(object.name, object.pose_ms));
+    root["scenes"][0]["nodes"].push_back(own);
+    for (const GltfSurface& surface : object.surfaces) {
+        check_surface(materials, surface.vertices.size(), surface.material, surface.indices);
+        const int positions = buffer.add_vertices(surface.vertices, false);
+        const int normals = buffer.add_vertices(surface.vertices, true);
+        const int indices = buffer.add_indices(surface.indices);
+        nodes[own]["children"].push_back(nodes.size());
+        nodes.push_back({{"name", surface.name}, {"mesh", root["meshes"].size()}});
+        root["meshes"].push_back(
+            {{"name", surface.name},
+             {"primitives",
+              GltfJson::array({{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+                                {"indices", indices},
+                                {"material", surface.material}}})}});
+    }
+}
+
 }  // namespace
 
-std::string write_skinned_glb(std::span<const GltfMaterial> materials, const GltfSkin& skin) {
+std::string write_skinned_glb(std::span<const GltfMaterial> materials, const GltfSkin& skin,
+                              std::span<const GltfObject> objects) {
     check_skin(materials.size(), skin);
     GltfJson root;
     root["asset"] = {{"version", "2.0"}, {"generator", "handhold"}};
@@ -119,6 +149,9 @@ std::string write_skinned_glb(std::span<const GltfMaterial> materials, const Glt
         binds.push_back(inverse_bind(joint.bind_ms));
     }
     root["skins"][0]["inverseBindMatrices"] = buffer.add_matrices(binds);
+    for (const GltfObject& object : objects) {
+        add_object(object, materials.size(), buffer, root);
+    }
     buffer.finish(root);
     return join_glb(root.dump(), buffer.bytes());
 }

@@ -1,6 +1,7 @@
 #include "engine/io/node_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -91,6 +92,21 @@ std::optional<FileError> check_roots(const std::vector<FileNode>& nodes,
 }
 
 }  // namespace
+
+std::optional<Pose> rigid_part(const Affine& frame) {
+    constexpr double k_most_shear = 0.02;
+    Mat3 axes = frame.linear;
+    const double scale = std::cbrt(std::abs(axes.determinant()));
+    if (!(scale > 1e-9) || !std::isfinite(scale) || !is_finite(frame.translation)) {
+        return std::nullopt;
+    }
+    axes /= scale;
+    const Mat3 off = axes.transpose() * axes - Mat3::Identity();
+    if (axes.determinant() < 0.0 || off.cwiseAbs().maxCoeff() > 2.0 * k_most_shear) {
+        return std::nullopt;
+    }
+    return Pose{frame.translation, Quat(axes).normalized()};
+}
 
 Result<std::vector<PlacedNode>> place_nodes(const std::vector<FileNode>& nodes,
                                             const std::optional<std::vector<int>>& roots,

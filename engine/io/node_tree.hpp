@@ -15,6 +15,10 @@ struct FileNode {
     std::vector<int> children;
 };
 
+// The rigid part of a frame that is turned, moved and evenly scaled; nothing where it is anything
+// else. Axes may differ in length and lean by 2 %: what float files leave of a rotation.
+std::optional<Pose> rigid_part(const Affine& frame);
+
 struct PlacedNode {
     int node = 0;
     Affine world;  // into the scene's frame

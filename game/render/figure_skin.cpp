@@ -32,21 +32,27 @@ void FigureSkin::add(const FigureKit& kit, const Pose& at, std::uint16_t joint,
     }
 }
 
-std::string FigureSkin::write(std::vector<SkinJoint> joints) const {
+GltfSkin FigureSkin::finish(std::vector<SkinJoint> joints) const {
     GltfSkin skin;
     skin.name = name_;
     skin.joints = std::move(joints);
-    std::vector<GltfMaterial> materials;
     for (std::size_t i = 0; i < k_figure_material_count; ++i) {
-        const auto material = static_cast<FigureMaterial>(i);
-        materials.push_back({figure_material_text(material), figure_color(material), 0.0F, 1.0F,
-                             figure_gloss(material)});
         if (!surfaces_[i].indices.empty()) {
             skin.surfaces.push_back(surfaces_[i]);
             skin.surfaces.back().material = i;
         }
     }
-    return write_skinned_glb(materials, skin);
+    return skin;
+}
+
+std::vector<GltfMaterial> FigureSkin::materials() {
+    std::vector<GltfMaterial> materials;
+    for (std::size_t i = 0; i < k_figure_material_count; ++i) {
+        const auto material = static_cast<FigureMaterial>(i);
+        materials.push_back({figure_material_text(material), figure_color(material), 0.0F, 1.0F,
+                             figure_gloss(material)});
+    }
+    return materials;
 }
 
 }  // namespace handhold

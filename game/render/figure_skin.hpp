@@ -19,8 +19,9 @@ class FigureSkin {
     // All parts of a kit.
     void add(const FigureKit& kit, const Pose& at, std::uint16_t joint, const std::string& name);
 
-    // The bytes of a .glb. Preconditions: write_skinned_glb's.
-    std::string write(std::vector<SkinJoint> joints) const;
+    // The skin on these joints, and what its surfaces name as materials, for write_skinned_glb.
+    GltfSkin finish(std::vector<SkinJoint> joints) const;
+    static std::vector<GltfMaterial> materials();
 
   private:
     std::string name_;

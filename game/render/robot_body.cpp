@@ -312,7 +312,7 @@ class BodyBuilder {
         for (std::size_t i = 0; i < joints_.size(); ++i) {
             skin.add(kits_[i], joints_[i].bind_ms, static_cast<std::uint16_t>(i), joints_[i].name);
         }
-        return skin.write(joints_);
+        return write_skinned_glb(FigureSkin::materials(), skin.finish(joints_));
     }
 
     std::vector<SkinJoint> joints_;

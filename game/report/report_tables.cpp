@@ -123,6 +123,14 @@ const char* meaning_of(Fallback reason) {
             return "A gripped body has no surface for hands; the hand is shown as it is tracked.";
         case Fallback::palm_no_surface:
             return "A gripping hand had nothing under its palm; it is shown as it is tracked.";
+        case Fallback::authored_grip_taken:
+            return "A hand closed where another one sits in the grip; it took the next best.";
+        case Fallback::authored_grip_blocked:
+            return "Something stood between a hand and a grip; the hand took the next best.";
+        case Fallback::authored_grip_left:
+            return "A hand turned far away from its grip; it holds on as to any surface.";
+        case Fallback::authored_finger_fitted:
+            return "A finger would have been sunk as it was posed; it closed as on any surface.";
         case Fallback::count:
             break;
     }

@@ -22,7 +22,10 @@ void publish_pose(const PublishPoseIo& io, const Tuning& tuning) {
         RenderPose::Hand& out = io.render.at(owner.player).hands[index_of(owner.side)];
         out.tracked_ws = io.origin.at(owner.player).pose_ws * io.hand.at(entity).pose_ps;
         out.shown_ws = io.palm.at(entity).pose_ws;
-        out.grip = grab.kind;
+        const AuthoredHold* const hold = io.authored_hold.find(entity);
+        const bool is_authored =
+            grab.kind != GripKind::none && hold != nullptr && hold->body == grab.body;
+        out.grip = is_authored ? GripKind::authored : grab.kind;
         out.fingers = io.fingers.at(entity).shown;
         const PalmRay ray = palm_ray(out.tracked_ws, owner.side, tuning.hand);
         out.ray_from_ws = ray.from_ws;

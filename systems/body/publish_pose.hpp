@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
@@ -22,6 +23,7 @@ struct PublishPoseIo {
     const Column<Grab>& grab;                   // in
     const Column<PalmPose>& palm;               // in
     const Column<FingerPose>& fingers;          // in
+    const Column<AuthoredHold>& authored_hold;  // in
     Column<RenderPose>& render;                 // out
 };
 

@@ -24,6 +24,14 @@ Pose hold_wrist(const HandSurroundings& hand, const GripSurface& surface, double
 
 void set_target(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
                 PalmOffset& offset) {
+    if (hand.authored != nullptr) {
+        const Pose target = inverse(hand.wrist_bs) * hand.authored->wrist_bs;
+        offset.target_m = target.position;
+        offset.target_turn_rad = rotation_to_vector(target.rotation);
+        offset.lift_m = 0.0;
+        offset.target_surroundings = 0;
+        return;
+    }
     if (surface.triangle == GripSurface::k_none) {
         offset.target_m = Vec3::Zero();
         offset.target_turn_rad = Vec3::Zero();

@@ -22,6 +22,7 @@ struct ConstrainPalmsIo {
 // does so, found anew in every frame, so that a hand may roll and twist over an edge while it
 // grips; what is shown follows it at PalmTuning::rate_mps, since the target jumps where the surface
 // has an edge. Only the hand that is shown moves, never the player. Talk rows 16 and 18.
+// A hand in an authored grip is held to that instead, at the same rate. Talk row 10.
 // Idempotent: the target of a hand that stands on its target is that place, within 0.1 mm
 // (unless the hand is lifted: the lift comes on top of where it is tracked).
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning);

@@ -27,6 +27,7 @@ class Gatherer {
         out.wrist_bs = tracked_ws;
         out.meshes.clear();
         out.signature = 0;
+        out.authored = nullptr;
         out.grips = grab.kind != GripKind::none;
         const bool is_there = io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
         if (grab.kind == GripKind::none || !is_there) {
@@ -37,6 +38,10 @@ class Gatherer {
         if (turns_on_its_grip(grab)) {
             out.wrist_bs.rotation =
                 (out.body_ws.rotation.conjugate() * tracked_ws.rotation).normalized();
+        }
+        if (const AuthoredHold* const hold = io_.authored_hold.find(hand);
+            hold != nullptr && hold->body == grab.body) {
+            out.authored = &hold->hand;
         }
         if (const PlacedMesh own = {mesh_of(grab.body), {}}; own.mesh != nullptr) {
             out.body = grab.body;

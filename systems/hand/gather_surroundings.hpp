@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
@@ -28,6 +29,7 @@ struct GatherSurroundingsIo {
     const Column<HeadTracking>& head;               // in
     const Column<BodyPose>& body_pose;              // in: at the end of the frame
     const Column<Collider>& collider;               // in
+    const Column<AuthoredHold>& authored_hold;      // in: stays in place until the hands are posed
     std::vector<HandSurroundings>& surroundings;    // out: one for each row of owner, in its order
 };
 

@@ -45,11 +45,17 @@ class ThumbPoser {
         const FingerRig& thumb = hand.rig->fingers[f];
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
             rest(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
+            if (const auto posed = posed_in(hand, thumb)) {
+                pose.target[f] = *posed;
+            }
             pose.thumb_solved = false;
             return;
         }
         if (pose.thumb_solved && pose.thumb_arrived &&
             same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+            return;
+        }
+        if (take_posed(hand, thumb, pose, f)) {
             return;
         }
         const ThumbFit best = fit_thumb(hand, thumb, f, pose);
@@ -70,6 +76,34 @@ class ThumbPoser {
     }
 
   private:
+    static std::optional<FingerAngles> posed_in(const HandSurroundings& hand,
+                                                const FingerRig& thumb) {
+        return hand.authored != nullptr ? posed_angles(thumb, *hand.authored) : std::nullopt;
+    }
+
+    // As an authored grip has it, where it has it so that it is not sunk.
+    bool take_posed(const HandSurroundings& hand, const FingerRig& thumb, FingerPose& pose,
+                    std::size_t f) {
+        const auto posed = posed_in(hand, thumb);
+        if (!posed) {
+            return false;
+        }
+        const HingeChain chain = finger_chain(thumb, posed->opposition_rad, pose.solved_wrist_bs);
+        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
+            tuning_.finger.search_depth_m) {
+            const double way_m = hand_way_m(pose.solved_wrist_bs, hand.authored->wrist_bs);
+            if (way_m < tuning_.finger.stroll_m) {  // on its way there it is no wonder
+                stats_.count(Fallback::authored_finger_fitted);
+            }
+            return false;
+        }
+        pose.target[f] = *posed;
+        pose.thumb_wrist_bs = pose.solved_wrist_bs;
+        pose.thumb_solved = true;
+        pose.thumb_arrived = true;
+        return true;
+    }
+
     double rest_opposition(const FingerRig& thumb) const {
         return std::clamp(tuning_.thumb.rest_opposition_rad, thumb.lower_opposition_rad,
                           std::max(thumb.lower_opposition_rad, thumb.upper_opposition_rad));

@@ -27,6 +27,7 @@ struct PoseThumbIo {
 // opposition are tried, each closed like a finger, and the cheapest stays: sunk little, touching,
 // its tip near the surface, near to where a thumb rests. Comes after sweep_fingers and is solved
 // where that was. Talk row 15.
+// A thumb that an authored grip poses stands so, where it is not sunk there. Talk row 10.
 void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats,
                 SearchOrder order = SearchOrder::best_first);
 

@@ -199,6 +199,21 @@ class PalmHolder {
         surface = roomiest(placed, palm, searcher);
     }
 
+    // Under a palm in an authored grip: fingers that close begin there.
+    void run_authored(GripSurface& surface) {
+        const PlacedMesh& placed = hand_.meshes.front();
+        const Pose wrist = inverse(placed.pose) * hand_.authored->wrist_bs;
+        const Palm palm = {transform_point(wrist, hand_.rig->palm_center_hs),
+                           wrist.rotation * -hand_.rig->palm_normal_hs};
+        const auto near = placed.mesh->search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
+        surface = {};
+        if (near) {
+            surface = surface_at(placed, palm, {near->triangle, near->point, 0.0});
+        }
+        surface.wrist_bs = hand_.authored->wrist_bs;
+        surface.surroundings = 0;  // out of the grip the surface is searched for
+    }
+
   private:
     // The cheapest surface, if it leaves room for the palm. Else the first that does, of those that
     // are found by looking farther; else the one where cost and what stays sunk are least.
@@ -282,6 +297,14 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         GripSurface& surface = io.surface.at(hand.hand);
         if (is_null(hand.body) || hand.meshes.empty()) {
             surface = {};
+            continue;
+        }
+        if (hand.authored != nullptr) {
+            const bool is_known = surface.body == hand.body && surface.surroundings == 0 &&
+                                  hand_way_m(surface.wrist_bs, hand.authored->wrist_bs) == 0.0;
+            if (!is_known) {
+                PalmHolder(hand, tuning, search, io.scratch).run_authored(surface);
+            }
             continue;
         }
         if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&

@@ -28,6 +28,7 @@ struct SearchGripIo {
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
 // PalmTuning::tilt_cost_m_per_rad apart. Hands with nothing within PalmTuning::reach_m are left
 // without a surface. Talk rows 2, 11, 17.
+// Under a palm in an authored grip nothing is searched for: it has the nearest triangle.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::least_sync);
 

@@ -57,6 +57,7 @@ class HandCloser {
         FingerPose& pose = io_.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
             rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
+            pose_unverified(hand, pose);
             return;
         }
         const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
@@ -82,9 +83,46 @@ class HandCloser {
     }
 
   private:
+    // Where there is no surface near an authored grip its fingers stand as they were posed.
+    static void pose_unverified(const HandSurroundings& hand, FingerPose& pose) {
+        for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
+            const auto posed = posed_angles(hand.rig->fingers[f], *hand.authored);
+            if (posed && hand.rig->fingers[f].name != FingerName::thumb) {
+                pose.target[f] = *posed;
+            }
+        }
+    }
+
+    // As an authored grip has the finger, where it has it so that it is not sunk.
+    bool take_posed(const HandSurroundings& hand, std::size_t f, const HingeChain& chain,
+                    FingerPose& pose) {
+        const auto posed = hand.authored != nullptr
+                               ? posed_angles(hand.rig->fingers[f], *hand.authored)
+                               : std::nullopt;
+        if (!posed) {
+            return false;
+        }
+        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
+            tuning_.finger.search_depth_m) {
+            if (has_arrived(io_.offset.at(hand.hand))) {  // on its way there it is no wonder
+                stats_.count(Fallback::authored_finger_fitted);
+            }
+            return false;
+        }
+        pose.target[f] = *posed;
+        return true;
+    }
+
+    static bool has_arrived(const PalmOffset& offset) {
+        return offset.shown_m == offset.target_m && offset.shown_turn_rad == offset.target_turn_rad;
+    }
+
     double close_finger(std::size_t place, std::size_t f, const Pose& wrist_bs, FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[place];
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
+        if (take_posed(hand, f, chain, pose)) {
+            return 0.0;
+        }
         const ChainFit fit = close_on(hand, chain, f, wrist_bs, pose);
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
@@ -127,7 +165,7 @@ class HandCloser {
     // may well be sunk.
     bool lift_if_sunk(const HandSurroundings& hand, double depth_m) {
         PalmOffset& offset = io_.offset.at(hand.hand);
-        if (offset.shown_m != offset.target_m || offset.shown_turn_rad != offset.target_turn_rad) {
+        if (!has_arrived(offset) || hand.authored != nullptr) {
             return false;
         }
         const double most_m = k_most_lifts * tuning_.palm.lift_m;

@@ -214,6 +214,24 @@ void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool le
     leaving.grab = {};
 }
 
+// A free thing that a hand has by an authored grip comes into the hand: it was authored against
+// hand and controller, and a gun points where the controller does. As fast as shown palms move; in
+// two hands it stays as they have it, for they say together how it lies.
+void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tuning,
+                    const HandPair& pair) {
+    Grab& grab = pair.grab;
+    const AuthoredHold* const hold = io.authored_hold.find(entity);
+    const bool is_free = grab.kind == GripKind::held && !grab.jointed &&
+                         !(pair.other != nullptr && share_free_body(grab, *pair.other));
+    if (hold == nullptr || hold->body != grab.body || !is_free ||
+        grab.phase != GrabPhase::holding) {
+        return;
+    }
+    const double held_s = io.end_s - std::clamp(grab.since_s, io.start_s, io.end_s);
+    grab.anchor_bs = step_towards(grab.anchor_bs, hold->hand.wrist_bs, tuning.rate_mps * held_s,
+                                  tuning.tilt_cost_m_per_rad);
+}
+
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const Instant now{io, fraction_of(io, pair.hand.edge_t_s)};
     // Two that close at one instant take their anchors alike, on the predicted way: neither leads.
@@ -244,7 +262,7 @@ void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, StageStats& s
 
 }  // namespace
 
-void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
+void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats& stats) {
     end_broken_pairs(io, stats);
     // New grips before anything leaves, the earlier edge first: which hand is listed first
     // does not matter.
@@ -282,6 +300,7 @@ void settle_grabs(const SettleGrabsIo& io, StageStats& stats) {
             pair.hand.edge != GrabEdge::onset) {
             settle_resumed(io, pair, stats);
         }
+        draw_into_hand(io, io.grab.owners()[row], tuning, pair);
         aim(io, pair.hand, grab);
     }
     end_broken_pairs(io, stats);

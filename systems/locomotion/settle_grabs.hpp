@@ -1,10 +1,12 @@
 #pragma once
 
+#include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/grab.hpp"
 #include "components/player.hpp"
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
+#include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
 namespace handhold {
@@ -12,14 +14,15 @@ namespace handhold {
 struct SettleGrabsIo {
     double start_s = 0.0;  // in: the frame
     double end_s = 0.0;
-    const Column<HandOwner>& owner;           // in
-    const Column<HandTracking>& hand;         // in
-    const Column<PlayerStart>& player_start;  // in
-    const Column<PlayerOrigin>& origin;       // in: predicted
-    const Column<HeadTracking>& head;         // in
-    const Column<BodyStart>& body_start;      // in
-    const Column<BodyPose>& body_pose;        // in: predicted
-    Column<Grab>& grab;                       // in/out: anchor, target, phase, two_handed
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in
+    const Column<PlayerStart>& player_start;    // in
+    const Column<PlayerOrigin>& origin;         // in: predicted
+    const Column<HeadTracking>& head;           // in
+    const Column<BodyStart>& body_start;        // in
+    const Column<BodyPose>& body_pose;          // in: predicted
+    const Column<AuthoredHold>& authored_hold;  // in
+    Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
@@ -31,8 +34,11 @@ struct SettleGrabsIo {
 //  and the other's anchor is taken anew
 //    where that hand is: no throw, no jump. The same where a gripping hand's tracking comes back;
 //  - two hands on one free body lead it together as long as they are apart: the first's point, the
-//    line between them, the twist about it (engine/solver/two_hands.hpp).
+//    line between them, the twist about it (engine/solver/two_hands.hpp);
+//  - a free body that one hand has by an authored grip comes into the hand: its anchor goes to
+//  where
+//    the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
 // Also sets what the hand's constraint aims at in this frame.
-void settle_grabs(const SettleGrabsIo& io, StageStats& stats);
+void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats& stats);
 
 }  // namespace handhold

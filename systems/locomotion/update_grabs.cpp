@@ -44,6 +44,118 @@ std::optional<Surface> find_surface(const UpdateGrabsIo& io, Entity player, cons
                : surface_of(io.collision.closest_point(ray.palm_ws, tuning.reach_m, own_head));
 }
 
+// A grip that a hand may snap to.
+struct Snap {
+    AuthoredHold hold;
+    Surface surface;  // the palm in the grip
+    std::int32_t priority = 0;
+    double sync_m = 0.0;
+    std::uint64_t body_id = 0;
+
+    bool is_before(const Snap& other) const {
+        if (priority != other.priority) {
+            return priority > other.priority;
+        }
+        if (sync_m != other.sync_m) {
+            return sync_m < other.sync_m;
+        }
+        return body_id != other.body_id ? body_id < other.body_id : hold.grip < other.hold.grip;
+    }
+};
+
+// A hand that holds on by a grip has it for itself.
+bool is_taken(const UpdateGrabsIo& io, Entity own_hand, Entity body, std::uint8_t grip) {
+    for (std::size_t row = 0; row < io.authored_hold.size(); ++row) {
+        const Entity hand = io.authored_hold.owners()[row];
+        const AuthoredHold& hold = io.authored_hold.rows()[row];
+        const Grab& grab = io.grab.at(hand);
+        if (hand != own_hand && hold.body == body && hold.grip == grip && grab.body == body &&
+            grab.kind != GripKind::none && grab.phase != GrabPhase::releasing) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Something else between the palm and where the grip has it.
+bool is_blocked(const UpdateGrabsIo& io, Entity player, const Vec3& from_ws, const Vec3& to_ws,
+                std::uint64_t body_id) {
+    constexpr double k_there_m = 1e-6;
+    if ((to_ws - from_ws).norm() < k_there_m) {
+        return false;
+    }
+    const std::array own_head = {io.persistent_id.at(player).value};
+    const auto hit = io.collision.cast_ray(from_ws, to_ws, own_head);
+    return hit && hit->id != body_id;
+}
+
+class SnapFinder {
+  public:
+    SnapFinder(const UpdateGrabsIo& io, Entity hand, const Pose& hand_ws, const Tuning& tuning,
+               StageStats& stats)
+        : io_(io),
+          hand_(hand),
+          owner_(io.owner.at(hand)),
+          hand_ws_(hand_ws),
+          tuning_(tuning),
+          stats_(stats) {}
+
+    std::optional<Snap> find() {
+        for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
+            const AuthoredGrips& grips = io_.authored_grips.rows()[row];
+            const Entity body = io_.authored_grips.owners()[row];
+            for (std::uint8_t i = 0; i < grips.count; ++i) {
+                look_at(body, i, grips.grips[i]);
+            }
+        }
+        return best_;
+    }
+
+  private:
+    void look_at(Entity body, std::uint8_t place, const AuthoredGrip& grip) {
+        const AuthoredHand& hand = grip.hands[index_of(owner_.side)];
+        if (!hand.is_there) {
+            return;
+        }
+        const Pose wrist_ws = io_.body_pose.at(body).pose_ws * hand.wrist_bs;
+        Vec3 palm_hs = tuning_.hand.palm_center_m;
+        palm_hs.x() *= owner_.side == HandSide::right ? 1.0 : -1.0;
+        const GripSync sync = grip_sync(hand_ws_, wrist_ws, palm_hs);
+        if (sync.palm_m > grip.snap_radius_m || sync.turn_rad > grip.snap_angle_rad) {
+            return;
+        }
+        if (is_taken(io_, hand_, body, place)) {
+            stats_.count(Fallback::authored_grip_taken);
+            return;
+        }
+        Snap snap;
+        snap.body_id = io_.persistent_id.at(body).value;
+        snap.surface = {body, transform_point(wrist_ws, palm_hs),
+                        wrist_ws.rotation * Vec3::UnitY()};
+        if (is_blocked(io_, owner_.player, transform_point(hand_ws_, palm_hs),
+                       snap.surface.point_ws, snap.body_id)) {
+            stats_.count(Fallback::authored_grip_blocked);
+            return;
+        }
+        snap.hold = {body, place, hand, k_leave_factor * grip.snap_angle_rad};
+        snap.priority = grip.priority;
+        snap.sync_m = sync.palm_m + tuning_.palm.tilt_cost_m_per_rad * sync.turn_rad;
+        if (!best_ || snap.is_before(*best_)) {
+            best_ = snap;
+        }
+    }
+
+    static constexpr double k_leave_factor = 2.0;
+
+    const UpdateGrabsIo& io_;
+    Entity hand_;
+    const HandOwner& owner_;
+    const Pose& hand_ws_;
+    const Tuning& tuning_;
+    StageStats& stats_;
+    std::optional<Snap> best_;
+};
+
 GripKind grip_kind(const UpdateGrabsIo& io, Entity gripped, const PhaseTuning& tuning) {
     const RigidBody* const body = io.body.find(gripped);
     if (body == nullptr) {
@@ -72,12 +184,19 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     *place = body;
 }
 
-void begin_grab(const UpdateGrabsIo& io, const HandOwner& owner, const HandTracking& hand,
-                Grab& grab, const Tuning& tuning, StageStats& stats) {
+void begin_grab(const UpdateGrabsIo& io, Entity entity, const HandTracking& hand, Grab& grab,
+                const Tuning& tuning, StageStats& stats) {
     ++stats.grab_onsets;
+    const HandOwner& owner = io.owner.at(entity);
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
-    const auto surface = find_surface(io, owner.player, ray, tuning.hand);
+    const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find();
+    const auto surface =
+        snap ? std::optional(snap->surface) : find_surface(io, owner.player, ray, tuning.hand);
+    io.authored_hold.remove(entity);
+    if (snap) {
+        io.authored_hold.add(entity, snap->hold);
+    }
     if (!surface) {
         stats.count(Fallback::grab_no_surface);
         return;
@@ -117,6 +236,31 @@ bool gives_way(const UpdateGrabsIo& io, std::size_t row) {
     return true;
 }
 
+// What a hand sits in ends with its grip, and where a hand that may turn on what it grips has
+// turned too far away.
+void keep_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab, StageStats& stats) {
+    const AuthoredHold* const hold = io.authored_hold.find(entity);
+    if (hold == nullptr) {
+        return;
+    }
+    bool stays = grab.kind != GripKind::none && grab.body == hold->body;
+    const bool may_turn = grab.kind != GripKind::held || grab.jointed || grab.two_handed;
+    if (stays && may_turn) {
+        const Quat hand_ws = io.origin.at(io.owner.at(entity).player).pose_ws.rotation *
+                             io.hand.at(entity).start_ps.rotation;
+        const Quat grip_ws =
+            io.body_pose.at(hold->body).pose_ws.rotation * hold->hand.wrist_bs.rotation;
+        stays = rotation_to_vector((hand_ws.conjugate() * grip_ws).normalized()).norm() <=
+                hold->leave_angle_rad;
+        if (!stays) {
+            stats.count(Fallback::authored_grip_left);
+        }
+    }
+    if (!stays) {
+        io.authored_hold.remove(entity);
+    }
+}
+
 }  // namespace
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
@@ -136,8 +280,9 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
             grab.phase = GrabPhase::releasing;
         }
+        keep_hold(io, entity, grab, stats);
         if (hand.edge == GrabEdge::onset) {
-            begin_grab(io, io.owner.at(entity), hand, grab, tuning, stats);
+            begin_grab(io, entity, hand, grab, tuning, stats);
         }
     }
 }

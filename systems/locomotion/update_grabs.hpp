@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/authored_grip.hpp"
 #include "components/body.hpp"
 #include "components/frame_graph.hpp"
 #include "components/grab.hpp"
@@ -13,17 +14,19 @@
 namespace handhold {
 
 struct UpdateGrabsIo {
-    const CollisionWorld& collision;            // in: colliders at the start of the frame
-    const Column<PersistentId>& persistent_id;  // in
-    const Column<HandOwner>& owner;             // in
-    const Column<HandTracking>& hand;           // in: edges
-    const Column<PlayerOrigin>& origin;         // in: at the start of the frame
-    const Column<HeadTracking>& head;           // in: as the colliders have it
-    const Column<RigidBody>& body;              // in
-    const Column<BodyPose>& body_pose;          // in: at the start of the frame
-    const JointGroups& joint_groups;            // in
-    Column<Grab>& grab;                         // in/out
-    Column<HeadIgnores>& head_ignores;          // in/out: held bodies are added
+    const CollisionWorld& collision;              // in: colliders at the start of the frame
+    const Column<PersistentId>& persistent_id;    // in
+    const Column<HandOwner>& owner;               // in
+    const Column<HandTracking>& hand;             // in: edges
+    const Column<PlayerOrigin>& origin;           // in: at the start of the frame
+    const Column<HeadTracking>& head;             // in: as the colliders have it
+    const Column<RigidBody>& body;                // in
+    const Column<BodyPose>& body_pose;            // in: at the start of the frame
+    const JointGroups& joint_groups;              // in
+    const Column<AuthoredGrips>& authored_grips;  // in
+    Column<Grab>& grab;                           // in/out
+    Column<AuthoredHold>& authored_hold;          // in/out: of hands that sit in an authored grip
+    Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
 };
 
 // Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
@@ -31,6 +34,9 @@ struct UpdateGrabsIo {
 // any angle, and any other player's head. Hands that open, that are stretched too far, or whose
 // body is gone let go; of a player's two stretched hands only the worse, of two alike the one that
 // grips for the shorter time. Talk rows 2, 3.
+// Before any surface comes an authored grip in whose snap zone the hand closes: of several the one
+// of the highest priority, of equal ones that which moves the palm least. One that another hand
+// sits in, or that something stands before, does not count. Talk row 10.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
 
+#include "components/builtin_hand_rig.hpp"
 #include "components/hand_rig_fit.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
+#include "game/grip_file.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {
@@ -37,10 +41,27 @@ void run_skin(Bytes bytes) {
     }
 }
 
+// The same bytes as an authored grip: what is taken from them a scene file may say.
+void run_grip(Bytes bytes) {
+    const Result<SceneGrip> grip =
+        parse_grip_glb(text_of(bytes), "/nonexistent/fuzz.gltf",
+                       {builtin_hand_rig(HandSide::left), builtin_hand_rig(HandSide::right)});
+    if (!grip) {
+        promise(!grip.error().expected.empty(), "a refusal says what was expected");
+        return;
+    }
+    const Result<JsonDocument> json = JsonDocument::parse(write_scene_grip(grip.value()), "grip");
+    promise(json.ok(), "a grip is written as JSON");
+    std::set<std::string> names;
+    read_scene_grip(json.value().root(), names);
+    promise(!json.value().failed(), "a grip that was read may be written and read again");
+}
+
 }  // namespace
 
 void run_gltf(Bytes bytes) {
     run_skin(bytes);
+    run_grip(bytes);
     // In a folder that is not there: external buffers are never found.
     Result<GltfLevel> level = parse_gltf_level(text_of(bytes), "/nonexistent/fuzz.gltf");
     if (!level) {

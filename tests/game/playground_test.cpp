@@ -38,6 +38,9 @@ class Playground : public ::testing::Test {
     double worst_joint_m = 0.0;
     double worst_joint_rad = 0.0;
     double pushed_off_mps = 0.0;
+    // The right hand on the gun: frames by what it reports, and how far the view went in them.
+    std::map<GripKind, int> on_gun;
+    double gun_in_hand_m = 0.0;  // how far it last was from where the grip has it
 
   private:
     void watch(const FrameLog& frame) {
@@ -47,9 +50,29 @@ class Playground : public ::testing::Test {
             span.low = std::min(span.low, world.joint_state.rows()[row].coordinate);
             span.high = std::max(span.high, world.joint_state.rows()[row].coordinate);
         }
+        watch_gun(world);
         worst_joint_m = std::max(worst_joint_m, frame.stats.joint_error_m);
         worst_joint_rad = std::max(worst_joint_rad, frame.stats.joint_error_rad);
         pushed_off_mps = std::max(pushed_off_mps, world.player_velocity.rows()[0].linear_mps.z());
+    }
+
+    void watch_gun(const World& world) {
+        const Entity player = world.player.owners()[0];
+        for (std::size_t row = 0; row < world.hand_owner.size(); ++row) {
+            const Entity hand = world.hand_owner.owners()[row];
+            const Grab& grab = world.grab.at(hand);
+            if (world.hand_owner.rows()[row].side == HandSide::left || grab.body != find("gun")) {
+                continue;
+            }
+            const RenderPose::Hand& shown = world.render_pose.at(player).hands[1];
+            ++on_gun[shown.grip];
+            if (shown.grip == GripKind::authored) {
+                const Vec3 wrist_ws =
+                    transform_point(world.body_pose.at(grab.body).pose_ws,
+                                    world.authored_hold.at(hand).hand.wrist_bs.position);
+                gun_in_hand_m = (wrist_ws - shown.tracked_ws.position).norm();
+            }
+        }
     }
 
     struct BySlot {
@@ -70,6 +93,13 @@ TEST_F(Playground, SessionWorksEveryContraptionAndJointsHold) {
     EXPECT_LE(worst_joint_m, 1e-6);
     EXPECT_LE(worst_joint_rad, 1e-5);
     EXPECT_EQ(scene->world.joint.size(), 48U);
+}
+
+// Talk row 10: 5 s by the handle, then 1.2 s by its back, where no grip is near.
+TEST_F(Playground, GunIsTakenByItsHandleAndFartherOffByItsSurface) {
+    EXPECT_NEAR(on_gun[GripKind::authored], 450, 3);
+    EXPECT_NEAR(on_gun[GripKind::held], 108, 3);
+    EXPECT_LT(gun_in_hand_m, 1e-4);
 }
 
 }  // namespace

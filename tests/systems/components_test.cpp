@@ -37,7 +37,7 @@ constexpr bool takes_members(std::index_sequence<I...>) {
 }
 
 // The largest number of braced values that initialise T.
-template <typename T, std::size_t Limit = 40>
+template <typename T, std::size_t Limit = 64>
 constexpr std::size_t member_count() {
     static_assert(std::is_aggregate_v<T>);
     if constexpr (Limit == 0 || takes_members<T>(std::make_index_sequence<Limit>{})) {
@@ -77,6 +77,8 @@ TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
     });
     expect_all_fields_visited<RenderPose::Hand>("RenderPose::Hand");
     expect_all_fields_visited<FingerAngles>("FingerAngles");
+    expect_all_fields_visited<AuthoredHand>("AuthoredHand");
+    expect_all_fields_visited<AuthoredGrip>("AuthoredGrip");
     expect_all_fields_visited<HandHistory::Entry>("HandHistory::Entry");
     expect_all_fields_visited<ArmMemory::Arm>("ArmMemory::Arm");
     expect_all_fields_visited<ArmEstimate::Arm>("ArmEstimate::Arm");

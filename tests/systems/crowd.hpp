@@ -142,8 +142,16 @@ class Crowd {
     }
 
     // What ties bodies together, after them in whatever order they were made: a flail of two
-    // pebbles that hangs on the world, and a leg of the train.
+    // pebbles that hangs on the world, and a leg of the train. And how the rock is held.
     void make_ties() {
+        AuthoredGrips grips;
+        grips.count = 1;
+        AuthoredHand& left = grips.grips[0].hands[0];
+        left.is_there = true;
+        left.wrist_bs = {hand_over(Vec3(0.01, 0.082, 0.01)), Quat::Identity()};
+        left.is_posed[2] = true;
+        left.fingers[2].curl_rad = {0.3, 0.4, 0.2};
+        world.authored_grips.add(find_by_id(world, persistent_id_from_name("rock")), grips);
         const auto tie = [this](const char* name, JointKind kind, const char* a, const char* b,
                                 const Vec3& at) {
             Joint joint;

@@ -49,6 +49,8 @@ World full_world() {
     add_joint(world, {"joint", joint});
     const PlayerEntities made = add_player(world, player());
     world.controller_to_hand.add(made.hands[0]);
+    world.authored_grips.add(ship);
+    world.authored_hold.add(made.hands[0]);
     return world;
 }
 

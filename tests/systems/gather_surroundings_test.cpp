@@ -28,6 +28,7 @@ struct OneHand {
     Column<HeadTracking> head;
     Column<BodyPose> body_pose;
     Column<Collider> collider;
+    Column<AuthoredHold> authored_hold;
     std::vector<HandSurroundings> surroundings;
     StageStats stats;
 
@@ -47,7 +48,7 @@ struct OneHand {
 
     const HandSurroundings& gather(const GripMeshLibrary* meshes) {
         gather_surroundings({meshes, rigs, frame, persistent_id, owner, hand, grab, origin, head,
-                             body_pose, collider, surroundings},
+                             body_pose, collider, authored_hold, surroundings},
                             stats);
         return surroundings.front();
     }

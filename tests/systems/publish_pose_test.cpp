@@ -26,6 +26,7 @@ struct Publishing {
     Column<Grab> grab;
     Column<PalmPose> palm;
     Column<FingerPose> fingers;
+    Column<AuthoredHold> authored_hold;
     Column<RenderPose> render;
     Tuning tuning;
 
@@ -48,7 +49,8 @@ struct Publishing {
         hand.at(k_right).pose_ps = random.pose(1.0);
     }
     const RenderPose& run() {
-        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, palm, fingers, render},
+        publish_pose({frame, persistent_id, origin, head, owner, hand, grab, palm, fingers,
+                      authored_hold, render},
                      tuning);
         return render.at(k_player);
     }

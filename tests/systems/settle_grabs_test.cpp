@@ -34,6 +34,8 @@ struct Settling {
     Column<HeadTracking> head;
     Column<BodyStart> body_start;
     Column<BodyPose> body_pose;
+    Column<AuthoredHold> authored_hold;
+    PalmTuning palm;
     Column<Grab> grab;
     StageStats stats;
 
@@ -80,8 +82,8 @@ struct Settling {
     void run() {
         stats = {};
         settle_grabs({k_start_s, k_end_s, owner, hand, player_start, origin, head, body_start,
-                      body_pose, grab},
-                     stats);
+                      body_pose, authored_hold, grab},
+                     palm, stats);
     }
 };
 

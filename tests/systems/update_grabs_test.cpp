@@ -38,7 +38,9 @@ struct Grabs {
     Column<RigidBody> body;
     Column<BodyPose> body_pose;
     JointGroups joint_groups;
+    Column<AuthoredGrips> authored_grips;
     Column<Grab> grab;
+    Column<AuthoredHold> authored_hold;
     Column<HeadIgnores> head_ignores;
     Tuning tuning;
     StageStats stats;
@@ -91,7 +93,7 @@ struct Grabs {
         collision.set_proxies(proxies);
         stats = {};
         update_grabs({collision, persistent_id, owner, hand, origin, head, body, body_pose,
-                      joint_groups, grab, head_ignores},
+                      joint_groups, authored_grips, grab, authored_hold, head_ignores},
                      tuning, stats);
     }
 };

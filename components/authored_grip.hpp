@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "components/hand_rig.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/entity.hpp"
+#include "engine/geometry/chain_fit.hpp"
+#include "engine/math/math.hpp"
+
+// Grips that somebody posed beforehand, for things that are held in one way: a gun by its handle.
+// Talk row 10.
+namespace handhold {
+
+inline constexpr std::size_t k_most_authored_grips = 4;  // of one body
+
+// How one hand sits in a grip.
+struct AuthoredHand {
+    bool is_there = false;  // false: the grip is not for this hand
+    Pose wrist_bs;          // in the body's frame
+    // By FingerName. Fingers that are not posed close on the surface as on any other.
+    std::array<bool, k_finger_count> is_posed = {};
+    std::array<FingerAngles, k_finger_count> fingers;
+};
+
+struct AuthoredGrip {
+    std::array<AuthoredHand, k_hand_count> hands;  // by HandSide
+    std::int32_t priority = 0;                     // of grips in whose zone a hand closes
+    // The snap zone: how far the closing hand's palm may be from where the grip has it, and how far
+    // it may be turned away.
+    double snap_radius_m = 0.08;
+    double snap_angle_rad = 1.0471975511965976;
+};
+
+// Of a body. Made with it; never changed while frames run.
+struct AuthoredGrips {
+    std::array<AuthoredGrip, k_most_authored_grips> grips;
+    std::uint8_t count = 0;
+};
+
+// Which grip a hand sits in: only hands that do have one, and it counts only while the hand's Grab
+// is on its body. Written by update_grabs; read by settle_grabs, gather_surroundings, publish_pose.
+struct AuthoredHold {
+    Entity body = k_no_entity;
+    std::uint8_t grip = 0;         // into AuthoredGrips::grips
+    AuthoredHand hand;             // the one of the hand's side
+    double leave_angle_rad = 0.0;  // a hand that may turn on its grip leaves it beyond this
+};
+
+// The other hand in the mirror image of a body: across the plane through the body's origin whose
+// normal is that axis of the body's frame (0 x, 1 y, 2 z). Its own mirror image.
+AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis);
+
+// How far a hand is from a grip, both in one frame.
+struct GripSync {
+    double palm_m = 0.0;  // between the centres of the palms
+    double turn_rad = 0.0;
+};
+GripSync grip_sync(const Pose& hand, const Pose& grip_wrist, const Vec3& palm_center_hs);
+
+// Moves `from` towards `to`, position and rotation the same share of their way, a radian counted as
+// m_per_rad, by step_m at most. `to` itself, bit for bit, where it is that near.
+Pose step_towards(const Pose& from, const Pose& to, double step_m, double m_per_rad);
+
+// The angles a grip gives a finger of the rig, within the finger's limits; none where it gives
+// none.
+std::optional<FingerAngles> posed_angles(const FingerRig& finger, const AuthoredHand& hand);
+// How deep the chain's deepest link would be at these angles; 0 where nothing is near. Allocates
+// nothing that `scratch` has not had before.
+double posed_depth_m(const HingeChain& chain,
+                     const std::array<double, k_most_disc_links>& angle_rad,
+                     std::span<const PlacedMesh> meshes, ChainFitScratch& scratch);
+
+}  // namespace handhold

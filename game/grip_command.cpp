@@ -1,0 +1,165 @@
+#include "game/grip_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "components/builtin_hand_rig.hpp"
+#include "engine/io/text_file.hpp"
+#include "game/exit_status.hpp"
+#include "game/grip_file.hpp"
+#include "game/grip_fit.hpp"
+#include "game/render/shading_mesh.hpp"
+#include "game/scene.hpp"
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+// What is drawn of the body, in the frame of its grips.
+void add_object(const Scene& scene, Entity body, const Pose& body_in_file, GripScene& out) {
+    for (const SceneVisual& visual : scene.visuals) {
+        if (visual.body != body) {
+            continue;
+        }
+        Mesh mesh = *visual.mesh;
+        for (Vec3& position : mesh.positions) {
+            position = transform_point(body_in_file, position);
+        }
+        const ShadingMesh shading = make_shading_mesh(mesh);
+        GltfSurface surface;
+        surface.name = mesh.name.empty() ? "part" : mesh.name;
+        surface.material = out.materials.size();
+        for (std::size_t i = 0; i + 5 < shading.vertices.size(); i += 6) {
+            const float* const v = shading.vertices.data() + i;
+            const Vec3 at = Eigen::Vector3f(v[0], v[1], v[2]).cast<double>() + shading.center;
+            const Eigen::Vector3f position = at.cast<float>();
+            surface.vertices.push_back(
+                {{position.x(), position.y(), position.z()}, {v[3], v[4], v[5]}});
+        }
+        surface.indices = shading.indices;
+        if (!surface.indices.empty()) {
+            out.materials.push_back({surface.name, visual.color.value_or(mesh.color),
+                                     visual.look.emissive, visual.look.opacity, visual.look.gloss});
+            out.object.push_back(std::move(surface));
+        }
+    }
+}
+
+std::optional<Pose> pose_of(const std::vector<double>& numbers) {
+    if (numbers.size() != 7) {
+        return std::nullopt;
+    }
+    Pose pose{Vec3(numbers[0], numbers[1], numbers[2]),
+              Quat(numbers[6], numbers[3], numbers[4], numbers[5])};
+    const double length = pose.rotation.norm();
+    if (!is_finite(pose.position) || !(std::abs(length - 1.0) < 1e-2)) {
+        return std::nullopt;
+    }
+    pose.rotation.normalize();
+    return pose;
+}
+
+// A new grip, as the game would fit a hand that closes there; palm only, unless it is posed later.
+std::optional<FileError> pose_new(const Scene& scene, const GripMesh& mesh,
+                                  const ExportGripOptions& options, const Pose& body_in_file,
+                                  const HandRig& rig, GripScene& out) {
+    const std::optional<Pose> wrist = pose_of(options.wrist);
+    if (!wrist) {
+        return FileError{options.scene, "",
+                         "expected --wrist with a position and a unit quaternion for a new grip"};
+    }
+    const FittedGrip fitted =
+        fit_grip(mesh, rig, inverse(body_in_file) * *wrist, scene.tuning, nullptr);
+    if (!fitted.is_gripping) {
+        return FileError{options.scene, "", "expected a surface in reach of the wrist, found none"};
+    }
+    AuthoredHand& hand = out.grip.grip.hands[index_of(out.side)];
+    hand.is_there = true;
+    hand.wrist_bs = body_in_file * fitted.wrist_bs;
+    hand.is_posed.fill(true);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        hand.fingers[static_cast<std::size_t>(rig.fingers[f].name)] = fitted.fingers[f];
+    }
+    out.fingers = fitted.fingers;
+    return std::nullopt;
+}
+
+std::optional<FileError> pose_known(const Scene& scene, const GripMesh& mesh,
+                                    const Pose& body_in_file, const HandRig& rig, GripScene& out) {
+    const AuthoredGrip placed = in_body_frame(out.grip.grip, body_in_file);
+    const AuthoredHand& hand = placed.hands[index_of(out.side)];
+    if (!hand.is_there) {
+        return FileError{scene.name, "", "expected a grip for this hand"};
+    }
+    const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning, &hand);
+    out.fingers = fitted.fingers;
+    if (fitted.sunk_fingers > 0) {
+        std::fprintf(stderr, "%d posed fingers would be sunk and are fitted\n",
+                     static_cast<int>(fitted.sunk_fingers));
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+int export_grip_command(const ExportGripOptions& options) {
+    Result<Scene> loaded = load_scene(options.scene);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    const Scene& scene = loaded.value();
+    const Entity body = find_by_id(scene.world, persistent_id_from_name(options.body));
+    const Collider* const collider = scene.world.collider.find(body);
+    if (collider == nullptr || !scene.world.body.contains(body)) {
+        return refuse(
+            {options.scene, "/bodies",
+             "expected a body that can be touched, found none named \"" + options.body + "\""});
+    }
+    const auto frame = scene.body_in_file.find(options.body);
+    const Pose body_in_file = frame != scene.body_in_file.end() ? frame->second : Pose();
+    const GripMesh& mesh = scene.grip_meshes->at(collider->shape);
+    GripScene out;
+    out.side = options.hand == "left" ? HandSide::left : HandSide::right;
+    out.grip.name = options.grip;
+    out.controller_in_hand = inverse(default_controller_to_hand(out.side, scene.tuning.hand));
+    const HandRig rig = builtin_hand_rig(out.side);
+    std::optional<FileError> error;
+    bool is_known = false;
+    if (const auto grips = scene.grips.find(options.body); grips != scene.grips.end()) {
+        for (const SceneGrip& grip : grips->second) {
+            if (grip.name == options.grip && options.wrist.empty()) {
+                out.grip = grip;
+                is_known = true;
+            }
+        }
+    }
+    error = is_known ? pose_known(scene, mesh, body_in_file, rig, out)
+                     : pose_new(scene, mesh, options, body_in_file, rig, out);
+    if (!error) {
+        add_object(scene, body, body_in_file, out);
+        error = write_file_atomically(options.out, write_grip_glb(out, rig));
+    }
+    return error ? refuse(*error) : 0;
+}
+
+int import_grip_command(const std::string& file, const std::string& out) {
+    const Result<std::string> bytes = read_file(file);
+    if (!bytes) {
+        return refuse(bytes.error());
+    }
+    const Result<SceneGrip> grip = parse_grip_glb(
+        bytes.value(), file, {builtin_hand_rig(HandSide::left), builtin_hand_rig(HandSide::right)});
+    if (!grip) {
+        return refuse(grip.error());
+    }
+    const std::string json = write_scene_grip(grip.value());
+    if (out.empty()) {
+        std::fputs(json.c_str(), stdout);
+        return 0;
+    }
+    const auto error = write_file_atomically(out, json);
+    return error ? refuse(*error) : 0;
+}
+
+}  // namespace handhold

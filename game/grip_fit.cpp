@@ -1,0 +1,51 @@
+#include "game/grip_fit.hpp"
+
+#include <limits>
+#include <vector>
+
+#include "systems/hand/constrain_palms.hpp"
+#include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/search_grip.hpp"
+#include "systems/hand/sweep_fingers.hpp"
+
+namespace handhold {
+
+FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
+                    const Tuning& tuning, const AuthoredHand* authored) {
+    constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
+    constexpr int k_most_lifts = 4;
+    EntityPool entities;
+    const Entity hand = entities.create();
+    const Entity body = entities.create();
+    Column<HandTracking> tracking;
+    Column<GripSurface> surface;
+    Column<PalmOffset> offset;
+    Column<PalmPose> palm;
+    Column<FingerPose> fingers;
+    tracking.add(hand).pressed = true;
+    surface.add(hand);
+    offset.add(hand);
+    palm.add(hand);
+    fingers.add(hand);
+    const std::vector<HandSurroundings> hands = {
+        {hand, body, &rig, {}, wrist_bs, {{&mesh, {}}}, 1, true, authored}};
+    GripSearchScratch search;
+    ChainFitScratch fit;
+    StageStats stats;
+    search_grip({hands, surface, search}, tuning, stats);
+    for (int lift = 0; lift < k_most_lifts; ++lift) {
+        constrain_palms({k_at_once_s, hands, surface, offset, palm}, tuning);
+        sweep_fingers({k_at_once_s, hands, tracking, surface, palm, offset, fingers, {}, fit},
+                      tuning, stats);
+    }
+    pose_thumb({k_at_once_s, hands, tracking, surface, fingers, {}, fit}, tuning, stats);
+    FittedGrip fitted;
+    fitted.wrist_bs = palm.at(hand).pose_ws;
+    fitted.fingers = fingers.at(hand).shown;
+    fitted.is_gripping = surface.at(hand).triangle != GripSurface::k_none;
+    fitted.sunk_fingers =
+        stats.fallbacks[static_cast<std::size_t>(Fallback::authored_finger_fitted)];
+    return fitted;
+}
+
+}  // namespace handhold

@@ -1,0 +1,181 @@
+#include "game/scene_grip.hpp"
+
+#include <array>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+namespace handhold {
+namespace {
+
+constexpr NumberRange k_wrist_m = {-1e3, 1e3, false};
+constexpr NumberRange k_curl_deg = {-30.0, 130.0, false};
+constexpr NumberRange k_opposition_deg = {-180.0, 180.0, false};
+constexpr NumberRange k_snap_radius_m = {0.0, 1.0, true};
+constexpr NumberRange k_snap_angle_deg = {0.0, 180.0, true};
+constexpr std::int64_t k_most_priority = 100;
+
+constexpr std::array<const char*, k_hand_count> k_sides = {"left", "right"};  // by HandSide
+constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
+
+void read_finger(const JsonValue& value, FingerName name, FingerAngles& angles) {
+    const bool is_thumb = name == FingerName::thumb;
+    if (is_thumb) {
+        value.allow_only({"curl_deg", "opposition_deg"});
+        angles.opposition_rad = k_degree * value["opposition_deg"].number(k_opposition_deg);
+    } else {
+        value.allow_only({"curl_deg"});
+    }
+    const std::vector<JsonValue> curls = value["curl_deg"].items();
+    if (curls.size() < 2 || curls.size() > k_most_links) {
+        value["curl_deg"].refuse("2 or 3 angles, the knuckle's first");
+        return;
+    }
+    for (std::size_t i = 0; i < curls.size(); ++i) {
+        angles.curl_rad[i] = k_degree * curls[i].number(k_curl_deg);
+    }
+}
+
+void read_fingers(const JsonValue& value, AuthoredHand& hand) {
+    if (!value.exists()) {
+        return;
+    }
+    if (value.is_text()) {
+        if (value.text() != "fit") {
+            value.refuse("\"fit\" or an object of fingers");
+        }
+        return;
+    }
+    if (!value.is_object()) {
+        value.refuse("\"fit\" or an object of fingers");
+        return;
+    }
+    value.allow_only({"thumb", "index", "middle", "ring", "little"});
+    for (std::size_t f = 0; f < k_finger_count; ++f) {
+        const auto name = static_cast<FingerName>(f);
+        if (const JsonValue finger = value[finger_text(name)]; finger.exists()) {
+            read_finger(finger, name, hand.fingers[f]);
+            hand.is_posed[f] = true;
+        }
+    }
+}
+
+AuthoredHand read_hand(const JsonValue& value) {
+    AuthoredHand hand;
+    if (!value.exists()) {
+        return hand;
+    }
+    value.allow_only({"position_m", "rotation_xyzw", "fingers"});
+    hand.is_there = true;
+    hand.wrist_bs = {value["position_m"].vector(k_wrist_m), value["rotation_xyzw"].rotation()};
+    read_fingers(value["fingers"], hand);
+    return hand;
+}
+
+std::optional<int> read_axis(const JsonValue& value) {
+    const std::string name = value.text();
+    for (std::size_t axis = 0; axis < k_axes.size(); ++axis) {
+        if (name == k_axes[axis]) {
+            return static_cast<int>(axis);
+        }
+    }
+    value.refuse("\"x\", \"y\" or \"z\"");
+    return std::nullopt;
+}
+
+using GripJson = nlohmann::ordered_json;
+
+GripJson hand_json(const AuthoredHand& hand) {
+    const Vec3& at = hand.wrist_bs.position;
+    const Quat& turn = hand.wrist_bs.rotation;
+    GripJson json = {{"position_m", {at.x(), at.y(), at.z()}},
+                     {"rotation_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+    GripJson fingers = GripJson::object();
+    for (std::size_t f = 0; f < k_finger_count; ++f) {
+        const auto name = static_cast<FingerName>(f);
+        if (!hand.is_posed[f]) {
+            continue;
+        }
+        GripJson curls = GripJson::array();
+        for (const double curl_rad : hand.fingers[f].curl_rad) {
+            curls.push_back(curl_rad / k_degree);
+        }
+        GripJson& finger = fingers[finger_text(name)];
+        finger["curl_deg"] = std::move(curls);
+        if (name == FingerName::thumb) {
+            finger["opposition_deg"] = hand.fingers[f].opposition_rad / k_degree;
+        }
+    }
+    if (fingers.empty()) {
+        json["fingers"] = "fit";
+    } else {
+        json["fingers"] = std::move(fingers);
+    }
+    return json;
+}
+
+}  // namespace
+
+SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken) {
+    value.allow_only(
+        {"name", "right", "left", "mirror", "priority", "snap_radius_m", "snap_angle_deg"});
+    SceneGrip scene_grip;
+    AuthoredGrip& grip = scene_grip.grip;
+    scene_grip.name = value["name"].text();
+    if (!taken.insert(scene_grip.name).second) {
+        value["name"].refuse("a name that no other grip of the body has");
+    }
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        grip.hands[side] = read_hand(value[k_sides[side]]);
+    }
+    const bool has_left = grip.hands[0].is_there;
+    const bool has_right = grip.hands[1].is_there;
+    if (!has_left && !has_right) {
+        value.refuse("a grip with a \"right\" or a \"left\" hand");
+    }
+    if (const JsonValue mirror = value["mirror"]; mirror.exists()) {
+        const std::optional<int> axis = read_axis(mirror);
+        if (has_left && has_right) {
+            mirror.refuse("nothing beside two hands");
+        } else if (axis) {
+            const std::size_t from = has_right ? 1 : 0;
+            grip.hands[1 - from] = mirror_authored_hand(grip.hands[from], *axis);
+            scene_grip.mirror_axis = *axis;
+        }
+    }
+    if (const JsonValue priority = value["priority"]; priority.exists()) {
+        grip.priority =
+            static_cast<std::int32_t>(priority.integer(-k_most_priority, k_most_priority));
+    }
+    grip.snap_radius_m = value["snap_radius_m"].number_or(grip.snap_radius_m, k_snap_radius_m);
+    grip.snap_angle_rad = k_degree * value["snap_angle_deg"].number_or(
+                                         grip.snap_angle_rad / k_degree, k_snap_angle_deg);
+    return scene_grip;
+}
+
+std::string write_scene_grip(const SceneGrip& grip) {
+    GripJson json = {{"name", grip.name}};
+    for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
+        const bool is_image = side == 0 && grip.mirror_axis != SceneGrip::k_no_mirror;
+        if (grip.grip.hands[side].is_there && !is_image) {
+            json[k_sides[side]] = hand_json(grip.grip.hands[side]);
+        }
+    }
+    if (grip.mirror_axis != SceneGrip::k_no_mirror) {
+        json["mirror"] = k_axes[static_cast<std::size_t>(grip.mirror_axis)];
+    }
+    json["priority"] = grip.grip.priority;
+    json["snap_radius_m"] = grip.grip.snap_radius_m;
+    json["snap_angle_deg"] = grip.grip.snap_angle_rad / k_degree;
+    return json.dump(1) + "\n";
+}
+
+AuthoredGrip in_body_frame(const AuthoredGrip& grip, const Pose& frame) {
+    AuthoredGrip placed = grip;
+    for (AuthoredHand& hand : placed.hands) {
+        hand.wrist_bs = inverse(frame) * hand.wrist_bs;
+    }
+    return placed;
+}
+
+}  // namespace handhold

@@ -1,0 +1,420 @@
+// Talk row 10: grips that were posed beforehand, from the snap zone to what is shown.
+#include "components/authored_grip.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "components/finger_chain.hpp"
+#include "fitted_hand.hpp"
+#include "systems/snapshot.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/systems/scenario.hpp"
+
+namespace handhold::authored_grip_test {
+namespace {
+
+using test::count_of;
+using test::distance;
+using test::FittedHand;
+using test::k_at_once_s;
+using test::Random;
+using test::wrist_with_palm_at;
+
+constexpr double k_rod_radius_m = 0.016;
+
+// A hand over a rod along X through the origin, palm down on it.
+AuthoredHand over_rod(HandSide side) {
+    AuthoredHand hand;
+    hand.is_there = true;
+    hand.wrist_bs = wrist_with_palm_at(builtin_hand_rig(side),
+                                       Vec3(0.0, k_rod_radius_m + 0.002, 0.0), Vec3::UnitY());
+    return hand;
+}
+
+AuthoredGrips right_grip(const AuthoredHand& hand) {
+    AuthoredGrips grips;
+    grips.count = 1;
+    grips.grips[0].hands[index_of(HandSide::right)] = hand;
+    return grips;
+}
+
+// --- What a grip is ------------------------------------------------------------------------------
+
+// Expected: the reflection itself, of every point of the hand.
+TEST(AuthoredGrip, MirrorImageOfAHandHasTheMirroredPointsOfTheOtherHand) {
+    Random random(77);
+    const HandRig right = builtin_hand_rig(HandSide::right);
+    const HandRig left = builtin_hand_rig(HandSide::left);
+    for (int axis = 0; axis < 3; ++axis) {
+        AuthoredHand hand = over_rod(HandSide::right);
+        hand.wrist_bs = random.pose();
+        const AuthoredHand image = mirror_authored_hand(hand, axis);
+        for (std::size_t f = 0; f < right.fingers.size(); ++f) {
+            const FingerAngles angles = coupled_angles(right.fingers[f], 0.4);
+            const auto points = finger_points(right.fingers[f], angles);
+            const auto images = finger_points(left.fingers[f], angles);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                Vec3 expected = transform_point(hand.wrist_bs, points[i]);
+                expected[axis] = -expected[axis];
+                EXPECT_LT((transform_point(image.wrist_bs, images[i]) - expected).norm(), 1e-12);
+            }
+        }
+        const AuthoredHand again = mirror_authored_hand(image, axis);
+        EXPECT_EQ(again.wrist_bs.position, hand.wrist_bs.position);
+        EXPECT_EQ(again.wrist_bs.rotation.coeffs(), hand.wrist_bs.rotation.coeffs());
+    }
+}
+
+TEST(AuthoredGrip, AnglesOfLinksAreThoseThatTheLinksWerePosedAt) {
+    Random random(78);
+    const HandRig rig = builtin_hand_rig(HandSide::left);
+    for (int turn = 0; turn < 50; ++turn) {
+        for (const FingerRig& finger : rig.fingers) {
+            FingerAngles angles = coupled_angles(finger, random.between(0.0, 1.0));
+            angles.curl_rad[1] += random.between(-0.2, 0.2);
+            if (finger.name == FingerName::thumb) {
+                angles.opposition_rad =
+                    random.between(finger.lower_opposition_rad, finger.upper_opposition_rad);
+            }
+            const auto frames = finger_link_frames(finger, angles);
+            std::array<Quat, k_most_links> links;
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                links[i] = frames[i].rotation;
+            }
+            const FingerAngles found = angles_of_links(finger, {links.data(), finger.link_count});
+            EXPECT_NEAR(found.opposition_rad, angles.opposition_rad, 1e-12);
+            for (std::size_t i = 0; i < finger.link_count; ++i) {
+                EXPECT_NEAR(found.curl_rad[i], angles.curl_rad[i], 1e-12);
+            }
+        }
+    }
+}
+
+// --- How a hand is held to it --------------------------------------------------------------------
+
+struct OnFloor : testing::Test {
+    GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Pose closed = wrist_with_palm_at(rig, {0.02, 0.05, 0.03}, Vec3::UnitY());
+    AuthoredHand grip;
+
+    OnFloor() {
+        grip.is_there = true;
+        grip.wrist_bs = wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, Vec3(0.1, 1.0, 0.0).normalized());
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            grip.is_posed[f] = true;
+            grip.fingers[f].curl_rad = {0.1, 0.15, 0.05};
+        }
+        grip.fingers[0].opposition_rad = -1.0;
+    }
+};
+
+TEST_F(OnFloor, PalmGoesToTheAuthoredPoseAtTheRateOfShownPalms) {
+    FittedHand hand(floor, closed);
+    hand.hands.front().authored = &grip;
+    const double dt_s = 1.0 / 90.0;
+    Pose before = closed;
+    double way_m = 0.0;
+    for (int frame = 0; frame < 90; ++frame) {
+        hand.frame(dt_s);
+        const double step_m = (hand.shown_bs().position - before.position).norm();
+        EXPECT_LE(step_m, hand.tuning.palm.rate_mps * dt_s + 1e-9);
+        way_m += step_m;
+        before = hand.shown_bs();
+    }
+    EXPECT_LT(distance(hand.shown_bs(), grip.wrist_bs), 1e-9);
+    EXPECT_GT(way_m, 0.9 * (grip.wrist_bs.position - closed.position).norm());
+    // Out of the grip it is held to the surface again.
+    hand.hands.front().authored = nullptr;
+    hand.frame(k_at_once_s);
+    EXPECT_GT(distance(hand.shown_bs(), grip.wrist_bs), 0.01);
+}
+
+TEST_F(OnFloor, FingersStandAsPosedAtTheirUsualRate) {
+    FittedHand hand(floor, grip.wrist_bs);
+    hand.hands.front().authored = &grip;
+    hand.tuning.finger.close_radps = 1.0;
+    hand.frame(0.01);
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad) << f;
+        EXPECT_LE(hand.pose().shown[f].curl_rad[1], 0.01 + 1e-12) << f;
+    }
+    hand.frame(k_at_once_s);
+    EXPECT_EQ(hand.pose().shown[0].opposition_rad, -1.0);
+    EXPECT_EQ(hand.pose().shown[2].curl_rad, grip.fingers[2].curl_rad);
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 0U);
+}
+
+// Expected: by find_sunk, which has tests of its own.
+TEST_F(OnFloor, PosedFingerThatWouldBeSunkIsFittedAndCounted) {
+    grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
+    FittedHand hand(floor, grip.wrist_bs);
+    hand.hands.front().authored = &grip;
+    hand.frame(k_at_once_s);
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 1U);
+    const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
+    for (const Capsule& capsule : chain_capsules(chain, hand.pose().target[1].curl_rad)) {
+        EXPECT_LT(find_sunk(capsule, hand.hands.front().meshes).depth_m, 1.5e-3);
+    }
+    EXPECT_EQ(hand.pose().target[2].curl_rad, grip.fingers[2].curl_rad);
+}
+
+TEST_F(OnFloor, FingersThatAreNotPosedCloseOnTheSurface) {
+    grip.is_posed.fill(false);
+    FittedHand hand(floor, grip.wrist_bs);
+    hand.hands.front().authored = &grip;
+    hand.frame(k_at_once_s);
+    for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+        EXPECT_GE(hand.traces[0][f].contact_link, 0) << f;
+    }
+}
+
+// --- Through the whole frame ---------------------------------------------------------------------
+
+// A rod that floats before the player; the right hand closes beside its grip at 0.1 s.
+class RodScene {
+  public:
+    Scenario s;
+    Entity rod;
+    Vec3 place{0.25, 1.3, 0.1};
+    // Of the hand against its grip when it closes, in the rod's frame; it stays there.
+    Pose off{Vec3(0.02, 0.01, -0.02), rotation_about(Vec3::UnitY(), 0.3)};
+    double release_s = 1e9;
+
+    explicit RodScene(BodyKind kind = BodyKind::free,
+                      const AuthoredGrips& grips = right_grip(over_rod(HandSide::right))) {
+        const ShapeId shape = s.shapes.add_capsule(k_rod_radius_m, 0.15);
+        const CentredShape lying = {shape, {}};
+        const Quat along_x = rotation_about(Vec3::UnitZ(), k_half_pi);
+        RigidBody body;
+        body.kind = kind;
+        body.mass_kg = 2.0;
+        body.inertia_kgm2 = solid_inertia(s.shapes.at(lying.shape), 2.0);
+        rod = s.add("rod", body, shape, {place, along_x});
+        AuthoredGrips turned = grips;  // said along the rod, the capsule's y
+        for (AuthoredGrip& grip : turned.grips) {
+            for (AuthoredHand& hand : grip.hands) {
+                hand.wrist_bs = Pose{Vec3::Zero(), along_x.conjugate()} * hand.wrist_bs;
+            }
+        }
+        s.world.authored_grips.add(rod, turned);
+    }
+    void begin() {
+        s.add_player_here();
+        s.script.grabs[1] = [this](double t) { return t > 0.1 && t < release_s; };
+        s.script.hands[1] = [this](double) { return hand(); };
+    }
+    Pose hand() const {
+        return Pose{place, Quat::Identity()} * over_rod(HandSide::right).wrist_bs * off;
+    }
+    const RenderPose::Hand& shown() const {
+        return s.world.render_pose.at(s.player.player).hands[1];
+    }
+    const AuthoredHold* hold() const { return s.world.authored_hold.find(s.player.hands[1]); }
+};
+
+TEST(AuthoredGripScene, HandThatClosesInTheZoneSitsInTheGripAndTheThingComesIntoIt) {
+    RodScene scene;
+    scene.begin();
+    scene.s.run(0.15);
+    ASSERT_NE(scene.hold(), nullptr);
+    EXPECT_EQ(scene.shown().grip, GripKind::authored);
+    EXPECT_EQ(scene.s.grab(HandSide::right).kind, GripKind::held);
+    const Vec3 origin = scene.s.origin_ws();
+    double fastest_m = 0.0;
+    Vec3 before = scene.s.body(scene.rod).position;
+    scene.s.run(1.0, [&] {
+        fastest_m = std::max(fastest_m, (scene.s.body(scene.rod).position - before).norm());
+        before = scene.s.body(scene.rod).position;
+        EXPECT_EQ(scene.s.origin_ws(), origin) << "the view moved";
+    });
+    EXPECT_LE(fastest_m, scene.s.tuning.palm.rate_mps / scene.s.hz + 1e-4);
+    // The rod lies in the hand as authored, and the hand is where it is tracked.
+    const Pose expected_hand =
+        scene.s.world.body_pose.at(scene.rod).pose_ws *
+        scene.s.world.authored_grips.at(scene.rod).grips[0].hands[1].wrist_bs;
+    EXPECT_LT(distance(scene.hand(), expected_hand), 1e-5);
+    EXPECT_LT(distance(scene.shown().shown_ws, scene.hand()), 1e-5);
+    EXPECT_LT(scene.s.grab(HandSide::right).error_m, 1e-5);
+}
+
+TEST(AuthoredGripScene, HandFartherOffTakesTheSurface) {
+    RodScene scene;
+    scene.off.position = Vec3(0.13, 0.0, 0.0);  // along the rod, beyond the zone
+    scene.begin();
+    scene.s.run(1.0);
+    EXPECT_EQ(scene.hold(), nullptr);
+    EXPECT_EQ(scene.shown().grip, GripKind::held);
+    // What is held by its surface stays as it was taken.
+    EXPECT_LT((scene.s.body(scene.rod).position - scene.place).norm(), 1e-5);
+}
+
+TEST(AuthoredGripScene, HandTurnedBeyondTheZonesAngleTakesTheSurface) {
+    RodScene scene;
+    scene.off = {Vec3::Zero(), rotation_about(Vec3::UnitY(), 1.2)};
+    scene.begin();
+    scene.s.run(0.3);
+    EXPECT_EQ(scene.hold(), nullptr);
+    EXPECT_EQ(scene.s.grab(HandSide::right).kind, GripKind::held);
+}
+
+TEST(AuthoredGripScene, GripForTheOtherHandDoesNotCount) {
+    AuthoredGrips left;
+    left.count = 1;
+    left.grips[0].hands[0] = over_rod(HandSide::left);
+    RodScene scene(BodyKind::free, left);
+    scene.begin();
+    scene.s.run(0.3);
+    EXPECT_EQ(scene.hold(), nullptr);
+}
+
+TEST(AuthoredGripScene, HigherPriorityGoesBeforeANearerGrip) {
+    AuthoredGrips grips = right_grip(over_rod(HandSide::right));
+    grips.count = 3;
+    grips.grips[1] = grips.grips[0];
+    grips.grips[1].hands[1].wrist_bs.position.x() += 0.05;
+    grips.grips[2] = grips.grips[0];
+    grips.grips[2].hands[1].wrist_bs.position.x() -= 0.03;
+    RodScene nearest(BodyKind::free, grips);
+    nearest.begin();
+    nearest.s.run(0.3);
+    ASSERT_NE(nearest.hold(), nullptr);
+    EXPECT_EQ(nearest.hold()->grip, 0) << "of equal ones that which moves the palm least";
+    grips.grips[1].priority = 1;
+    RodScene scene(BodyKind::free, grips);
+    scene.begin();
+    scene.s.run(0.3);
+    ASSERT_NE(scene.hold(), nullptr);
+    EXPECT_EQ(scene.hold()->grip, 1);
+}
+
+TEST(AuthoredGripScene, GripBehindAWallIsBlockedAndCounted) {
+    RodScene scene(BodyKind::fixed);
+    scene.off.position = Vec3(0.0, 0.06, 0.0);
+    scene.off.rotation = Quat::Identity();
+    scene.s.add_wall("sheet", Vec3(0.2, 0.005, 0.2), scene.place + Vec3(0.0, 0.045, 0.0));
+    scene.begin();
+    std::uint64_t blocked = 0;
+    scene.s.run(0.3, [&] { blocked += count_of(scene.s.stats, Fallback::authored_grip_blocked); });
+    EXPECT_EQ(blocked, 1U);
+    EXPECT_EQ(scene.hold(), nullptr);
+    EXPECT_EQ(scene.shown().grip, GripKind::surface);
+}
+
+TEST(AuthoredGripScene, OneHandHasAGripForItself) {
+    AuthoredGrips grips = right_grip(over_rod(HandSide::right));
+    grips.grips[0].hands[0] = over_rod(HandSide::left);
+    RodScene scene(BodyKind::free, grips);
+    scene.begin();
+    scene.s.script.grabs[0] = [](double t) { return t > 0.5; };
+    scene.s.script.hands[0] = [&](double) {
+        return Pose{scene.place, Quat::Identity()} * over_rod(HandSide::left).wrist_bs *
+               Pose{Vec3(-0.03, 0.0, 0.0), Quat::Identity()};
+    };
+    std::uint64_t taken = 0;
+    scene.s.run(0.8, [&] { taken += count_of(scene.s.stats, Fallback::authored_grip_taken); });
+    EXPECT_EQ(taken, 1U);
+    EXPECT_NE(scene.hold(), nullptr);
+    EXPECT_FALSE(scene.s.world.authored_hold.contains(scene.s.player.hands[0]));
+    EXPECT_EQ(scene.s.grab(HandSide::left).kind, GripKind::held);
+}
+
+TEST(AuthoredGripScene, FixedThingStaysAndTheShownHandSlidesOnto) {
+    RodScene scene(BodyKind::fixed);
+    scene.begin();
+    scene.s.run(1.0);
+    EXPECT_EQ(scene.s.grab(HandSide::right).kind, GripKind::surface);
+    EXPECT_EQ(scene.shown().grip, GripKind::authored);
+    EXPECT_LT(distance(scene.shown().shown_ws,
+                       Pose{scene.place, Quat::Identity()} * over_rod(HandSide::right).wrist_bs),
+              1e-6);
+    EXPECT_LT(distance(scene.shown().tracked_ws, scene.hand()), 1e-6) << "the player moved";
+}
+
+TEST(AuthoredGripScene, HandThatTurnsFarAwayOnAFixedThingLeavesTheGrip) {
+    RodScene scene(BodyKind::fixed);
+    scene.begin();
+    std::uint64_t left = 0;
+    scene.s.script.hands[1] = [&](double t) {
+        Pose turned = scene.hand();
+        turned.rotation = turned.rotation * rotation_about(Vec3::UnitX(), 2.6 * ease(t, 0.5, 1.5));
+        return turned;
+    };
+    scene.s.run(2.0, [&] { left += count_of(scene.s.stats, Fallback::authored_grip_left); });
+    EXPECT_EQ(left, 1U);
+    EXPECT_EQ(scene.shown().grip, GripKind::surface);
+}
+
+TEST(AuthoredGripScene, LettingGoLeavesTheGripAndThrowsByTheHandAlone) {
+    RodScene scene;
+    scene.release_s = 0.2;  // while the rod still comes
+    scene.begin();
+    scene.s.run(0.4);
+    EXPECT_EQ(scene.hold(), nullptr);
+    EXPECT_EQ(scene.shown().grip, GripKind::none);
+    EXPECT_LT(scene.s.body_velocity(scene.rod).norm(), 1e-6);
+}
+
+TEST(AuthoredGripScene, RestoredSnapshotGoesOnBitForBit) {
+    RodScene scene;
+    scene.begin();
+    scene.s.run(0.2);
+    const SnapshotAssets assets(scene.s.shapes);
+    std::vector<std::byte> bytes;
+    save_snapshot(scene.s.world, assets, bytes);
+    World restored;
+    ASSERT_FALSE(restore_snapshot(bytes, assets, restored));
+    EXPECT_EQ(hash_state(restored), hash_state(scene.s.world));
+    EXPECT_TRUE(diff_worlds(restored, scene.s.world).empty());
+    scene.s.run(0.5);
+    const std::uint64_t once = hash_state(scene.s.world);
+    RodScene again;
+    again.begin();
+    again.s.run(0.2);
+    ASSERT_FALSE(restore_snapshot(bytes, assets, again.s.world));
+    again.s.drop_caches();
+    again.s.run(0.5);
+    EXPECT_EQ(hash_state(again.s.world), once);
+}
+
+TEST(AuthoredGripScene, GrabThatCallsItselfAuthoredIsNoSnapshot) {
+    RodScene scene;
+    scene.begin();
+    scene.s.run(0.2);
+    scene.s.world.grab.at(scene.s.player.hands[1]).kind = GripKind::authored;
+    const SnapshotAssets assets(scene.s.shapes);
+    std::vector<std::byte> bytes;
+    save_snapshot(scene.s.world, assets, bytes);
+    World restored;
+    EXPECT_TRUE(restore_snapshot(bytes, assets, restored).has_value());
+}
+
+TEST(AuthoredGripScene, WarmFramesAllocateNothing) {
+    if (!counts_allocations()) {
+        GTEST_SKIP() << "a sanitizer's own operator new does not count";
+    }
+    AuthoredHand posed = over_rod(HandSide::right);
+    posed.is_posed.fill(true);
+    for (FingerAngles& angles : posed.fingers) {
+        angles.curl_rad = {0.6, 0.8, 0.4};
+    }
+    RodScene scene(BodyKind::fixed, right_grip(posed));
+    scene.begin();
+    scene.s.script.grabs[1] = [](double t) { return std::fmod(t, 0.5) > 0.1; };
+    scene.s.run(2.0);
+    std::size_t in_frames = 0;
+    int seated = 0;
+    for (int frame = 0; frame < 180; ++frame) {
+        scene.s.prepare_step();
+        const std::size_t before = allocation_count();
+        scene.s.take_step();
+        in_frames += allocation_count() - before;
+        seated += scene.shown().grip == GripKind::authored ? 1 : 0;
+    }
+    EXPECT_EQ(in_frames, 0U);
+    EXPECT_GT(seated, 90);
+}
+
+}  // namespace
+}  // namespace handhold::authored_grip_test
