@@ -112,7 +112,7 @@ class SunkPalm {
         if (!near) {
             return Vec3::Zero();
         }
-        const Vec3 way = way_out_of(placed, side, *near, {center, sphere_bs.radius_m});
+        Vec3 way = way_out_of(placed, side, *near, {center, sphere_bs.radius_m});
         if (way.isZero(0.0)) {
             seen.clear_m = near->distance_m - sphere_bs.radius_m;
         }

@@ -163,7 +163,8 @@ class ChainRefitter {
             fit_.is_on_its_way = !is_done();
         }
         if (!touches || (fit_.is_on_its_way && turn > refit_.close_share)) {
-            kept_ = static_cast<std::size_t>(fit_.contact_link + 1);
+            const std::int32_t kept = fit_.contact_link + 1;
+            kept_ = static_cast<std::size_t>(kept);
             close_far(meshes);
         }
     }

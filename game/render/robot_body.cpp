@@ -17,22 +17,20 @@ namespace {
 using enum FigureMaterial;
 
 // Where the joints are, right side; metres, origin on the floor below the pelvis.
-namespace rest {
-const Vec3 hip(0.09, 0.90, 0.0);
-const Vec3 knee(0.09, 0.50, 0.0);
-const Vec3 ankle(0.09, 0.11, 0.0);
-const Vec3 pelvis(0.0, 0.93, 0.0);
-const Vec3 waist(0.0, 1.06, 0.0);
-const Vec3 belly(0.0, 1.18, 0.0);
-const Vec3 chest(0.0, 1.30, 0.0);
-const Vec3 neck(0.0, 1.435, 0.005);
-const Vec3 head(0.0, 1.530, 0.0);
-const Vec3 eyes(0.0, 1.641, -0.07);
-const Vec3 clavicle(0.023, 1.42, 0.0);
-const Vec3 shoulder(0.19, 1.42, 0.0);
-const Vec3 elbow(0.49, 1.42, 0.0);
-const Vec3 wrist(0.77, 1.42, 0.0);
-}  // namespace rest
+const Vec3 k_hip_ms(0.09, 0.90, 0.0);
+const Vec3 k_knee_ms(0.09, 0.50, 0.0);
+const Vec3 k_ankle_ms(0.09, 0.11, 0.0);
+const Vec3 k_pelvis_ms(0.0, 0.93, 0.0);
+const Vec3 k_waist_ms(0.0, 1.06, 0.0);
+const Vec3 k_belly_ms(0.0, 1.18, 0.0);
+const Vec3 k_chest_ms(0.0, 1.30, 0.0);
+const Vec3 k_neck_ms(0.0, 1.435, 0.005);
+const Vec3 k_head_ms(0.0, 1.530, 0.0);
+const Vec3 k_eyes_ms(0.0, 1.641, -0.07);
+const Vec3 k_clavicle_ms(0.023, 1.42, 0.0);
+const Vec3 k_shoulder_ms(0.19, 1.42, 0.0);
+const Vec3 k_elbow_ms(0.49, 1.42, 0.0);
+const Vec3 k_wrist_ms(0.77, 1.42, 0.0);
 
 const Quat& upright() {  // sections along +Z go up, their +Y to the front
     static const Quat turn = rotation_about(Vec3::UnitX(), -k_half_pi);
@@ -243,18 +241,18 @@ class BodyBuilder {
   public:
     std::string build() {
         const std::int32_t pelvis =
-            add("pelvis", -1, {rest::pelvis, Quat::Identity()}, build_pelvis());
-        const std::int32_t waist = add_upright("spine_1", pelvis, rest::waist - Vec3(0, 0.05, 0),
+            add("pelvis", -1, {k_pelvis_ms, Quat::Identity()}, build_pelvis());
+        const std::int32_t waist = add_upright("spine_1", pelvis, k_waist_ms - Vec3(0, 0.05, 0),
                                                build_bellows(0.110, 0.098, 0.078));
-        const std::int32_t belly = add_upright("spine_2", waist, rest::belly - Vec3(0, 0.06, 0),
+        const std::int32_t belly = add_upright("spine_2", waist, k_belly_ms - Vec3(0, 0.06, 0),
                                                build_bellows(0.110, 0.100, 0.080));
-        const std::int32_t chest = add_upright("chest", belly, rest::chest, build_chest());
+        const std::int32_t chest = add_upright("chest", belly, k_chest_ms, build_chest());
         const std::int32_t neck =
-            add_upright("neck", chest, rest::neck, build_neck((rest::head - rest::neck).norm()));
+            add_upright("neck", chest, k_neck_ms, build_neck((k_head_ms - k_neck_ms).norm()));
         const std::int32_t head =
-            add_upright("head", neck, rest::head,
-                        build_head().placed({rest::eyes - rest::head, Quat::Identity()}));
-        add_upright("eyes", head, rest::eyes, {});
+            add_upright("head", neck, k_head_ms,
+                        build_head().placed({k_eyes_ms - k_head_ms, Quat::Identity()}));
+        add_upright("eyes", head, k_eyes_ms, {});
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             add_arm(side, chest);
             add_leg(side, pelvis);
@@ -276,10 +274,10 @@ class BodyBuilder {
 
     void add_arm(HandSide side, std::int32_t chest) {
         const std::string of = side == HandSide::left ? "_left" : "_right";
-        const Vec3 clavicle = on_side(side, rest::clavicle);
-        const Vec3 shoulder = on_side(side, rest::shoulder);
-        const Vec3 elbow = on_side(side, rest::elbow);
-        const Vec3 wrist = on_side(side, rest::wrist);
+        const Vec3 clavicle = on_side(side, k_clavicle_ms);
+        const Vec3 shoulder = on_side(side, k_shoulder_ms);
+        const Vec3 elbow = on_side(side, k_elbow_ms);
+        const Vec3 wrist = on_side(side, k_wrist_ms);
         const Vec3 back = Vec3::UnitZ();
         const Vec3 out = (wrist - shoulder).normalized();
         const std::int32_t collar =
@@ -294,9 +292,9 @@ class BodyBuilder {
 
     void add_leg(HandSide side, std::int32_t pelvis) {
         const std::string of = side == HandSide::left ? "_left" : "_right";
-        const Vec3 hip = on_side(side, rest::hip);
-        const Vec3 knee = on_side(side, rest::knee);
-        const Vec3 ankle = on_side(side, rest::ankle);
+        const Vec3 hip = on_side(side, k_hip_ms);
+        const Vec3 knee = on_side(side, k_knee_ms);
+        const Vec3 ankle = on_side(side, k_ankle_ms);
         // The bone's frame is upright; its parts are built along -Z and turned downwards.
         const Pose down{Vec3::Zero(),
                         look_along(Vec3::Zero(), -Vec3::UnitY(), -Vec3::UnitZ()).rotation};
