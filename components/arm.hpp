@@ -10,9 +10,12 @@
 // chest faces, +Y the play space's up, whether the chest leans or not.
 namespace handhold {
 
-// What a player can be asked. Written by calibrate_player, or by whoever makes the player.
+// What a player can be asked. Written by calibrate_players, or by whoever makes the player.
 struct BodyMeasures {
-    double eye_height_m = 1.62;  // standing; all [0.3, 4]
+    static constexpr double k_least_m = 0.05;
+    static constexpr double k_most_m = 5.0;
+
+    double eye_height_m = 1.62;  // standing; all [k_least_m, k_most_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
     double forearm_m = 0.28;  // to the wrist

@@ -5,8 +5,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_one_place_m = 1e-3;
-
 std::size_t depth_of(const SkinnedMesh& figure, std::size_t joint) {
     std::size_t depth = 0;
     for (std::int32_t at = figure.joints[joint].parent; at >= 0;
@@ -16,20 +14,18 @@ std::size_t depth_of(const SkinnedMesh& figure, std::size_t joint) {
     return depth;
 }
 
-// Finds bones by their names; what a map says goes before.
+// What a map says first; the rest by names.
 class BoneFinder {
   public:
     BoneFinder(const SkinnedMesh& figure, const BodyMap& map) : figure_(figure), map_(map) {}
 
     Result<BodyBones> find() {
+        if (const auto error = look_up_map()) {
+            return *error;
+        }
         guess();
-        use_last_joints();
-        for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
-            for (const HandSide side : {HandSide::left, HandSide::right}) {
-                if (const auto error = look_up({static_cast<BodyBone>(bone), side})) {
-                    return *error;
-                }
-            }
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            use_last_joints(side);
         }
         if (const auto error = missing()) {
             return *error;
@@ -38,12 +34,36 @@ class BoneFinder {
     }
 
   private:
+    std::optional<FileError> look_up_map() {
+        for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                if (const auto error = look_up({static_cast<BodyBone>(bone), side})) {
+                    return error;
+                }
+            }
+        }
+        return std::nullopt;
+    }
+    bool is_mapped(const BodyJointName& name) const {
+        return map_.find(body_joint_text(name)) != map_.end();
+    }
+    // Nothing where the map says what this joint is.
+    std::optional<BodyNameGuess> guess_of(std::size_t joint) const {
+        const std::string& name = figure_.joints[joint].name;
+        for (const auto& [bone, mapped] : map_) {
+            if (mapped == name) {
+                return std::nullopt;
+            }
+        }
+        return parse_body_joint_name(name);
+    }
+
     // The joint nearest to the root for each bone; doubtful names only where no other is there.
     void guess() {
         std::map<std::optional<std::size_t>*, std::pair<int, std::size_t>> best;
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
-            const auto guess = parse_body_joint_name(figure_.joints[i].name);
-            if (!guess) {
+            const auto guess = guess_of(i);
+            if (!guess || is_mapped(guess->name)) {
                 continue;
             }
             std::optional<std::size_t>& bone = bones_.at(guess->name);
@@ -56,30 +76,35 @@ class BoneFinder {
     }
 
     // Robots have a joint for each axis of a shoulder and a hip: the limb begins at the last.
-    void use_last_joints() {
-        for (const HandSide side : {HandSide::left, HandSide::right}) {
-            auto& upper = bones_.at({BodyBone::upper_arm, side});
-            const auto& forearm = bones_.limb(side, BodyBone::forearm);
-            if (!upper && forearm) {
-                upper = last_above({BodyBone::clavicle, side}, *forearm);
-            }
-            // Meshes are called hands too: the joint is below the forearm.
-            if (const auto& arm = bones_.limb(side, BodyBone::forearm)) {
-                auto& hand = bones_.at({BodyBone::hand, side});
-                if (const auto below = first_below({BodyBone::hand, side}, *arm)) {
-                    hand = below;
-                }
-            }
-            auto& thigh = bones_.at({BodyBone::thigh, side});
-            if (const auto& shin = bones_.limb(side, BodyBone::shin); thigh && shin) {
-                thigh = last_above({BodyBone::thigh, side}, *shin);
-            }
-            auto& clavicle = bones_.at({BodyBone::clavicle, side});
-            if (clavicle && upper &&
-                (place_of(figure_, *clavicle) - place_of(figure_, *upper)).norm() < k_one_place_m) {
-                clavicle.reset();
+    void use_last_joints(HandSide side) {
+        auto& upper = bones_.at({BodyBone::upper_arm, side});
+        const auto& forearm = bones_.limb(side, BodyBone::forearm);
+        if (!upper && forearm) {
+            upper = last_above({BodyBone::clavicle, side}, *forearm);
+        }
+        // Meshes are called hands too: the joint is below the forearm.
+        if (forearm && !is_mapped({BodyBone::hand, side})) {
+            if (const auto hand = first_below({BodyBone::hand, side}, *forearm)) {
+                bones_.at({BodyBone::hand, side}) = hand;
             }
         }
+        const auto& shin = bones_.limb(side, BodyBone::shin);
+        if (shin && !is_mapped({BodyBone::thigh, side})) {
+            if (const auto thigh = last_above({BodyBone::thigh, side}, *shin)) {
+                bones_.at({BodyBone::thigh, side}) = thigh;
+            }
+        }
+        auto& clavicle = bones_.at({BodyBone::clavicle, side});
+        if (clavicle && upper && forearm && are_in_one_place(*clavicle, *upper, *forearm)) {
+            clavicle.reset();
+        }
+    }
+    // Beside the length from `upper` to `forearm`.
+    bool are_in_one_place(std::size_t joint, std::size_t upper, std::size_t forearm) const {
+        constexpr double k_share = 0.003;
+        const Vec3& shoulder = place_of(figure_, upper);
+        const double arm_m = (place_of(figure_, forearm) - shoulder).norm();
+        return (place_of(figure_, joint) - shoulder).norm() <= k_share * arm_m;
     }
 
     // The last joint of this name above another.
@@ -87,7 +112,7 @@ class BoneFinder {
         for (std::int32_t at = figure_.joints[joint].parent; at >= 0;
              at = figure_.joints[static_cast<std::size_t>(at)].parent) {
             const auto above = static_cast<std::size_t>(at);
-            const auto guess = parse_body_joint_name(figure_.joints[above].name);
+            const auto guess = guess_of(above);
             if (guess && guess->name == name) {
                 return above;
             }
@@ -99,7 +124,7 @@ class BoneFinder {
     std::optional<std::size_t> first_below(const BodyJointName& name, std::size_t joint) const {
         std::optional<std::size_t> first;
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
-            const auto guess = parse_body_joint_name(figure_.joints[i].name);
+            const auto guess = guess_of(i);
             if (guess && guess->name == name && is_below(figure_, i, joint) &&
                 (!first || depth_of(figure_, i) < depth_of(figure_, *first))) {
                 first = i;
@@ -107,6 +132,7 @@ class BoneFinder {
         }
         return first;
     }
+
     std::optional<FileError> look_up(const BodyJointName& name) {
         const auto entry = map_.find(body_joint_text(name));
         if (entry == map_.end()) {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string>
+#include <vector>
 
 #include "components/body_rig_fit.hpp"
 
@@ -59,7 +61,12 @@ constexpr std::array<const char*, 8> k_others = {"little", "twist",  "end",    "
                                                  "pole",   "target", "helper", "tip"};
 
 // Runs of letters and digits, cut before a capital that follows a small letter; small letters.
+// A namespace before the name is left out.
 std::vector<std::string> cut_words(std::string_view name) {
+    const std::size_t space = name.find_last_of(":|");
+    if (space != std::string_view::npos) {
+        name.remove_prefix(space + 1);
+    }
     std::vector<std::string> words(1);
     bool was_small = false;
     for (const char c : name) {

@@ -58,8 +58,8 @@ PlacedBone place_leg(const SpinePose::Leg& leg, BodyBone bone) {
 PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render) {
     switch (carrier.bone) {
         case BodyBone::trunk:
-        case BodyBone::neck:  // place_neck puts it where it is
             return {trunk_at(render.spine, carrier.along), trunk_length(render.spine)};
+        case BodyBone::neck:  // goes by place_neck
         case BodyBone::head:
             return {render.head_ws, 0.0};
         case BodyBone::clavicle:
@@ -153,13 +153,13 @@ void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const Rende
     out.stretched.resize(rig.carriers.size());
     for (std::size_t i = 0; i < rig.carriers.size(); ++i) {
         const BodyRig::Carrier& carrier = rig.carriers[i];
-        PlacedBone placed = place_bone(carrier, render);
-        if (carrier.bone == BodyBone::neck) {
-            const Affine& chest = out.stretched[BodyRig::k_chest];
-            placed = place_neck(transform_point(chest, carrier.rest_ms.position),
-                                transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
-                                out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation);
-        }
+        const PlacedBone placed =
+            carrier.bone == BodyBone::neck
+                ? place_neck(
+                      transform_point(out.stretched[BodyRig::k_chest], carrier.rest_ms.position),
+                      transform_point(out.stretched[BodyRig::k_head], rig.head_joint_ms),
+                      out.carrier_ws[BodyRig::k_chest].rotation, render.head_ws.rotation)
+                : place_bone(carrier, render);
         out.carrier_ws[i] = placed.frame_ws;
         out.stretched[i] = stretch_onto(carrier, placed, girth);
     }

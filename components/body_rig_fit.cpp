@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/body_bones.hpp"
 #include "engine/io/json.hpp"
@@ -9,7 +10,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_shortest_m = 1e-3;
+constexpr double k_shortest_trunk_m = 1e-6;
+constexpr double k_shortest = 1e-3;  // bones, of the trunk's length
 // The trunk ends this share of its length above the hips.
 constexpr double k_hips_below = 0.06;
 
@@ -22,19 +24,17 @@ struct Stance {
     double trunk_m = 0.0;
 };
 
-// +Y (or, of arms, -Z) along the bone; the other axis as near to `aside` as that allows.
+// `aside`, but where the bone nearly lies along it, `other`.
+const Vec3& choose_aside(const Vec3& along, const Vec3& aside, const Vec3& other) {
+    constexpr double k_nearly = 0.98;
+    return std::abs(along.normalized().dot(aside)) < k_nearly ? aside : other;
+}
+// +Y along the bone, +Z as near to `back` as that allows.
 Quat along_y(const Vec3& along, const Vec3& back) {
     Mat3 axes;
     axes.col(1) = along.normalized();
     axes.col(0) = Vec3(axes.col(1)).cross(back).normalized();
     axes.col(2) = Vec3(axes.col(0)).cross(Vec3(axes.col(1)));
-    return Quat(axes).normalized();
-}
-Quat along_minus_z(const Vec3& along, const Vec3& up) {
-    Mat3 axes;
-    axes.col(2) = -along.normalized();
-    axes.col(0) = up.cross(Vec3(axes.col(2))).normalized();
-    axes.col(1) = Vec3(axes.col(2)).cross(Vec3(axes.col(0)));
     return Quat(axes).normalized();
 }
 
@@ -82,6 +82,12 @@ class BodyFitter {
     const Vec3& limb_place(HandSide side, BodyBone bone) const {
         return place(*bones_.limb(side, bone));
     }
+    Vec3 back() const { return stance_.axes_ms * Vec3::UnitZ(); }
+    // +Y along the bone; +Z to the back, or where that goes as the bone is bent there.
+    Quat upright_along(const Vec3& along) const {
+        const Vec3 bent = along.dot(back()) > 0.0 ? Vec3(-stance_.up_ms) : stance_.up_ms;
+        return along_y(along, choose_aside(along, back(), bent));
+    }
     Vec3 middle_of(BodyBone bone) const {
         return 0.5 * (limb_place(HandSide::left, bone) + limb_place(HandSide::right, bone));
     }
@@ -107,7 +113,8 @@ class BodyFitter {
                            limb_place(HandSide::left, BodyBone::upper_arm);
         stance_.trunk_m = up.norm();
         rig_.shoulder_width_m = right.norm();
-        if (stance_.trunk_m < k_shortest_m || right.norm() < k_shortest_m) {
+        shortest_m_ = k_shortest * stance_.trunk_m;
+        if (!(stance_.trunk_m > k_shortest_trunk_m) || !(right.norm() > shortest_m_)) {
             return refuse("expected a body with a length between hips and shoulders");
         }
         stance_.up_ms = up / stance_.trunk_m;
@@ -127,7 +134,7 @@ class BodyFitter {
         carrier_of_[joint] = add(carrier);
     }
     double checked(double length_m, const BodyJointName& name) {
-        if (!(length_m > k_shortest_m)) {
+        if (!(length_m > shortest_m_)) {
             wrong_ += (wrong_.empty() ? "" : ", ") + body_joint_text(name);
         }
         return length_m;
@@ -140,34 +147,31 @@ class BodyFitter {
         }
         const Vec3 along = rig_.head_joint_ms - place(*neck);
         const double length = checked(along.norm(), {BodyBone::neck, HandSide::left});
-        add_for(*neck, {BodyBone::neck,
-                        HandSide::left,
-                        1.0,
-                        {place(*neck), along_y(along, stance_.axes_ms * Vec3::UnitZ())},
-                        length});
+        add_for(
+            *neck,
+            {BodyBone::neck, HandSide::left, 1.0, {place(*neck), upright_along(along)}, length});
     }
 
     void add_arm(HandSide side) {
         const auto joint = [&](BodyBone bone) { return *bones_.limb(side, bone); };
-        const Vec3 back = stance_.axes_ms * Vec3::UnitZ();
-        const auto add_bone = [&](BodyBone bone, BodyBone next, const Vec3& aside) {
+        const Vec3 outwards =
+            stance_.axes_ms * (side == HandSide::left ? Vec3(-1.0, 0.0, 0.0) : Vec3(Vec3::UnitX()));
+        const auto add_bone = [&](BodyBone bone, BodyBone next, const Vec3& aside,
+                                  const Vec3& other) {
             const Vec3 along = limb_place(side, next) - limb_place(side, bone);
             const double length = checked(along.norm(), {bone, side});
-            add_for(
-                joint(bone),
-                {bone, side, 0.0, {limb_place(side, bone), along_minus_z(along, aside)}, length});
+            const Quat turn = look_rotation(along, choose_aside(along, aside, other));
+            add_for(joint(bone), {bone, side, 0.0, {limb_place(side, bone), turn}, length});
         };
         if (bones_.limb(side, BodyBone::clavicle)) {
-            add_bone(BodyBone::clavicle, BodyBone::upper_arm, stance_.up_ms);
+            add_bone(BodyBone::clavicle, BodyBone::upper_arm, stance_.up_ms, outwards);
         }
-        add_bone(BodyBone::upper_arm, BodyBone::forearm, back);
-        add_bone(BodyBone::forearm, BodyBone::hand, back);
+        add_bone(BodyBone::upper_arm, BodyBone::forearm, back(), outwards);
+        add_bone(BodyBone::forearm, BodyBone::hand, back(), outwards);
         const std::size_t hand = joint(BodyBone::hand);
-        add_for(hand, {BodyBone::hand,
-                       side,
-                       0.0,
-                       {place(hand), along_minus_z(hand_direction(side), stance_.up_ms)},
-                       0.0});
+        const Vec3 fingers = hand_direction(side);
+        const Quat turn = look_rotation(fingers, choose_aside(fingers, stance_.up_ms, outwards));
+        add_for(hand, {BodyBone::hand, side, 0.0, {place(hand), turn}, 0.0});
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = parse_body_joint_name(figure_.joints[i].name);
             const bool is_hand = (guess && guess->name.bone == BodyBone::hand) ||
@@ -189,7 +193,7 @@ class BodyFitter {
                 ++count;
             }
         }
-        if (count > 0 && sum.norm() > k_shortest_m) {
+        if (count > 0 && sum.norm() > shortest_m_) {
             return sum;
         }
         return place(hand) - limb_place(side, BodyBone::forearm);
@@ -199,18 +203,17 @@ class BodyFitter {
         if (!bones_.limb(side, BodyBone::thigh) || !bones_.limb(side, BodyBone::shin)) {
             return;
         }
-        const Vec3 back = stance_.axes_ms * Vec3::UnitZ();
         const Vec3 hip = limb_place(side, BodyBone::thigh);
         const Vec3 knee = limb_place(side, BodyBone::shin);
         const auto& foot = bones_.limb(side, BodyBone::foot);
-        // Feet that are not there, or not below the knee, end as far below it as the hip is above.
+        // Feet that are not there end as far below the knee as the hip is above it.
         const Vec3 ankle = foot ? place(*foot) : Vec3(2.0 * knee - hip);
         const double thigh_m = checked((knee - hip).norm(), {BodyBone::thigh, side});
         const double shin_m = checked((ankle - knee).norm(), {BodyBone::shin, side});
         add_for(*bones_.limb(side, BodyBone::thigh),
-                {BodyBone::thigh, side, 0.0, {hip, along_y(hip - knee, back)}, thigh_m});
+                {BodyBone::thigh, side, 0.0, {hip, upright_along(hip - knee)}, thigh_m});
         add_for(*bones_.limb(side, BodyBone::shin),
-                {BodyBone::shin, side, 0.0, {knee, along_y(knee - ankle, back)}, shin_m});
+                {BodyBone::shin, side, 0.0, {knee, upright_along(knee - ankle)}, shin_m});
         if (foot) {
             add_for(*foot, {BodyBone::foot, side, 0.0, {ankle, stance_.axes_ms}, 0.0});
         }
@@ -228,7 +231,7 @@ class BodyFitter {
         auto at = static_cast<std::int32_t>(joint);
         for (; at >= 0; at = figure_.joints[static_cast<std::size_t>(at)].parent) {
             const std::size_t carrier = carrier_of_[static_cast<std::size_t>(at)];
-            if (carrier != k_none && rig_.carriers[carrier].bone != BodyBone::trunk) {
+            if (carrier != k_none) {
                 return carrier;
             }
         }
@@ -245,8 +248,8 @@ class BodyFitter {
     void find_eyes() {
         Vec3 sum = Vec3::Zero();
         int eyes = 0;
-        for (const SkinJoint& joint : figure_.joints) {
-            if (is_eye_name(joint.name)) {
+        for (const BodyRig::Joint& joint : rig_.joints) {
+            if (joint.carrier == BodyRig::k_head && is_eye_name(joint.name)) {
                 sum += joint.bind_ms.position;
                 ++eyes;
             }
@@ -269,7 +272,7 @@ class BodyFitter {
                 rig_.eye_height_m = std::max(rig_.eye_height_m, above(point));
             }
         }
-        return above_pelvis > k_shortest_m;
+        return above_pelvis > shortest_m_;
     }
 
     static bool is_eye_name(const std::string& name) {
@@ -286,7 +289,7 @@ class BodyFitter {
         Vec3 low = Vec3::Constant(1e30);
         Vec3 high = Vec3::Constant(-1e30);
         for (std::size_t i = 0; i < figure_.positions.size(); ++i) {
-            const std::uint16_t joint = figure_.weights[i].joint[0];
+            const std::uint16_t joint = heaviest_joint(figure_.weights[i]);
             if (rig_.joints[joint].carrier == BodyRig::k_head) {
                 const Vec3 p =
                     stance_.axes_ms.conjugate() * (figure_.positions[i] - rig_.head_joint_ms);
@@ -302,9 +305,10 @@ class BodyFitter {
     }
 
     // Exactly nothing where rounding to float is all that is left.
-    static Pose in_bone(const Pose& bone_ms, const Pose& joint_ms) {
+    Pose in_bone(const Pose& bone_ms, const Pose& joint_ms) const {
         const Pose pose = inverse(bone_ms) * joint_ms;
-        const bool is_there = pose.position.norm() < 1e-6 && pose.rotation.vec().norm() < 1e-6;
+        const bool is_there =
+            pose.position.norm() < 2e-6 * stance_.trunk_m && pose.rotation.vec().norm() < 1e-6;
         return is_there ? Pose() : pose;
     }
 
@@ -313,13 +317,11 @@ class BodyFitter {
     Stance stance_;
     BodyRig rig_;
     std::vector<std::size_t> carrier_of_;  // by joint; k_none where it is no bone
+    double shortest_m_ = 0.0;
     std::string wrong_;
 };
 
-}  // namespace
-
-Result<BodyMap> load_body_map(const std::filesystem::path& path) {
-    Result<JsonDocument> document = JsonDocument::load(path);
+Result<BodyMap> read_body_map(Result<JsonDocument> document) {
     if (!document) {
         return document.error();
     }
@@ -344,6 +346,16 @@ Result<BodyMap> load_body_map(const std::filesystem::path& path) {
         return document.value().error();
     }
     return map;
+}
+
+}  // namespace
+
+Result<BodyMap> load_body_map(const std::filesystem::path& path) {
+    return read_body_map(JsonDocument::load(path));
+}
+
+Result<BodyMap> parse_body_map(std::string_view text, const std::string& file) {
+    return read_body_map(JsonDocument::parse(text, file));
 }
 
 Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map) {

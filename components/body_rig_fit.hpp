@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "components/body_rig.hpp"
@@ -37,17 +38,21 @@ bool is_digit_name(std::string_view name);
 // "left_upper_arm", "pelvis": keys of a map's file.
 std::string body_joint_text(const BodyJointName& joint);
 
-// Which joint is which bone, where names do not tell it; what it leaves out is found by name.
+// Which joint is which bone, where names do not tell it; what it leaves out is found by name among
+// the other joints.
 using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> name in the file
 // {"joints": {"pelvis": "Hips", "left_upper_arm": "arm_l_01"}}. Refused: other keys, joints that
 // are no text.
 Result<BodyMap> load_body_map(const std::filesystem::path& path);
+// The same for text in memory; `file` is for messages.
+Result<BodyMap> parse_body_map(std::string_view text, const std::string& file);
 
-// Of several joints whose names are alike the one nearest to the root is taken, but shoulders and
-// hips of several joints in one place the last. What hangs on a forearm and is called hand, palm
-// or finger goes with the hand; other joints that are no bones go with the limb above them, or with
-// the trunk where they are. The trunk ends between the shoulders and a little above the hips. The
-// eyes are where joints of that name are, else in front of the middle of what the head carries.
+// Of several joints whose names are alike the one nearest to the root is taken, but of a hip's the
+// last above the knee, and a shoulder's last where no upper arm is named. What hangs on a forearm
+// and is called hand, palm or finger goes with the hand; other joints that are no bones go with the
+// limb above them, or with the trunk where they are. The trunk goes from a little above the hips
+// (the pelvis counts only where there are no thighs) to between the shoulders. The eyes are where
+// the head's joints of that name are, else in front of the middle of what the head carries.
 //
 // Refused, with the names: a head, shoulders, elbows or hands that are missing; a map's name that
 // is no joint's; bones without a length; figures that are not upright.

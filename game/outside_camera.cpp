@@ -11,10 +11,11 @@ void OutsideCamera::place_walls() {
     const World& world = scene_->world;
     for (std::size_t row = 0; row < world.body.size(); ++row) {
         const Entity body = world.body.owners()[row];
-        if (world.body.rows()[row].kind != BodyKind::free) {
+        const Collider* const collider = world.collider.find(body);
+        if (collider != nullptr && world.body.rows()[row].kind != BodyKind::free) {
             const Pose& pose = world.body_pose.at(body).pose_ws;
-            proxies.push_back({world.persistent_id.at(body).value, world.collider.at(body).shape,
-                               pose, pose, false});
+            proxies.push_back(
+                {world.persistent_id.at(body).value, collider->shape, pose, pose, false});
         }
     }
     std::sort(proxies.begin(), proxies.end(),
@@ -22,19 +23,20 @@ void OutsideCamera::place_walls() {
     walls_.set_proxies(proxies);
 }
 
-Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& target_ws,
-                              const Vec3& ahead_ws) {
+Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& head_ws,
+                              const Vec3& target_ws, const Vec3& ahead_ws) {
     constexpr double k_camera_radius_m = 0.08;
     constexpr double k_worth_m = 0.15;
     const Vec3 up = scene_->up_ws;
     const Vec3 side = ahead_ws.cross(up);
-    Vec3 best = target_ws - 0.3 * ahead_ws;
+    Vec3 best = head_ws - 0.3 * ahead_ws;
     place_walls();
     for (const auto& [forward, height, sideways] : offsets) {
         const Vec3 wanted = target_ws + forward * ahead_ws + height * up + sideways * side;
-        const auto hit = walls_.cast_sphere(k_camera_radius_m, target_ws, wanted);
-        const double share = hit ? hit->distance_m / (wanted - target_ws).norm() : 1.0;
-        const Vec3 place = target_ws + std::max(0.0, share - 0.02) * (wanted - target_ws);
+        const Vec3 way = wanted - head_ws;  // of which the head's end is free
+        const auto hit = walls_.cast_sphere(k_camera_radius_m, head_ws, wanted);
+        const double share = hit ? hit->distance_m / way.norm() : 1.0;
+        const Vec3 place = head_ws + std::max(0.0, share - 0.02) * way;
         if ((place - target_ws).norm() > (best - target_ws).norm() + k_worth_m) {
             best = place;
         }
@@ -57,14 +59,17 @@ Pose OutsideCamera::behind(const RenderPose& render) {
                                                 {0.9, 0.3, 0.9},
                                                 {0.9, 0.3, -0.9}}};
     const Vec3 ahead = level_ahead(render);
-    return look_from(k_tries, render.head_ws.position - 0.25 * scene_->up_ws + 0.25 * ahead, ahead);
+    const Vec3& head_ws = render.head_ws.position;
+    return look_from(k_tries, head_ws, head_ws - 0.25 * scene_->up_ws + 0.25 * ahead, ahead);
 }
 
 Pose OutsideCamera::before(const RenderPose& render) {
     constexpr std::array<Offset, 3> k_tries = {
         {{1.5, 0.15, 0.0}, {1.3, 0.2, 0.7}, {1.3, 0.2, -0.7}}};
-    const Vec3 ahead = level_ahead(render);
-    return look_from(k_tries, render.head_ws.position - 0.3 * scene_->up_ws, ahead);
+    constexpr double k_least_m = 0.6;
+    const Vec3 target_ws = render.head_ws.position - 0.3 * scene_->up_ws;
+    const Pose camera = look_from(k_tries, render.head_ws.position, target_ws, level_ahead(render));
+    return (camera.position - target_ws).norm() < k_least_m ? behind(render) : camera;
 }
 
 }  // namespace handhold

@@ -178,13 +178,17 @@ class BreachFinder {
             const BodyMeasures& m = w_.body_measures.rows()[row];
             const auto [least, most] =
                 std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
-            check(least >= 0.05 && most <= 5.0, "body_measures", w_.body_measures.owners()[row], "",
-                  "lengths of 0.05 to 5 m");
+            check(least >= BodyMeasures::k_least_m && most <= BodyMeasures::k_most_m,
+                  "body_measures", w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
         }
         for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
-            const double held_s = w_.calibration.rows()[row].held_s;
-            check(held_s >= 0.0 && held_s <= 10.0, "calibration", w_.calibration.owners()[row],
-                  ".held_s", "0 to 10 s");
+            const Calibration& c = w_.calibration.rows()[row];
+            const Entity player = w_.calibration.owners()[row];
+            check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
+                  "0 to 10 s");
+            const auto [least_s_m, most_s_m] = std::minmax(c.eyes_s_m, c.span_s_m);
+            check(least_s_m >= 0.0 && most_s_m <= BodyMeasures::k_most_m * c.held_s, "calibration",
+                  player, "", "sums of what 0 to 5 m are over the time held");
         }
         for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;

@@ -5,17 +5,10 @@
 #include "engine/core/check.hpp"
 
 namespace handhold {
-namespace {
-
-// By the matrix of cofactors, which keeps a normal square to its surface whatever the scale.
-Vec3 turn_normal(const Mat3& turn, const Vec3& normal) {
-    const Vec3 x = turn.col(0);
-    const Vec3 y = turn.col(1);
-    const Vec3 z = turn.col(2);
-    return y.cross(z) * normal.x() + z.cross(x) * normal.y() + x.cross(y) * normal.z();
+std::uint16_t heaviest_joint(const SkinWeights& weights) {
+    const auto most = std::max_element(weights.weight.begin(), weights.weight.end());
+    return weights.joint[static_cast<std::size_t>(most - weights.weight.begin())];
 }
-
-}  // namespace
 
 void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
                    std::vector<Vec3>& normals) {

@@ -16,6 +16,9 @@ struct SkinWeights {
     std::array<float, 4> weight = {};  // not negative; their sum is 1
 };
 
+// The joint that carries most of a vertex; of equal ones the first.
+std::uint16_t heaviest_joint(const SkinWeights& weights);
+
 struct SkinVerticesInput {
     std::span<const Vec3> positions;
     std::span<const Vec3> normals;         // by vertex, unit

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/io/gltf_model.hpp"
@@ -14,8 +15,8 @@
 namespace handhold {
 namespace {
 
-// The rotation that is nearest to a frame, column by column.
-Pose nearest_pose(const Affine& frame) {
+// What a frame's Y is turned to stays, then Z as near as that allows.
+Pose straightened(const Affine& frame) {
     Vec3 y = frame.linear.col(1);
     Vec3 z = frame.linear.col(2);
     const double length_y = y.norm();
@@ -76,8 +77,10 @@ class SkinReader {
     bool choose_skin();
     bool read_joints();
     bool list_joints(std::vector<int>& nodes);
+    bool check_joint_count(std::size_t count, const std::string& place);
     bool append_joint(const PlacedNode& placed);
     void find_parents();
+    const Binding* bind(const PlacedNode& placed);
     bool bind_skin(int skin, Binding& binding);
     bool undo_binds(int skin, Binding& binding);
     bool read_meshes();
@@ -99,6 +102,8 @@ class SkinReader {
     std::vector<PlacedNode> placed_;
     std::map<int, const PlacedNode*> by_node_;
     std::map<int, std::uint16_t> joint_of_node_;
+    std::map<int, Binding> skins_;  // by skin, those that were needed
+    Binding rigid_;                 // of the node that is being read
     std::vector<std::uint32_t> indices_;
 };
 
@@ -134,11 +139,13 @@ bool SkinReader::list_joints(std::vector<int>& nodes) {
     }
     const std::string place =
         source_ == JointSource::skin ? gltf_pointer("skins", skin_index_) + "/joints" : "/nodes";
-    if (nodes.empty() || nodes.size() > k_max_skin_joints) {
-        return refuse(place, "expected 1 to " + std::to_string(k_max_skin_joints) +
-                                 " joints, found " + std::to_string(nodes.size()));
-    }
-    return true;
+    return check_joint_count(nodes.size(), place);
+}
+
+bool SkinReader::check_joint_count(std::size_t count, const std::string& place) {
+    return (count > 0 && count <= k_max_skin_joints) ||
+           refuse(place, "expected 1 to " + std::to_string(k_max_skin_joints) + " joints, found " +
+                             std::to_string(count));
 }
 
 bool SkinReader::read_joints() {
@@ -172,7 +179,7 @@ bool SkinReader::read_joints() {
 bool SkinReader::append_joint(const PlacedNode& placed) {
     std::optional<Pose> pose = rigid_part(placed.world);
     if (!pose && source_ == JointSource::scene && is_finite(placed.world.translation)) {
-        pose = nearest_pose(placed.world);
+        pose = straightened(placed.world);
     }
     if (!pose || pose->position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
         return refuse(gltf_pointer("nodes", placed.node),
@@ -199,13 +206,37 @@ void SkinReader::find_parents() {
     }
 }
 
+// Null where it is refused.
+const SkinReader::Binding* SkinReader::bind(const PlacedNode& placed) {
+    const int skin = model_.nodes[static_cast<std::size_t>(placed.node)].skin;
+    if (skin == -1) {
+        rigid_.slots = {{joint_of_node_[placed.node], placed.world}};
+        return &rigid_;
+    }
+    if (!is_gltf_index(skin, model_.skins.size())) {
+        reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/skin", "skin",
+                             model_.skins.size(), skin);
+        return nullptr;
+    }
+    const auto [entry, is_new] = skins_.try_emplace(skin);
+    return !is_new || bind_skin(skin, entry->second) ? &entry->second : nullptr;
+}
+
 bool SkinReader::bind_skin(int skin, Binding& binding) {
     const std::vector<int>& nodes = model_.skins[static_cast<std::size_t>(skin)].joints;
+    const std::string place = gltf_pointer("skins", skin) + "/joints";
+    if (!check_joint_count(nodes.size(), place)) {
+        return false;
+    }
+    std::set<int> seen;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto joint = joint_of_node_.find(nodes[i]);
         if (joint == joint_of_node_.end()) {
-            return refuse(gltf_pointer("skins", skin) + "/joints/" + std::to_string(i),
+            return refuse(place + "/" + std::to_string(i),
                           "expected a node of the scene, found " + std::to_string(nodes[i]));
+        }
+        if (!seen.insert(nodes[i]).second) {
+            return refuse(place + "/" + std::to_string(i), "expected every joint once");
         }
         binding.slots.push_back({joint->second, by_node_[nodes[i]]->world});
     }
@@ -260,21 +291,15 @@ bool SkinReader::read_meshes() {
             return reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/mesh", "mesh",
                                         model_.meshes.size(), node.mesh);
         }
-        if (node.skin != -1 && !is_gltf_index(node.skin, model_.skins.size())) {
-            return reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/skin", "skin",
-                                        model_.skins.size(), node.skin);
-        }
-        Binding binding;
-        if (node.skin == -1) {
-            binding.slots.push_back({joint_of_node_[placed.node], placed.world});
-        } else if (!bind_skin(node.skin, binding)) {
+        const Binding* const binding = bind(placed);
+        if (binding == nullptr) {
             return false;
         }
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const std::string place =
                 gltf_pointer("meshes", node.mesh) + "/primitives/" + std::to_string(i);
-            if (!read_primitive(mesh.primitives[i], binding, place)) {
+            if (!read_primitive(mesh.primitives[i], *binding, place)) {
                 return false;
             }
         }
@@ -333,12 +358,14 @@ bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const Bind
         return refuse(place, "expected 3 corners a triangle, found " +
                                  std::to_string(indices_.size()) + " corners");
     }
+    std::size_t mirrored = 0;
     for (std::size_t i = 0; i < views.positions.count; ++i) {
         Affine to_scene;
         if (!append_weights(views, i, binding, place, to_scene) ||
             !append_vertex(views, i, to_scene, place)) {
             return false;
         }
+        mirrored += to_scene.linear.determinant() < 0.0 ? 1U : 0U;
     }
     ColorRun run = {static_cast<std::uint32_t>(skin_.triangles.size()), {0.6F, 0.6F, 0.62F}};
     if (primitive.material != -1) {
@@ -352,8 +379,7 @@ bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const Bind
     Mesh mesh;  // for its triangles without those that have no area
     mesh.positions.swap(skin_.positions);
     mesh.triangles.swap(skin_.triangles);
-    const bool is_mirrored =
-        !binding.is_skinned && binding.slots.front().to_scene.linear.determinant() < 0.0;
+    const bool is_mirrored = 2 * mirrored > views.positions.count;
     append_triangles(TriangleMode::list, is_mirrored ? Winding::reversed : Winding::kept, indices_,
                      static_cast<std::uint32_t>(first), mesh);
     mesh.positions.swap(skin_.positions);
@@ -416,14 +442,17 @@ bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const Af
     }
     Vec3 normal = Vec3::Zero();
     if (views.has_normals) {
-        normal = to_scene.linear * read_gltf_vector(views.normals, i);
-        if (!is_finite(normal)) {
+        const Vec3 in_file = read_gltf_vector(views.normals, i);
+        if (in_file.norm() > 1e-9) {
+            normal = turn_normal(to_scene.linear, in_file).stableNormalized();
+        }
+        if (!is_finite(in_file) || !is_finite(normal)) {
             return refuse(place + "/attributes/NORMAL",
                           "expected finite normals, found another at vertex " + std::to_string(i));
         }
     }
     skin_.positions.push_back(position);
-    skin_.normals.push_back(normal.norm() > 1e-9 ? normal.normalized() : Vec3::Zero());
+    skin_.normals.push_back(normal);
     return true;
 }
 

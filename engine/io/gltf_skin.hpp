@@ -51,8 +51,8 @@ Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesyste
 
 // A figure: every node of the default scene is a joint, carrying what hangs on it; meshes without
 // a skin go with their node as a whole, skins may be several. Otherwise as above, but that joints
-// may be squashed and mirrored too: then bind_ms has the nearest rotation. Refused besides: more
-// than k_max_skin_joints nodes.
+// may be squashed and mirrored too: then bind_ms keeps the way their Y goes and turns about it as Z
+// does. Refused besides: more than k_max_skin_joints nodes.
 Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
 Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
 

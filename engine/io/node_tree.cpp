@@ -102,7 +102,8 @@ std::optional<Pose> rigid_part(const Affine& frame) {
     }
     axes /= scale;
     const Mat3 off = axes.transpose() * axes - Mat3::Identity();
-    if (axes.determinant() < 0.0 || off.cwiseAbs().maxCoeff() > 2.0 * k_most_shear) {
+    if (!off.allFinite() || axes.determinant() < 0.0 ||
+        off.cwiseAbs().maxCoeff() > 2.0 * k_most_shear) {
         return std::nullopt;
     }
     return Pose{frame.translation, Quat(axes).normalized()};

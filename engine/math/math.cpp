@@ -58,6 +58,14 @@ double arc_tangent_unit(double x) {
 
 }  // namespace
 
+Vec3 turn_normal(const Mat3& linear, const Vec3& normal) {
+    const Vec3 x = linear.col(0);
+    const Vec3 y = linear.col(1);
+    const Vec3 z = linear.col(2);
+    const Vec3 turned = y.cross(z) * normal.x() + z.cross(x) * normal.y() + x.cross(y) * normal.z();
+    return x.dot(y.cross(z)) < 0.0 ? Vec3(-turned) : turned;
+}
+
 bool is_valid(const Pose& pose) {
     const double norm = pose.rotation.squaredNorm();
     return pose.position.allFinite() && std::isfinite(norm) && std::abs(norm - 1.0) < 2e-3;
@@ -135,6 +143,19 @@ Quat rotation_about(const Vec3& axis, double angle_rad) {
     double cosine = 1.0;
     sin_cos(0.5 * angle_rad, sine, cosine);
     return Quat(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z()).normalized();
+}
+
+Quat look_rotation(const Vec3& forward, const Vec3& up) {
+    constexpr double k_in_line = 1e-6;
+    const Vec3 back = -forward.normalized();
+    const Vec3 across = up.cross(back);
+    const bool is_in_line = across.norm() <= k_in_line * up.norm();
+    const Vec3 right = is_in_line ? Vec3(back.unitOrthogonal()) : Vec3(across.normalized());
+    Mat3 axes;
+    axes.col(0) = right;
+    axes.col(1) = back.cross(right);
+    axes.col(2) = back;
+    return Quat(axes).normalized();
 }
 
 Quat rotation_between(const Vec3& from, const Vec3& to) {

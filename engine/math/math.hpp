@@ -50,6 +50,9 @@ inline Affine to_affine(const Pose& pose) {
 inline Vec3 transform_point(const Affine& affine, const Vec3& point) {
     return affine.linear * point + affine.translation;
 }
+// A surface's normal where `linear` takes the surface: by the matrix of cofactors, which keeps it
+// square to the surface whatever the scale, and outside where it mirrors. Not of unit length.
+Vec3 turn_normal(const Mat3& linear, const Vec3& normal);
 inline Affine operator*(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, transform_point(a, b.translation)};
 }
@@ -89,6 +92,10 @@ Quat rotation_about(const Vec3& axis, double angle_rad);
 // The shortest rotation that carries unit vector `from` onto unit vector `to`; any half turn where
 // they oppose.
 Quat rotation_between(const Vec3& from, const Vec3& to);
+
+// -Z along `forward`, +Y as near to `up` as that allows; neither may be zero, they may have any
+// length. Where they lie in one line, any turn about it.
+Quat look_rotation(const Vec3& forward, const Vec3& up);
 
 // Between two poses, t in [0, 1]: positions along the line, rotations along the shorter arc at
 // constant speed.

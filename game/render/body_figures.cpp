@@ -13,13 +13,7 @@ enum class Region { body, head, hand };
 
 // What rises above the shoulders counts as head: it would stand before the eyes.
 Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights& weights) {
-    std::size_t heaviest = 0;
-    for (std::size_t k = 1; k < weights.weight.size(); ++k) {
-        if (weights.weight[k] > weights.weight[heaviest]) {
-            heaviest = k;
-        }
-    }
-    switch (rig.carriers[rig.joints[weights.joint[heaviest]].carrier].bone) {
+    switch (rig.carriers[rig.joints[heaviest_joint(weights)].carrier].bone) {
         case BodyBone::head:
         case BodyBone::neck:
             return Region::head;

@@ -288,13 +288,7 @@ Mesh make_rock(double radius_m, unsigned seed) {
 }
 
 Pose look_along(const Vec3& position, const Vec3& forward, const Vec3& up) {
-    const Vec3 back = -forward.normalized();
-    const Vec3 right = up.cross(back).normalized();
-    Mat3 axes;
-    axes.col(0) = right;
-    axes.col(1) = back.cross(right);
-    axes.col(2) = back;
-    return {position, Quat(axes).normalized()};
+    return {position, look_rotation(forward, up)};
 }
 
 }  // namespace handhold

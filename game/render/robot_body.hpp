@@ -10,7 +10,7 @@
 namespace handhold {
 
 // The bytes of a .glb, equal each time: shells, joints and lamps, each rigid on one joint, for a
-// player whose eyes are at 1.62 m. Opens in animation packages; parse_gltf_figure and fit_body_rig
+// player whose eyes are at 1.64 m. Opens in animation packages; parse_gltf_figure and fit_body_rig
 // read it.
 std::string make_robot_body_glb();
 // The same, read.

@@ -54,6 +54,8 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     constexpr double k_middle = 0.15;  // the head off the middle
     constexpr double k_highest = 0.02;
     constexpr double k_lowest = 0.30;  // the hands below the eyes
+    constexpr double k_lowest_eyes_m = 0.3;
+    constexpr double k_highest_eyes_m = 2.6;
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
     const double span = level.norm();
@@ -64,7 +66,8 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     const Vec3 aside(head_ps.x() - middle.x(), 0.0, head_ps.z() - middle.z());
     const double below = (head_ps.y() - middle.y()) / span;
     const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
-                        below >= k_highest && below <= k_lowest && head_ps.y() > 0.3;
+                        below >= k_highest && below <= k_lowest && head_ps.y() > k_lowest_eyes_m &&
+                        head_ps.y() < k_highest_eyes_m;
     return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
 }
 

@@ -236,6 +236,52 @@ TEST(GltfFigure, EveryNodeIsAJointAndMeshesGoWithTheirNode) {
     }
 }
 
+// A ramp on a node that is twice as high as wide, and mirrored: its normal stays square to it, on
+// the side where its triangle shows.
+TEST(GltfFigure, NormalsStaySquareToWhatIsScaled) {
+    for (const double x : {1.0, -1.0}) {
+        GltfBuilder builder;
+        const int mesh =
+            builder.add_mesh(builder.add_positions({{0, 0, 0}, {1, 1, 0}, {0, 0, -1}}), -1);
+        const float half = std::sqrt(0.5F);
+        const std::array<float, 3> normal = {-half, half, 0};
+        builder.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+            builder.add_positions({normal, normal, normal});
+        builder.json["nodes"] = {{{"mesh", mesh}, {"scale", {x, 2, 1}}}};
+        const Result<SkinnedMesh> figure = parse_gltf_figure(builder.glb(), "ramp.glb");
+        ASSERT_TRUE(figure.ok()) << figure.error().message();
+        const auto& [a, b, c] = figure.value().triangles.at(0);
+        const auto& at = figure.value().positions;
+        const Vec3 square = (at[b] - at[a]).cross(at[c] - at[a]).normalized();
+        for (const Vec3& found : figure.value().normals) {
+            EXPECT_NEAR((found - square).norm(), 0.0, 1e-6) << x;
+        }
+    }
+}
+
+// Skins that are mirrored by what is above their joints: outside stays outside.
+TEST(GltfFigure, SkinsMayBeMirrored) {
+    GltfBuilder builder = strip_file();
+    builder.json["nodes"][0]["scale"] = {-0.5, 0.5, 0.5};
+    const Result<SkinnedMesh> figure = parse_gltf_figure(builder.glb(), "strip.glb");
+    ASSERT_TRUE(figure.ok()) << figure.error().message();
+    for (const auto& [a, b, c] : figure.value().triangles) {
+        const auto& at = figure.value().positions;
+        EXPECT_GT((at[b] - at[a]).cross(at[c] - at[a]).z(), 0.0);
+    }
+    for (const Vec3& normal : figure.value().normals) {
+        EXPECT_NEAR((normal - Vec3::UnitZ()).norm(), 0.0, 1e-6);
+    }
+}
+
+TEST(GltfFigure, RefusesSkinsThatNameAJointTwiceOrNone) {
+    for (const nlohmann::json& joints : {nlohmann::json({1, 1}), nlohmann::json::array()}) {
+        GltfBuilder builder = strip_file();
+        builder.json["skins"][0]["joints"] = joints;
+        EXPECT_FALSE(parse_gltf_figure(builder.glb(), "strip.glb").ok()) << joints;
+    }
+}
+
 TEST(GltfFigure, NeedsTriangles) {
     GltfBuilder builder;
     builder.json["nodes"] = {{{"name", "alone"}}};

@@ -279,6 +279,38 @@ TEST(RotationBetween, EqualDirectionsNeedNone) {
     EXPECT_LT(rotation_to_vector(rotation_between(direction, direction)).norm(), 1e-15);
 }
 
+RC_GTEST_PROP(LookRotation, LooksForwardWithUpInItsPlane, ()) {
+    const Vec3 forward = any_direction();
+    const Vec3 up = any_direction();
+    const Quat turn = look_rotation(2.0 * forward, 3.0 * up);
+    RC_ASSERT((turn * -Vec3::UnitZ() - forward).norm() < 1e-14);
+    RC_PRE(forward.cross(up).norm() > 1e-5);
+    RC_ASSERT(std::abs((turn * Vec3::UnitX()).dot(up)) < 1e-9);
+    RC_ASSERT((turn * Vec3::UnitY()).dot(up) > 0.0);
+}
+
+TEST(LookRotation, AnyTurnWhereUpIsForward) {
+    for (const double up : {1.0, -1.0}) {
+        const Quat turn = look_rotation(Vec3::UnitY(), Vec3(0.0, up, 0.0));
+        EXPECT_NEAR(turn.norm(), 1.0, 1e-15);
+        EXPECT_NEAR((turn * -Vec3::UnitZ() - Vec3::UnitY()).norm(), 0.0, 1e-15);
+    }
+}
+
+RC_GTEST_PROP(TurnNormal, StaysSquareToTheSurfaceAndOutside, ()) {
+    const Vec3 a = any_direction();
+    const Vec3 b = any_direction();
+    RC_PRE(a.cross(b).norm() > 1e-2);
+    Mat3 linear = rotation_about(any_direction(), 1.0).toRotationMatrix();
+    linear.col(0) *= *number_between(-3.0, 3.0);
+    linear.col(1) *= *number_between(0.1, 3.0);
+    const Vec3 normal = turn_normal(linear, a.cross(b));
+    RC_ASSERT(std::abs(normal.dot(linear * a)) < 1e-12);
+    RC_ASSERT(std::abs(normal.dot(linear * b)) < 1e-12);
+    const double side = linear.determinant() < 0.0 ? -1.0 : 1.0;
+    RC_ASSERT((normal - side * (linear * a).cross(linear * b)).norm() < 1e-12);
+}
+
 RC_GTEST_PROP(PoseAlgebra, ProductAppliesTheRightFactorFirst, ()) {
     const Pose a = any_pose();
     const Pose b = any_pose();

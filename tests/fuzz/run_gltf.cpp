@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "components/body_rig_fit.hpp"
 #include "components/builtin_hand_rig.hpp"
 #include "components/hand_rig_fit.hpp"
 #include "engine/collision/shape_library.hpp"
@@ -41,6 +42,26 @@ void run_skin(Bytes bytes) {
     }
 }
 
+// And as a body, in no pose in particular.
+void run_figure(Bytes bytes) {
+    const Result<SkinnedMesh> figure = parse_gltf_figure(text_of(bytes), "/nonexistent/fuzz.gltf");
+    if (!figure) {
+        promise(!figure.error().expected.empty(), "a refusal says what was expected");
+        return;
+    }
+    const Result<BodyRig> rig = fit_body_rig(figure.value());
+    if (!rig) {
+        promise(!rig.error().expected.empty(), "a refusal says what was expected");
+        return;
+    }
+    promise(rig.value().joints.size() == figure.value().joints.size(), "every joint is carried");
+    SkeletonPose pose;
+    pose_skeleton(rig.value(), {}, {}, pose);
+    for (const Pose& joint : pose.joint_ws) {
+        promise(is_valid(joint), "a posed body is finite");
+    }
+}
+
 // The same bytes as an authored grip: what is taken from them a scene file may say.
 void run_grip(Bytes bytes) {
     const Result<SceneGrip> grip =
@@ -61,6 +82,7 @@ void run_grip(Bytes bytes) {
 
 void run_gltf(Bytes bytes) {
     run_skin(bytes);
+    run_figure(bytes);
     run_grip(bytes);
     // In a folder that is not there: external buffers are never found.
     Result<GltfLevel> level = parse_gltf_level(text_of(bytes), "/nonexistent/fuzz.gltf");

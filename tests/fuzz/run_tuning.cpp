@@ -1,9 +1,20 @@
+#include "components/body_rig_fit.hpp"
 #include "components/tuning_json.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {
+namespace {
+
+// The same bytes as names of a body's joints.
+void run_body_map(Bytes bytes) {
+    const Result<BodyMap> map = parse_body_map(text_of(bytes), "fuzz.json");
+    promise(map.ok() || !map.error().expected.empty(), "a refusal says what was expected");
+}
+
+}  // namespace
 
 void run_tuning(Bytes bytes) {
+    run_body_map(bytes);
     const Result<Tuning> tuning = parse_tuning(text_of(bytes), "fuzz.json");
     if (!tuning) {
         promise(!tuning.error().expected.empty(), "a refusal says what was expected");

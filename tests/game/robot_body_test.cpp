@@ -1,5 +1,9 @@
 #include "game/render/robot_body.hpp"
 
+#include <array>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "components/body_rig_fit.hpp"
@@ -41,14 +45,31 @@ TEST(RobotBody, HandsStandInHandSpace) {
 
 TEST(RobotBody, IsTheSameEachTime) { EXPECT_EQ(make_robot_body_glb(), make_robot_body_glb()); }
 
-// Left is right through x = 0.
+// Every vertex has one on the other side of x = 0.
 TEST(RobotBody, IsSymmetric) {
     const SkinnedMesh body = make_robot_body();
-    Vec3 sum = Vec3::Zero();
+    const auto key = [](const Vec3& p) {
+        const auto tenths = [](double m) { return std::lround(m * 1e4); };
+        return std::array<long, 3>{tenths(p.x()), tenths(p.y()), tenths(p.z())};
+    };
+    std::set<std::array<long, 3>> cells;
     for (const Vec3& point : body.positions) {
-        sum += point;
+        cells.insert(key(point));
     }
-    EXPECT_NEAR(sum.x() / static_cast<double>(body.positions.size()), 0.0, 1e-4);
+    const auto is_there = [&](const Vec3& point) {
+        const auto [x, y, z] = key(point);
+        for (long i = 0; i < 27; ++i) {
+            if (cells.contains({x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1})) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::size_t alone = 0;
+    for (const Vec3& point : body.positions) {
+        alone += is_there(Vec3(-point.x(), point.y(), point.z())) ? 0U : 1U;
+    }
+    EXPECT_EQ(alone, 0U) << "of " << body.positions.size();
 }
 
 }  // namespace
