@@ -11,7 +11,8 @@
 namespace handhold {
 
 // Where the camera of a play is.
-enum class PlayerViewpoint : std::uint8_t { eyes, mirror, behind };
+enum class PlayerViewpoint : std::uint8_t { eyes, mirror, behind, free };
+inline constexpr int k_player_viewpoints = 4;
 
 // Cameras that look at a player, in the room with him. Only reads the world.
 class OutsideCamera {

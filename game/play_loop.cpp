@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
+#include "game/free_camera.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
@@ -102,7 +103,8 @@ class Loop {
                 hold_mouse(!panels.inspector && !panels.menu);
                 break;
             case PlayKey::view:
-                viewpoint_ = static_cast<PlayerViewpoint>((static_cast<int>(viewpoint_) + 1) % 3);
+                look_from(static_cast<PlayerViewpoint>((static_cast<int>(viewpoint_) + 1) %
+                                                       k_player_viewpoints));
                 break;
             case PlayKey::free_mouse:
                 hold_mouse(!holds_mouse_);
@@ -124,6 +126,29 @@ class Loop {
                 }
                 break;
         }
+    }
+
+    void look_from(PlayerViewpoint viewpoint) {
+        if (viewpoint == PlayerViewpoint::free) {
+            free_.begin(camera_ws(), stage_.session.scene().up_ws, held_);
+        }
+        viewpoint_ = viewpoint;
+    }
+
+    // Not const: cameras in the room look where its walls are now.
+    Pose camera_ws() {
+        const RenderPose& render = world().render_pose.at(stage_.session.player().player);
+        switch (viewpoint_) {
+            case PlayerViewpoint::mirror:
+                return outside_.before(render);
+            case PlayerViewpoint::behind:
+                return outside_.behind(render);
+            case PlayerViewpoint::free:
+                return free_.pose_ws();
+            case PlayerViewpoint::eyes:
+                break;
+        }
+        return render.head_ws;
     }
 
     void hold_mouse(bool held) {
@@ -150,6 +175,7 @@ class Loop {
             gamepad_s_ = now_s;
             now = combine(now, read_gamepad(*events.gamepad, stage_.settings, dt_s, gamepad_));
         }
+        held_.grip = now.grip;
         gather(now, input_);
     }
 
@@ -170,6 +196,10 @@ class Loop {
     }
 
     void advance(int due) {
+        if (viewpoint_ == PlayerViewpoint::free) {
+            free_.fly(input_, due * DesktopSession::k_dt_s);
+            input_ = free_.held();
+        }
         if (rewinds_) {
             paused_ = true;
             rewound_ += history_.rewind(stage_.session, static_cast<std::size_t>(due));
@@ -212,13 +242,9 @@ class Loop {
         const std::int64_t begin_ns = now_ns();
         marks_.clear();
         add_gizmos(world(), stage_.session.caches().graph, inspector_.gizmos, marks_);
-        const RenderPose& render = world().render_pose.at(player);
         const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
-        const Pose camera_ws = own_eyes                                ? render.head_ws
-                               : viewpoint_ == PlayerViewpoint::mirror ? outside_.before(render)
-                                                                       : outside_.behind(render);
         stage_.view.draw(
-            camera_ws, stage_.settings.fov_rad,
+            camera_ws(), stage_.settings.fov_rad,
             own_eyes ? std::optional(world().render_pose.find_row(player)) : std::nullopt,
             stage_.picture, marks_, &ui);
         const double draw_us = us_since(begin_ns);
@@ -230,7 +256,7 @@ class Loop {
     void show_panels() {
         Hud hud;
         hud.can_reach = stage_.session.body().can_reach();
-        hud.shows_mark = holds_mouse_;
+        hud.shows_mark = holds_mouse_ && viewpoint_ == PlayerViewpoint::eyes;
         hud.shows_help = stage_.panels.help && !stage_.panels.inspector && !stage_.panels.menu;
         hud.paused = paused_;
         hud.rewound_s = static_cast<double>(rewound_) * DesktopSession::k_dt_s;
@@ -275,11 +301,13 @@ class Loop {
     PlayStage& stage_;
     SessionHistory history_;
     OutsideCamera outside_;
+    FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
     std::vector<Line> marks_;  // reused
     Clock clock_;
     DesktopInput input_;
+    DesktopInput held_;  // what is held down as of the last look at the window: grips
     GamepadMemory gamepad_;
     double gamepad_s_ = 0.0;
     UiInput ui_;

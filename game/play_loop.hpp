@@ -36,7 +36,7 @@ struct PlayStage {
     std::array<int, 2> picture_size;                    // width and height in pixels
     GizmoSet gizmos;                                    // that are on when it begins
     std::string page;                                   // of the inspector; empty: its first
-    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // when it begins
+    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // when it begins; not free
     double end_s = 0.0;                                 // of the scene's clock; 0: never
     std::FILE* status = nullptr;  // a line every tenth of a second; none: null
 };

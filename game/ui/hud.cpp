@@ -27,7 +27,7 @@ constexpr std::array<HelpLine, 13> k_help = {{
     {"F1", "this help"},
     {"F2", "inspector: what the runtime does, and its numbers"},
     {"F3", "scenes and settings"},
-    {"F4", "see yourself: from before, from behind"},
+    {"F4", "see yourself: from before, from behind, flying"},
     {"Tab, Esc", "free the mouse, leave"},
     {"Gamepad", "triggers grip, left stick pulls, right stick looks"},
 }};
