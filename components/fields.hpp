@@ -216,6 +216,12 @@ void visit_fields(const FingerAngles& c, V&& visit) {
     visit("opposition_rad", c.opposition_rad);
 }
 template <typename V>
+void visit_fields(const FingerRetry& c, V&& visit) {
+    visit("wait_m", c.wait_m);
+    visit("since_m", c.since_m);
+    visit("tries", c.tries);
+}
+template <typename V>
 void visit_fields(const BodyMeasures& c, V&& visit) {
     visit("eye_height_m", c.eye_height_m);
     visit("shoulder_width_m", c.shoulder_width_m);
@@ -376,6 +382,7 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("surroundings", c.surroundings);
     visit("held_bs", c.held_bs);
     visit("is_held", c.is_held);
+    visit("look_in_m", c.look_in_m);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -406,6 +413,8 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("thumb_wrist_bs", c.thumb_wrist_bs);
     visit("thumb_solved", c.thumb_solved);
     visit("thumb_arrived", c.thumb_arrived);
+    visit("retry", c.retry);
+    visit("pose_refused", c.pose_refused);
 }
 template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {

@@ -67,6 +67,54 @@ bool keeps_fit(const FingerPose& pose, const HandSurroundings& hand, const Pose&
            is_moment_later(pose.solved_wrist_bs, wrist_bs);
 }
 
+bool has_arrived(const PalmOffset& offset) {
+    return offset.shown_m == offset.target_m && offset.shown_turn_rad == offset.target_turn_rad;
+}
+
+void count_refusal(const PalmOffset& offset, std::size_t finger, FingerPose& pose,
+                   StageStats& stats) {
+    if (has_arrived(offset) && !pose.pose_refused[finger]) {
+        pose.pose_refused[finger] = true;
+        stats.count(Fallback::authored_finger_fitted);
+    }
+}
+
+void age(FingerRetry& retry, double way_m, double dt_s) {
+    constexpr double k_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
+    constexpr double k_most_m = 1.0;
+    retry.since_m = std::min(retry.since_m + way_m, k_most_m);
+    retry.wait_m = std::max(retry.wait_m - way_m - k_time_mps * dt_s, -k_most_m);
+}
+
+bool may_retry(const FingerRetry& retry) { return retry.wait_m <= 0.0 && retry.since_m > 0.0; }
+
+void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
+    constexpr double k_first_m = 0.004;
+    constexpr std::uint32_t k_most_rounds = 2;
+    constexpr std::uint32_t k_most_tries = 1000;
+    retry.tries = in_vain ? std::min(retry.tries + 1, k_most_tries) : 0;
+    const std::uint32_t rounds = in_vain ? std::min(retry.tries - 1, k_most_rounds) : 0;
+    retry.wait_m = k_first_m * (1U << rounds);
+    retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
+}
+
+bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning& tuning,
+                  PalmOffset& offset) {
+    constexpr double k_most_lifts = 3.0;
+    const double most_m = k_most_lifts * tuning.lift_m;
+    if (!has_arrived(offset) || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
+        offset.lift_m >= most_m) {
+        return false;
+    }
+    offset.lift_m = std::min(offset.lift_m + tuning.lift_m, most_m);
+    offset.lifted_at_bs = hand.wrist_bs;
+    return true;
+}
+
+bool lifts_at_once(const PalmTuning& tuning, double dt_s) {
+    return tuning.rate_mps * dt_s >= tuning.lift_m;
+}
+
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown) {
     for (std::size_t i = 0; i < k_most_links; ++i) {
         shown.curl_rad[i] = std::min(target.curl_rad[i], shown.curl_rad[i] + step_rad);

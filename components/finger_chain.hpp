@@ -3,6 +3,7 @@
 #include "components/hand.hpp"
 #include "components/hand_rig.hpp"
 #include "components/hand_surroundings.hpp"
+#include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
@@ -30,6 +31,28 @@ bool is_clearly_better(const ChainFit& fit, const ChainFit& than, const ChainFit
 bool keeps_fit(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs);
 // The same of two places of the wrist on one body.
 bool is_moment_later(const Pose& from, const Pose& to);
+
+// The palm shown has come to where it is bound for.
+bool has_arrived(const PalmOffset& offset);
+
+// An authored pose that would be sunk: counted once, when the palm is in its grip. On its way there
+// it is no wonder.
+void count_refusal(const PalmOffset& offset, std::size_t finger, FingerPose& pose,
+                   StageStats& stats);
+
+// FingerRetry's frame: the wrist shown went `way_m`.
+void age(FingerRetry& retry, double way_m, double dt_s);
+bool may_retry(const FingerRetry& retry);
+// After a try, of `most` things that there are to try.
+void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
+
+// Lifts the palm by one step more where fingers or the thumb are sunk so deep, up to three times.
+// Not before the hand that is shown has come to where it is bound for: on its way there they may
+// well be sunk.
+bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning& tuning,
+                  PalmOffset& offset);
+// True where a lift is shown within one frame: the fits that the fingers had are of no use then.
+bool lifts_at_once(const PalmTuning& tuning, double dt_s);
 
 // Opens at once, closes by at most `step_rad` a hinge; opposition turns by as much either way.
 void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown);

@@ -26,17 +26,20 @@ struct GripSurface {
     std::uint64_t surroundings = 0;
     Pose held_bs;  // the wrist held to it, without a lift, where that is known
     bool is_held = false;
+    // Where the palm had no room at the cheapest surface: how far the hand still goes until it
+    // looks for another. 0: it had room.
+    double look_in_m = 0.0;
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
 // (_hs), so that it travels with the hand. Written by constrain_palms; lift_m also by
-// sweep_fingers.
+// sweep_fingers and pose_thumb.
 struct PalmOffset {
     Vec3 shown_m = Vec3::Zero();         // follows target_m no faster than PalmTuning::rate_mps
     Vec3 shown_turn_rad = Vec3::Zero();  // rotation vector
     Vec3 target_m = Vec3::Zero();
     Vec3 target_turn_rad = Vec3::Zero();
-    double lift_m = 0.0;  // off the surface, because fingers did not fit
+    double lift_m = 0.0;  // off the surface, because fingers or the thumb did not fit
     Pose lifted_at_bs;    // where the tracked hand was then: elsewhere it is tried anew
     // What the target was found for: it is not found again while that stays.
     Pose target_wrist_bs;
@@ -47,6 +50,14 @@ struct PalmOffset {
 // The wrist as it is shown, at the end of the frame. Arms reach for it. Written by constrain_palms.
 struct PalmPose {
     Pose pose_ws;
+};
+
+// When a finger that stays sunk, or a thumb that touches nothing, is closed anew: what was in vain
+// at one place is mostly in vain a little farther on. By the way of the wrist shown.
+struct FingerRetry {
+    double wait_m = 0.0;      // still to go until then, at least -1; time counts as a way too
+    double since_m = 0.0;     // gone since all was tried; 0: nothing has changed since
+    std::uint32_t tries = 0;  // in vain, in a row: the wait grows with them
 };
 
 // How the hand's fingers are shown, by place in HandRig::fingers. Written by sweep_fingers and
@@ -62,10 +73,13 @@ struct FingerPose {
     Pose solved_wrist_bs;
     std::uint64_t solved_surroundings = 0;
     bool solved = false;
-    bool arrived = false;  // no target is on its way to where it turns
+    bool arrived = false;  // no target is on its way to where it turns, none may be closed anew
     Pose thumb_wrist_bs;   // the same of the thumb
     bool thumb_solved = false;
     bool thumb_arrived = false;
+    std::array<FingerRetry, k_finger_count> retry;
+    // Authored poses that would be sunk with the palm in its grip: counted already.
+    std::array<bool, k_finger_count> pose_refused = {};
 };
 
 }  // namespace handhold

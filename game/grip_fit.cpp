@@ -37,8 +37,9 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
         constrain_palms({k_at_once_s, hands, surface, offset, palm}, tuning);
         sweep_fingers({k_at_once_s, hands, tracking, surface, palm, offset, fingers, {}, fit},
                       tuning, stats);
+        pose_thumb({k_at_once_s, hands, tracking, surface, offset, fingers, {}, fit}, tuning,
+                   stats);
     }
-    pose_thumb({k_at_once_s, hands, tracking, surface, fingers, {}, fit}, tuning, stats);
     FittedGrip fitted;
     fitted.wrist_bs = palm.at(hand).pose_ws;
     fitted.fingers = fingers.at(hand).shown;

@@ -180,8 +180,8 @@ void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameI
     }
     {
         const StageTimer timer(Stage::pose_thumb, stats);
-        pose_thumb({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.finger_pose,
-                    hands.traces, hands.fit},
+        pose_thumb({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.palm_offset,
+                    w.finger_pose, hands.traces, hands.fit},
                    tuning, stats);
     }
 }

@@ -165,12 +165,12 @@ class ChainRefitter {
         if (!touches || (fit_.is_on_its_way && turn > refit_.close_share)) {
             const std::int32_t kept = fit_.contact_link + 1;
             kept_ = static_cast<std::size_t>(kept);
-            close_far(meshes);
+            close_far(meshes, touches && turn < 1.0 ? turn - refit_.close_share : turn);
         }
     }
 
-    // Nothing near is touched: is there anything farther on?
-    void close_far(std::span<const PlacedMesh> meshes) {
+    // Nothing near is touched: is there anything farther on? Turns by this share of the way.
+    void close_far(std::span<const PlacedMesh> meshes, double turn) {
         scratch_.patch.gather(
             {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}},
             meshes);
@@ -180,7 +180,7 @@ class ChainRefitter {
             relax();
             return;
         }
-        take(turn_share() < 1.0 ? closure_by(turn_share()) : whole);
+        take(turn < 1.0 ? closure_by(turn) : whole);
         fit_.is_on_its_way = !is_done();
     }
 

@@ -65,7 +65,9 @@ class ThumbPoser {
         }
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
-        pose.thumb_arrived = !best.fit.is_on_its_way;
+        pose.thumb_arrived =
+            !(is_well(best.fit) ? best.fit.is_on_its_way : pose.retry[f].since_m > 0.0);
+        lift(hand, f, best.fit.depth_m, pose);
         if (best.fit.fallback == ChainFallback::relaxed) {
             stats_.count(Fallback::finger_touches_nothing);
         }
@@ -86,22 +88,37 @@ class ThumbPoser {
                     std::size_t f) {
         const auto posed = posed_in(hand, thumb);
         if (!posed) {
+            pose.pose_refused[f] = false;
             return false;
         }
         const HingeChain chain = finger_chain(thumb, posed->opposition_rad, pose.solved_wrist_bs);
         if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
             tuning_.finger.search_depth_m) {
-            const double way_m = hand_way_m(pose.solved_wrist_bs, hand.authored->wrist_bs);
-            if (way_m < tuning_.finger.stroll_m) {  // on its way there it is no wonder
-                stats_.count(Fallback::authored_finger_fitted);
-            }
+            count_refusal(io_.offset.at(hand.hand), f, pose, stats_);
             return false;
         }
+        pose.pose_refused[f] = false;
         pose.target[f] = *posed;
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
         pose.thumb_arrived = true;
         return true;
+    }
+
+    // As a thumb of a sliding hand should be: else another opposition may do better.
+    bool is_well(const ChainFit& fit) const {
+        return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::relaxed;
+    }
+
+    void lift(const HandSurroundings& hand, std::size_t f, double depth_m, FingerPose& pose) {
+        if (pose.retry[f].wait_m > 0.0 &&
+            lift_if_sunk(hand, depth_m, tuning_.palm, io_.offset.at(hand.hand))) {
+            stats_.count(Fallback::palm_lifted);
+            if (lifts_at_once(tuning_.palm, io_.dt_s)) {
+                pose.solved = false;
+                pose.thumb_solved = false;
+            }
+        }
     }
 
     double rest_opposition(const FingerRig& thumb) const {
@@ -143,12 +160,18 @@ class ThumbPoser {
             std::floor(std::clamp(share, 0.0, 1.0) * (steps - 1) + 0.5));
     }
 
-    // As long as it touches there and is not sunk, a thumb keeps its opposition.
+    // As long as it touches there and is not sunk, a thumb keeps its opposition; and where another
+    // was looked for in vain, for a while.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       const FingerPose& pose) {
+                       FingerPose& pose) {
+        FingerRetry& retry = pose.retry[f];
         if (!pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
-            return find_best(hand, thumb, f, pose);
+            const ThumbFit first = find_best(hand, thumb, f, pose);
+            retry = {};
+            note_try(retry, !is_well(first.fit));  // all oppositions
+            return first;
         }
+        age(retry, hand_way_m(pose.thumb_wrist_bs, pose.solved_wrist_bs), io_.dt_s);
         const FingerAngles& last = pose.target[f];
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
@@ -156,15 +179,43 @@ class ThumbPoser {
         kept.opposition_rad = last.opposition_rad;
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
                                last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
-        if (kept.fit.depth_m <= settings_.open_depth_m &&
-            kept.fit.fallback != ChainFallback::relaxed) {
+        if (is_well(kept.fit)) {
+            retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
         }
-        const ThumbFit anew = find_best(hand, thumb, f, pose);
-        const bool stays = kept.fit.fallback == ChainFallback::relaxed
-                               ? anew.fit.contact_link == DiscClosure::k_none
-                               : !is_clearly_better(anew.fit, kept.fit, settings_);
-        return stays ? kept : anew;
+        return may_retry(retry) ? change_if_better(hand, thumb, f, kept, pose) : kept;
+    }
+
+    // One opposition at a time: a hand that slides never pays for more in one frame.
+    ThumbFit change_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                              const ThumbFit& kept, FingerPose& pose) {
+        const bool is_sunk = kept.fit.depth_m > settings_.open_depth_m;
+        const std::int32_t most = std::min(tuning_.thumb.opposition_steps, is_sunk ? 1000 : 3);
+        const auto steps = static_cast<std::uint32_t>(std::max(1, most));
+        const std::int32_t step =
+            step_beside(last_step(thumb, pose, f).value_or(0), pose.retry[f].tries % steps);
+        const ThumbFit anew =
+            close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
+        const bool changes =
+            is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
+        note_try(pose.retry[f], !is_well(anew.fit), steps);
+        return changes ? anew : kept;
+    }
+
+    // Of all steps the one that is `rank`th nearest to `step`, from 0.
+    std::int32_t step_beside(std::int32_t step, std::uint32_t rank) const {
+        const std::int32_t steps = tuning_.thumb.opposition_steps;
+        if (rank-- == 0) {
+            return step;
+        }
+        for (std::int32_t away = 1; away < steps; ++away) {
+            for (const std::int32_t next : {step + away, step - away}) {
+                if (next >= 0 && next < steps && rank-- == 0) {
+                    return next;
+                }
+            }
+        }
+        return step;
     }
 
     // A thumb that was posed before turns by one step at most, as long as it fits there.
@@ -211,15 +262,24 @@ class ThumbPoser {
         fit.walked += other.walked;
     }
 
-    ThumbFit try_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
-                    std::uint32_t last_triangle) const {
+    ThumbFit close_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
+                      std::uint32_t last_triangle) const {
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
         const ChainSeed seed =
             chain_seed(hand, io_.surface.at(hand.hand), last_triangle, chain.base.position);
-        ThumbFit tried;
-        tried.opposition_rad = opposition_rad;
-        tried.fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        ThumbFit closed;
+        closed.opposition_rad = opposition_rad;
+        closed.fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
+        return closed;
+    }
+
+    // And what it costs.
+    ThumbFit try_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
+                    std::uint32_t last_triangle) const {
+        ThumbFit tried = close_at(hand, thumb, opposition_rad, last_triangle);
+        const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
+        const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
         const auto capsules = chain_capsules(chain, tried.fit.angle_rad);
         const bool touches = tried.fit.contact_link != DiscClosure::k_none &&
                              tried.fit.fallback != ChainFallback::relaxed;

@@ -19,6 +19,15 @@ namespace {
 
 constexpr std::uint32_t k_most_search_pops = 300;
 constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
+constexpr double k_look_again_m = 0.016;  // a hand goes so far before it looks for room again
+
+// Of two places on a surface: hardly another one.
+bool is_beside(const Vec3& point, const Vec3& normal, const Vec3& other, const Vec3& other_normal) {
+    constexpr double k_near_m = 0.025;
+    constexpr double k_alike = 0.7;
+    return (point - other).squaredNorm() < k_near_m * k_near_m &&
+           normal.dot(other_normal) > k_alike;
+}
 
 struct Palm {
     Vec3 center;
@@ -108,12 +117,23 @@ class GripSearcher {
         std::optional<Found> best;
         for (const Found& found : found_) {
             const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Found& other) {
-                constexpr double k_near_m = 0.025;
-                constexpr double k_alike = 0.7;
-                return (found.point - other.point).squaredNorm() < k_near_m * k_near_m &&
-                       graph_.normals[found.triangle].dot(graph_.normals[other.triangle]) > k_alike;
+                return is_beside(found.point, graph_.normals[found.triangle], other.point,
+                                 graph_.normals[other.triangle]);
             });
             if (is_new && (!best || found.cost_m < best->cost_m)) {
+                best = found;
+            }
+        }
+        return best;
+    }
+
+    // The cheapest of those found that is near `other` and alike.
+    std::optional<Found> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const {
+        std::optional<Found> best;
+        for (const Found& found : found_) {
+            if (is_beside(found.point, graph_.normals[found.triangle], other,
+                          graph_.normals[other_triangle]) &&
+                (!best || found.cost_m < best->cost_m)) {
                 best = found;
             }
         }
@@ -183,7 +203,8 @@ class PalmHolder {
             palm.center + tuning_.hand.ray_back_m * palm.up,
             palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
         const auto near = mesh.search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
-        const std::uint32_t before = surface.body == hand_.body ? surface.triangle : ~0U;
+        const GripSurface last = surface;
+        const std::uint32_t before = last.body == hand_.body ? last.triangle : ~0U;
         surface = {};
         if (search_ == GripSearch::ray_only) {
             if (hit) {
@@ -196,6 +217,10 @@ class PalmHolder {
         searcher.add_seed(near ? near->triangle : GripSurface::k_none);
         searcher.add_seed(before);
         searcher.run(k_patience);
+        if (before < mesh.search.triangles.size() && last.look_in_m > 0.0 &&
+            stay(placed, palm, searcher, last, surface)) {
+            return;
+        }
         surface = roomiest(placed, palm, searcher);
     }
 
@@ -215,6 +240,25 @@ class PalmHolder {
     }
 
   private:
+    // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
+    // looked stays with what it found for a while. False where it is to look now.
+    bool stay(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+              const GripSurface& last, GripSurface& surface) const {
+        constexpr double k_least_m = 5e-4;  // so that a hand at rest looks too
+        const double way_m = hand_way_m(last.wrist_bs, hand_.wrist_bs);
+        const double left_m = last.look_in_m - std::max(way_m, k_least_m);
+        const auto near = searcher.cheapest_near(
+            inverse_transform_point(placed.pose, last.point_bs), last.triangle);
+        if (left_m <= 0.0 || !near) {
+            return false;
+        }
+        surface = surface_at(placed, palm, *near);
+        surface.held_bs = fit_palm(hand_, surface, 0.0, tuning_.palm).wrist_bs;
+        surface.is_held = true;
+        surface.look_in_m = left_m;
+        return true;
+    }
+
     // The cheapest surface, if it leaves room for the palm. Else the first that does, of those that
     // are found by looking farther; else the one where cost and what stays sunk are least.
     GripSurface roomiest(const PlacedMesh& placed, const Palm& palm, GripSearcher& searcher) const {
@@ -231,6 +275,7 @@ class PalmHolder {
             const PalmFit fit = fit_palm(hand_, surface, 0.0, tuning_.palm);
             surface.held_bs = fit.wrist_bs;
             surface.is_held = true;
+            surface.look_in_m = tries == 0 && fit.sunk_m <= k_roomy_m ? 0.0 : k_look_again_m;
             if (fit.sunk_m <= k_roomy_m) {
                 return surface;
             }
@@ -307,8 +352,9 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             }
             continue;
         }
+        const bool is_to_look = surface.look_in_m > 0.0 && surface.look_in_m < k_look_again_m;
         if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&
-            hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
+            !is_to_look && hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
             continue;
         }
         PalmHolder(hand, tuning, search, io.scratch).run(surface);

@@ -9,8 +9,6 @@
 namespace handhold {
 namespace {
 
-constexpr double k_most_lifts = 3.0;
-
 bool stands(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs,
             double stroll_m) {
     return pose.solved && pose.arrived && pose.solved_surroundings == hand.signature &&
@@ -30,6 +28,7 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
         }
     }
     pose.solved = false;
+    pose.pose_refused.fill(false);
 }
 
 void count_fallback(ChainFallback fallback, StageStats& stats) {
@@ -54,6 +53,7 @@ class HandCloser {
     void close(std::size_t place) {
         const HandSurroundings& hand = io_.hands[place];
         const GripSurface& surface = io_.surface.at(hand.hand);
+        const PalmOffset& offset = io_.offset.at(hand.hand);
         FingerPose& pose = io_.fingers.at(hand.hand);
         if (surface.triangle == GripSurface::k_none) {
             rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
@@ -68,21 +68,30 @@ class HandCloser {
             pose.seed_triangle.fill(GripSurface::k_none);
             pose.thumb_solved = false;
         }
-        double depth_m = 0.0;
-        pose.arrived = true;
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            if (hand.rig->fingers[f].name != FingerName::thumb) {
-                depth_m = std::max(depth_m, close_finger(place, f, wrist_bs, pose));
-            }
+        if (pose.solved_surroundings != hand.signature) {
+            look_again(pose);
         }
-        const bool is_lifted = lift_if_sunk(hand, depth_m);  // then all close anew
-        pose.solved = !is_lifted;
+        // On its way into its grip a hand is solved in every frame, however slow it is: what is
+        // sunk there is not in the grip.
+        pose.arrived = hand.authored == nullptr || has_arrived(offset);
+        const double depth_m = close_fingers(place, wrist_bs, pose);
+        pose.solved = true;
         pose.solved_body = hand.body;
         pose.solved_surroundings = hand.signature;
         pose.solved_wrist_bs = wrist_bs;
+        lift(hand, depth_m, pose);
     }
 
   private:
+    // Something near has moved, the hand need not have.
+    static void look_again(FingerPose& pose) {
+        constexpr double k_seen_as_m = 1e-3;
+        pose.thumb_arrived = false;
+        for (FingerRetry& retry : pose.retry) {
+            age(retry, k_seen_as_m, 0.0);
+        }
+    }
+
     // Where there is no surface near an authored grip its fingers stand as they were posed.
     static void pose_unverified(const HandSurroundings& hand, FingerPose& pose) {
         for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
@@ -100,55 +109,93 @@ class HandCloser {
                                ? posed_angles(hand.rig->fingers[f], *hand.authored)
                                : std::nullopt;
         if (!posed) {
+            pose.pose_refused[f] = false;
             return false;
         }
         if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
             tuning_.finger.search_depth_m) {
-            if (has_arrived(io_.offset.at(hand.hand))) {  // on its way there it is no wonder
-                stats_.count(Fallback::authored_finger_fitted);
-            }
+            count_refusal(io_.offset.at(hand.hand), f, pose, stats_);
             return false;
         }
+        pose.pose_refused[f] = false;
         pose.target[f] = *posed;
         return true;
     }
 
-    static bool has_arrived(const PalmOffset& offset) {
-        return offset.shown_m == offset.target_m && offset.shown_turn_rad == offset.target_turn_rad;
+    // All fingers stay with the fits that they have, but for one of those that are sunk, which is
+    // closed anew: a hand that slides never pays for more in one frame. Returns how deep they are,
+    // but for what is yet to be closed anew.
+    double close_fingers(std::size_t place, const Pose& wrist_bs, FingerPose& pose) {
+        const HandSurroundings& hand = io_.hands[place];
+        const bool keeps = keeps_fit(pose, hand, wrist_bs);
+        const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        std::size_t neediest = k_finger_count;
+        std::array<bool, k_finger_count> is_fitted = {};
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            if (hand.rig->fingers[f].name == FingerName::thumb) {
+                continue;
+            }
+            const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
+            is_fitted[f] = !take_posed(hand, f, chain, pose);
+            if (!is_fitted[f]) {
+                continue;
+            }
+            FingerRetry& retry = pose.retry[f];
+            if (!keeps) {
+                retry = {};
+                fits_[f] = close_anew(hand, chain, f, pose);
+                continue;
+            }
+            age(retry, way_m, io_.dt_s);
+            fits_[f] = keep(hand, chain, pose.target[f].curl_rad);
+            if (fits_[f].depth_m > settings_.open_depth_m) {
+                const bool is_first =
+                    neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
+                neediest = may_retry(retry) && is_first ? f : neediest;
+            } else if (retry.wait_m <= 0.0) {
+                retry.tries = 0;
+            }
+        }
+        if (neediest != k_finger_count) {
+            change_if_better(hand, wrist_bs, neediest, pose);
+        }
+        double depth_m = 0.0;
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            if (is_fitted[f]) {
+                depth_m = std::max(depth_m, take_fit(place, f, pose));
+            }
+        }
+        return depth_m;
     }
 
-    double close_finger(std::size_t place, std::size_t f, const Pose& wrist_bs, FingerPose& pose) {
-        const HandSurroundings& hand = io_.hands[place];
-        const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
-        if (take_posed(hand, f, chain, pose)) {
-            return 0.0;
+    ChainFit keep(const HandSurroundings& hand, const HingeChain& chain,
+                  const ChainAngles& last_rad) {
+        ChainRefitSettings refit;
+        refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
+        return refit_chain(chain, last_rad, hand.meshes, settings_, refit, io_.scratch);
+    }
+
+    void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
+                          FingerPose& pose) {
+        const ChainFit anew =
+            close_anew(hand, finger_chain(hand.rig->fingers[f], 0.0, wrist_bs), f, pose);
+        if (is_clearly_better(anew, fits_[f], settings_)) {
+            fits_[f] = anew;
         }
-        const ChainFit fit = close_on(hand, chain, f, wrist_bs, pose);
+    }
+
+    double take_fit(std::size_t place, std::size_t f, FingerPose& pose) {
+        const ChainFit& fit = fits_[f];
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
-        pose.arrived = pose.arrived && !fit.is_on_its_way;
+        const bool is_sunk = fit.depth_m > settings_.open_depth_m;
+        const bool goes_on = is_sunk ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
+        pose.arrived = pose.arrived && !goes_on;
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
                                     fit.contact_link, fit.fallback, fit.depth_m};
         }
-        return fit.depth_m;
-    }
-
-    // Stays with the fit that the finger has, unless another is clearly less sunk.
-    ChainFit close_on(const HandSurroundings& hand, const HingeChain& chain, std::size_t f,
-                      const Pose& wrist_bs, FingerPose& pose) {
-        if (!keeps_fit(pose, hand, wrist_bs)) {
-            return close_anew(hand, chain, f, pose);
-        }
-        ChainRefitSettings refit;
-        refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        const ChainFit kept =
-            refit_chain(chain, pose.target[f].curl_rad, hand.meshes, settings_, refit, io_.scratch);
-        if (kept.depth_m <= settings_.open_depth_m) {
-            return kept;
-        }
-        const ChainFit anew = close_anew(hand, chain, f, pose);
-        return is_clearly_better(anew, kept, settings_) ? anew : kept;
+        return pose.retry[f].wait_m > 0.0 ? fit.depth_m : 0.0;
     }
 
     ChainFit close_anew(const HandSurroundings& hand, const HingeChain& chain, std::size_t f,
@@ -158,30 +205,22 @@ class HandCloser {
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
         pose.seed_triangle[f] = fit.contact_triangle;
         count_fallback(fit.fallback, stats_);
+        note_try(pose.retry[f], fit.depth_m > settings_.open_depth_m);
         return fit;
     }
 
-    // Not before the hand that is shown has come to where it is bound for: on its way there fingers
-    // may well be sunk.
-    bool lift_if_sunk(const HandSurroundings& hand, double depth_m) {
-        PalmOffset& offset = io_.offset.at(hand.hand);
-        if (!has_arrived(offset) || hand.authored != nullptr) {
-            return false;
-        }
-        const double most_m = k_most_lifts * tuning_.palm.lift_m;
-        if (depth_m > tuning_.palm.lift_from_depth_m && offset.lift_m < most_m) {
-            offset.lift_m = std::min(offset.lift_m + tuning_.palm.lift_m, most_m);
-            offset.lifted_at_bs = hand.wrist_bs;
+    void lift(const HandSurroundings& hand, double depth_m, FingerPose& pose) {
+        if (lift_if_sunk(hand, depth_m, tuning_.palm, io_.offset.at(hand.hand))) {
             stats_.count(Fallback::palm_lifted);
-            return true;
+            pose.solved = !lifts_at_once(tuning_.palm, io_.dt_s);
         }
-        return false;
     }
 
     const SweepFingersIo& io_;
     const Tuning& tuning_;
     ChainFitSettings settings_;
     StageStats& stats_;
+    std::array<ChainFit, k_finger_count> fits_;  // of the hand that is being closed
 };
 
 }  // namespace

@@ -160,6 +160,74 @@ TEST_F(OnFloor, PosedFingerThatWouldBeSunkIsFittedAndCounted) {
     EXPECT_EQ(hand.pose().target[2].curl_rad, grip.fingers[2].curl_rad);
 }
 
+// The palm comes up from the floor, sunk fingers first; 3 cm over it they just clear.
+struct OnTheWayUp : OnFloor {
+    const Pose low = wrist_with_palm_at(rig, {0.0, 0.004, 0.0}, Vec3::UnitY());
+    const double dt_s = 1.0 / 90.0;
+
+    OnTheWayUp() {
+        grip.wrist_bs = wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, Vec3::UnitY());
+        for (const std::size_t f : {0U, 1U}) {
+            while (depth_m(f) == 0.0 && turn_rad(f) < 1.5) {
+                turn_rad(f) += 0.01;
+            }
+            turn_rad(f) -= 0.02;
+        }
+    }
+    // Turns the finger to the floor.
+    double& turn_rad(std::size_t f) {
+        return f == 0 ? grip.fingers[f].opposition_rad : grip.fingers[f].curl_rad[0];
+    }
+    double depth_m(std::size_t f) {
+        const HingeChain chain =
+            finger_chain(rig.fingers[f], grip.fingers[f].opposition_rad, grip.wrist_bs);
+        const std::vector<PlacedMesh> meshes = {{&floor, {}}};
+        double deepest_m = 0.0;
+        for (const Capsule& capsule : chain_capsules(chain, grip.fingers[f].curl_rad)) {
+            deepest_m = std::max(deepest_m, find_sunk(capsule, meshes).depth_m);
+        }
+        return deepest_m;
+    }
+};
+
+TEST_F(OnTheWayUp, FingersAreTakenAsPosedWhereTheyClearAtTheEnd) {
+    for (const double stroll_m : {1e-6, 0.01}) {
+        FittedHand hand(floor, low);
+        hand.tuning.finger.stroll_m = stroll_m;
+        hand.hands.front().authored = &grip;
+        hand.frame(dt_s);
+        for (const std::size_t f : {0U, 1U}) {
+            ASSERT_LT(turn_rad(f), 1.4) << "finger " << f << " misses the floor";
+            EXPECT_NE(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad) << f;
+        }
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.frame(dt_s);
+        }
+        EXPECT_LT(distance(hand.shown_bs(), grip.wrist_bs), 1e-9);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad)
+                << "finger " << f << " stroll " << stroll_m;
+        }
+        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 0U);
+    }
+}
+
+TEST_F(OnTheWayUp, FingersThatAreSunkInTheGripAreCountedOnce) {
+    for (const std::size_t f : {0U, 1U}) {
+        turn_rad(f) += 0.3;
+    }
+    for (const double stroll_m : {1e-6, 0.01}) {
+        FittedHand hand(floor, low);
+        hand.tuning.finger.stroll_m = stroll_m;
+        hand.tuning.finger.close_radps = 0.5;  // long on their way
+        hand.hands.front().authored = &grip;
+        for (int frame = 0; frame < 90; ++frame) {
+            hand.frame(dt_s);
+        }
+        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 2U);
+    }
+}
+
 TEST_F(OnFloor, FingersThatAreNotPosedCloseOnTheSurface) {
     grip.is_posed.fill(false);
     FittedHand hand(floor, grip.wrist_bs);

@@ -67,7 +67,8 @@ struct FittedHand {
                       tuning, stats);
     }
     void thumb(double dt_s) {
-        pose_thumb({dt_s, hands, tracking, surface, fingers, traces, fit_scratch}, tuning, stats);
+        pose_thumb({dt_s, hands, tracking, surface, offset, fingers, traces, fit_scratch}, tuning,
+                   stats);
     }
     void frame(double dt_s) {
         search();

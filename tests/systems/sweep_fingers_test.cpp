@@ -17,10 +17,11 @@ using test::wrist_with_palm_at;
 constexpr double k_dt_s = 1.0 / 90.0;
 
 // A beam of 4 cm by 4 cm along x, its top in the plane y = 0: fingers along -Z close round it.
-Mesh make_beam() {
+Mesh make_beam(double width_m = 0.04) {
     constexpr std::uint32_t k_pieces = 40;
+    const double half_m = 0.5 * width_m;
     const std::array<std::array<double, 2>, 4> ring = {
-        {{0.0, 0.02}, {0.0, -0.02}, {-0.04, -0.02}, {-0.04, 0.02}}};
+        {{0.0, half_m}, {0.0, -half_m}, {-width_m, -half_m}, {-width_m, half_m}}};
     Mesh mesh;
     for (std::uint32_t i = 0; i <= k_pieces; ++i) {
         for (const auto& [y, z] : ring) {
@@ -126,6 +127,42 @@ TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
     hand.wrist_bs().position.x() += 0.01;
     hand.frame(k_at_once_s);
     EXPECT_GT(hand.traces[0][2].discs, 0U);
+}
+
+// What comes near does so without the hand. Expected: by find_sunk.
+TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
+    FittedHand hand(beam, on_beam);
+    for (int frame = 0; frame < 20; ++frame) {
+        hand.frame(k_at_once_s);
+    }
+    const auto thumb_capsules = [&] {
+        const FingerAngles& angles = hand.pose().target[0];
+        return chain_capsules(
+            finger_chain(hand.rig.fingers[0], angles.opposition_rad, hand.shown_bs()),
+            angles.curl_rad);
+    };
+    const auto depth_m = [&] {
+        double deepest_m = 0.0;
+        for (const Capsule& capsule : thumb_capsules()) {
+            deepest_m = std::max(deepest_m, find_sunk(capsule, hand.hands.front().meshes).depth_m);
+        }
+        return deepest_m;
+    };
+    const Capsule tip = thumb_capsules()[hand.rig.fingers[0].link_count - 1];
+    const Vec3 along = (tip.ends[1] - tip.ends[0]).normalized();
+    // Another beam's end, 3 mm into the thumb's.
+    const Quat turn = rotation_between(Vec3::UnitX(), along);
+    const Vec3 end = tip.ends[1] + (tip.radius_m - 0.003) * along;
+    const GripMesh stick = build_grip_mesh(make_beam(0.002));
+    hand.hands.front().meshes.push_back({&stick, {end + turn * Vec3(0.2, 0.001, 0.0), turn}});
+    ASSERT_GT(depth_m(), 2e-3);
+    hand.hands.front().signature = 2;
+    const Pose before = hand.shown_bs();
+    for (int frame = 0; frame < 20; ++frame) {
+        hand.frame(k_at_once_s);
+    }
+    ASSERT_LT((hand.shown_bs().position - before.position).norm(), 1e-6) << "the palm gave way";
+    EXPECT_LT(depth_m(), 1.5e-3);
 }
 
 TEST_F(SweepFingers, EmptyHandsAreAtEaseOrAFist) {

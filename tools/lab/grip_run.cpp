@@ -35,12 +35,14 @@ class OneHand {
         for (std::int32_t lifts = 0;; ++lifts) {
             const double lift_before_m = offset_.rows().front().lift_m;
             timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
-            timed(us.fingers_us, [&] { sweep(k_at_once_s, tuning, variant); });
+            timed(us.fingers_us, [&] {
+                sweep(k_at_once_s, tuning, variant);
+                thumb(k_at_once_s, tuning, variant);
+            });
             if (!variant.sync || offset_.rows().front().lift_m == lift_before_m) {
                 break;
             }
         }
-        timed(us.fingers_us, [&] { thumb(k_at_once_s, tuning, variant); });
     }
 
     // One frame with what is known from the last one.
@@ -80,8 +82,9 @@ class OneHand {
                       tuning, stats_, variant.order);
     }
     void thumb(double dt_s, const Tuning& tuning, const GripVariant& variant) {
-        pose_thumb({dt_s, surroundings_, tracking_, surface_, fingers_, traces_, fit_scratch_},
-                   tuning, stats_, variant.order);
+        pose_thumb(
+            {dt_s, surroundings_, tracking_, surface_, offset_, fingers_, traces_, fit_scratch_},
+            tuning, stats_, variant.order);
     }
     void constrain(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         constrain_palms({dt_s, surroundings_, surface_, offset_, palm_}, tuning);
