@@ -71,8 +71,10 @@ bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
 }
 
+// Head and hands at one time.
 struct Player {
-    const Pose& head_ps;
+    Pose head_ps;
+    std::array<Pose, k_hand_count> hands_ps;
     const BodyMeasures& measures;
 };
 
@@ -84,6 +86,11 @@ struct Step {
     double limit_cosine = 1.0;
     const ArmTuning& tuning;
 };
+Step step_of(double dt_s, const ArmTuning& tuning) {
+    Step step{dt_s, follow_share(dt_s, tuning.head_lag_s), 0.0, 1.0, tuning};
+    sin_cos(tuning.chest_limit_rad, step.limit_sine, step.limit_cosine);
+    return step;
+}
 
 // What one arm's estimate needs beside its memory.
 struct ArmStep {
@@ -93,6 +100,7 @@ struct ArmStep {
     double arm_m = 0.0;
     const Vec3& facing_ps;  // torso space: level
     Vec3 rest_ps = Vec3::Zero();
+    const Vec3& hand_ps;
     const Mat3& hand_axes_ps;
 };
 
@@ -102,7 +110,7 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
     const double arm_m = arm.arm_m;
     const double dt_s = step.dt_s;
     const Vec3& facing = arm.facing_ps;
-    const Vec3 hand_rest_ts = to_facing(facing, out.hand_ps.position - arm.rest_ps);
+    const Vec3 hand_rest_ts = to_facing(facing, arm.hand_ps - arm.rest_ps);
     Vec3 shoulder_ts = clavicle_shift(hand_rest_ts / arm_m, tuning);
     shoulder_ts += shoulder_follow(hand_rest_ts - shoulder_ts, arm_m, tuning);
     const Vec3 reach_ts = hand_rest_ts - shoulder_ts;
@@ -135,23 +143,21 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
     out.stretch = stretch;
 }
 
-void estimate_player(const Player& player, const Step& step, ArmMemory& memory, ArmEstimate& out) {
+void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemory& memory,
+                   ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
     const double dt_s = step.dt_s;
     const double arm_m = player.measures.upper_arm_m + player.measures.forearm_m;
     const Vec3 eye_ps = player.head_ps.position;
-    const bool afresh = !memory.known || has_jumped(memory.head_ps, eye_ps, dt_s);
     const Mat3 head_axes = player.head_ps.rotation.toRotationMatrix();
     const Vec3 up_ps = head_axes.col(1);
     const Vec3 look_ps = level_look(-head_axes.col(2), up_ps);
     memory.look_ps = afresh ? look_ps : follow_look(memory.look_ps, look_ps, step.look_share);
-    memory.head_ps = eye_ps;
-    memory.known = true;
     std::array<Mat3, k_hand_count> hand_axes;
     std::array<HandReach, k_hand_count> reach;
     const double arms = 1.0 / arm_m;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const Pose& hand_ps = out.arms[side].hand_ps;
+        const Pose& hand_ps = player.hands_ps[side];
         hand_axes[side] = hand_ps.rotation.toRotationMatrix();
         reach[side] = {(hand_ps.position - eye_ps) * arms, hand_axes[side].col(1)};
     }
@@ -171,10 +177,57 @@ void estimate_player(const Player& player, const Step& step, ArmMemory& memory, 
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::size_t i = index_of(side);
         const double outward = side == HandSide::left ? -1.0 : 1.0;
-        estimate_arm(step,
-                     {side, afresh, player.measures.upper_arm_m, arm_m, out.facing_ps,
-                      out.chest_ps.position + outward * right_ps, hand_axes[i]},
-                     memory.arms[i], out.arms[i]);
+        estimate_arm(
+            step,
+            {side, afresh, player.measures.upper_arm_m, arm_m, out.facing_ps,
+             out.chest_ps.position + outward * right_ps, player.hands_ps[i].position, hand_axes[i]},
+            memory.arms[i], out.arms[i]);
+    }
+}
+
+Pose between(const Pose& a, const Pose& b, double share) {
+    const double sign = a.rotation.dot(b.rotation) < 0.0 ? -share : share;
+    const Quat::Coefficients mixed =
+        (1.0 - share) * a.rotation.coeffs() + sign * b.rotation.coeffs();
+    return {a.position + share * (b.position - a.position),
+            unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
+}
+
+// Frames much longer than k_step_s are walked in steps of about that, straight from the last
+// frame's head and hands to this one's: what is remembered goes the same way at any frame rate.
+void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
+    constexpr double k_step_s = 1.0 / 90.0;
+    constexpr double k_most_steps = 9.0;
+    const double dt_s = frame.dt_s;
+    const bool afresh =
+        !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
+    const int steps =
+        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + 0.5, 1.0, k_most_steps));
+    if (steps > 1) {
+        Player before{
+            memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, dt_s)) {
+                before.hands_ps[side] = now.hands_ps[side];
+            }
+        }
+        const Step step = step_of(dt_s / steps, frame.tuning);
+        for (int i = 1; i < steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            const Player then{between(before.head_ps, now.head_ps, share),
+                              {between(before.hands_ps[0], now.hands_ps[0], share),
+                               between(before.hands_ps[1], now.hands_ps[1], share)},
+                              now.measures};
+            estimate_once(then, step, false, memory, out);
+        }
+        estimate_once(now, step, false, memory, out);
+    } else {
+        estimate_once(now, frame, afresh, memory, out);
+    }
+    memory.known = true;
+    memory.head_ps = now.head_ps;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        memory.arms[side].hand_ps = now.hands_ps[side];
     }
 }
 
@@ -346,13 +399,13 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
             inverse_transform_point(origin_ws, palm_ws.position),
             unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
     }
-    Step step{io.dt_s, follow_share(io.dt_s, tuning.head_lag_s), 0.0, 1.0, tuning};
-    sin_cos(tuning.chest_limit_rad, step.limit_sine, step.limit_cosine);
+    const Step step = step_of(io.dt_s, tuning);
     join(
         io.estimate,
         [&](Entity, ArmEstimate& out, ArmMemory& memory, const HeadTracking& head,
             const BodyMeasures& measures) {
-            estimate_player({head.pose_ps, measures}, step, memory, out);
+            estimate_player({head.pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, measures},
+                            step, memory, out);
         },
         io.memory, io.head, io.measures);
 }

@@ -9,9 +9,6 @@
 namespace handhold {
 namespace {
 
-// The clavicles begin at the base of the neck: this share of the way out to the shoulders.
-constexpr double k_clavicle_from = 0.12;
-
 // -Z from `from` to `to`, +Y as near to `up` as that allows.
 Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
     const Vec3 along = to - from;
