@@ -28,13 +28,17 @@ struct ArmMemory {
         Vec3 bend_ts = Vec3::UnitZ();   // unit, square to it: to the elbow
         Vec3 hand_ts = Vec3::Zero();    // from the shoulder at rest
         Vec3 elbow_ts = Vec3::Zero();   // from the shoulder
+        Pose hand_ps;                   // as it was shown at the last frame's end
     };
     bool known = false;                  // false: the next frame starts afresh
     Vec3 look_ps = -Vec3::UnitZ();       // unit, level: where the head looks, low-passed
     Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
-    Vec3 head_ps = Vec3::Zero();         // at the last frame's end
+    Pose head_ps;                        // at the last frame's end
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };
+
+// The clavicles begin at the base of the neck: this share of the way out to the shoulders.
+inline constexpr double k_clavicle_from = 0.12;
 
 // Where chest, shoulders and elbows ought to be. Written by estimate_arms.
 struct ArmEstimate {

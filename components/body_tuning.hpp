@@ -62,7 +62,16 @@ struct SpineTuning {
     double twist_limit_rad = 0.35;
 };
 
-// The lines of visit_tuning (components/tuning.hpp) for both.
+// Weights of the clips that lie on top (components/body_clips.hpp); 0: none of it.
+struct AdditiveTuning {
+    double idle = 1.0;
+    double push_off = 1.0;
+    double push_off_speed_mps = 1.5;
+    double look = 1.0;
+    double clavicle = 1.0;
+};
+
+// The lines of visit_tuning (components/tuning.hpp) for all of them.
 template <typename TuningType, typename See>
 void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.head_lag_s", t.arm.head_lag_s, "s", 0.0, 10.0,
@@ -131,6 +140,15 @@ void visit_body_tuning(TuningType& t, const See& see) {
         "each link turns about its length this much later than the one above");
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
         "twist of each link against the one above");
+    see("additive.idle", t.additive.idle, "", 0.0, 3.0, "weight of the idle clip");
+    see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
+        "weight of the clip that plays when the last hand lets go");
+    see("additive.push_off_speed_mps", t.additive.push_off_speed_mps, "m/s", 0.3, 100.0,
+        "it plays in full from this speed on, not at all below 0.2 m/s");
+    see("additive.look", t.additive.look, "", 0.0, 3.0,
+        "weight of the clips by where the head looks");
+    see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,
+        "weight of the clavicles' clip; on top of arm.clavicle_share");
 }
 
 }  // namespace handhold

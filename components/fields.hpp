@@ -243,6 +243,7 @@ void visit_fields(const ArmMemory::Arm& c, V&& visit) {
     visit("bend_ts", c.bend_ts);
     visit("hand_ts", c.hand_ts);
     visit("elbow_ts", c.elbow_ts);
+    visit("hand_ps", c.hand_ps);
 }
 template <typename V>
 void visit_fields(const ArmMemory& c, V&& visit) {
@@ -292,6 +293,14 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("velocity_mps", c.velocity_mps);
     visit("twist_rad", c.twist_rad);
     visit("angle_rad", c.angle_rad);
+}
+template <typename V>
+void visit_fields(const BodyClipState& c, V&& visit) {
+    visit("gripping", c.gripping);
+    visit("was_gripping", c.was_gripping);
+    visit("idle_s", c.idle_s);
+    visit("push_off_s", c.push_off_s);
+    visit("push_off_weight", c.push_off_weight);
 }
 template <typename V>
 void visit_fields(const SpinePose::Leg& c, V&& visit) {

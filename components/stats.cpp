@@ -46,6 +46,8 @@ const char* name_of(Stage stage) {
             return "pose_arms";
         case Stage::propagate_spine:
             return "propagate_spine";
+        case Stage::layer_additives:
+            return "layer_additives";
         case Stage::publish_pose:
             return "publish_pose";
         case Stage::count:

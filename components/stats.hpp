@@ -32,6 +32,7 @@ enum class Stage : std::uint8_t {
     estimate_arms,
     pose_arms,
     propagate_spine,
+    layer_additives,
     publish_pose,
     count
 };

@@ -123,6 +123,7 @@ struct Tuning {
     ArmTuning arm;
     CalibrationTuning calibration;
     SpineTuning spine;
+    AdditiveTuning additive;
 };
 
 // What is known of one number beside its value.

@@ -96,6 +96,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.arm_pose.add(made.player);
     world.spine_memory.add(made.player);
     world.spine_pose.add(made.player);
+    world.body_clip_state.add(made.player);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const Entity hand = add_named(world, hand_names[index_of(side)]);
         made.hands[index_of(side)] = hand;

@@ -6,6 +6,7 @@
 #include "components/arm.hpp"
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
+#include "components/body_clips.hpp"
 #include "components/calibration.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
@@ -55,13 +56,14 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // these seven: every player
+    Column<BodyMeasures> body_measures;  // these eight: every player
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
     Column<ArmPose> arm_pose;
     Column<SpineMemory> spine_memory;
     Column<SpinePose> spine_pose;
+    Column<BodyClipState> body_clip_state;
 
     Column<HandOwner> hand_owner;
     Column<HandTracking> hand_tracking;
@@ -108,6 +110,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("arm_pose", world.arm_pose);
     visit("spine_memory", world.spine_memory);
     visit("spine_pose", world.spine_pose);
+    visit("body_clip_state", world.body_clip_state);
     visit("hand_owner", world.hand_owner);
     visit("hand_tracking", world.hand_tracking);
     visit("hand_history", world.hand_history);

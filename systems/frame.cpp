@@ -5,6 +5,7 @@
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
 #include "systems/body/calibrate_players.hpp"
+#include "systems/body/layer_additives.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/body/publish_body.hpp"
 #include "systems/body/publish_pose.hpp"
@@ -196,6 +197,11 @@ void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInpu
                       tuning.arm);
     }
     {
+        const StageTimer timer(Stage::layer_additives, stats);
+        layer_clavicles({caches.body_clips, w.body_measures, w.arm_estimate}, tuning.additive,
+                        tuning.arm);
+    }
+    {
         const StageTimer timer(Stage::pose_arms, stats);
         pose_arms({w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate,
                    w.arm_pose});
@@ -206,6 +212,13 @@ void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInpu
             {input.dt_s, w.clock.t_s + input.dt_s, w.player_origin, w.player_velocity,
              w.reference_velocity, w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose},
             tuning.spine);
+    }
+    {
+        const StageTimer timer(Stage::layer_additives, stats);
+        layer_additives({input.dt_s, caches.body_clips, w.head_tracking, w.player_velocity,
+                         w.reference_velocity, w.hand_owner, w.grab, w.arm_estimate,
+                         w.body_clip_state, w.spine_pose},
+                        tuning.additive);
     }
     {
         const StageTimer timer(Stage::publish_pose, stats);

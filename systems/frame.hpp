@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "components/body_clips.hpp"
 #include "components/builtin_hand_rig.hpp"
 #include "components/frame_graph.hpp"
 #include "components/hand_scratch.hpp"
@@ -37,6 +38,7 @@ struct FrameCaches {
     // Assets: whoever sets others sets them again in new caches.
     std::array<HandRig, k_hand_count> hand_rigs = {builtin_hand_rig(HandSide::left),
                                                    builtin_hand_rig(HandSide::right)};
+    BodyClips body_clips;  // none: nothing is laid on top of the body
     HandScratch hands;
 };
 

@@ -174,6 +174,15 @@ class BreachFinder {
         require_both("player", w_.player, "arm_pose", w_.arm_pose);
         require_both("player", w_.player, "spine_memory", w_.spine_memory);
         require_both("player", w_.player, "spine_pose", w_.spine_pose);
+        require_both("player", w_.player, "body_clip_state", w_.body_clip_state);
+        for (std::size_t row = 0; row < w_.body_clip_state.size(); ++row) {
+            const BodyClipState& state = w_.body_clip_state.rows()[row];
+            const Entity owner = w_.body_clip_state.owners()[row];
+            check(state.idle_s >= 0.0 && state.push_off_s >= 0.0, "body_clip_state", owner, "",
+                  "times not below 0");
+            check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
+                  owner, ".push_off_weight", "a number in [0, 1]");
+        }
         for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
             const BodyMeasures& m = w_.body_measures.rows()[row];
             const auto [least, most] =

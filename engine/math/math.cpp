@@ -1,10 +1,12 @@
 // Sources: range reduction after Cody and Waite 1980, with pi/2 in three parts; Taylor series with
-// remainders below half a unit in the last place on [-pi/4, pi/4]; arc tangent by argument halving
-// and series.
+// remainders below half a unit in the last place on [-pi/4, pi/4]; arc tangent by addition from a
+// table and series.
 #include "engine/math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
 namespace {
@@ -41,19 +43,39 @@ double cosine_series(double x) {
     return 1.0 - 0.5 * z + z * z * sum;
 }
 
-// arctan on [0, 1]: three halvings bring the argument below 0.1, where ten terms reach full
-// precision.
+// arctan on [0, 1]: from the nearest sixteenth on, whose angle is known; the rest is below 1/32,
+// where five terms reach full precision.
 double arc_tangent_unit(double x) {
-    constexpr int k_halvings = 3;
-    for (int i = 0; i < k_halvings; ++i) {
-        x = x / (1.0 + std::sqrt(1.0 + x * x));
-    }
-    const double z = x * x;
-    double sum = 0.0;
-    for (int term = 10; term >= 1; --term) {
-        sum = -z * (1.0 / (2.0 * term + 1.0) + sum);
-    }
-    return (x + x * sum) * 8.0;
+    constexpr double k_steps = 16.0;
+    constexpr double k_known[] = {
+        0.0,
+        0.06241880999595735,
+        0.12435499454676144,
+        0.18534794999569476,
+        0.24497866312686414,
+        0.30288486837497142,
+        0.35877067027057225,
+        0.41241044159738732,
+        0.46364760900080609,
+        0.51238946031073773,
+        0.55859931534356244,
+        0.60228734613496415,
+        0.64350110879328437,
+        0.68231655487474807,
+        0.71882999962162453,
+        0.75315128096219441,
+        0.78539816339744828,
+    };
+    const int step = static_cast<int>(x * k_steps + 0.5);
+    const double from = step * (1.0 / k_steps);
+    const double rest = (x - from) / (1.0 + x * from);
+    const double z = rest * rest;
+    double sum = -9.0909090909090912e-02;  // 1/11
+    sum = sum * z + 1.1111111111111110e-01;
+    sum = sum * z - 1.4285714285714285e-01;
+    sum = sum * z + 2.0000000000000001e-01;
+    sum = sum * z - 3.3333333333333331e-01;
+    return k_known[step] + (rest + rest * z * sum);
 }
 
 }  // namespace
@@ -78,7 +100,9 @@ void sin_cos(double angle_rad, double& sine, double& cosine) {
         cosine = 1.0;
         return;
     }
-    const double quarters = std::floor(angle_rad * k_two_over_pi + 0.5);
+    // To the nearest whole number: where its last place is one, a sum has no other.
+    constexpr double k_last_place_one = 6755399441055744.0;  // 1.5 * 2^52
+    const double quarters = (angle_rad * k_two_over_pi + k_last_place_one) - k_last_place_one;
     double x = angle_rad - quarters * k_half_pi_high;
     x -= quarters * k_half_pi_middle;
     x -= quarters * k_half_pi_low;
@@ -142,7 +166,7 @@ Quat rotation_about(const Vec3& axis, double angle_rad) {
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(0.5 * angle_rad, sine, cosine);
-    return Quat(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z()).normalized();
+    return unit_quat(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z());
 }
 
 Quat look_rotation(const Vec3& forward, const Vec3& up) {
@@ -162,7 +186,7 @@ Quat rotation_between(const Vec3& from, const Vec3& to) {
     const double cosine = from.dot(to);
     Vec3 axis = from.cross(to);
     if (cosine > -0.5) {
-        return Quat(1.0 + cosine, axis.x(), axis.y(), axis.z()).normalized();
+        return unit_quat(1.0 + cosine, axis.x(), axis.y(), axis.z());
     }
     // Near opposite directions 1 + cosine and the axis are left with few digits. The half angle's
     // cosine and sine come from the sum and difference, which keep theirs; the axis may be any, if

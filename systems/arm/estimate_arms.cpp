@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/anim/two_bone_ik.hpp"
 #include "engine/ecs/join.hpp"
+#include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
 namespace {
@@ -19,32 +19,44 @@ Vec3 turn_level(const Vec3& v, double cosine, double sine) {
     return {cosine * v.x() + sine * v.z(), 0.0, cosine * v.z() - sine * v.x()};
 }
 
+// A vector of play space as one sees it who faces that way, level: -Z ahead. And back.
+Vec3 to_facing(const Vec3& facing, const Vec3& v) {
+    return {facing.x() * v.z() - facing.z() * v.x(), v.y(),
+            -(facing.x() * v.x() + facing.z() * v.z())};
+}
+Vec3 from_facing(const Vec3& facing, const Vec3& v) {
+    return {-(facing.z() * v.x() + facing.x() * v.z()), v.y(),
+            facing.x() * v.x() - facing.z() * v.z()};
+}
+
+// Of a level vector that is nearly unit.
+Vec3 level_unit(const Vec3& v) {
+    const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());
+    return {v.x() * by, 0.0, v.z() * by};
+}
+
 // The rotation about +Y that carries -Z onto the level direction. Half angle without trigonometry.
 Quat level_rotation(const Vec3& facing) {
     const double cosine = -facing.z();
     const double sine = -facing.x();
     if (cosine > -0.5) {
-        return Quat(1.0 + cosine, 0.0, sine, 0.0).normalized();
+        return unit_quat(1.0 + cosine, 0.0, sine, 0.0);
     }
-    return Quat(std::abs(sine), 0.0, std::copysign(1.0 - cosine, sine), 0.0).normalized();
+    return unit_quat(std::abs(sine), 0.0, std::copysign(1.0 - cosine, sine), 0.0);
 }
-
-// Implicit Euler: the share of the way to go in dt_s.
-double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
 
 // How far the clavicle reaches out, by distance of the hand in arm lengths.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        double distance, reach_m;
+        double distance, reach_m, rise_m;  // to the next knot, by arm length
     };
-    constexpr std::array<Knot, 5> k_curve = {
-        {{0.0, 0.006}, {0.7, 0.010}, {0.85, 0.018}, {1.05, 0.032}, {1.2, 0.070}}};
-    for (std::size_t i = 1; i < k_curve.size(); ++i) {
-        if (distance < k_curve[i].distance) {
-            const Knot& a = k_curve[i - 1];
-            const Knot& b = k_curve[i];
-            return a.reach_m +
-                   (b.reach_m - a.reach_m) * (distance - a.distance) / (b.distance - a.distance);
+    constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},
+                                              {0.85, 0.018, (0.032 - 0.018) / (1.05 - 0.85)},
+                                              {0.7, 0.010, (0.018 - 0.010) / (0.85 - 0.7)},
+                                              {0.0, 0.006, (0.010 - 0.006) / 0.7}}};
+    for (const Knot& knot : k_curve) {
+        if (distance >= knot.distance) {
+            return std::min(knot.reach_m + knot.rise_m * (distance - knot.distance), 0.070);
         }
     }
     return k_curve.back().reach_m;
@@ -59,45 +71,61 @@ bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
 }
 
+// Head and hands at one time.
 struct Player {
-    const Pose& head_ps;
+    Pose head_ps;
+    std::array<Pose, k_hand_count> hands_ps;
     const BodyMeasures& measures;
 };
 
-// What one step of the memory needs beside it.
+// What does not depend on the player.
 struct Step {
     double dt_s = 0.0;
+    double look_share = 0.0;  // of the way that a low-pass filter goes in dt_s
+    double limit_sine = 0.0;  // of ArmTuning::chest_limit_rad
+    double limit_cosine = 1.0;
+    const ArmTuning& tuning;
+};
+Step step_of(double dt_s, const ArmTuning& tuning) {
+    Step step{dt_s, follow_share(dt_s, tuning.head_lag_s), 0.0, 1.0, tuning};
+    sin_cos(tuning.chest_limit_rad, step.limit_sine, step.limit_cosine);
+    return step;
+}
+
+// What one arm's estimate needs beside its memory.
+struct ArmStep {
+    HandSide side = HandSide::left;
     bool afresh = false;
     double upper_m = 0.0;
     double arm_m = 0.0;
-    const Quat& torso_ps;
-    const ArmTuning& tuning;
+    const Vec3& facing_ps;  // torso space: level
+    Vec3 rest_ps = Vec3::Zero();
+    const Vec3& hand_ps;
+    const Mat3& hand_axes_ps;
 };
 
-void estimate_arm(const Step& step, HandSide side, const Vec3& rest_ps, ArmMemory::Arm& memory,
+void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
                   ArmEstimate::Arm& out) {
     const ArmTuning& tuning = step.tuning;
-    const double arm_m = step.arm_m;
+    const double arm_m = arm.arm_m;
     const double dt_s = step.dt_s;
-    const bool afresh = step.afresh;
-    const Quat to_torso = step.torso_ps.conjugate();
-    const Pose& hand_ps = out.hand_ps;
-    const Vec3 hand_rest_ts = to_torso * (hand_ps.position - rest_ps);
+    const Vec3& facing = arm.facing_ps;
+    const Vec3 hand_rest_ts = to_facing(facing, arm.hand_ps - arm.rest_ps);
     Vec3 shoulder_ts = clavicle_shift(hand_rest_ts / arm_m, tuning);
     shoulder_ts += shoulder_follow(hand_rest_ts - shoulder_ts, arm_m, tuning);
     const Vec3 reach_ts = hand_rest_ts - shoulder_ts;
     const double distance = reach_ts.norm();
-    const Vec3 axis_ts = distance > 1e-6 ? Vec3(reach_ts / distance) : memory.axis_ts;
-    const Vec3 pole_ts = elbow_pole(to_torso * hand_ps.rotation, side, tuning);
+    const Vec3 axis_ts = distance > 1e-6 ? Vec3(reach_ts * (1.0 / distance)) : memory.axis_ts;
+    const Vec3 pole_ts = elbow_pole(facing, arm.hand_axes_ps, arm.side, tuning);
     const double stretch = std::max(1.0, distance / (tuning.reach * arm_m));
     const ElbowCircle circle =
-        elbow_circle(reach_ts, axis_ts, stretch * step.upper_m, stretch * (arm_m - step.upper_m));
+        elbow_circle(distance, axis_ts, stretch * arm.upper_m, stretch * (arm_m - arm.upper_m));
     const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
     const double length = aside.norm();
-    const bool fresh = afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    const bool fresh = arm.afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
     const Vec3 before_ts = fresh ? any_square_to(axis_ts) : carry_bend(memory, axis_ts, tuning);
-    const Vec3 wanted_ts =
-        reachable_bend(circle, length > 1e-6 ? Vec3(aside / length) : before_ts, side, tuning);
+    const Vec3 wanted_ts = reachable_bend(
+        circle, length > 1e-6 ? Vec3(aside * (1.0 / length)) : before_ts, arm.side, tuning);
     if (fresh) {
         memory.bend_ts = wanted_ts;
     } else {
@@ -110,49 +138,102 @@ void estimate_arm(const Step& step, HandSide side, const Vec3& rest_ps, ArmMemor
     memory.axis_ts = axis_ts;
     memory.hand_ts = hand_rest_ts;
     memory.elbow_ts = circle.middle_ts + circle.radius_m * memory.bend_ts;
-    out.shoulder_ps = rest_ps + step.torso_ps * shoulder_ts;
-    out.bend_ps = step.torso_ps * memory.bend_ts;
+    out.shoulder_ps = arm.rest_ps + from_facing(facing, shoulder_ts);
+    out.bend_ps = from_facing(facing, memory.bend_ts);
     out.stretch = stretch;
 }
 
-void estimate_player(const Player& player, double dt_s, const ArmTuning& tuning, ArmMemory& memory,
-                     ArmEstimate& out) {
+void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemory& memory,
+                   ArmEstimate& out) {
+    const ArmTuning& tuning = step.tuning;
+    const double dt_s = step.dt_s;
     const double arm_m = player.measures.upper_arm_m + player.measures.forearm_m;
     const Vec3 eye_ps = player.head_ps.position;
-    const bool afresh = !memory.known || has_jumped(memory.head_ps, eye_ps, dt_s);
-    const Vec3 look_ps = level_look(player.head_ps.rotation);
-    memory.look_ps =
-        afresh ? look_ps : follow_look(memory.look_ps, look_ps, dt_s, tuning.head_lag_s);
-    memory.head_ps = eye_ps;
-    memory.known = true;
-    const auto reach = [&](std::size_t side) {
-        const Pose& hand_ps = out.arms[side].hand_ps;
-        return HandReach{(hand_ps.position - eye_ps) / arm_m, hand_ps.rotation * Vec3::UnitY()};
-    };
-    const Quat lean = chest_lean(player.head_ps.rotation, tuning.lean);
-    const Vec3 facing_ps = chest_facing(memory.look_ps, lean, {reach(0), reach(1)}, tuning);
+    const Mat3 head_axes = player.head_ps.rotation.toRotationMatrix();
+    const Vec3 up_ps = head_axes.col(1);
+    const Vec3 look_ps = level_look(-head_axes.col(2), up_ps);
+    memory.look_ps = afresh ? look_ps : follow_look(memory.look_ps, look_ps, step.look_share);
+    std::array<Mat3, k_hand_count> hand_axes;
+    std::array<HandReach, k_hand_count> reach;
+    const double arms = 1.0 / arm_m;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const Pose& hand_ps = player.hands_ps[side];
+        hand_axes[side] = hand_ps.rotation.toRotationMatrix();
+        reach[side] = {(hand_ps.position - eye_ps) * arms, hand_axes[side].col(1)};
+    }
+    const Quat lean = chest_lean(up_ps, tuning.lean);
+    const Vec3 facing_ps =
+        chest_facing(memory.look_ps, lean, reach, {step.limit_sine, step.limit_cosine}, tuning);
     memory.facing_ps =
         afresh ? facing_ps
                : turn_at_most(memory.facing_ps, facing_ps, dt_s * tuning.chest_speed_radps);
     out.facing_ps = memory.facing_ps;
-    const Quat level_ps = level_rotation(out.facing_ps);
-    out.chest_ps.rotation = (lean * level_ps).normalized();
+    out.chest_ps.rotation = product(lean, level_rotation(out.facing_ps));
+    const Mat3 chest_axes = out.chest_ps.rotation.toRotationMatrix();
     const double scale = player.measures.eye_height_m / k_scale_eye_m;
-    out.chest_ps.position = shoulder_middle(player.head_ps, out.chest_ps.rotation, scale, tuning);
-    const Vec3 right_ps =
-        out.chest_ps.rotation * Vec3(0.5 * player.measures.shoulder_width_m, 0.0, 0.0);
-    const Step step{dt_s, afresh, player.measures.upper_arm_m, arm_m, level_ps, tuning};
-    estimate_arm(step, HandSide::left, out.chest_ps.position - right_ps, memory.arms[0],
-                 out.arms[0]);
-    estimate_arm(step, HandSide::right, out.chest_ps.position + right_ps, memory.arms[1],
-                 out.arms[1]);
+    out.chest_ps.position =
+        eye_ps + scale * (chest_axes * tuning.shoulder_offset_m - tuning.neck_m * up_ps);
+    const Vec3 right_ps = (0.5 * player.measures.shoulder_width_m) * chest_axes.col(0);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const std::size_t i = index_of(side);
+        const double outward = side == HandSide::left ? -1.0 : 1.0;
+        estimate_arm(
+            step,
+            {side, afresh, player.measures.upper_arm_m, arm_m, out.facing_ps,
+             out.chest_ps.position + outward * right_ps, player.hands_ps[i].position, hand_axes[i]},
+            memory.arms[i], out.arms[i]);
+    }
+}
+
+Pose between(const Pose& a, const Pose& b, double share) {
+    const double sign = a.rotation.dot(b.rotation) < 0.0 ? -share : share;
+    const Quat::Coefficients mixed =
+        (1.0 - share) * a.rotation.coeffs() + sign * b.rotation.coeffs();
+    return {a.position + share * (b.position - a.position),
+            unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
+}
+
+// Frames much longer than k_step_s are walked in steps of about that, straight from the last
+// frame's head and hands to this one's: what is remembered goes the same way at any frame rate.
+void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
+    constexpr double k_step_s = 1.0 / 90.0;
+    constexpr double k_most_steps = 9.0;
+    const double dt_s = frame.dt_s;
+    const bool afresh =
+        !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
+    const int steps =
+        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + 0.5, 1.0, k_most_steps));
+    if (steps > 1) {
+        Player before{
+            memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            if (has_jumped(before.hands_ps[side].position, now.hands_ps[side].position, dt_s)) {
+                before.hands_ps[side] = now.hands_ps[side];
+            }
+        }
+        const Step step = step_of(dt_s / steps, frame.tuning);
+        for (int i = 1; i < steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            const Player then{between(before.head_ps, now.head_ps, share),
+                              {between(before.hands_ps[0], now.hands_ps[0], share),
+                               between(before.hands_ps[1], now.hands_ps[1], share)},
+                              now.measures};
+            estimate_once(then, step, false, memory, out);
+        }
+        estimate_once(now, step, false, memory, out);
+    } else {
+        estimate_once(now, frame, afresh, memory, out);
+    }
+    memory.known = true;
+    memory.head_ps = now.head_ps;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        memory.arms[side].hand_ps = now.hands_ps[side];
+    }
 }
 
 }  // namespace
 
-Vec3 level_look(const Quat& head_ps) {
-    const Vec3 ahead = head_ps * -Vec3::UnitZ();
-    const Vec3 up = head_ps * Vec3::UnitY();
+Vec3 level_look(const Vec3& ahead, const Vec3& up) {
     // From 45 degrees of pitch on, fully at 90: sine of the pitch.
     const double pitch = ahead.y();
     const double blend = smooth_step(std::abs(pitch), 0.70710678118654752, 1.0);
@@ -161,12 +242,12 @@ Vec3 level_look(const Quat& head_ps) {
     return length > 1e-9 ? Vec3(look.x() / length, 0.0, look.z() / length) : Vec3(-Vec3::UnitZ());
 }
 
-Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double dt_s, double lag_s) {
+Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share) {
     const double angle = arc_tangent2(cross_y(look_ps, now_ps), look_ps.dot(now_ps));
     double sine = 0.0;
     double cosine = 1.0;
-    sin_cos(angle * follow_share(dt_s, lag_s), sine, cosine);
-    return turn_level(look_ps, cosine, sine).normalized();
+    sin_cos(angle * share, sine, cosine);
+    return level_unit(turn_level(look_ps, cosine, sine));
 }
 
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
@@ -180,44 +261,41 @@ Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(std::clamp(angle, -most_rad, most_rad), sine, cosine);
-    return turn_level(facing_ps, cosine, sine).normalized();
+    return level_unit(turn_level(facing_ps, cosine, sine));
 }
 
-Quat chest_lean(const Quat& head_ps, double share) {
-    const Vec3 up = (1.0 - share) * Vec3::UnitY() + share * (head_ps * Vec3::UnitY());
+Quat chest_lean(const Vec3& head_up_ps, double share) {
+    const Vec3 up = (1.0 - share) * Vec3::UnitY() + share * head_up_ps;
     const double length = up.norm();
     return length > 0.1 ? rotation_between(Vec3::UnitY(), up / length) : Quat::Identity();
 }
 
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
-                  const std::array<HandReach, k_hand_count>& hands_ps, const ArmTuning& tuning) {
+                  const std::array<HandReach, k_hand_count>& hands_ps, const TurnLimit& limit,
+                  const ArmTuning& tuning) {
     // In the frame of the look, leaning: x to its right, z back.
-    const Quat unlean = lean_ps.conjugate();
+    const Mat3 lean = lean_ps.toRotationMatrix();
     std::array<Vec3, k_hand_count> hand;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const Vec3 v = unlean * hands_ps[side].position;
-        hand[side] = {look_ps.x() * v.z() - look_ps.z() * v.x(), v.y(), -look_ps.dot(v)};
+        hand[side] = to_facing(look_ps, lean.transpose() * hands_ps[side].position);
         if (tuning.behind_fade > 0.0) {
             hand[side] *= 1.0 - tuning.behind_fade * smooth_step(hand[side].z(), 0.0, 0.4);
         }
     }
     const Vec3 line = hand[1] - hand[0];
-    const double rolled = (unlean * hands_ps[1].back).y() - (unlean * hands_ps[0].back).y();
+    const double rolled = lean.col(1).dot(hands_ps[1].back - hands_ps[0].back);
     const double right = tuning.hand_share * (hand[0].x() + hand[1].x()) +
                          tuning.line_share * line.z() + tuning.roll_share * rolled;
     const double ahead = 1.0 - tuning.hand_share * (hand[0].z() + hand[1].z()) +
                          tuning.line_share * std::max(line.x(), 0.0);
-    const double angle = arc_tangent2(-right, ahead);
-    double sine = 0.0;
-    double cosine = 1.0;
-    sin_cos(std::clamp(angle, -tuning.chest_limit_rad, tuning.chest_limit_rad), sine, cosine);
-    return turn_level(look_ps, cosine, sine).normalized();
-}
-
-Vec3 shoulder_middle(const Pose& head_ps, const Quat& chest_ps, double scale,
-                     const ArmTuning& tuning) {
-    const Vec3 up_ps = head_ps.rotation * Vec3::UnitY();
-    return head_ps.position + scale * (chest_ps * tuning.shoulder_offset_m - tuning.neck_m * up_ps);
+    const double length = std::sqrt(right * right + ahead * ahead);
+    double sine = length > 0.0 ? -right / length : 0.0;
+    double cosine = length > 0.0 ? ahead / length : 1.0;
+    if (cosine < limit.cosine) {
+        cosine = limit.cosine;
+        sine = std::copysign(limit.sine, sine);
+    }
+    return level_unit(turn_level(look_ps, cosine, sine));
 }
 
 Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning) {
@@ -234,31 +312,39 @@ Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning) 
                          : Vec3(hand_m * (std::min(beyond, tuning.shoulder_follow_m) / distance));
 }
 
-Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning) {
+Vec3 elbow_pole(const Vec3& facing_ps, const Mat3& hand_axes_ps, HandSide side,
+                const ArmTuning& tuning) {
     const double out = side == HandSide::right ? 1.0 : -1.0;
     const Vec3 in_hand(-out * tuning.pole_thumb, tuning.pole_back, -tuning.pole_fingers);
-    Vec3 pole = hand_ts * in_hand + tuning.pole_rest;
+    Vec3 pole = to_facing(facing_ps, hand_axes_ps * in_hand) + tuning.pole_rest;
     pole.x() += (out - 1.0) * tuning.pole_rest.x();
     return pole;
 }
 
-ElbowCircle elbow_circle(const Vec3& reach_ts, const Vec3& axis_ts, double upper_m,
-                         double forearm_m) {
-    const Vec3 middle_ts =
-        solve_two_bone_ik({upper_m, forearm_m, Vec3::Zero(), reach_ts, Vec3::Zero()});
-    const double aside = upper_m * upper_m - middle_ts.squaredNorm();
-    return {axis_ts, middle_ts, std::sqrt(std::max(0.0, aside))};
+ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m, double forearm_m) {
+    const double total = upper_m + forearm_m;
+    if (distance_m >= total) {
+        return {axis_ts, axis_ts * (distance_m * upper_m / total), 0.0};
+    }
+    if (distance_m < 1e-9) {
+        return {axis_ts, Vec3::Zero(), upper_m};
+    }
+    // As solve_two_bone_ik has it.
+    const double along = std::clamp(0.5 * (distance_m + (upper_m - forearm_m) * total / distance_m),
+                                    -upper_m, upper_m);
+    return {axis_ts, axis_ts * along, std::sqrt((upper_m - along) * (upper_m + along))};
 }
 
 Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
                     const ArmTuning& tuning) {
-    Vec3 cone_ts = tuning.elbow_cone.normalized();
+    // Of any length: all of it goes by the cone's axis.
+    Vec3 cone_ts = tuning.elbow_cone;
     cone_ts.x() *= side == HandSide::right ? 1.0 : -1.0;
-    const double upper_m =
-        std::sqrt(circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m);
+    const double upper2 = circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m;
     // How far along the cone's axis the elbow must lie from the circle's middle.
-    const double needs_m = upper_m * tuning.elbow_cone_cosine - circle.middle_ts.dot(cone_ts);
-    if (circle.radius_m * bend_ts.dot(cone_ts) >= needs_m) {
+    const double needs = std::sqrt(upper2 * cone_ts.squaredNorm()) * tuning.elbow_cone_cosine -
+                         circle.middle_ts.dot(cone_ts);
+    if (circle.radius_m * bend_ts.dot(cone_ts) >= needs) {
         return bend_ts;
     }
     const Vec3 aside = cone_ts - circle.axis_ts * circle.axis_ts.dot(cone_ts);
@@ -268,23 +354,28 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     }
     // From the best side as little as is needed towards where it was to be.
     const Vec3 best = aside / length;
-    const double cosine = std::clamp(needs_m / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
+    const double cosine = std::clamp(needs / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
     const Vec3 square = circle.axis_ts.cross(best);
     const double sine = std::sqrt(1.0 - cosine * cosine);
     return cosine * best + (square.dot(bend_ts) < 0.0 ? -sine : sine) * square;
 }
 
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning) {
-    const Vec3 carried = rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts;
+    const double cosine = arm.axis_ts.dot(axis_ts);
+    // The shortest rotation between the axes; of a vector that is square to the first, in short.
+    const Vec3 carried = cosine > -0.5
+                             ? Vec3(arm.bend_ts - (arm.axis_ts + axis_ts) *
+                                                      (axis_ts.dot(arm.bend_ts) / (1.0 + cosine)))
+                             : Vec3(rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts);
     // How bent the arm was: the elbow's way off the line, by the upper arm. Where it is little,
     // where the elbow was says nothing about its side.
-    const double upper_m = std::max(arm.elbow_ts.norm(), 1e-9);
-    const double bent = arm.elbow_ts.dot(arm.bend_ts) / upper_m;
+    const double by_upper = 1.0 / std::max(arm.elbow_ts.norm(), 1e-9);
+    const double bent = arm.elbow_ts.dot(arm.bend_ts) * by_upper;
     const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);
-    const Vec3 side_then = (1.0 - stays) * carried + (stays / upper_m) * arm.elbow_ts;
+    const Vec3 side_then = (1.0 - stays) * carried + (stays * by_upper) * arm.elbow_ts;
     const Vec3 bend = side_then - axis_ts * axis_ts.dot(side_then);
     const double length = bend.norm();
-    return length > 1e-6 ? Vec3(bend / length) : any_square_to(axis_ts);
+    return length > 1e-6 ? Vec3(bend * (1.0 / length)) : any_square_to(axis_ts);
 }
 
 Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
@@ -294,21 +385,27 @@ Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(std::clamp(turn.share * angle, -turn.most_rad, turn.most_rad), sine, cosine);
-    return (cosine * bend_ts + sine * side).normalized();
+    const Vec3 turned = cosine * bend_ts + sine * side;
+    return turned * (1.0 / turned.norm());
 }
 
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
         const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
-        io.estimate.at(owner.player).arms[index_of(owner.side)].hand_ps =
-            inverse(io.origin.at(owner.player).pose_ws) * palm_ws;
+        const Pose& origin_ws = io.origin.at(owner.player).pose_ws;
+        const Quat turn = product(origin_ws.rotation.conjugate(), palm_ws.rotation);
+        io.estimate.at(owner.player).arms[index_of(owner.side)].hand_ps = {
+            inverse_transform_point(origin_ws, palm_ws.position),
+            unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
     }
+    const Step step = step_of(io.dt_s, tuning);
     join(
         io.estimate,
         [&](Entity, ArmEstimate& out, ArmMemory& memory, const HeadTracking& head,
             const BodyMeasures& measures) {
-            estimate_player({head.pose_ps, measures}, io.dt_s, tuning, memory, out);
+            estimate_player({head.pose_ps, {out.arms[0].hand_ps, out.arms[1].hand_ps}, measures},
+                            step, memory, out);
         },
         io.memory, io.head, io.measures);
 }

@@ -30,34 +30,39 @@ void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning);
 
 // The steps of it, each for one player. A level direction is a unit vector without y.
 
-// Where the head looks, level. Beyond 45 degrees of pitch its up (looking up: the opposite) joins
-// in.
-Vec3 level_look(const Quat& head_ps);
+// Where a head looks whose axes these are, level. Beyond 45 degrees of pitch its up (looking up:
+// the opposite) joins in.
+Vec3 level_look(const Vec3& ahead, const Vec3& up);
 
-// `look_ps` turned towards `now_ps` as a low-pass filter of `lag_s` does in `dt_s`; both level.
-// Implicit: a steady turn lags by lag_s at any frame rate.
-Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double dt_s, double lag_s);
+// The share of the way that a low-pass filter of `lag_s` goes in dt_s. Implicit: what moves
+// steadily lags by lag_s at any frame rate.
+inline double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
+
+// `look_ps` turned towards `now_ps` by that share of the angle; both level.
+Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share);
 
 // `facing_ps` turned towards `now_ps` by at most `most_rad`; both level.
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad);
 
 // How the chest leans: the rotation of play space's up by a share of the head's tilt.
-Quat chest_lean(const Quat& head_ps, double share);
+Quat chest_lean(const Vec3& head_up_ps, double share);
 
 // A hand against the eyes.
 struct HandReach {
     Vec3 position;  // in arm lengths
     Vec3 back;      // the back of the hand, unit
 };
+// The largest angle by which something turns, at most half a turn.
+struct TurnLimit {
+    double sine = 0.0;
+    double cosine = 1.0;
+};
 // Where the chest faces, level, from where the head does and the hands as the leaning chest sees
 // them: their sum turns it a little, the line between them is what it is square to, and hands that
 // roll turn it along.
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
-                  const std::array<HandReach, k_hand_count>& hands_ps, const ArmTuning& tuning);
-
-// The middle between the shoulders: it pivots under the eyes about the neck, and leans.
-Vec3 shoulder_middle(const Pose& head_ps, const Quat& chest_ps, double scale,
-                     const ArmTuning& tuning);
+                  const std::array<HandReach, k_hand_count>& hands_ps, const TurnLimit& limit,
+                  const ArmTuning& tuning);
 
 // How far the clavicle moves the shoulder towards a hand at `hand` from it, in torso axes and arm
 // lengths; metres.
@@ -68,7 +73,8 @@ Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
 Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
 
 // To which side the elbow of a hand points, not of unit length; torso axes.
-Vec3 elbow_pole(const Quat& hand_ts, HandSide side, const ArmTuning& tuning);
+Vec3 elbow_pole(const Vec3& facing_ps, const Mat3& hand_axes_ps, HandSide side,
+                const ArmTuning& tuning);
 
 // Where the bones let an elbow be: on a circle about the line to the hand. From the shoulder.
 struct ElbowCircle {
@@ -76,8 +82,7 @@ struct ElbowCircle {
     Vec3 middle_ts = Vec3::Zero();
     double radius_m = 0.0;
 };
-ElbowCircle elbow_circle(const Vec3& reach_ts, const Vec3& axis_ts, double upper_m,
-                         double forearm_m);
+ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m, double forearm_m);
 
 // The side nearest to `bend_ts` (unit, square to the axis) where a shoulder lets the upper arm
 // point: within a cone ahead, outward and down. Where the whole circle lies outside, the side that

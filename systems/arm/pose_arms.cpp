@@ -1,13 +1,13 @@
 #include "systems/arm/pose_arms.hpp"
 
+#include <cmath>
+
 #include "engine/anim/two_bone_ik.hpp"
 #include "engine/ecs/join.hpp"
+#include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
 namespace {
-
-// The clavicles begin at the base of the neck: this share of the way out to the shoulders.
-constexpr double k_clavicle_from = 0.12;
 
 // -Z from `from` to `to`, +Y as near to `up` as that allows.
 Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
@@ -16,16 +16,45 @@ Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
     if (length < 1e-9) {
         return {from, Quat::Identity()};
     }
-    Mat3 axes;
-    axes.col(2) = along / -length;
-    const Vec3 right = up.cross(Vec3(axes.col(2)));
+    const Vec3 back = along * (-1.0 / length);
+    const Vec3 right = up.cross(back);
     const double across = right.norm();
     if (across < 1e-9) {
-        return {from, rotation_between(-Vec3::UnitZ(), along / length)};
+        return {from, rotation_between(Vec3::UnitZ(), back)};
     }
-    axes.col(0) = right / across;
-    axes.col(1) = Vec3(axes.col(2)).cross(Vec3(axes.col(0)));
-    return {from, Quat(axes).normalized()};
+    const Vec3 x = right * (1.0 / across);
+    return {from, rotation_of_axes(x, back.cross(x), back)};
+}
+
+// Both bones of an arm lie in one plane: its frame has -Z to the hand and +Y to the elbow's side,
+// theirs are turned about its X.
+struct ArmPlane {
+    Quat frame;
+    Vec3 axis;  // unit: from the shoulder to the hand
+    Vec3 bend;  // unit, square to it
+};
+ArmPlane arm_plane(const Vec3& reach, double distance, const Vec3& bend) {
+    const Vec3 back = reach * (-1.0 / distance);
+    return {rotation_of_axes(bend.cross(back), bend, back), -back, bend};
+}
+
+// As bone(from, to, plane.bend) for bones in the plane.
+Pose bone_in(const ArmPlane& plane, const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    const double ahead = along.dot(plane.axis);
+    const double aside = along.dot(plane.bend);
+    const double length = std::sqrt(ahead * ahead + aside * aside);
+    if (!(ahead > 0.01 * length)) {
+        return bone(from, to, plane.bend);
+    }
+    // Half the angle: its cosine and sine are as length + ahead to aside.
+    const double cosine = length + ahead;
+    const double by = 1.0 / std::sqrt(cosine * cosine + aside * aside);
+    const double w = cosine * by;
+    const double x = aside * by;
+    const Quat& f = plane.frame;
+    return {from, Quat(f.w() * w - f.x() * x, f.w() * x + f.x() * w, f.y() * w + f.z() * x,
+                       f.z() * w - f.y() * x)};
 }
 
 }  // namespace
@@ -46,16 +75,26 @@ void pose_arms(const PoseArmsIo& io) {
         ArmPose& pose = io.arms.at(owner.player);
         ArmPose::Arm& out = pose.arms[side];
         out.hand_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
-        const Vec3 shoulder_ws = transform_point(origin_ws, estimate.shoulder_ps);
-        const Vec3 bend_ws = origin_ws.rotation * estimate.bend_ps;
+        const Mat3 to_ws = origin_ws.rotation.toRotationMatrix();
+        const Vec3 shoulder_ws = origin_ws.position + to_ws * estimate.shoulder_ps;
+        const Vec3 bend_ws = to_ws * estimate.bend_ps;
+        const Vec3& hand_ws = out.hand_ws.position;
         const Vec3 elbow_ws = solve_two_bone_ik({estimate.stretch * measures.upper_arm_m,
                                                  estimate.stretch * measures.forearm_m, shoulder_ws,
-                                                 out.hand_ws.position, bend_ws});
-        const Vec3 neck_ws =
-            pose.chest_ws.position + k_clavicle_from * (shoulder_ws - pose.chest_ws.position);
+                                                 hand_ws, bend_ws});
+        const Vec3& middle_ws = pose.chest_ws.position;
+        const Vec3 neck_ws = middle_ws + k_clavicle_from * (shoulder_ws - middle_ws);
         out.clavicle_ws = bone(neck_ws, shoulder_ws, pose.chest_ws.rotation * Vec3::UnitY());
-        out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
-        out.forearm_ws = bone(elbow_ws, out.hand_ws.position, bend_ws);
+        const Vec3 reach = hand_ws - shoulder_ws;
+        const double distance = reach.norm();
+        if (distance < 1e-6) {
+            out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
+            out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
+            continue;
+        }
+        const ArmPlane plane = arm_plane(reach, distance, bend_ws);
+        out.upper_ws = bone_in(plane, shoulder_ws, elbow_ws);
+        out.forearm_ws = bone_in(plane, elbow_ws, hand_ws);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/ecs/join.hpp"
+#include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
 namespace {
@@ -46,21 +47,33 @@ const std::array<Link, k_body_links>& links() {
 // The ankle lets the toes hang.
 constexpr double k_toes_down_rad = 0.6;
 
-// Chest and links as they stand at one time, in play space's axes from the chest.
+// A frame as a rotation and as its axes: what hangs on a link asks for both.
+struct Frame {
+    Quat rotation;
+    Mat3 axes;
+};
+Frame frame_at(const Quat& rotation) { return {rotation, rotation.toRotationMatrix()}; }
+
+// Chest and links as they stand at one time, from the chest; in play space's axes or the world's.
 struct Chain {
-    Quat chest;
-    std::array<Quat, k_body_links> frame;
+    Frame chest;
+    std::array<Frame, k_body_links> links;
 };
 
-const Quat& parent_frame(const Chain& chain, const Link& link) {
-    return link.parent == k_chest ? chain.chest : chain.frame[link.parent];
+const Frame& parent_frame(const Chain& chain, const Link& link) {
+    return link.parent == k_chest ? chain.chest : chain.links[link.parent];
 }
 
-Vec3 base_of(const Chain& chain, const BodyLinkVectors& offset_m, const Link& link, double scale) {
-    if (link.parent == k_chest) {
-        return scale * (chain.chest * link.base_m);
+Vec3 base_of(const Frame& above, const BodyLinkVectors& offset_m, const Link& link, double scale) {
+    switch (link.kind) {
+        case LinkKind::spine:
+            return link.parent == k_chest ? Vec3(Vec3::Zero()) : offset_m[link.parent];
+        case LinkKind::thigh:
+            return offset_m[link.parent] + above.axes * (scale * link.base_m);
+        case LinkKind::shin:
+            break;
     }
-    return offset_m[link.parent] + scale * (chain.frame[link.parent] * link.base_m);
+    return offset_m[link.parent];
 }
 
 // A link nears the end of its range by at most a share of what is left a tick. A stop within one
@@ -74,6 +87,7 @@ double nearing(const Range& range, double before_rad, double now_rad) {
                       before + range.share * (range.high_rad - before));
 }
 
+// In the frame of the link above, as all that follows.
 // Spine and hips: a cone about `rest`. `angle_rad` is the angle to it, of the last tick, then of
 // this one.
 Vec3 within_cone(const Vec3& towards, const Vec3& rest, const Range& range, double& angle_rad) {
@@ -96,24 +110,17 @@ Vec3 within_cone(const Vec3& towards, const Vec3& rest, const Range& range, doub
 }
 
 // A knee: in the plane of its hinge, which is the thigh's X, from straight back to its limit.
-Vec3 within_knee(const Vec3& towards, const Quat& thigh, const Range& range, double& angle_rad) {
-    const Vec3 straight = thigh * -Vec3::UnitY();
-    const Vec3 back = thigh * Vec3::UnitZ();
-    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.dot(back), towards.dot(straight)));
+Vec3 within_knee(const Vec3& towards, const Range& range, double& angle_rad) {
+    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(angle_rad, sine, cosine);
-    return cosine * straight + sine * back;
+    return {0.0, -cosine, sine};
 }
 
-// How far `towards` is bent against the link above, as the limits measure it.
-double angle_of(const Vec3& towards, const Link& link, const Quat& above) {
-    if (link.kind == LinkKind::shin) {
-        return arc_tangent2(towards.dot(above * Vec3::UnitZ()),
-                            -towards.dot(above * Vec3::UnitY()));
-    }
-    const Vec3 rest = above * link.rest;
-    return arc_tangent2(rest.cross(towards).norm(), rest.dot(towards));
+// How far a link is bent where it points to its rest, as the limits measure it.
+double rest_angle(const Link& link) {
+    return link.kind == LinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
 }
 
 Range range_of(LinkKind kind, const SpineTuning& tuning) {
@@ -129,11 +136,27 @@ Range range_of(LinkKind kind, const SpineTuning& tuning) {
     return {0.0, tuning.knee_limit_rad, share};
 }
 
-// The frame of a link that points along `towards`: the one above, turned by the least, twisted.
-Quat frame_of(const Vec3& towards, const Quat& above, double twist_rad) {
-    const Quat bent = rotation_between(above * -Vec3::UnitY(), towards) * above;
-    return twist_rad == 0.0 ? bent.normalized()
-                            : (bent * rotation_about(Vec3::UnitY(), twist_rad)).normalized();
+// The frame of a link that points along `towards` in that of the one above: turned by the least,
+// then about itself.
+Quat frame_of(const Quat& above, const Vec3& towards, double twist_rad) {
+    // From -Y: the half angle's cosine and axis are as 1 - y to (-z, 0, x).
+    const double cosine = 1.0 - towards.y();
+    if (cosine < 0.5) {
+        const Quat bent = above * rotation_between(-Vec3::UnitY(), towards);
+        return (bent * rotation_about(Vec3::UnitY(), twist_rad)).normalized();
+    }
+    const double by =
+        1.0 / std::sqrt(cosine * cosine + towards.x() * towards.x() + towards.z() * towards.z());
+    const double w = cosine * by;
+    const double x = -towards.z() * by;
+    const double z = towards.x() * by;
+    if (twist_rad == 0.0) {
+        return product(above, Quat(w, x, 0.0, z));
+    }
+    double sine = 0.0;
+    double turn = 1.0;
+    sin_cos(0.5 * twist_rad, sine, turn);
+    return product(above, Quat(w * turn, x * turn - z * sine, w * sine, z * turn + x * sine));
 }
 
 double twist_of(const SpineMemory& memory, std::size_t i) {
@@ -142,11 +165,14 @@ double twist_of(const SpineMemory& memory, std::size_t i) {
 
 Quat between(const Quat& a, const Quat& b, double share) {
     const double sign = a.dot(b) < 0.0 ? -1.0 : 1.0;
-    return Quat((1.0 - share) * a.coeffs() + (share * sign) * b.coeffs()).normalized();
+    const double of_b = sign * share;
+    const double of_a = 1.0 - share;
+    return unit_quat(of_a * a.w() + of_b * b.w(), of_a * a.x() + of_b * b.x(),
+                     of_a * a.y() + of_b * b.y(), of_a * a.z() + of_b * b.z());
 }
 
 void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
-    Chain chain{chest, {}};
+    Chain chain{frame_at(chest), {}};
     memory.velocity_mps.fill(Vec3::Zero());
     memory.twist_rad.fill(0.0);
     memory.moved_m = Vec3::Zero();
@@ -154,12 +180,11 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     memory.tick_chest_ps = chest;
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const Link& link = links()[i];
-        const Quat& above = parent_frame(chain, link);
-        const Vec3 towards = above * link.rest;
-        memory.offset_m[i] =
-            base_of(chain, memory.offset_m, link, scale) + scale * link.length_m * towards;
-        memory.angle_rad[i] = angle_of(towards, link, above);
-        chain.frame[i] = frame_of(towards, above, 0.0);
+        const Frame& above = parent_frame(chain, link);
+        memory.offset_m[i] = base_of(above, memory.offset_m, link, scale) +
+                             above.axes * ((scale * link.length_m) * link.rest);
+        memory.angle_rad[i] = rest_angle(link);
+        chain.links[i] = frame_at(frame_of(above.rotation, link.rest, 0.0));
     }
     memory.before_m = memory.offset_m;
 }
@@ -178,72 +203,90 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
     }
 }
 
+// What of a tick does not depend on the player.
+struct TickShares {
+    double back, drag;
+    std::array<Range, 3> range;  // by LinkKind
+};
+TickShares tick_shares(const SpineTuning& tuning) {
+    return {std::min(1.0, tuning.return_per_s * k_tick_s),
+            1.0 / (1.0 + tuning.drag_per_s * k_tick_s),
+            {range_of(LinkKind::spine, tuning), range_of(LinkKind::thigh, tuning),
+             range_of(LinkKind::shin, tuning)}};
+}
+
+// Drag, then what no joint is faster than.
+void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps) {
+    for (Vec3& velocity : velocity_mps) {
+        velocity *= drag;
+        const double speed2 = velocity.squaredNorm();
+        if (speed2 > speed_max_mps * speed_max_mps) {
+            velocity *= speed_max_mps / std::sqrt(speed2);
+        }
+    }
+}
+
 void tick(const Quat& chest, const Vec3& moved_m, double scale, const SpineTuning& tuning,
           SpineMemory& memory) {
     pass_twist(memory.tick_chest_ps, chest, tuning, memory);
     memory.tick_chest_ps = chest;
     memory.before_m = memory.offset_m;
-    Chain chain{chest, {}};
-    const double back = std::min(1.0, tuning.return_per_s * k_tick_s);
-    const double drag = 1.0 / (1.0 + tuning.drag_per_s * k_tick_s);
+    Chain chain{frame_at(chest), {}};
+    const TickShares shares = tick_shares(tuning);
+    constexpr double k_ticks_per_s = 1.0 / k_tick_s;
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const Link& link = links()[i];
-        const Quat& above = parent_frame(chain, link);
-        const Vec3 base = base_of(chain, memory.offset_m, link, scale);
-        const double length = scale * link.length_m;
+        const Frame& above = parent_frame(chain, link);
+        const Vec3 base = base_of(above, memory.offset_m, link, scale);
         const Vec3 predicted = memory.offset_m[i] + k_tick_s * memory.velocity_mps[i] - moved_m;
-        Vec3 towards = predicted - base;
+        Vec3 towards = above.axes.transpose() * (predicted - base);
         const double distance = towards.norm();
-        const Vec3 rest = above * link.rest;
-        towards = distance > 1e-6 ? Vec3(towards / distance) : rest;
-        const Vec3 returned = ((1.0 - back) * towards + back * rest).normalized();
-        const Range range = range_of(link.kind, tuning);
+        towards = distance > 1e-6 ? Vec3(towards * (1.0 / distance)) : link.rest;
+        const Vec3 blend = (1.0 - shares.back) * towards + shares.back * link.rest;
+        const Vec3 returned = blend * (1.0 / blend.norm());
+        const Range& range = shares.range[static_cast<std::size_t>(link.kind)];
         const Vec3 allowed = link.kind == LinkKind::shin
-                                 ? within_knee(returned, above, range, memory.angle_rad[i])
-                                 : within_cone(returned, rest, range, memory.angle_rad[i]);
-        memory.offset_m[i] = base + length * allowed;
+                                 ? within_knee(returned, range, memory.angle_rad[i])
+                                 : within_cone(returned, link.rest, range, memory.angle_rad[i]);
+        memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // With the return in it the velocity swings past the rest; what is handed back damps that.
-        const Vec3 correction = memory.offset_m[i] - predicted;
-        memory.velocity_mps[i] += correction / k_tick_s;
+        const Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
+        memory.velocity_mps[i] += correction_mps;
         if (link.parent != k_chest) {
             const double share = link.kind == LinkKind::thigh ? 0.5 : 1.0;  // there are two
-            memory.velocity_mps[link.parent] -= (share * tuning.hand_back / k_tick_s) * correction;
+            memory.velocity_mps[link.parent] -= (share * tuning.hand_back) * correction_mps;
         }
-        chain.frame[i] = frame_of(allowed, above, twist_of(memory, i));
-    }
-    for (Vec3& velocity : memory.velocity_mps) {
-        velocity *= drag;
-        const double speed = velocity.norm();
-        if (speed > tuning.speed_max_mps) {
-            velocity *= tuning.speed_max_mps / speed;
+        if (link.kind != LinkKind::shin) {  // nothing hangs on it
+            chain.links[i] = frame_at(frame_of(above.rotation, allowed, twist_of(memory, i)));
         }
     }
+    slow_down(shares.drag, tuning.speed_max_mps, memory.velocity_mps);
 }
 
 // Between the last two ticks, with lengths made good again.
 void show(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps, double scale,
           SpinePose& out) {
     const double share = memory.since_tick_s / k_tick_s;
-    Chain chain{chest_ps.rotation, {}};
-    BodyLinkVectors offset_m;
+    Chain chain{frame_at(chest_ws.rotation), {}};
+    BodyLinkVectors offset_m;  // in the world's axes
     std::array<Pose, k_body_links> bones;
     // Play space's axes to the world's.
-    const Quat to_ws = chest_ws.rotation * chest_ps.rotation.conjugate();
+    const Mat3 to_ws = chain.chest.axes * chest_ps.rotation.toRotationMatrix().transpose();
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const Link& link = links()[i];
-        const Quat& above = parent_frame(chain, link);
-        const Vec3 base = base_of(chain, offset_m, link, scale);
-        Vec3 towards =
-            memory.before_m[i] + share * (memory.offset_m[i] - memory.before_m[i]) - base;
+        const Frame& above = parent_frame(chain, link);
+        const Vec3 base = base_of(above, offset_m, link, scale);
+        const Vec3 end =
+            to_ws * (memory.before_m[i] + share * (memory.offset_m[i] - memory.before_m[i]));
+        Vec3 towards = above.axes.transpose() * (end - base);
         const double distance = towards.norm();
-        towards = distance > 1e-6 ? Vec3(towards / distance) : Vec3(above * link.rest);
-        offset_m[i] = base + scale * link.length_m * towards;
-        chain.frame[i] = frame_of(towards, above, twist_of(memory, i));
-        bones[i] = {chest_ws.position + to_ws * base, (to_ws * chain.frame[i]).normalized()};
+        towards = distance > 1e-6 ? Vec3(towards * (1.0 / distance)) : link.rest;
+        offset_m[i] = base + above.axes * ((scale * link.length_m) * towards);
+        chain.links[i] = frame_at(frame_of(above.rotation, towards, twist_of(memory, i)));
+        bones[i] = {chest_ws.position + base, chain.links[i].rotation};
     }
-    const auto end_of = [&](std::size_t i) {
-        return Vec3(chest_ws.position + to_ws * offset_m[i]);
-    };
+    const auto end_of = [&](std::size_t i) { return Vec3(chest_ws.position + offset_m[i]); };
+    static const Quat k_toes_down = rotation_about(Vec3::UnitX(), -k_toes_down_rad);
     out.chest_ws = chest_ws;
     std::copy_n(bones.begin(), k_spine_links, out.spine_ws.begin());
     out.pelvis_ws = {end_of(k_spine_links - 1), bones[k_spine_links - 1].rotation};
@@ -252,9 +295,7 @@ void show(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
         SpinePose::Leg& leg = out.legs[side];
         leg.thigh_ws = bones[thigh];
         leg.shin_ws = bones[thigh + 1];
-        leg.foot_ws = {end_of(thigh + 1),
-                       (bones[thigh + 1].rotation * rotation_about(Vec3::UnitX(), -k_toes_down_rad))
-                           .normalized()};
+        leg.foot_ws = {end_of(thigh + 1), product(bones[thigh + 1].rotation, k_toes_down)};
     }
 }
 

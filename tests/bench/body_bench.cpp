@@ -1,6 +1,8 @@
-// What the body that follows one player's head and hands costs.
+// What the bodies that follow players' heads and hands cost.
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <ctime>
 
 #include <benchmark/benchmark.h>
 
@@ -20,11 +22,9 @@ namespace handhold::body_bench {
 namespace {
 
 constexpr double k_dt_s = 1.0 / 90.0;
-constexpr Entity k_player{0, 1};
-constexpr std::array<Entity, k_hand_count> k_hands = {Entity{1, 1}, Entity{2, 1}};
 
-// One player who sways and turns, with both hands going round beside him.
-struct Body {
+// Players who sway and turn, each at a time of his own, with both hands going round beside them.
+struct Bodies {
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
     Column<ReferenceVelocity> reference;
@@ -39,34 +39,42 @@ struct Body {
     Column<SpinePose> spine;
     double t_s = 0.0;
 
-    Body() {
-        origin.add(k_player);
-        velocity.add(k_player);
-        reference.add(k_player);
-        head.add(k_player);
-        measures.add(k_player);
-        arm_memory.add(k_player);
-        estimate.add(k_player);
-        arms.add(k_player);
-        spine_memory.add(k_player);
-        spine.add(k_player);
-        owner.add(k_hands[0], {k_player, HandSide::left});
-        owner.add(k_hands[1], {k_player, HandSide::right});
-        palm.add(k_hands[0]);
-        palm.add(k_hands[1]);
+    explicit Bodies(std::size_t count) {
+        // As add_player has them: a player, then his hands.
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Entity player{3 * i, 1};
+            origin.add(player);
+            velocity.add(player);
+            reference.add(player);
+            head.add(player);
+            measures.add(player);
+            arm_memory.add(player);
+            estimate.add(player);
+            arms.add(player);
+            spine_memory.add(player);
+            spine.add(player);
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                const Entity hand{3 * i + 1 + static_cast<std::uint32_t>(index_of(side)), 1};
+                owner.add(hand, {player, side});
+                palm.add(hand);
+            }
+        }
     }
     void move() {
         t_s += k_dt_s;
-        head.at(k_player).pose_ps = {Vec3(0.05 * std::sin(t_s), 1.6, 0.0),
-                                     rotation_about(Vec3::UnitY(), 0.6 * std::sin(0.7 * t_s))};
-        for (std::size_t side = 0; side < k_hand_count; ++side) {
-            const double out = side == 0 ? -1.0 : 1.0;
-            palm.at(k_hands[side]).pose_ws = {
-                Vec3(0.3 * out + 0.2 * std::sin(2.0 * t_s), 1.3 + 0.3 * std::sin(1.3 * t_s),
-                     -0.25 + 0.2 * std::cos(2.0 * t_s)),
-                rotation_about(Vec3::UnitX(), 0.5 * std::sin(t_s))};
+        for (std::size_t i = 0; i < head.size(); ++i) {
+            const double t = t_s + 0.37 * static_cast<double>(i);
+            head.rows()[i].pose_ps = {Vec3(0.05 * std::sin(t), 1.6, 0.0),
+                                      rotation_about(Vec3::UnitY(), 0.6 * std::sin(0.7 * t))};
+            for (std::size_t side = 0; side < k_hand_count; ++side) {
+                const double out = side == 0 ? -1.0 : 1.0;
+                palm.rows()[k_hand_count * i + side].pose_ws = {
+                    Vec3(0.3 * out + 0.2 * std::sin(2.0 * t), 1.3 + 0.3 * std::sin(1.3 * t),
+                         -0.25 + 0.2 * std::cos(2.0 * t)),
+                    rotation_about(Vec3::UnitX(), 0.5 * std::sin(t))};
+            }
+            velocity.rows()[i].linear_mps = Vec3(std::sin(t), 0.0, 2.0 * std::cos(0.9 * t));
         }
-        velocity.at(k_player).linear_mps = Vec3(std::sin(t_s), 0.0, 2.0 * std::cos(0.9 * t_s));
     }
     void run_estimate() {
         estimate_arms({k_dt_s, origin, head, measures, owner, palm, arm_memory, estimate}, {});
@@ -79,32 +87,75 @@ struct Body {
     }
 };
 
-// Of each frame only `run` counts; moving the player (some 100 ns) is measured beside it, alone.
+double thread_s() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The time of `run` a frame, in the thread's processor time, by the number of players: moving them
+// is outside of it. With one player the clock's own 0.3 us would count: see body/one_*.
 template <typename Run>
-void frames(benchmark::State& state, Run run) {
-    Body body;
+void players(benchmark::State& state, Run run) {
+    const std::size_t count = 100;
+    Bodies bodies(count);
+    const auto all = [&] {
+        bodies.move();
+        bodies.run_estimate();
+        bodies.run_pose();
+        bodies.run_spine();
+    };
     for (int i = 0; i < 90; ++i) {
-        body.move();
-        body.run_estimate();
-        body.run_pose();
-        body.run_spine();
+        all();
     }
+    for (auto _ : state) {
+        bodies.move();
+        const double begin_s = thread_s();
+        run(bodies);
+        state.SetIterationTime((thread_s() - begin_s) / static_cast<double>(count));
+    }
+    benchmark::DoNotOptimize(bodies.spine.rows().data());
+}
+
+BENCHMARK_CAPTURE(players, estimate, [](Bodies& b) { b.run_estimate(); })
+    ->Name("body/estimate_arms")
+    ->UseManualTime()
+    ->MinTime(0.004);
+BENCHMARK_CAPTURE(players, pose, [](Bodies& b) { b.run_pose(); })
+    ->Name("body/pose_arms")
+    ->UseManualTime()
+    ->MinTime(0.004);
+BENCHMARK_CAPTURE(players, spine, [](Bodies& b) { b.run_spine(); })
+    ->Name("body/propagate_spine")
+    ->UseManualTime()
+    ->MinTime(0.004);
+BENCHMARK_CAPTURE(players, whole,
+                  [](Bodies& b) {
+                      b.run_estimate();
+                      b.run_pose();
+                      b.run_spine();
+                  })
+    ->Name("body/whole")
+    ->UseManualTime()
+    ->MinTime(0.004);
+
+// One player alone, moving him included; what that costs stands beside it.
+template <typename Run>
+void one_player(benchmark::State& state, Run run) {
+    Bodies body(1);
     for (auto _ : state) {
         body.move();
         run(body);
     }
-    benchmark::DoNotOptimize(body.spine.at(k_player));
+    benchmark::DoNotOptimize(body.spine.rows().data());
 }
 
-BENCHMARK_CAPTURE(frames, nothing, [](Body&) {})->Name("body/moving_the_player_alone");
-BENCHMARK_CAPTURE(frames, estimate, [](Body& b) { b.run_estimate(); })->Name("body/estimate_arms");
-BENCHMARK_CAPTURE(frames, pose, [](Body& b) { b.run_pose(); })->Name("body/pose_arms");
-BENCHMARK_CAPTURE(frames, spine, [](Body& b) { b.run_spine(); })->Name("body/propagate_spine");
-BENCHMARK_CAPTURE(frames, whole, [](Body& b) {
+BENCHMARK_CAPTURE(one_player, nothing, [](Bodies&) {})->Name("body/one_moving_him");
+BENCHMARK_CAPTURE(one_player, whole, [](Bodies& b) {
     b.run_estimate();
     b.run_pose();
     b.run_spine();
-})->Name("body/whole");
+})->Name("body/one_moving_him_and_whole");
 
 }  // namespace
 }  // namespace handhold::body_bench

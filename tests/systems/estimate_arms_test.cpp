@@ -128,7 +128,7 @@ TEST(EstimateArms, SteadyTurnOfTheHeadLagsByTheLagAtAnyRate) {
         for (int i = 0; i < static_cast<int>(4.0 * hz); ++i) {
             yaw += speed_radps / hz;
             const Vec3 now(-std::sin(yaw), 0.0, -std::cos(yaw));
-            look = follow_look(look, now, 1.0 / hz, 0.3);
+            look = follow_look(look, now, follow_share(1.0 / hz, 0.3));
         }
         const double lag = std::remainder(yaw - std::atan2(-look.x(), -look.z()), 2.0 * k_pi);
         EXPECT_NEAR(lag, speed_radps * 0.3, 1e-4) << hz;
@@ -150,8 +150,7 @@ TEST(EstimateArms, ReachableBendIsTheNearestThatAShoulderAllows) {
     const ArmTuning tuning;
     for (int i = 0; i < 300; ++i) {
         const Vec3 axis = random.direction();
-        const ElbowCircle circle =
-            elbow_circle(random.between(0.02, 0.57) * axis, axis, 0.30, 0.28);
+        const ElbowCircle circle = elbow_circle(random.between(0.02, 0.57), axis, 0.30, 0.28);
         const Vec3 square = axis.cross(random.direction()).normalized();
         const HandSide side = i % 2 == 0 ? HandSide::right : HandSide::left;
         Vec3 cone = tuning.elbow_cone.normalized();

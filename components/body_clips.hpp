@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "components/spine.hpp"
+#include "engine/math/math.hpp"
+
+// What an animator lays on top of the body that is estimated (talk row 24): small turns of bones by
+// time, by where one looks, by how a hand reaches. An asset; docs/body_clips.md has the file.
+namespace handhold {
+
+// Links of the spine from the top down, left leg, right leg; then the clavicle, as a right one.
+inline constexpr std::size_t k_clip_legs = k_spine_links;
+inline constexpr std::size_t k_leg_bones = 3;  // thigh, shin, foot
+inline constexpr std::size_t k_clip_clavicle = k_clip_legs + k_hand_count * k_leg_bones;
+inline constexpr std::size_t k_clip_bones = k_clip_clavicle + 1;
+using ClipTurns = std::array<Vec3, k_clip_bones>;  // rotation vectors in the bones' frames, radians
+ClipTurns no_turns();
+
+enum class BodyClipName : std::uint8_t {
+    idle,        // by seconds, over and over: the last key is the first again
+    push_off,    // by seconds since the last gripping hand let go
+    look_yaw,    // by how far left of the chest the head looks, radians
+    look_pitch,  // by how far up
+    clavicle,    // by how high the hand is from the shoulder, radians; scaled by ClavicleReach
+    count
+};
+inline constexpr std::size_t k_body_clip_count = static_cast<std::size_t>(BodyClipName::count);
+
+struct ClipKey {
+    double at = 0.0;
+    ClipTurns turns = no_turns();
+};
+struct BodyClip {
+    std::vector<ClipKey> keys;  // by rising `at`; none: the clip does nothing
+};
+// How much of the clavicle's clip there is, by distance of the hand in arm lengths.
+struct ClavicleReach {
+    double distance = 0.0;
+    double weight = 0.0;
+};
+struct BodyClips {
+    std::array<BodyClip, k_body_clip_count> clips;  // by BodyClipName
+    std::vector<ClavicleReach> reach;               // by rising distance
+
+    const BodyClip& at(BodyClipName name) const { return clips[static_cast<std::size_t>(name)]; }
+};
+
+// Adds `weight` times the clip's turns at `at`: before the first key and after the last those,
+// between two a blend, straight or, `eased`, at rest at both.
+enum class ClipBlend : std::uint8_t { straight, eased };
+void add_turns(const BodyClip& clip, double at, double weight, ClipBlend blend, ClipTurns& turns);
+double reach_weight(const BodyClips& clips, double distance);
+
+// Where a player's clips are. Written by layer_additives.
+struct BodyClipState {
+    bool gripping = false;         // anything that he could push himself off
+    bool was_gripping = false;     // a frame before
+    double idle_s = 0.0;           // [0, the clip's length]
+    double push_off_s = 0.0;       // since he let go, up to the clip's length
+    double push_off_weight = 0.0;  // [0, 1], by the speed he left with; 0: never did
+};
+
+}  // namespace handhold

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "components/body_clips.hpp"
+#include "engine/io/result.hpp"
+
+namespace handhold {
+
+// Reads clips as docs/body_clips.md has them. Refused, with JSON pointer: unknown names, keys that
+// do not rise, angles beyond the limits. `file` is for messages.
+Result<BodyClips> parse_body_clips(std::string_view text, const std::string& file);
+
+}  // namespace handhold

@@ -1,0 +1,17 @@
+#include "game/body_clips_asset.hpp"
+
+#include <utility>
+
+#include "components/body_clips_json.hpp"
+#include "engine/core/check.hpp"
+#include "game/assets.hpp"
+
+namespace handhold {
+
+BodyClips game_body_clips() {
+    Result<BodyClips> clips = parse_body_clips(game_asset("body_clips.json"), "body_clips.json");
+    HH_CHECK(clips.ok(), "the body's clips are good", 0);
+    return std::move(clips.value());
+}
+
+}  // namespace handhold

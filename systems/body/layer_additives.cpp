@@ -1,0 +1,172 @@
+#include "systems/body/layer_additives.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/ecs/join.hpp"
+
+namespace handhold {
+namespace {
+
+double length_of(const BodyClip& clip) { return clip.keys.empty() ? 0.0 : clip.keys.back().at; }
+
+// Nothing turned by nothing stays as it is, bit for bit.
+Pose turned(const Pose& pose, const Vec3& turn) {
+    if (turn == Vec3::Zero()) {
+        return pose;
+    }
+    return {pose.position, (pose.rotation * rotation_from_vector(turn)).normalized()};
+}
+
+// A bone that hung on `above` and hangs on it still, where that is now.
+Pose carried(const Pose& bone, const Pose& above, const Pose& above_now) {
+    return above_now * (inverse(above) * bone);
+}
+
+// A knee's turn: about its hinge alone, and no farther forward than straight.
+Vec3 knee_turn(const Pose& thigh_ws, const Pose& shin_ws, const Vec3& turn) {
+    const Vec3 down = thigh_ws.rotation.conjugate() * (shin_ws.rotation * -Vec3::UnitY());
+    const double bent = std::max(0.0, arc_tangent2(down.z(), -down.y()));
+    return {std::min(turn.x(), bent), 0.0, 0.0};
+}
+
+void turn_leg(const ClipTurns& turns, std::size_t first, const Pose& pelvis, const Pose& pelvis_now,
+              SpinePose::Leg& leg) {
+    const SpinePose::Leg was = leg;
+    leg.thigh_ws = turned(carried(was.thigh_ws, pelvis, pelvis_now), turns[first]);
+    leg.shin_ws = turned(carried(was.shin_ws, was.thigh_ws, leg.thigh_ws),
+                         knee_turn(was.thigh_ws, was.shin_ws, turns[first + 1]));
+    leg.foot_ws = turned(carried(was.foot_ws, was.shin_ws, leg.shin_ws), turns[first + 2]);
+}
+
+void turn_body(const ClipTurns& turns, SpinePose& pose) {
+    Pose above = pose.chest_ws;
+    Pose above_now = pose.chest_ws;
+    for (std::size_t i = 0; i < k_spine_links; ++i) {
+        const Pose was = pose.spine_ws[i];
+        pose.spine_ws[i] = turned(carried(was, above, above_now), turns[i]);
+        above = was;
+        above_now = pose.spine_ws[i];
+    }
+    const Pose pelvis = pose.pelvis_ws;
+    pose.pelvis_ws = carried(pelvis, above, above_now);
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        turn_leg(turns, k_clip_legs + side * k_leg_bones, pelvis, pose.pelvis_ws, pose.legs[side]);
+    }
+}
+
+bool can_push_off(const Grab& grab) {
+    return grab.kind == GripKind::surface || grab.kind == GripKind::player || grab.jointed;
+}
+
+void see_hands(const LayerAdditivesIo& io) {
+    for (BodyClipState& state : io.state.rows()) {
+        state.was_gripping = state.gripping;
+        state.gripping = false;
+    }
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        if (can_push_off(io.grab.at(io.owner.owners()[row]))) {
+            io.state.at(io.owner.rows()[row].player).gripping = true;
+        }
+    }
+}
+
+void advance(const BodyClips& clips, double dt_s, double speed_mps, const AdditiveTuning& tuning,
+             BodyClipState& state) {
+    const double idle_s = length_of(clips.at(BodyClipName::idle));
+    state.idle_s = idle_s > 0.0 ? std::fmod(state.idle_s + dt_s, idle_s) : 0.0;
+    state.push_off_s =
+        std::min(state.push_off_s + dt_s, length_of(clips.at(BodyClipName::push_off)));
+    if (state.was_gripping && !state.gripping) {
+        state.push_off_s = 0.0;
+        state.push_off_weight = smooth_step(speed_mps, 0.2, tuning.push_off_speed_mps);
+    }
+}
+
+void add_look(const BodyClips& clips, const Quat& head_ps, const Vec3& facing, double weight,
+              ClipTurns& turns) {
+    const Vec3 ahead_ps = head_ps * -Vec3::UnitZ();
+    const double left = facing.z() * ahead_ps.x() - facing.x() * ahead_ps.z();
+    const double ahead = facing.x() * ahead_ps.x() + facing.z() * ahead_ps.z();
+    // How clearly one looks to a side: straight up there is none.
+    const double level = std::sqrt(left * left + ahead * ahead);
+    add_turns(clips.at(BodyClipName::look_yaw), arc_tangent2(left, ahead), weight * level,
+              ClipBlend::straight, turns);
+    add_turns(clips.at(BodyClipName::look_pitch), arc_tangent2(ahead_ps.y(), level), weight,
+              ClipBlend::straight, turns);
+}
+
+Vec3 any_side_of(const Vec3& axis) {
+    const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
+    return (other - axis * axis.dot(other)).normalized();
+}
+
+void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double reach, double weight,
+                   const Pose& chest_ps, ArmEstimate::Arm& arm) {
+    const Vec3 hand = chest_ps.rotation.conjugate() * (arm.hand_ps.position - arm.shoulder_ps);
+    const double level = std::sqrt(hand.x() * hand.x() + hand.z() * hand.z());
+    ClipTurns turns = no_turns();
+    add_turns(clips.at(BodyClipName::clavicle), arc_tangent2(hand.y(), level),
+              weight * reach_weight(clips, hand.norm() / arm_m), ClipBlend::straight, turns);
+    Vec3 turn = turns[k_clip_clavicle];
+    if (turn == Vec3::Zero()) {
+        return;
+    }
+    if (side == HandSide::left) {
+        turn = {turn.x(), -turn.y(), -turn.z()};
+    }
+    const Vec3 bone = (1.0 - k_clavicle_from) *
+                      (chest_ps.rotation.conjugate() * (arm.shoulder_ps - chest_ps.position));
+    arm.shoulder_ps += chest_ps.rotation * (rotation_from_vector(turn) * bone - bone);
+    const Vec3 line = arm.hand_ps.position - arm.shoulder_ps;
+    const double distance = line.norm();
+    arm.stretch = std::max(1.0, distance / (reach * arm_m));
+    if (distance > 1e-6) {
+        const Vec3 axis = line / distance;
+        const Vec3 bend = arm.bend_ps - axis * axis.dot(arm.bend_ps);
+        const double length = bend.norm();
+        arm.bend_ps = length > 1e-6 ? Vec3(bend / length) : any_side_of(axis);
+    }
+}
+
+}  // namespace
+
+void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
+                     const ArmTuning& arm) {
+    if (additive.clavicle == 0.0 || io.clips.at(BodyClipName::clavicle).keys.empty()) {
+        return;
+    }
+    join(
+        io.estimate,
+        [&](Entity, ArmEstimate& estimate, const BodyMeasures& measures) {
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                turn_clavicle(io.clips, side, measures.upper_arm_m + measures.forearm_m, arm.reach,
+                              additive.clavicle, estimate.chest_ps, estimate.arms[index_of(side)]);
+            }
+        },
+        io.measures);
+}
+
+void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning) {
+    see_hands(io);
+    for (std::size_t row = 0; row < io.state.size(); ++row) {
+        const Entity player = io.state.owners()[row];
+        BodyClipState& state = io.state.rows()[row];
+        const double speed_mps =
+            (io.velocity.at(player).linear_mps - io.reference.at(player).linear_mps).norm();
+        advance(io.clips, io.dt_s, speed_mps, tuning, state);
+        ClipTurns turns = no_turns();
+        add_turns(io.clips.at(BodyClipName::idle), state.idle_s, tuning.idle, ClipBlend::eased,
+                  turns);
+        add_turns(io.clips.at(BodyClipName::push_off), state.push_off_s,
+                  tuning.push_off * state.push_off_weight, ClipBlend::eased, turns);
+        add_look(io.clips, io.head.at(player).pose_ps.rotation, io.estimate.at(player).facing_ps,
+                 tuning.look, turns);
+        if (std::any_of(turns.begin(), turns.end(),
+                        [](const Vec3& turn) { return turn != Vec3::Zero(); })) {
+            turn_body(turns, io.pose.at(player));
+        }
+    }
+}
+
+}  // namespace handhold

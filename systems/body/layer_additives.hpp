@@ -1,0 +1,46 @@
+#pragma once
+
+#include "components/arm.hpp"
+#include "components/body_clips.hpp"
+#include "components/body_tuning.hpp"
+#include "components/grab.hpp"
+#include "components/hand.hpp"
+#include "components/player.hpp"
+#include "components/spine.hpp"
+#include "components/tracking.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct LayerClaviclesIo {
+    const BodyClips& clips;                // in: clavicle
+    const Column<BodyMeasures>& measures;  // in
+    Column<ArmEstimate>& estimate;         // in/out: shoulders, bends, stretch
+};
+
+// Between estimate_arms and pose_arms. Turns each clavicle about the base of the neck by its clip,
+// by how high the hand is from the shoulder and how far; then the arm reaches its hand from there.
+// The hand stays where it is. Without the clip, or with its weight 0, nothing changes.
+void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
+                     const ArmTuning& arm);
+
+struct LayerAdditivesIo {
+    double dt_s = 0.0;  // in: > 0
+    const BodyClips& clips;
+    const Column<HeadTracking>& head;            // in
+    const Column<PlayerVelocity>& velocity;      // in
+    const Column<ReferenceVelocity>& reference;  // in
+    const Column<HandOwner>& owner;              // in
+    const Column<Grab>& grab;                    // in
+    const Column<ArmEstimate>& estimate;         // in: where the chest faces
+    Column<BodyClipState>& state;                // in/out
+    Column<SpinePose>& pose;                     // in/out: all but the chest
+};
+
+// Stage 15. Talk row 24: turns spine and legs, bone by bone from the top, by the clips: idle, the
+// push-off after the last hand has let go, and where the head looks. Bones keep their lengths,
+// knees bend only backwards. The chain's own motion (SpineMemory) knows nothing of it. Without
+// clips, or with all weights 0, no pose changes.
+void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
+
+}  // namespace handhold
