@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/check.hpp"
+#include "game/body_clips_asset.hpp"
 #include "game/place_scene.hpp"
 
 namespace handhold {
@@ -10,7 +11,9 @@ DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
     : scene_(std::move(scene)),
       caches_(*scene_.shapes, scene_.grip_meshes.get()),
       player_(
-          add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {}
+          add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {
+    caches_.body_clips = game_body_clips();
+}
 
 void DesktopSession::step(const DesktopInput& input) {
     place_scene(scene_, caches_);

@@ -8,6 +8,7 @@
 
 #include "engine/core/profile.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/body_clips_asset.hpp"
 #include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
 #include "game/exit_status.hpp"
@@ -331,6 +332,7 @@ int run_command(const RunOptions& options) {
         }
     }
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    caches.body_clips = game_body_clips();
     const Result<Place> place = choose_place(options, scene, caches, session.value());
     if (!place) {
         return refuse(place.error());

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "game/body_clips_asset.hpp"
 #include "game/desktop_session.hpp"
 #include "game/render/renderer.hpp"
 #include "game/session_run.hpp"
@@ -99,6 +100,7 @@ TEST(DesktopSession, WhatIsRecordedPlaysAgainToTheSameHash) {
 
     Scene again = make_desk_scene();
     FrameCaches caches(*again.shapes, again.grip_meshes.get());
+    caches.body_clips = game_body_clips();
     const PlayerEntities player = add_scene_player(again, {"player0", origin_ws, 80.0});
     RunSettings settings;
     settings.hz = 90.0;
