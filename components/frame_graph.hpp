@@ -69,8 +69,9 @@ struct FrameGraph {
     // A body that finish_positions puts back, as the phases left it.
     struct SunkBody {
         std::uint32_t body = 0;
-        std::uint32_t island = 0;  // in which the phases left it: islands are found anew since
-        double error_m = 0.0;      // the worst of its own rows, hands excepted
+        // In which the phases left it: islands are found anew since. Beyond them: no row held it.
+        std::uint32_t island = 0;
+        double error_m = 0.0;  // the worst of its own rows, hands excepted
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();

@@ -65,23 +65,37 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     return worst;
 }
 
-// Lists free bodies that are sunk, as they are.
+void note_if_sunk(double sunk_m, std::uint32_t index, std::uint32_t island, FrameGraph& frame) {
+    const SolverBody& body = frame.graph.bodies[index];
+    const double hidden_m = hidden_overlap_m(frame, index);
+    if (body.role == BodyRole::free &&
+        std::max(own_error_m(frame.graph, index, true), hidden_m) >= sunk_m) {
+        const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
+        frame.sunk_bodies.push_back(
+            {index, island, error_m, body.pose_ws, body.velocity_mps, body.spin_radps});
+    }
+}
+
+// Lists free bodies that are sunk, as they are: by island, then those that no row holds, for
+// themselves.
 void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
+    const ConstraintGraph& graph = frame.graph;
     frame.sunk_bodies.clear();
-    for (std::uint32_t i = 0; i < frame.graph.islands.size(); ++i) {
-        const Island& island = frame.graph.islands[i];
-        if (worst_overlap_m(frame, island) < sunk_m) {
-            continue;
-        }
-        for (const std::uint32_t index : frame.graph.bodies_of(island)) {
-            const SolverBody& body = frame.graph.bodies[index];
-            const double hidden_m = hidden_overlap_m(frame, index);
-            if (body.role == BodyRole::free &&
-                std::max(own_error_m(frame.graph, index, true), hidden_m) >= sunk_m) {
-                const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
-                frame.sunk_bodies.push_back(
-                    {index, i, error_m, body.pose_ws, body.velocity_mps, body.spin_radps});
+    const auto islands = static_cast<std::uint32_t>(graph.islands.size());
+    for (std::uint32_t i = 0; i < islands; ++i) {
+        if (worst_overlap_m(frame, graph.islands[i]) >= sunk_m) {
+            for (const std::uint32_t index : graph.bodies_of(graph.islands[i])) {
+                note_if_sunk(sunk_m, index, i, frame);
             }
+        }
+    }
+    for (std::uint32_t index = 0; index < graph.bodies.size(); ++index) {
+        const auto holds_it = [index](const RowBlock& block) {
+            return block.a == index || block.b == index;
+        };
+        if (hidden_overlap_m(frame, index) >= sunk_m &&
+            std::ranges::none_of(graph.blocks, holds_it)) {
+            note_if_sunk(sunk_m, index, islands + index, frame);
         }
     }
 }
