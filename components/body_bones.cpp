@@ -37,7 +37,7 @@ class BoneFinder {
     std::optional<FileError> look_up_map() {
         for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
             for (const HandSide side : {HandSide::left, HandSide::right}) {
-                if (const auto error = look_up({static_cast<BodyBone>(bone), side})) {
+                if (auto error = look_up({static_cast<BodyBone>(bone), side})) {
                     return error;
                 }
             }

@@ -6,8 +6,13 @@
 
 namespace handhold {
 std::uint16_t heaviest_joint(const SkinWeights& weights) {
-    const auto most = std::max_element(weights.weight.begin(), weights.weight.end());
-    return weights.joint[static_cast<std::size_t>(most - weights.weight.begin())];
+    std::size_t heaviest = 0;
+    for (std::size_t k = 1; k < weights.weight.size(); ++k) {
+        if (weights.weight[k] > weights.weight[heaviest]) {
+            heaviest = k;
+        }
+    }
+    return weights.joint[heaviest];
 }
 
 void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,

@@ -66,7 +66,8 @@ double arc_tangent_unit(double x) {
         0.75315128096219441,
         0.78539816339744828,
     };
-    const int step = static_cast<int>(x * k_steps + 0.5);
+    const double half_way_on = x * k_steps + 0.5;  // x is not negative: cut off it is the nearest
+    const int step = static_cast<int>(half_way_on);
     const double from = step * (1.0 / k_steps);
     const double rest = (x - from) / (1.0 + x * from);
     const double z = rest * rest;
