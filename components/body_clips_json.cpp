@@ -85,6 +85,11 @@ Result<BodyClips> parse_body_clips(std::string_view text, const std::string& fil
             value.allow_only({"keys"});
         }
         read_clip(value, i, clips.clips[i]);
+        const std::vector<ClipKey>& keys = clips.clips[i].keys;
+        const bool comes_round = i == static_cast<std::size_t>(BodyClipName::idle);
+        if (comes_round && !keys.empty() && keys.front().turns != keys.back().turns) {
+            value["keys"].refuse("a last key that is the first once more");
+        }
     }
     if (document.value().failed()) {
         return document.value().error();

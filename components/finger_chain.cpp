@@ -92,7 +92,10 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
     constexpr double k_first_m = 0.004;
     constexpr std::uint32_t k_most_rounds = 2;
     constexpr std::uint32_t k_most_tries = 1000;
-    retry.tries = in_vain ? std::min(retry.tries + 1, k_most_tries) : 0;
+    retry.tries = in_vain ? retry.tries + 1 : 0;
+    if (retry.tries > k_most_tries) {  // whose turn it is stays
+        retry.tries -= most * ((retry.tries - k_most_rounds - 1) / most);
+    }
     const std::uint32_t rounds = in_vain ? std::min(retry.tries - 1, k_most_rounds) : 0;
     retry.wait_m = k_first_m * (1U << rounds);
     retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
@@ -102,7 +105,8 @@ bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning
                   PalmOffset& offset) {
     constexpr double k_most_lifts = 3.0;
     const double most_m = k_most_lifts * tuning.lift_m;
-    if (!has_arrived(offset) || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
+    const bool is_on_its_way = !has_arrived(offset) || offset.target_lift_m != offset.lift_m;
+    if (is_on_its_way || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
         offset.lift_m >= most_m) {
         return false;
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "game/hand_gizmos.hpp"
+
 namespace handhold {
 namespace {
 
@@ -206,6 +208,13 @@ GizmoInfo info_of(Gizmo gizmo) {
             return {"islands", "build_constraints", "what is solved together, in one colour"};
         case Gizmo::residuals:
             return {"residuals", "solve_phases", "what is still apart, a thousand times as long"};
+        case Gizmo::search:
+            return {"search", "search_grip",
+                    "triangles looked at, bright first; green: the palm's"};
+        case Gizmo::palm_limits:
+            return {"palm limits", "constrain_palms", "how low, how high, how aslant it may be"};
+        case Gizmo::fingers:
+            return {"fingers", "sweep_fingers", "the disc each turns in; green where it touches"};
         case Gizmo::arms:
             return {"arms", "pose_arms", "their bones, and where each elbow points"};
         case Gizmo::spine:
@@ -216,10 +225,12 @@ GizmoInfo info_of(Gizmo gizmo) {
     return {"", "", ""};
 }
 
-void add_gizmos(const World& world, const FrameGraph& graph, const GizmoSet& on,
-                std::vector<Line>& out) {
+void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
+                const GizmoSet& on, std::vector<Line>& out) {
+    const FrameGraph& graph = caches.graph;
     const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
     add_hands(world, on, out);
+    add_hand_gizmos(world, caches, tuning, on, out);
     for (const RenderPose& render : world.render_pose.rows()) {
         if (shows(Gizmo::arms)) {
             add_arms(render.arms, out);

@@ -22,6 +22,9 @@ enum class Gizmo : std::uint8_t {
     joints,         // build_constraints
     islands,        // build_constraints
     residuals,      // solve_phases
+    search,         // search_grip
+    palm_limits,    // constrain_palms
+    fingers,        // sweep_fingers, pose_thumb
     arms,           // pose_arms
     spine,          // propagate_spine
     count
@@ -36,9 +39,10 @@ struct GizmoInfo {
 };
 GizmoInfo info_of(Gizmo gizmo);
 
-// Adds the lines of those that are on, as of the last frame. Contacts, joints, islands and
-// residuals are in the caches only, and so absent where a world has just been restored.
-void add_gizmos(const World& world, const FrameGraph& graph, const GizmoSet& on,
-                std::vector<Line>& out);
+// Adds the lines of those that are on, as of the last frame. Contacts, joints, islands, residuals
+// and what hands have around them are in the caches only, and so absent where a world has just been
+// restored.
+void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
+                const GizmoSet& on, std::vector<Line>& out);
 
 }  // namespace handhold

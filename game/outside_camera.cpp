@@ -29,14 +29,16 @@ Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& head_
     constexpr double k_worth_m = 0.15;
     const Vec3 up = scene_->up_ws;
     const Vec3 side = ahead_ws.cross(up);
-    Vec3 best = head_ws - 0.3 * ahead_ws;
     place_walls();
-    for (const auto& [forward, height, sideways] : offsets) {
-        const Vec3 wanted = target_ws + forward * ahead_ws + height * up + sideways * side;
+    const auto reach = [&](const Vec3& wanted) {
         const Vec3 way = wanted - head_ws;  // of which the head's end is free
         const auto hit = walls_.cast_sphere(k_camera_radius_m, head_ws, wanted);
         const double share = hit ? hit->distance_m / way.norm() : 1.0;
-        const Vec3 place = head_ws + std::max(0.0, share - 0.02) * way;
+        return Vec3(head_ws + std::max(0.0, share - 0.02) * way);
+    };
+    Vec3 best = reach(head_ws - 0.3 * ahead_ws);
+    for (const auto& [forward, height, sideways] : offsets) {
+        const Vec3 place = reach(target_ws + forward * ahead_ws + height * up + sideways * side);
         if ((place - target_ws).norm() > (best - target_ws).norm() + k_worth_m) {
             best = place;
         }

@@ -241,7 +241,8 @@ class Loop {
         const Entity player = stage_.session.player().player;
         const std::int64_t begin_ns = now_ns();
         marks_.clear();
-        add_gizmos(world(), stage_.session.caches().graph, inspector_.gizmos, marks_);
+        add_gizmos(world(), stage_.session.caches(), stage_.session.scene().tuning,
+                   inspector_.gizmos, marks_);
         const bool own_eyes = viewpoint_ == PlayerViewpoint::eyes;
         stage_.view.draw(
             camera_ws(), stage_.settings.fov_rad,

@@ -193,8 +193,11 @@ Scene make_playground_scene() {
     body.visual = k_gun_model;
     body.grips = gun.grips;
     file.value().bodies.push_back(std::move(body));
-    const auto models = [&gun](const std::filesystem::path&) -> Result<GltfLevel> {
-        return level_of(gun.visual);  // the only model of the playground
+    const auto models = [&gun](const std::filesystem::path& model) -> Result<GltfLevel> {
+        if (model != k_gun_model) {
+            return FileError{model.string(), "", "expected the playground's only model, the gun"};
+        }
+        return level_of(gun.visual);
     };
     Result<Scene> scene = build_scene(file.value(), "playground.json", models);
     HH_CHECK(static_cast<bool>(scene), "the playground's description is broken", 0);

@@ -37,7 +37,8 @@ class SnapshotAssets {
 // nothing is allocated but at the first call of all.
 void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
 
-// The world continues bit for bit as the saved one, with any caches that fit `assets`; handles
+// The world continues bit for bit as the saved one, with any caches that fit `assets` and have the
+// same hand rigs and body clips, which nothing checks; handles
 // taken before are good again. Refused, with the place in the bytes and what was expected there,
 // and the world is as it was: what is no snapshot, of another format, schema (the first column or
 // field that differs is named) or other assets, cut short or damaged; and what step_frame could not

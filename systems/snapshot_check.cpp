@@ -195,9 +195,24 @@ class BreachFinder {
             const Entity player = w_.calibration.owners()[row];
             check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
                   "0 to 10 s");
-            const auto [least_s_m, most_s_m] = std::minmax(c.eyes_s_m, c.span_s_m);
-            check(least_s_m >= 0.0 && most_s_m <= BodyMeasures::k_most_m * c.held_s, "calibration",
-                  player, "", "sums of what 0 to 5 m are over the time held");
+            const auto is_sum_of = [&c](double sum_s_m, double least_m, double most_m) {
+                constexpr double k_rounding = 1e-9;
+                return sum_s_m >= (least_m - k_rounding) * c.held_s - k_rounding &&
+                       sum_s_m <= (most_m + k_rounding) * c.held_s + k_rounding;
+            };
+            check(is_sum_of(c.eyes_s_m, TPoseRange::k_least_eyes_m, TPoseRange::k_most_eyes_m) &&
+                      is_sum_of(c.span_s_m, TPoseRange::k_least_span_m, TPoseRange::k_most_span_m),
+                  "calibration", player, "", "sums of T-poses over the time held");
+        }
+        for (std::size_t row = 0; row < w_.arm_memory.size(); ++row) {
+            const ArmMemory& memory = w_.arm_memory.rows()[row];
+            const auto is_level_unit = [](const Vec3& v) {
+                constexpr double k_off = 1e-3;
+                return std::abs(v.y()) < k_off && std::abs(v.norm() - 1.0) < k_off;
+            };
+            check(
+                !memory.known || (is_level_unit(memory.look_ps) && is_level_unit(memory.facing_ps)),
+                "arm_memory", w_.arm_memory.owners()[row], "", "level directions of length 1");
         }
         for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;
@@ -208,12 +223,32 @@ class BreachFinder {
         }
     }
 
+    // Waits that are as long as those that are made: nothing waits for ever.
+    void check_retries() {
+        constexpr double k_most_m = 1.0;
+        constexpr std::uint32_t k_most_tries = 1000000;
+        for (std::size_t row = 0; row < w_.finger_pose.size(); ++row) {
+            for (const FingerRetry& retry : w_.finger_pose.rows()[row].retry) {
+                check(std::abs(retry.wait_m) <= k_most_m && retry.since_m >= 0.0 &&
+                          retry.since_m <= k_most_m && retry.tries <= k_most_tries,
+                      "finger_pose", w_.finger_pose.owners()[row], ".retry",
+                      "ways within 1 m, at most a million tries");
+            }
+        }
+        for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
+            const double look_in_m = w_.grip_surface.rows()[row].look_in_m;
+            check(look_in_m >= 0.0 && look_in_m <= k_most_m, "grip_surface",
+                  w_.grip_surface.owners()[row], ".look_in_m", "a way in [0, 1] m");
+        }
+    }
+
     void check_hands() {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
         require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
         require_both("hand_owner", w_.hand_owner, "palm_pose", w_.palm_pose);
         require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
+        check_retries();
         Column<std::array<std::uint8_t, k_hand_count>> has_hand;
         for (const Entity player : w_.player.owners()) {
             has_hand.add(player);

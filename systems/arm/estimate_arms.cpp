@@ -194,15 +194,17 @@ Pose between(const Pose& a, const Pose& b, double share) {
 }
 
 // Frames much longer than k_step_s are walked in steps of about that, straight from the last
-// frame's head and hands to this one's: what is remembered goes the same way at any frame rate.
+// frame's head and hands to this one's: what is remembered goes nearly the same way at any frame
+// rate down to 10 Hz. The bounds between numbers of steps lie between usual rates.
 void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;
     constexpr double k_most_steps = 9.0;
+    constexpr double k_round_up = 0.3;
     const double dt_s = frame.dt_s;
     const bool afresh =
         !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
     const int steps =
-        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + 0.5, 1.0, k_most_steps));
+        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_most_steps));
     if (steps > 1) {
         Player before{
             memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};

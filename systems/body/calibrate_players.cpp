@@ -34,7 +34,7 @@ void hold(double dt_s, const HeadTracking& head, const std::array<Vec3, k_hand_c
         calibration = begin_at(hands_ps[0], hands_ps[1]);
         return;
     }
-    const double left_s = tuning.hold_s - calibration.held_s;
+    const double left_s = std::max(0.0, tuning.hold_s - calibration.held_s);
     const double share_s = std::min(dt_s, left_s);
     calibration.held_s += share_s;
     calibration.eyes_s_m += share_s * pose->eyes_m;
@@ -54,20 +54,20 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     constexpr double k_middle = 0.15;  // the head off the middle
     constexpr double k_highest = 0.02;
     constexpr double k_lowest = 0.30;  // the hands below the eyes
-    constexpr double k_lowest_eyes_m = 0.3;
-    constexpr double k_highest_eyes_m = 2.6;
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
     const double span = level.norm();
-    if (!is_finite(head_ps) || !(span >= 0.6) || !(span <= 2.4)) {
+    if (!is_finite(head_ps) || !(span >= TPoseRange::k_least_span_m) ||
+        !(span <= TPoseRange::k_most_span_m)) {
         return std::nullopt;
     }
     const Vec3 middle = 0.5 * (left_ps + right_ps);
     const Vec3 aside(head_ps.x() - middle.x(), 0.0, head_ps.z() - middle.z());
     const double below = (head_ps.y() - middle.y()) / span;
     const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
-                        below >= k_highest && below <= k_lowest && head_ps.y() > k_lowest_eyes_m &&
-                        head_ps.y() < k_highest_eyes_m;
+                        below >= k_highest && below <= k_lowest &&
+                        head_ps.y() > TPoseRange::k_least_eyes_m &&
+                        head_ps.y() < TPoseRange::k_most_eyes_m;
     return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
 }
 

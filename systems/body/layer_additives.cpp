@@ -75,9 +75,10 @@ void advance(const BodyClips& clips, double dt_s, double speed_mps, const Additi
              BodyClipState& state) {
     const double idle_s = length_of(clips.at(BodyClipName::idle));
     state.idle_s = idle_s > 0.0 ? std::fmod(state.idle_s + dt_s, idle_s) : 0.0;
-    state.push_off_s =
-        std::min(state.push_off_s + dt_s, length_of(clips.at(BodyClipName::push_off)));
-    if (state.was_gripping && !state.gripping) {
+    const double push_off_s = length_of(clips.at(BodyClipName::push_off));
+    state.push_off_s = std::min(state.push_off_s + dt_s, push_off_s);
+    const bool is_over = state.push_off_s >= push_off_s || state.push_off_weight == 0.0;
+    if (state.was_gripping && !state.gripping && is_over) {
         state.push_off_s = 0.0;
         state.push_off_weight = smooth_step(speed_mps, 0.2, tuning.push_off_speed_mps);
     }

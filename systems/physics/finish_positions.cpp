@@ -50,6 +50,15 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
     return frame.hidden_overlaps.of_body[body].depth_m;
 }
 
+// The same, or where no contact says so what it is sunk into unseen.
+std::optional<std::uint32_t> wall_around(const FrameGraph& frame, std::uint32_t body) {
+    const std::optional<std::uint32_t> wall = deepest_wall(frame.graph, body);
+    const Overlap& hidden = frame.hidden_overlaps.of_body[body];
+    const bool is_wall =
+        hidden.depth_m > 0.0 && frame.graph.bodies[hidden.with].role == BodyRole::fixed;
+    return wall || !is_wall ? wall : std::optional(hidden.with);
+}
+
 // The deepest overlap in an island.
 double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     const ConstraintGraph& graph = frame.graph;
@@ -104,7 +113,7 @@ void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
 void step_back(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[sunk.body];
     Pose valid_ws = frame.proxies[sunk.body].from_ws;
-    if (const std::optional<std::uint32_t> found = deepest_wall(frame.graph, sunk.body)) {
+    if (const std::optional<std::uint32_t> found = wall_around(frame, sunk.body)) {
         const SolverBody& wall = frame.graph.bodies[*found];
         const ColliderProxy& proxy = frame.proxies[*found];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);

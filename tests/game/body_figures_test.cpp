@@ -44,7 +44,7 @@ class BodyFiguresTest : public testing::Test {
     std::optional<Renderer> renderer_;
 };
 
-// How many pixels show anything in a column of the picture's middle third, above and below `y`.
+// How many pixels show anything in the picture's middle third, above row `y`.
 int lit_above(const Image& image, int y) {
     int lit = 0;
     for (int row = 0; row < y; ++row) {

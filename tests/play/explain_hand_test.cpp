@@ -92,14 +92,14 @@ TEST(Gizmos, EachShowsLinesWhereItsStageHasSomethingAndNoneShowsNothing) {
     grip.grip[0] = true;
     desk.run(grip, 0.7);
     std::vector<Line> lines;
-    add_gizmos(desk.scene().world, desk.caches().graph, k_no_gizmos, lines);
+    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, k_no_gizmos, lines);
     EXPECT_TRUE(lines.empty());
-    for (const Gizmo gizmo :
-         {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands}) {
+    for (const Gizmo gizmo : {Gizmo::tracked_hands, Gizmo::palm_rays, Gizmo::grips, Gizmo::islands,
+                              Gizmo::search, Gizmo::palm_limits, Gizmo::fingers}) {
         GizmoSet on = k_no_gizmos;
         on[static_cast<std::size_t>(gizmo)] = true;
         lines.clear();
-        add_gizmos(desk.scene().world, desk.caches().graph, on, lines);
+        add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
         EXPECT_FALSE(lines.empty()) << info_of(gizmo).name;
         for (const Line& line : lines) {
             EXPECT_TRUE(line.a_ws.allFinite() && line.b_ws.allFinite());
@@ -116,13 +116,32 @@ TEST(Gizmos, AGripIsShownOnTheSurfaceThatIsHeld) {
     GizmoSet on = k_no_gizmos;
     on[static_cast<std::size_t>(Gizmo::grips)] = true;
     std::vector<Line> lines;
-    add_gizmos(desk.scene().world, desk.caches().graph, on, lines);
+    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
     ASSERT_FALSE(lines.empty());
     const Line& normal = lines.back();
     const auto nearest = desk.caches().collision.closest_point(normal.a_ws, 0.1);
     ASSERT_TRUE(nearest);
     EXPECT_LT(nearest->distance_m, 1e-6);
     EXPECT_NEAR((normal.b_ws - normal.a_ws).norm(), 0.08, 1e-9);
+}
+
+// Fingers round the bar: where one is said to touch, the bar is.
+TEST(Gizmos, FingersTouchWhereTheSurfaceIs) {
+    AtRail desk;
+    DesktopInput grip;
+    grip.grip[0] = true;
+    desk.run(grip, 1.0);
+    GizmoSet on = k_no_gizmos;
+    on[static_cast<std::size_t>(Gizmo::fingers)] = true;
+    std::vector<Line> lines;
+    add_gizmos(desk.scene().world, desk.caches(), desk.scene().tuning, on, lines);
+    int touches = 0;
+    for (const Line& line : lines) {
+        const auto nearest = desk.caches().collision.closest_point(line.b_ws, 1e-3);
+        const bool is_short = (line.b_ws - line.a_ws).norm() < 0.02;
+        touches += nearest && nearest->distance_m < 1e-4 && is_short ? 1 : 0;
+    }
+    EXPECT_GT(touches, 3);
 }
 
 TEST(PlayTally, CountsAsClimbedOnlyWhatHandsCarried) {

@@ -207,6 +207,49 @@ TEST(LayerAdditives, PushOffPlaysOnceWhenTheLastHandLetsGoBySpeed) {
     }
 }
 
+TEST(LayerAdditives, LettingGoWithOneOfTwoHandsIsNoPushOff) {
+    Body body;
+    fill(body);
+    body.velocity.at(k_player).linear_mps = Vec3(0.0, 0.0, 3.0);
+    body.hold(true);
+    body.grab.at(k_right).kind = GripKind::surface;
+    body.step();
+    body.hold(false);
+    body.step();
+    EXPECT_EQ(body.state.at(k_player).push_off_weight, 0.0);
+    body.grab.at(k_right).kind = GripKind::none;
+    body.step();
+    EXPECT_EQ(body.state.at(k_player).push_off_weight, 1.0);
+}
+
+// Hand over hand, fast and slow: no push-off cuts another short.
+TEST(LayerAdditives, PushOffsOneAfterTheOtherDoNotPop) {
+    for (const double second_mps : {0.1, 0.3, 3.0}) {
+        Body body;
+        Body bare;
+        clip(body, BodyClipName::push_off).keys = {
+            {0.0, no_turns()},
+            {0.4, with_turn(k_clip_legs, Vec3(-0.4, 0.0, 0.0))},
+            {1.2, no_turns()}};
+        Quat added = Quat::Identity();
+        double most_rad = 0.0;
+        for (int i = 0; i < 240; ++i) {
+            for (Body* const played : {&body, &bare}) {
+                played->hold(i < 60 || (i > 80 && i < 100));
+                played->velocity.at(k_player).linear_mps =
+                    Vec3(0.0, 0.0, i < 99 ? 3.0 : second_mps);
+                played->step();
+            }
+            const Quat now = bare.pose().legs[0].thigh_ws.rotation.conjugate() *
+                             body.pose().legs[0].thigh_ws.rotation;
+            most_rad = std::max(most_rad, now.angularDistance(added));
+            added = now;
+        }
+        EXPECT_GT(most_rad, 0.005) << second_mps;
+        EXPECT_LT(most_rad, 0.03) << second_mps;
+    }
+}
+
 TEST(LayerAdditives, ThrowingALooseThingIsNoPushOff) {
     Body body;
     fill(body);
@@ -288,7 +331,7 @@ TEST(LayerAdditives, StateIsAllThatClipsRemember) {
 
 TEST(BodyClips, FileIsReadAndWhatIsWrongIsNamed) {
     const Result<BodyClips> good = parse_body_clips(
-        R"({"idle": {"keys": [{"at": 0}, {"at": 2, "spine_1": [90, 0, 0]}]},
+        R"({"idle": {"keys": [{"at": 0}, {"at": 2, "spine_1": [90, 0, 0]}, {"at": 3}]},
             "clavicle": {"keys": [{"at": 90, "clavicle": [0, 0, 9]}],
                          "reach": [{"distance": 1, "weight": 0.5}]}})",
         "a.json");
@@ -300,6 +343,7 @@ TEST(BodyClips, FileIsReadAndWhatIsWrongIsNamed) {
          {R"({"walk": {"keys": [{"at": 0}]}})", R"({"idle": {"keys": []}})",
           R"({"idle": {"keys": [{"at": 1}]}})", R"({"idle": {"keys": [{"at": 0}, {"at": 0}]}})",
           R"({"idle": {"keys": [{"at": 0, "tail": [0, 0, 0]}]}})",
+          R"({"idle": {"keys": [{"at": 0}, {"at": 2, "spine_1": [9, 0, 0]}]}})",
           R"({"idle": {"keys": [{"at": 0, "spine_0": [0, 0, 91]}]}})",
           R"({"look_yaw": {"keys": [{"at": 0}], "reach": []}})"}) {
         EXPECT_FALSE(parse_body_clips(bad, "a.json").ok()) << bad;

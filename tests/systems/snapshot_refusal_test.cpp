@@ -199,6 +199,15 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world("not below 0", [](World& w) { w.joint.rows()[1].latch.strength = -1.0; });
     break_world(".friction", [](World& w) { w.body.rows()[1].friction = -0.1; });
     break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
+    break_world("arm_memory[", [](World& w) {
+        w.arm_memory.rows()[0].known = true;
+        w.arm_memory.rows()[0].look_ps = Vec3::Zero();
+    });
+    break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
+    break_world("].retry", [](World& w) { w.finger_pose.rows()[1].retry[2].wait_m = 1e9; });
+    break_world("].look_in_m", [](World& w) { w.grip_surface.rows()[0].look_in_m = 1e9; });
+    break_world("].push_off_weight",
+                [](World& w) { w.body_clip_state.rows()[0].push_off_weight = 2.0; });
     break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });
     break_world(".next", [](World& w) { w.head_ignores.rows()[0].next = 8; });
     break_world("hand_history", [](World& w) { w.hand_history.rows()[0].count = 33; });

@@ -1,0 +1,174 @@
+#include "game/hand_gizmos.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "systems/hand/search_grip.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr Color k_first_visited = {1.0F, 1.0F, 0.3F};
+constexpr Color k_last_visited = {0.55F, 0.05F, 0.35F};
+constexpr Color k_chosen = {0.2F, 1.0F, 0.35F};
+constexpr Color k_limit = {0.3F, 0.7F, 1.0F};
+constexpr Color k_disc = {0.75F, 0.75F, 0.8F};
+constexpr Color k_touches = {0.2F, 1.0F, 0.35F};
+constexpr Color k_touches_not = {1.0F, 0.55F, 0.1F};
+constexpr int k_circle_sides = 32;
+
+Color blend(const Color& a, const Color& b, float share) {
+    Color color{};
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        color[i] = a[i] + share * (b[i] - a[i]);
+    }
+    return color;
+}
+
+// An arc from `x` towards `y`, which are as long as its radius.
+void add_arc(const Vec3& center_ws, const Vec3& x, const Vec3& y, double angle_rad,
+             const Color& color, std::vector<Line>& out) {
+    const auto point = [&](int i) {
+        double s = 0.0;
+        double c = 1.0;
+        sin_cos(angle_rad * i / k_circle_sides, s, c);
+        return Vec3(center_ws + c * x + s * y);
+    };
+    for (int i = 0; i < k_circle_sides; ++i) {
+        out.push_back({point(i), point(i + 1), color, 1.5});
+    }
+}
+
+// The triangles that the search came to, from bright to dark; the last one chosen is green.
+void add_search(const HandSurroundings& hand, const GripSurface& chosen, const Tuning& tuning,
+                std::vector<Line>& out) {
+    constexpr double k_shown_m = 1e-3;  // off the surface
+    if (hand.meshes.empty()) {
+        return;
+    }
+    GripSearchScratch scratch;
+    Column<GripSurface> surface;
+    surface.add(hand.hand);
+    StageStats stats;
+    search_grip({std::span(&hand, 1), surface, scratch}, tuning, stats);
+    const SurfaceGraph& graph = hand.meshes.front().mesh->search;
+    const Pose mesh_ws = hand.body_ws * hand.meshes.front().pose;
+    const auto outline = [&](std::uint32_t triangle, const Color& color, double width_px) {
+        const Vec3 off = k_shown_m * graph.normals[triangle];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& corners = graph.triangles[triangle];
+            out.push_back({transform_point(mesh_ws, graph.positions[corners[i]] + off),
+                           transform_point(mesh_ws, graph.positions[corners[(i + 1) % 3]] + off),
+                           color, width_px});
+        }
+    };
+    const std::size_t count = scratch.found.size();
+    for (std::size_t i = count; i-- > 0;) {  // earlier ones over later ones
+        const float share =
+            static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(count, 2) - 1);
+        outline(scratch.found[i].triangle, blend(k_first_visited, k_last_visited, share), 1.5);
+    }
+    if (chosen.triangle < graph.triangles.size()) {
+        outline(chosen.triangle, k_chosen, 3.0);
+    }
+}
+
+// How high the palm may be over the surface, and how far its normal may lean.
+void add_palm_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& palm_ws,
+                     const PalmTuning& tuning, std::vector<Line>& out) {
+    constexpr double k_cone_m = 0.06;
+    const Vec3 point_ws = transform_point(hand.body_ws, surface.point_bs);
+    const Vec3 normal = hand.body_ws.rotation * surface.normal_bs;
+    const Vec3 x = normal.unitOrthogonal();
+    const Vec3 y = normal.cross(x);
+    for (const double height_m : {tuning.min_height_m, tuning.max_height_m}) {
+        add_arc(point_ws + height_m * normal, 0.02 * x, 0.02 * y, k_two_pi, k_limit, out);
+    }
+    double lean_sine = 0.0;
+    double lean_cosine = 1.0;
+    sin_cos(tuning.max_angle_rad, lean_sine, lean_cosine);
+    const Vec3 palm_center_ws = transform_point(palm_ws, hand.rig->palm_center_hs);
+    add_arc(palm_center_ws + k_cone_m * lean_cosine * normal, k_cone_m * lean_sine * x,
+            k_cone_m * lean_sine * y, k_two_pi, k_limit, out);
+    const Vec3 back = palm_ws.rotation * -hand.rig->palm_normal_hs;
+    out.push_back({palm_center_ws, palm_center_ws + k_cone_m * back, k_chosen, 2.5});
+    out.push_back({point_ws, palm_center_ws, k_limit, 1.5});
+}
+
+// What is nearest to a point in the hand's surroundings, of what is nearer than so much.
+std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_ws,
+                               double within_m) {
+    std::optional<Vec3> nearest;
+    for (const PlacedMesh& placed : hand.meshes) {
+        const Pose mesh_ws = hand.body_ws * placed.pose;
+        const auto near = placed.mesh->contact_bvh.closest_point(
+            inverse_transform_point(mesh_ws, point_ws), within_m);
+        if (near) {
+            within_m = near->distance_m;
+            nearest = transform_point(mesh_ws, near->point);
+        }
+    }
+    return nearest;
+}
+
+// The disc that a finger turns in, from open to closed; its links, and where they touch.
+void add_finger(const HandSurroundings& hand, const FingerRig& finger, const FingerAngles& angles,
+                const Pose& palm_ws, std::vector<Line>& out) {
+    constexpr double k_touch_m = 1.5e-3;
+    FingerAngles open = coupled_angles(finger, 0.0);
+    open.opposition_rad = angles.opposition_rad;
+    const Pose base_ws = palm_ws * finger_link_frames(finger, open)[0];
+    double reach_m = 0.0;
+    double curl_rad = 0.0;
+    for (std::uint32_t link = 0; link < finger.link_count; ++link) {
+        reach_m += finger.length_m[link];
+        curl_rad += finger.upper_rad[link] - finger.lower_rad[link];
+    }
+    const Vec3 along = base_ws.rotation * Vec3(0.0, 0.0, -reach_m);
+    const Vec3 down = base_ws.rotation * Vec3(0.0, -reach_m, 0.0);
+    add_arc(base_ws.position, along, down, std::min(curl_rad, k_two_pi), k_disc, out);
+    out.push_back({base_ws.position, base_ws.position + along, k_disc, 1.5});
+    const auto points = finger_points(finger, angles);
+    for (std::uint32_t link = 0; link < finger.link_count; ++link) {
+        const Vec3 from_ws = transform_point(palm_ws, points[link]);
+        const Vec3 to_ws = transform_point(palm_ws, points[link + 1]);
+        bool touches = false;
+        for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+            const Vec3 at_ws = from_ws + share * (to_ws - from_ws);
+            const auto near = nearest_ws(hand, at_ws, finger.radius_m[link] + k_touch_m);
+            if (near) {
+                out.push_back({at_ws, *near, k_touches, 3.0});
+                touches = true;
+            }
+        }
+        out.push_back({from_ws, to_ws, touches ? k_touches : k_touches_not, 3.0});
+    }
+}
+
+}  // namespace
+
+void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
+                     const GizmoSet& on, std::vector<Line>& out) {
+    const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
+    for (const HandSurroundings& hand : caches.hands.surroundings) {
+        const GripSurface* const surface = world.grip_surface.find(hand.hand);
+        if (!hand.grips || hand.rig == nullptr || surface == nullptr ||
+            surface->triangle == GripSurface::k_none) {
+            continue;
+        }
+        const Pose& palm_ws = world.palm_pose.at(hand.hand).pose_ws;
+        if (shows(Gizmo::search)) {
+            add_search(hand, *surface, tuning, out);
+        }
+        if (shows(Gizmo::palm_limits)) {
+            add_palm_limits(hand, *surface, palm_ws, tuning.palm, out);
+        }
+        for (std::size_t i = 0; shows(Gizmo::fingers) && i < hand.rig->fingers.size(); ++i) {
+            add_finger(hand, hand.rig->fingers[i], world.finger_pose.at(hand.hand).shown[i],
+                       palm_ws, out);
+        }
+    }
+}
+
+}  // namespace handhold
