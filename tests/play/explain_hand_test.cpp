@@ -11,9 +11,17 @@
 namespace handhold::explain_hand_test {
 namespace {
 
+// Whose rail hands fit.
+Scene make_fitted_tunnel() {
+    Scene scene = make_tunnel(6.0);
+    add_grip_meshes(scene);
+    return scene;
+}
+
 // Beside the tunnel's rail, looking at it; his left hand rests in front of him.
 struct AtRail : DesktopSession {
-    AtRail() : DesktopSession(make_tunnel(6.0), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}) {
+    AtRail()
+        : DesktopSession(make_fitted_tunnel(), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}) {
         DesktopInput look;
         look.turn_left_rad = 0.9;
         look.look_up_rad = -0.2;
