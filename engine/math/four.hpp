@@ -35,5 +35,18 @@ struct Rows3 {
 HH_INLINE Four combine(const Rows3& m, const Four& v) {
     return (m.row[0] * v[0] + m.row[1] * v[1]) + m.row[2] * v[2];
 }
+// The matrix times v: sums in dot3's order.
+HH_INLINE Four multiply(const Rows3& m, const Four& v) {
+    const Four a = m.row[0] * v;
+    const Four b = m.row[1] * v;
+    const Four c = m.row[2] * v;
+    const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);  // a0 b0 a2 b2
+    const Four ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Four c_even = __builtin_shufflevector(c, zero_four(), 0, 4, 2, 6);
+    const Four c_odd = __builtin_shufflevector(c, zero_four(), 1, 5, 3, 7);
+    return (__builtin_shufflevector(ab_even, c_even, 0, 1, 4, 5) +
+            __builtin_shufflevector(ab_odd, c_odd, 0, 1, 4, 5)) +
+           __builtin_shufflevector(ab_even, c_even, 2, 3, 6, 7);
+}
 
 }  // namespace handhold

@@ -57,8 +57,9 @@ void advance_rotation(const Vec3& inertia_kgm2, double dt_s, Quat& rotation, Vec
         return;
     }
     const auto [least, middle, most] = axes_by_moment(inertia_kgm2);
-    Vec3 momentum_bs = inertia_kgm2.cwiseProduct(rotation.conjugate() * spin_radps);
-    const Vec3 momentum_ws = rotation * momentum_bs;
+    const Mat3 axes_before = rotation.toRotationMatrix();
+    Vec3 momentum_bs = inertia_kgm2.cwiseProduct(axes_before.transpose() * spin_radps);
+    const Vec3 momentum_ws = axes_before * momentum_bs;
     // Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
     const double shared = 1.0 / inertia_kgm2[middle];
     const double of_least = 1.0 / inertia_kgm2[least] - shared;

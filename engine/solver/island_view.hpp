@@ -17,6 +17,8 @@ struct IslandView {
     std::span<RowBlock> blocks;
     std::span<const std::uint32_t> island_bodies;
     std::span<const std::uint32_t> island_blocks;
+    std::uint64_t revision =
+        0;  // the graph's: within one, islands and blocks are the same; 0: unknown
 };
 
 // True where the filter lets the block pass and something in it can move.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "engine/core/disjoint_sets.hpp"
@@ -16,20 +17,20 @@ bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
 // The smaller index is the root, so that an island is found at its first body.
 void unite_blocks(ConstraintGraph& graph) {
     graph.parent.resize(graph.bodies.size());
-    for (std::uint32_t i = 0; i < graph.parent.size(); ++i) {
-        graph.parent[i] = i;
-    }
+    std::iota(graph.parent.begin(), graph.parent.end(), 0U);
+    graph.root_of_block.clear();
     for (const RowBlock& block : graph.blocks) {
-        if (is_movable(graph.bodies[block.a]) && is_movable(graph.bodies[block.b])) {
+        const bool moves_a = is_movable(graph.bodies[block.a]);
+        if (moves_a && is_movable(graph.bodies[block.b])) {
             const std::uint32_t root_a = find_root(graph.parent, block.a);
             const std::uint32_t root_b = find_root(graph.parent, block.b);
             graph.parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
         }
+        graph.root_of_block.push_back(moves_a ? block.a : block.b);
     }
-}
-
-std::uint32_t root_of(ConstraintGraph& graph, const RowBlock& block) {
-    return find_root(graph.parent, is_movable(graph.bodies[block.a]) ? block.a : block.b);
+    for (std::uint32_t& root : graph.root_of_block) {
+        root = find_root(graph.parent, root);
+    }
 }
 
 // Counting sort: counts into the `end`s, offsets, then places in ascending order.
@@ -55,7 +56,7 @@ void place_members(ConstraintGraph& graph) {
         }
     }
     for (std::uint32_t i = 0; i < graph.blocks.size(); ++i) {
-        Island& island = graph.islands[graph.island_of_root[root_of(graph, graph.blocks[i])]];
+        Island& island = graph.islands[graph.island_of_root[graph.root_of_block[i]]];
         graph.island_blocks[island.blocks_end++] = i;
     }
 }
@@ -79,12 +80,14 @@ void sort_blocks(ConstraintGraph& graph) {
                std::tie(y.a, y.b, y.kind, y.key, y.index);
     };
     std::vector<RowBlock>& blocks = graph.blocks;
+    if (std::ranges::is_sorted(blocks, [](const RowBlock& x, const RowBlock& y) {
+            return std::tie(x.a, x.b, x.kind, x.key) < std::tie(y.a, y.b, y.kind, y.key);
+        })) {
+        return;
+    }
     graph.places.clear();
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         graph.places.push_back({blocks[i].key, blocks[i].a, blocks[i].b, i, blocks[i].kind});
-    }
-    if (std::ranges::is_sorted(graph.places, is_before)) {
-        return;
     }
     std::ranges::sort(graph.places, is_before);
     graph.sorted_blocks.clear();
@@ -98,8 +101,8 @@ void build_islands(ConstraintGraph& graph) {
     unite_blocks(graph);
     graph.islands.clear();
     graph.island_of_root.assign(graph.bodies.size(), k_none);
-    for (const RowBlock& block : graph.blocks) {
-        graph.island_of_root[root_of(graph, block)] = 0;  // has an island; numbered below
+    for (const std::uint32_t root : graph.root_of_block) {
+        graph.island_of_root[root] = 0;  // has an island; numbered below
     }
     for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
         if (graph.parent[i] == i && graph.island_of_root[i] != k_none) {
@@ -113,10 +116,11 @@ void build_islands(ConstraintGraph& graph) {
             ++graph.islands[index].bodies_end;
         }
     }
-    for (const RowBlock& block : graph.blocks) {
-        ++graph.islands[graph.island_of_root[root_of(graph, block)]].blocks_end;
+    for (const std::uint32_t root : graph.root_of_block) {
+        ++graph.islands[graph.island_of_root[root]].blocks_end;
     }
     place_members(graph);
+    ++graph.revision;
 }
 
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {

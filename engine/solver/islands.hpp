@@ -24,6 +24,7 @@ struct ConstraintGraph {
     std::vector<Island> islands;               // by their first body
     std::vector<std::uint32_t> island_bodies;  // ascending within an island: so by id
     std::vector<std::uint32_t> island_blocks;  // ascending within an island
+    std::uint64_t revision = 0;                // grows with every build_islands
 
     std::span<const std::uint32_t> bodies_of(const Island& island) const {
         return std::span(island_bodies)
@@ -46,6 +47,7 @@ struct ConstraintGraph {
     std::vector<RowBlock> sorted_blocks;
     std::vector<std::uint32_t> parent;
     std::vector<std::uint32_t> island_of_root;
+    std::vector<std::uint32_t> root_of_block;
 };
 
 // Index of the body with this id, or bodies.size(). Bodies are sorted by id.

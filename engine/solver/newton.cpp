@@ -165,6 +165,7 @@ class RowSteps {
     double longest_move() const { return handhold::longest_move(scratch_); }
     double longest_turn() const { return longest_turn_; }
     double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
+    static bool has_cheap_factor() { return false; }
     void finish() {}
 
   private:
@@ -264,6 +265,7 @@ class TriadSteps {
     double longest_move() const { return system_.longest_move(); }
     double longest_turn() const { return system_.longest_turn(); }
     double apply_moves(double scale) { return system_.apply_moves(scale); }
+    static bool has_cheap_factor() { return true; }
     void finish() { system_.store_poses(island_); }
 
   private:
@@ -320,10 +322,15 @@ StepResult repeat_step(Steps& steps) {
     return {steps.apply_moves(1.0), true};
 }
 
-// True where the last step took the error down so well that its factor is worth another.
-bool is_good_step(double residual_m, double previous_m, double stiffness_from_m) {
+// True where the last step took the error down so well that its factor is worth another. Where a
+// factor costs little more than a step (`cheap_factor`), only if that should be the last one.
+bool is_good_step(double residual_m, double previous_m, bool cheap_factor,
+                  const NewtonSettings& settings) {
     constexpr double k_good_step = 0.05;
-    return residual_m < stiffness_from_m && residual_m < k_good_step * previous_m;
+    constexpr double k_spare = 0.1;  // such steps are not quite as good as the one before
+    const double ratio = residual_m / previous_m;
+    return residual_m < settings.stiffness_from_m && ratio < k_good_step &&
+           (!cheap_factor || ratio * residual_m < k_spare * settings.tolerance_m);
 }
 
 template <typename Steps>
@@ -344,8 +351,9 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
             return result;
         }
         const double overlap = steps.overlap_m();
-        const bool repeats = step.whole && steps.keeps_factor() &&
-                             is_good_step(result.residual_m, previous, settings.stiffness_from_m);
+        const bool repeats =
+            step.whole && steps.keeps_factor() &&
+            is_good_step(result.residual_m, previous, steps.has_cheap_factor(), settings);
         if (!repeats) {
             steps.renew();
         }

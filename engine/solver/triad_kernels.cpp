@@ -26,95 +26,195 @@ HH_INLINE void evaluate(const TriadArrays& arrays) {
     for (TriadBody& body : arrays.bodies.first(arrays.moving)) {
         body.axes = axes_of(body.rotation);
     }
-    for (Triad& triad : arrays.triads) {
+    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
+        const Triad& triad = arrays.triads[i];
         if (triad.turns) {
             continue;
         }
         const TriadBody& a = arrays.bodies[triad.bodies[0]];
         const TriadBody& b = arrays.bodies[triad.bodies[1]];
-        triad.arms[0] = combine(a.axes, triad.points[0]);
-        triad.arms[1] = -combine(b.axes, triad.points[1]);
-        triad.value = (a.position - b.position) + (triad.arms[0] + triad.arms[1]);
+        const Four arm_a = combine(a.axes, triad.points[0]);
+        const Four arm_b = -combine(b.axes, triad.points[1]);
+        arrays.arms[2 * i].v = arm_a;
+        arrays.arms[2 * i + 1].v = arm_b;
+        arrays.values[i].v = (a.position - b.position) + (arm_a + arm_b);
     }
 }
 
 HH_INLINE void evaluate_velocities(const TriadArrays& arrays) {
-    for (Triad& triad : arrays.triads) {
+    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
+        const Triad& triad = arrays.triads[i];
         const TriadBody& a = arrays.bodies[triad.bodies[0]];
         const TriadBody& b = arrays.bodies[triad.bodies[1]];
         if (triad.turns) {
-            triad.value = k_angle_m * (a.spin - b.spin);
+            arrays.values[i].v = k_angle_m * (a.spin - b.spin);
         } else {
-            triad.value = (a.velocity - b.velocity) +
-                          (cross(a.spin, triad.arms[0]) + cross(b.spin, triad.arms[1]));
+            arrays.values[i].v =
+                (a.velocity - b.velocity) +
+                (cross(a.spin, arrays.arms[2 * i].v) + cross(b.spin, arrays.arms[2 * i + 1].v));
         }
     }
+}
+
+// A diagonal matrix in a body's axes, in the world's.
+HH_INLINE Rows3 to_world(const Rows3& axes, const Four& diagonal) {
+    const Rows3 scaled{
+        {axes.row[0] * diagonal[0], axes.row[1] * diagonal[1], axes.row[2] * diagonal[2]}};
+    Rows3 out;
+    for (int i = 0; i < 3; ++i) {
+        out.row[i] = (axes.row[0] * scaled.row[0][i] + axes.row[1] * scaled.row[1][i]) +
+                     axes.row[2] * scaled.row[2][i];
+    }
+    return out;
 }
 
 HH_INLINE void write_inertia(const TriadArrays& arrays) {
     for (TriadBody& body : arrays.bodies.first(arrays.moving)) {
-        if (!body.may_turn) {
-            continue;
-        }
-        const Rows3& axes = body.axes;
-        const Rows3 scaled{{axes.row[0] * body.inverse_inertia_bs[0],
-                            axes.row[1] * body.inverse_inertia_bs[1],
-                            axes.row[2] * body.inverse_inertia_bs[2]}};
-        for (int i = 0; i < 3; ++i) {
-            body.inverse_inertia.row[i] =
-                (axes.row[0] * scaled.row[0][i] + axes.row[1] * scaled.row[1][i]) +
-                axes.row[2] * scaled.row[2][i];
+        if (body.may_turn) {
+            body.inverse_inertia = to_world(body.axes, body.inverse_inertia_bs);
         }
     }
 }
 
-// J W of one side of a triad, the rotation's part. J's rows are arm x e_k.
-HH_INLINE Rows3 side_of(const Triad& triad, std::size_t side, const Rows3& inverse_inertia) {
-    const Rows3& in = inverse_inertia;
-    if (triad.turns) {
-        const double lever = side == 0 ? k_angle_m : -k_angle_m;
-        return {{lever * in.row[0], lever * in.row[1], lever * in.row[2]}};
+// += factor v v^T
+HH_INLINE void add_outer(const Four& v, double factor, Rows3& out) {
+    const Four scaled = factor * v;
+    for (int i = 0; i < 3; ++i) {
+        out.row[i] += scaled * v[i];
     }
-    const Four arm = triad.arms[side];
+}
+
+// positive_stiffness of a force and an arm, or of a negative one with its sign.
+HH_INLINE void add_stiffness(const Four& force, const Four& arm, Rows3& out) {
+    constexpr double k_least = 1e-12;
+    const double force_square = dot3(force, force);
+    const double arm_square = dot3(arm, arm);
+    const double product = std::sqrt(force_square * arm_square);
+    if (!(product >= k_least)) {
+        return;
+    }
+    const double along = dot3(force, arm);
+    const Four axis = force - (product / arm_square) * arm;
+    const double axis_square = dot3(axis, axis);
+    if (axis_square > k_least * force_square) {
+        add_outer(axis, 0.5 * (product + along) / axis_square, out);
+    }
+    const Four normal = cross(force, arm);
+    const double normal_square = dot3(normal, normal);
+    if (along > 0.0 && normal_square > k_least * product * product) {
+        add_outer(normal, along / normal_square, out);
+    }
+}
+
+HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
+    std::ranges::fill(arrays.stiffness, Rows3{});
+    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
+        if (arrays.triads[i].turns) {
+            continue;
+        }
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::uint32_t body = arrays.triads[i].bodies[side];
+            if (arrays.bodies[body].may_turn) {
+                add_stiffness(arrays.lambdas[i].v, arrays.arms[2 * i + side].v,
+                              arrays.stiffness[body]);
+            }
+        }
+    }
+}
+
+HH_INLINE Rows3 times(double factor, const Rows3& m) {
+    return {{factor * m.row[0], factor * m.row[1], factor * m.row[2]}};
+}
+
+// Of a symmetric matrix.
+HH_INLINE Rows3 inverse_of(const Rows3& m) {
+    const Rows3 cofactors{
+        {cross(m.row[1], m.row[2]), cross(m.row[2], m.row[0]), cross(m.row[0], m.row[1])}};
+    const double factor = 1.0 / dot3(m.row[0], cofactors.row[0]);
+    return times(factor, cofactors);
+}
+
+HH_INLINE void write_stiff_inertia(const TriadArrays& arrays) {
+    for (std::size_t i = 0; i < arrays.moving; ++i) {
+        TriadBody& body = arrays.bodies[i];
+        if (!body.may_turn) {
+            continue;
+        }
+        const Four inertia_bs = 1.0 / (body.inverse_inertia_bs + Four{0.0, 0.0, 0.0, 1.0});
+        Rows3 inertia = to_world(body.axes, inertia_bs);
+        for (int row = 0; row < 3; ++row) {
+            inertia.row[row] += arrays.stiffness[i].row[row];
+        }
+        body.inverse_inertia = inverse_of(inertia);
+    }
+}
+
+// A rotation's rows are the axes, at a lever that is negative for b.
+HH_INLINE double lever_of(std::size_t end) { return end % 2 == 0 ? k_angle_m : -k_angle_m; }
+
+// J W of one end of a triad, the rotation's part. J's rows are arm x e_k.
+HH_INLINE Rows3 side_of(const Rows3& inverse_inertia, const Four& arm) {
+    const Rows3& in = inverse_inertia;
     return {{in.row[1] * arm[2] - in.row[2] * arm[1], in.row[2] * arm[0] - in.row[0] * arm[2],
              in.row[0] * arm[1] - in.row[1] * arm[0]}};
 }
 
-// J W J^T of two triads in one body: += side J^T, and the mass that points share.
-HH_INLINE void add_product(const Rows3& side, const Triad& row, const Triad& column,
-                           std::uint32_t row_side, std::uint32_t column_side, double inverse_mass,
-                           Rows3& out) {
-    if (column.turns) {
-        const double lever = column_side == 0 ? k_angle_m : -k_angle_m;
-        for (int i = 0; i < 3; ++i) {
-            out.row[i] += lever * side.row[i];
-        }
-        return;
+template <bool has_turn>
+HH_INLINE void write_sides(const TriadArrays& arrays) {
+    for (std::size_t end = 0; end < 2 * arrays.triads.size(); ++end) {
+        const Triad& triad = arrays.triads[end / 2];
+        const Rows3& inverse_inertia = arrays.bodies[triad.bodies[end % 2]].inverse_inertia;
+        arrays.sides[end] = has_turn && triad.turns ? times(lever_of(end), inverse_inertia)
+                                                    : side_of(inverse_inertia, arrays.arms[end].v);
     }
-    const Four arm = column.arms[column_side];
-    const double mass = row.turns ? 0.0 : row_side == column_side ? inverse_mass : -inverse_mass;
-    out.row[0] += cross(side.row[0], arm) + Four{mass, 0.0, 0.0, 0.0};
-    out.row[1] += cross(side.row[1], arm) + Four{0.0, mass, 0.0, 0.0};
-    out.row[2] += cross(side.row[2], arm) + Four{0.0, 0.0, mass, 0.0};
 }
 
+// The rotation's part of J W J^T: += side J^T, by rows. They stay in registers: of a struct GCC
+// makes copies in memory.
+template <bool has_turn>
+HH_INLINE void add_product(const TriadArrays& arrays, const TriadPlan::Coupling& coupling, Four& x,
+                           Four& y, Four& z) {
+    const Rows3& side = arrays.sides[coupling.row_end];
+    const std::uint32_t column = coupling.column_end;
+    if (has_turn && arrays.triads[column / 2].turns) {
+        const double lever = lever_of(column);
+        x += lever * side.row[0];
+        y += lever * side.row[1];
+        z += lever * side.row[2];
+        return;
+    }
+    const Four arm = arrays.arms[column].v;
+    x += cross(side.row[0], arm);
+    y += cross(side.row[1], arm);
+    z += cross(side.row[2], arm);
+}
+HH_INLINE void write_rows(const Four& x, const Four& y, const Four& z, Rows3& out) {
+    out.row[0] = x;
+    out.row[1] = y;
+    out.row[2] = z;
+}
+
+template <bool has_turn>
 HH_INLINE void multiply_out(const TriadArrays& arrays) {
-    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
-        const Triad& triad = arrays.triads[i];
-        for (std::size_t side = 0; side < 2; ++side) {
-            arrays.sides[2 * i + side] =
-                side_of(triad, side, arrays.bodies[triad.bodies[side]].inverse_inertia);
+    write_sides<has_turn>(arrays);
+    for (const std::uint32_t block : arrays.plan->fill_in()) {
+        write_rows(zero_four(), zero_four(), zero_four(), arrays.blocks[block]);
+    }
+    const TriadPlan::Coupling* coupling = arrays.plan->couplings().data();
+    const double* mass = arrays.masses.data();
+    std::uint32_t begin = 0;
+    for (const TriadPlan::Sum& sum : arrays.plan->sums()) {
+        Four x = {*mass, 0.0, 0.0, 0.0};
+        Four y = {0.0, *mass, 0.0, 0.0};
+        Four z = {0.0, 0.0, *mass, 0.0};
+        for (++mass; begin < sum.end; ++begin) {
+            add_product<has_turn>(arrays, *coupling++, x, y, z);
         }
+        write_rows(x, y, z, arrays.blocks[sum.target]);
     }
-    std::ranges::fill(arrays.blocks, Rows3{});
-    for (const TriadPlan::Coupling& coupling : arrays.plan->couplings()) {
-        const std::uint32_t row_side = coupling.row_end % 2;
-        const Triad& row = arrays.triads[coupling.row_end / 2];
-        add_product(arrays.sides[coupling.row_end], row, arrays.triads[coupling.column_end / 2],
-                    row_side, coupling.column_end % 2,
-                    arrays.bodies[row.bodies[row_side]].inverse_mass,
-                    arrays.blocks[coupling.target]);
-    }
+}
+HH_INLINE void multiply_out(const TriadArrays& arrays) {
+    arrays.has_turn ? multiply_out<true>(arrays) : multiply_out<false>(arrays);
 }
 
 HH_INLINE double inverse_pivot(double pivot, double least) {
@@ -170,11 +270,11 @@ HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double jo
     // Pivots are compared with the diagonal before others take their share of it.
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Rows3& block = arrays.blocks[steps[i].own];
-        arrays.unknowns[i].vector = Four{block.row[0][0], block.row[1][1], block.row[2][2], 0.0};
+        arrays.unknowns[i].v = Four{block.row[0][0], block.row[1][1], block.row[2][2], 0.0};
     }
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const TriadPlan::Step& step = steps[i];
-        const Four diagonal = arrays.unknowns[i].vector;
+        const Four diagonal = arrays.unknowns[i].v;
         const Four alpha =
             arrays.triads[step.node].is_hand
                 ? Four{diagonal[0] > 0.0 ? hand_alpha : 0.0, diagonal[1] > 0.0 ? hand_alpha : 0.0,
@@ -199,23 +299,20 @@ HH_INLINE void substitute(const TriadArrays& arrays) {
     const TriadPlan& plan = *arrays.plan;
     const std::span<const TriadPlan::Step> steps = plan.steps();
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Four own = arrays.triads[steps[i].node].lambda;
+        const Four own = arrays.lambdas[steps[i].node].v;
         const Rows3* carried = arrays.blocks.data() + steps[i].own + 1;
         for (const std::uint32_t later : plan.later(steps[i])) {
-            arrays.triads[later].lambda -= combine(*carried++, own);
+            arrays.lambdas[later].v -= combine(*carried++, own);
         }
-        arrays.unknowns[i].vector = divide(arrays.pivots[i], own);
+        arrays.unknowns[i].v = divide(arrays.pivots[i], own);
     }
     for (std::size_t i = steps.size(); i-- > 0;) {
-        Four own = arrays.unknowns[i].vector;
+        Four own = arrays.unknowns[i].v;
         const Rows3* carried = arrays.blocks.data() + steps[i].own + 1;
         for (const std::uint32_t later : plan.later(steps[i])) {
-            const Four& lambda = arrays.triads[later].lambda;
-            own -= Four{dot3(carried->row[0], lambda), dot3(carried->row[1], lambda),
-                        dot3(carried->row[2], lambda), 0.0};
-            ++carried;
+            own -= multiply(*carried++, arrays.lambdas[later].v);
         }
-        arrays.triads[steps[i].node].lambda = own;
+        arrays.lambdas[steps[i].node].v = own;
     }
 }
 
@@ -223,18 +320,19 @@ HH_INLINE void gather_moves(const TriadArrays& arrays) {
     for (TriadBody& body : arrays.bodies) {
         body.move = body.turn = zero_four();
     }
-    for (const Triad& triad : arrays.triads) {
-        TriadBody& a = arrays.bodies[triad.bodies[0]];
-        TriadBody& b = arrays.bodies[triad.bodies[1]];
-        if (triad.turns) {
-            a.turn += k_angle_m * triad.lambda;
-            b.turn -= k_angle_m * triad.lambda;
+    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
+        TriadBody& a = arrays.bodies[arrays.triads[i].bodies[0]];
+        TriadBody& b = arrays.bodies[arrays.triads[i].bodies[1]];
+        const Four lambda = arrays.lambdas[i].v;
+        if (arrays.triads[i].turns) {
+            a.turn += k_angle_m * lambda;
+            b.turn -= k_angle_m * lambda;
             continue;
         }
-        a.move += triad.lambda;
-        b.move -= triad.lambda;
-        a.turn += cross(triad.arms[0], triad.lambda);
-        b.turn += cross(triad.arms[1], triad.lambda);
+        a.move += lambda;
+        b.move -= lambda;
+        a.turn += cross(arrays.arms[2 * i].v, lambda);
+        b.turn += cross(arrays.arms[2 * i + 1].v, lambda);
     }
     for (TriadBody& body : arrays.bodies.first(arrays.moving)) {
         body.move *= body.inverse_mass;
@@ -243,8 +341,8 @@ HH_INLINE void gather_moves(const TriadArrays& arrays) {
 }
 
 HH_INLINE void solve(const TriadArrays& arrays) {
-    for (Triad& triad : arrays.triads) {
-        triad.lambda = -triad.value;
+    for (std::size_t i = 0; i < arrays.triads.size(); ++i) {
+        arrays.lambdas[i].v = -arrays.values[i].v;
     }
     substitute(arrays);
     gather_moves(arrays);
@@ -276,6 +374,8 @@ HH_INLINE void apply(const TriadArrays& arrays, double scale) {
 HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { evaluate(arrays); }
 HH_AVX2 void evaluate_velocities_avx2(const TriadArrays& arrays) { evaluate_velocities(arrays); }
 HH_AVX2 void write_inertia_avx2(const TriadArrays& arrays) { write_inertia(arrays); }
+HH_AVX2 void gather_stiffness_avx2(const TriadArrays& arrays) { gather_stiffness(arrays); }
+HH_AVX2 void write_stiff_inertia_avx2(const TriadArrays& arrays) { write_stiff_inertia(arrays); }
 HH_AVX2 void multiply_out_avx2(const TriadArrays& arrays) { multiply_out(arrays); }
 HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
     factorise(arrays, hand_alpha, joint_alpha);
@@ -283,14 +383,22 @@ HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double hand_alpha, double
 HH_AVX2 void solve_avx2(const TriadArrays& arrays) { solve(arrays); }
 HH_AVX2 void apply_avx2(const TriadArrays& arrays, double scale) { apply(arrays, scale); }
 
-constexpr TriadKernels k_avx2{evaluate_avx2,     evaluate_velocities_avx2, write_inertia_avx2,
-                              multiply_out_avx2, factorise_avx2,           solve_avx2,
+constexpr TriadKernels k_avx2{evaluate_avx2,
+                              evaluate_velocities_avx2,
+                              gather_stiffness_avx2,
+                              write_inertia_avx2,
+                              write_stiff_inertia_avx2,
+                              multiply_out_avx2,
+                              factorise_avx2,
+                              solve_avx2,
                               apply_avx2};
 #endif
 
 void evaluate_portable(const TriadArrays& arrays) { evaluate(arrays); }
 void evaluate_velocities_portable(const TriadArrays& arrays) { evaluate_velocities(arrays); }
 void write_inertia_portable(const TriadArrays& arrays) { write_inertia(arrays); }
+void gather_stiffness_portable(const TriadArrays& arrays) { gather_stiffness(arrays); }
+void write_stiff_inertia_portable(const TriadArrays& arrays) { write_stiff_inertia(arrays); }
 void multiply_out_portable(const TriadArrays& arrays) { multiply_out(arrays); }
 void factorise_portable(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
     factorise(arrays, hand_alpha, joint_alpha);
@@ -298,9 +406,14 @@ void factorise_portable(const TriadArrays& arrays, double hand_alpha, double joi
 void solve_portable(const TriadArrays& arrays) { solve(arrays); }
 void apply_portable(const TriadArrays& arrays, double scale) { apply(arrays, scale); }
 
-constexpr TriadKernels k_portable{evaluate_portable,      evaluate_velocities_portable,
-                                  write_inertia_portable, multiply_out_portable,
-                                  factorise_portable,     solve_portable,
+constexpr TriadKernels k_portable{evaluate_portable,
+                                  evaluate_velocities_portable,
+                                  gather_stiffness_portable,
+                                  write_inertia_portable,
+                                  write_stiff_inertia_portable,
+                                  multiply_out_portable,
+                                  factorise_portable,
+                                  solve_portable,
                                   apply_portable};
 
 }  // namespace

@@ -18,9 +18,6 @@ struct Triad {
     bool turns = false;            // rotation on rotation
     bool is_hand = false;
     Four points[2] = {};  // of a and b, in their axes
-    Four arms[2] = {};    // from the centres, world axes; b's is negative
-    Four value = {};      // metres, angles at k_angle_m; or metres a second
-    Four lambda = {};     // of the last solve: on a, b's is the opposite
 };
 
 struct TriadBody {
@@ -44,21 +41,28 @@ struct TriadPivots {
     double l10, l20, l21;
 };
 
-// Scratch by step of the plan: the diagonals while it is factorised, what is not yet solved for
-// afterwards. A struct, for a template's argument would forget the alignment.
-struct TriadUnknown {
-    Four vector = {};
+// In a struct, for a template's argument would forget the alignment.
+struct TriadVector {
+    Four v = {};
 };
 
 struct TriadArrays {
     std::span<TriadBody> bodies;  // those that may move, then others
     std::size_t moving = 0;
-    std::span<Triad> triads;
-    std::span<Rows3> sides;            // by end: J W of its rotation
-    std::span<Rows3> blocks;           // the plan's
-    std::span<TriadPivots> pivots;     // by step of the plan
-    std::span<TriadUnknown> unknowns;  // by step: scratch
+    std::span<const Triad> triads;
+    std::span<TriadVector>
+        arms;  // by end, 2 * triad + side: from the centres, world axes; b's negative
+    std::span<TriadVector> values;   // by triad: metres, angles at k_angle_m; or metres a second
+    std::span<TriadVector> lambdas;  // by triad, of the last solve: on a, b's is the opposite
+    std::span<Rows3> stiffness;      // by body that may move, world axes
+    std::span<Rows3> sides;          // by end: J W of its rotation
+    std::span<Rows3> blocks;         // the plan's
+    std::span<TriadPivots> pivots;   // by step of the plan
+    // Scratch by step: the diagonals while it is factorised, what is not yet solved for afterwards.
+    std::span<TriadVector> unknowns;
+    std::span<const double> masses;  // by sum of the plan: what its points share
     const TriadPlan* plan = nullptr;
+    bool has_turn = false;  // some triad
 };
 
 struct TriadKernels {
@@ -66,7 +70,11 @@ struct TriadKernels {
     void (*evaluate)(const TriadArrays& arrays);
     // What each triad's velocity lacks but for the hands' own.
     void (*evaluate_velocities)(const TriadArrays& arrays);
+    // Geometric stiffness at the arms and multipliers of the last solve: positive_stiffness,
+    // summed.
+    void (*gather_stiffness)(const TriadArrays& arrays);
     void (*write_inertia)(const TriadArrays& arrays);
+    void (*write_stiff_inertia)(const TriadArrays& arrays);
     // J W J^T in the plan's blocks.
     void (*multiply_out)(const TriadArrays& arrays);
     // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.

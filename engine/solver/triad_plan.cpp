@@ -1,5 +1,7 @@
 #include "engine/solver/triad_plan.hpp"
 
+#include <algorithm>
+
 #include "engine/core/check.hpp"
 
 namespace handhold {
@@ -37,13 +39,37 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
         const auto end = static_cast<std::uint32_t>(later_.size());
         steps_.push_back({panel.node, block_at(panel, panel.begin), begin, end, updates});
     }
-    couplings_.clear();
+    block_count_ = plan_.value_count() / k_block_size;
+    find_sums();
+}
+
+void TriadPlan::find_sums() {
+    struct Target {
+        std::uint32_t block = 0;
+        Coupling coupling;
+    };
+    std::vector<Target> targets;
     for (const EliminationPlan::Coupling& coupling : plan_.couplings()) {
         const EliminationPlan::Panel& panel = plan_.panel_of(coupling.panel_end / 2);
-        couplings_.push_back(
-            {coupling.panel_end, coupling.later_end, block_at(panel, coupling.target)});
+        targets.push_back(
+            {block_at(panel, coupling.target), {coupling.panel_end, coupling.later_end}});
     }
-    block_count_ = plan_.value_count() / k_block_size;
+    std::ranges::stable_sort(targets, {}, &Target::block);
+    couplings_.clear();
+    sums_.clear();
+    fill_in_.clear();
+    auto next = targets.begin();
+    for (std::uint32_t block = 0; block < block_count_; ++block) {
+        const auto begin = next;
+        for (; next != targets.end() && next->block == block; ++next) {
+            couplings_.push_back(next->coupling);
+        }
+        if (next == begin) {
+            fill_in_.push_back(block);
+        } else {
+            sums_.push_back({block, static_cast<std::uint32_t>(couplings_.size())});
+        }
+    }
 }
 
 }  // namespace handhold

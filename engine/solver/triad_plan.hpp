@@ -33,7 +33,6 @@ class TriadPlan {
     struct Coupling {
         std::uint32_t row_end = 0;  // 2 * node + side
         std::uint32_t column_end = 0;
-        std::uint32_t target = 0;  // block
     };
 
     std::span<const Step> steps() const { return steps_; }
@@ -41,15 +40,27 @@ class TriadPlan {
         return std::span(later_).subspan(step.later_begin, step.later_end - step.later_begin);
     }
     std::span<const std::uint32_t> updates() const { return updates_; }
+    // A block: the sum of couplings, from where the sum before ends.
+    struct Sum {
+        std::uint32_t target = 0;  // block
+        std::uint32_t end = 0;     // into `couplings`
+    };
     std::span<const Coupling> couplings() const { return couplings_; }
+    std::span<const Sum> sums() const { return sums_; }
+    // Blocks that no coupling reaches: they are filled by the elimination alone.
+    std::span<const std::uint32_t> fill_in() const { return fill_in_; }
     std::size_t block_count() const { return block_count_; }
 
   private:
+    void find_sums();
+
     EliminationPlan plan_;
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
     std::vector<Coupling> couplings_;
+    std::vector<Sum> sums_;
+    std::vector<std::uint32_t> fill_in_;
     std::size_t block_count_ = 0;
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solver/geometric_stiffness.hpp"
-
 namespace handhold {
 namespace {
 
@@ -29,25 +27,6 @@ bool holds_rotation(RowKind kind) {
     return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
 }
 
-// True where every block that takes part holds, or is a contact that does not count.
-bool serves(const IslandView& island, double touch_m) {
-    return std::ranges::all_of(island.island_blocks, [&](std::uint32_t index) {
-        const RowBlock& block = island.blocks[index];
-        if (!takes_part(island, block)) {
-            return true;
-        }
-        return is_contact(block) ? contact_separation_m(island.bodies, block) >= touch_m
-                                 : always_holds(block);
-    });
-}
-
-Mat3 to_mat3(const Rows3& rows) {
-    Mat3 out;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-        out.row(i) = to_vec3(rows.row[i]).transpose();
-    }
-    return out;
-}
 Rows3 to_rows(const Mat3& m) {
     return {{to_four(Vec3(m.row(0))), to_four(Vec3(m.row(1))), to_four(Vec3(m.row(2)))}};
 }
@@ -61,20 +40,34 @@ void pack(const SolverBody& from, std::uint32_t index, TriadBody& body) {
     body.inverse_mass = from.inverse_mass;
     body.inverse_inertia_bs = to_four(from.inverse_inertia_bs);
     body.may_turn = from.inverse_mass > 0.0 && !from.inverse_inertia_bs.isZero(0.0);
+    if (!body.may_turn) {
+        body.inverse_inertia = {};
+    }
+}
+
+bool are_equal(const Four& a, const Four& b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+}
+// True where it has the mass and the pose that it was packed with, or stored with.
+bool is_as_packed(const SolverBody& from, const TriadBody& body) {
+    return from.inverse_mass == body.inverse_mass &&
+           are_equal(to_four(from.inverse_inertia_bs), body.inverse_inertia_bs) &&
+           are_equal(to_four(from.pose_ws.position), body.position) &&
+           are_equal(to_four(from.pose_ws.rotation), body.rotation);
 }
 
 }  // namespace
 
 void TriadSystem::load_bodies(const IslandView& island) {
-    const std::size_t count = island.island_bodies.size();
-    bodies_.clear();
-    may_turn_.clear();
-    for (const std::uint32_t index : island.island_bodies) {
-        pack(island.bodies[index], index, bodies_.emplace_back());
-        may_turn_.push_back(bodies_.back().may_turn ? 1 : 0);
+    moving_ = island.island_bodies.size();
+    bodies_.resize(moving_);  // of other islands: all that counts is written
+    may_turn_.resize(moving_);
+    for (std::size_t slot = 0; slot < moving_; ++slot) {
+        const std::uint32_t index = island.island_bodies[slot];
+        pack(island.bodies[index], index, bodies_[slot]);
+        may_turn_[slot] = bodies_[slot].may_turn ? 1 : 0;
     }
-    moving_ = count;
-    uses_.assign(count, 0);
+    uses_.assign(moving_, 0);
 }
 
 // False where more meet in one body than are served.
@@ -107,37 +100,87 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns)
 }
 
 bool TriadSystem::load(const IslandView& island, double touch_m) {
-    if (!serves(island, touch_m)) {
-        return false;
-    }
+    revision_ = 0;
     load_bodies(island);
     triads_.clear();
     nodes_.clear();
     has_hand_ = has_turn_ = is_stiff_ = false;
+    bool has_contact = false;
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
-        if (is_contact(block) || !takes_part(island, block)) {
+        if (is_contact(block)) {
+            has_contact = true;
+            if (takes_part(island, block) && contact_separation_m(island.bodies, block) < touch_m) {
+                return false;
+            }
             continue;
         }
-        if ((holds_point(block.kind) && !add(island, index, false)) ||
+        if (!takes_part(island, block)) {
+            continue;
+        }
+        if (!always_holds(block) || (holds_point(block.kind) && !add(island, index, false)) ||
             (holds_rotation(block.kind) && !add(island, index, true))) {
             return false;
         }
     }
     plan_nodes();
+    if (!has_contact && island.filter != BlockFilter::without_hands) {
+        revision_ = island.revision;
+    }
+    return true;
+}
+
+bool TriadSystem::resume(const IslandView& island) {
+    if (revision_ == 0 || revision_ != island.revision ||
+        island.filter == BlockFilter::without_hands || moving_ != island.island_bodies.size()) {
+        return false;
+    }
+    for (TriadBody& body : bodies_) {
+        const SolverBody& from = island.bodies[body.index];
+        if (!is_as_packed(from, body)) {
+            return false;
+        }
+        body.velocity = to_four(from.velocity_mps);
+        body.spin = to_four(from.spin_radps);
+    }
+    is_stiff_ = false;
     return true;
 }
 
 void TriadSystem::plan_nodes() {
     const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
+    arms_.resize(2 * triads_.size());
+    values_.resize(triads_.size());
+    lambdas_.resize(triads_.size());
     sides_.resize(2 * triads_.size());
     blocks_.resize(plan.block_count());
     pivots_.resize(triads_.size());
     unknowns_.resize(triads_.size());
+    share_masses(plan);
+}
+
+// What points that meet in a body share of its 1/mass: the translations' part of J W J^T.
+void TriadSystem::share_masses(const TriadPlan& plan) {
+    masses_.clear();
+    std::uint32_t begin = 0;
+    for (const TriadPlan::Sum& sum : plan.sums()) {
+        double mass = 0.0;
+        for (; begin < sum.end; ++begin) {
+            const TriadPlan::Coupling& coupling = plan.couplings()[begin];
+            const Triad& row = triads_[coupling.row_end / 2];
+            if (!row.turns && !triads_[coupling.column_end / 2].turns) {
+                const std::uint32_t side = coupling.row_end % 2;
+                const double share = bodies_[row.bodies[side]].inverse_mass;
+                mass += side == coupling.column_end % 2 ? share : -share;
+            }
+        }
+        masses_.push_back(mass);
+    }
 }
 
 TriadArrays TriadSystem::arrays() {
-    return {bodies_, moving_, triads_, sides_, blocks_, pivots_, unknowns_, &plans_.current()};
+    return {bodies_, moving_, triads_, arms_,     values_, lambdas_,          stiffness_,
+            sides_,  blocks_, pivots_, unknowns_, masses_, &plans_.current(), has_turn_};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
@@ -162,10 +205,11 @@ void TriadSystem::evaluate(const IslandView& island) {
     if (!has_turn_) {
         return;
     }
-    for (Triad& triad : triads_) {
+    for (std::size_t i = 0; i < triads_.size(); ++i) {
+        const Triad& triad = triads_[i];
         if (triad.turns) {
             const RowBlock& block = island.blocks[triad.block];
-            triad.value = to_four(Vec3(
+            values_[i].v = to_four(Vec3(
                 k_angle_m * rotation_error(to_quat(bodies_[triad.bodies[0]].rotation),
                                            to_quat(bodies_[triad.bodies[1]].rotation), block)));
         }
@@ -177,39 +221,28 @@ void TriadSystem::evaluate_velocities(const IslandView& island) {
     if (!has_hand_) {
         return;
     }
-    for (Triad& triad : triads_) {
+    for (std::size_t i = 0; i < triads_.size(); ++i) {
+        const Triad& triad = triads_[i];
         if (triad.is_hand) {
             const RowBlock& block = island.blocks[triad.block];
-            triad.value += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
-                                       : to_four(block.drive_velocity_ws_mps);
+            values_[i].v += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
+                                        : to_four(block.drive_velocity_ws_mps);
         }
     }
 }
 
 double TriadSystem::worst_value() const {
     double square = 0.0;
-    for (const Triad& triad : triads_) {
-        square = std::max(square, dot3(triad.value, triad.value));
+    for (const TriadVector& value : values_) {
+        square = std::max(square, dot3(value.v, value.v));
     }
     return std::sqrt(square);
 }
 
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
-    stiffness_.assign(moving_, Mat3::Zero());
-    for (const Triad& triad : triads_) {
-        if (triad.turns) {
-            continue;
-        }
-        for (std::size_t side = 0; side < 2; ++side) {
-            const TriadBody& body = bodies_[triad.bodies[side]];
-            if (body.may_turn) {
-                const double sign = side == 0 ? 1.0 : -1.0;
-                stiffness_[triad.bodies[side]] += positive_stiffness(
-                    to_vec3(triad.lambda), to_vec3(sign * triad.arms[side]), sign);
-            }
-        }
-    }
+    stiffness_.resize(moving_);
+    kernels_->gather_stiffness(arrays());
 }
 
 // The harmonic mean of the diagonal, by triads: what one hand holds weighs as much as the other's.
@@ -228,13 +261,7 @@ double TriadSystem::hand_size() const {
 }
 
 void TriadSystem::factorise(const Softness& softness, double factor) {
-    kernels_->write_inertia(arrays());
-    if (is_stiff_) {
-        for (std::size_t slot = 0; slot < moving_; ++slot) {
-            Rows3& inverse = bodies_[slot].inverse_inertia;
-            inverse = to_rows(stiffened(to_mat3(inverse), stiffness_[slot]));
-        }
-    }
+    (is_stiff_ ? kernels_->write_stiff_inertia : kernels_->write_inertia)(arrays());
     kernels_->multiply_out(arrays());
     const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
     kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
@@ -262,12 +289,12 @@ void TriadSystem::apply_impulses(const IslandView& island) {
         body.velocity += body.move;
         body.spin += body.turn;
     }
-    for (const Triad& triad : triads_) {
-        RowBlock& block = island.blocks[triad.block];
-        if (triad.turns) {
-            block.couple_ws_nms += k_angle_m * to_vec3(triad.lambda);
+    for (std::size_t i = 0; i < triads_.size(); ++i) {
+        RowBlock& block = island.blocks[triads_[i].block];
+        if (triads_[i].turns) {
+            block.couple_ws_nms += k_angle_m * to_vec3(lambdas_[i].v);
         } else {
-            block.impulse_ws_ns += to_vec3(triad.lambda);
+            block.impulse_ws_ns += to_vec3(lambdas_[i].v);
         }
     }
 }

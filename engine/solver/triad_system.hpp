@@ -23,6 +23,10 @@ class TriadSystem {
     // may let go, slide or stop, or where so many meet in one body that RowSystem's hubs serve
     // better: nothing else may be called then. `touch_m`: contacts farther apart do not count.
     bool load(const IslandView& island, double touch_m);
+    // Takes over the velocities alone, where it still has all the rest: `load` and `store_poses`
+    // came before, in the same revision of the graph, and masses and poses are as they were. False
+    // where it has not, or where contacts might count by now.
+    bool resume(const IslandView& island);
     // Writes the bodies back, those that something moves: poses, or velocities.
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
@@ -53,6 +57,7 @@ class TriadSystem {
     void load_bodies(const IslandView& island);
     bool add(const IslandView& island, std::uint32_t index, bool turns);
     void plan_nodes();
+    void share_masses(const TriadPlan& plan);
     double hand_size() const;
 
     // Made for each call: it points into this.
@@ -60,19 +65,24 @@ class TriadSystem {
     std::span<const TriadBody> moving() const { return std::span(bodies_).first(moving_); }
 
     const TriadKernels* kernels_;
-    std::size_t moving_ = 0;  // of the bodies, the first
+    std::uint64_t revision_ = 0;  // of the graph that `resume` may go on with; 0: none
+    std::size_t moving_ = 0;      // of the bodies, the first
     std::vector<TriadBody> bodies_;
     std::vector<Triad> triads_;
+    std::vector<TriadVector> arms_;
+    std::vector<TriadVector> values_;
+    std::vector<TriadVector> lambdas_;
+    std::vector<double> masses_;
     std::vector<Rows3> sides_;
     std::vector<Rows3> blocks_;
     std::vector<TriadPivots> pivots_;
-    std::vector<TriadUnknown> unknowns_;
+    std::vector<TriadVector> unknowns_;
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // by slot
     std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
-    std::vector<Mat3> stiffness_;         // by slot
+    std::vector<Rows3> stiffness_;        // by slot
     double longest_move_ = 0.0;
     double longest_turn_ = 0.0;
     bool is_stiff_ = false;

@@ -310,7 +310,7 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
 
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch) {
-    if (scratch.triads.load(island, settings.touch_m)) {
+    if (scratch.triads.resume(island) || scratch.triads.load(island, settings.touch_m)) {
         solve_triad_velocities(island, settings, scratch.triads);
         return {};
     }

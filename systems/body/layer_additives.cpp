@@ -91,8 +91,12 @@ void add_look(const BodyClips& clips, const Quat& head_ps, const Vec3& facing, d
     const double ahead = facing.x() * ahead_ps.x() + facing.z() * ahead_ps.z();
     // How clearly one looks to a side: straight up there is none.
     const double level = std::sqrt(left * left + ahead * ahead);
-    add_turns(clips.at(BodyClipName::look_yaw), arc_tangent2(left, ahead), weight * level,
-              ClipBlend::straight, turns);
+    // Straight behind is left as well as right: nobody leans there.
+    constexpr double k_fade_from_rad = 0.75 * k_pi;
+    const double yaw_rad = arc_tangent2(left, ahead);
+    const double fade = 1.0 - smooth_step(std::abs(yaw_rad), k_fade_from_rad, k_pi);
+    add_turns(clips.at(BodyClipName::look_yaw), yaw_rad, weight * level * fade, ClipBlend::straight,
+              turns);
     add_turns(clips.at(BodyClipName::look_pitch), arc_tangent2(ahead_ps.y(), level), weight,
               ClipBlend::straight, turns);
 }

@@ -180,8 +180,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         HH_DETAIL_ZONE("island");
         const Island& island = graph.islands[frame.island_order[i]];
         set_masses(s, island, phase);
-        const IslandView view{filter_of(phase), graph.bodies, graph.blocks, graph.bodies_of(island),
-                              graph.blocks_of(island)};
+        const IslandView view{
+            filter_of(phase),        graph.bodies,  graph.blocks, graph.bodies_of(island),
+            graph.blocks_of(island), graph.revision};
         const std::uint32_t index = frame.island_order[i];
         frame.island_results[i] =
             frame.position_solver(view, settings, frame.island_scratch[index]);

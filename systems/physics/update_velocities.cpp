@@ -60,8 +60,9 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
         const std::uint32_t i = frame.island_order[order];
         const Island& island = graph.islands[i];
         set_masses(frame, island);
-        const IslandView view{BlockFilter::all, graph.bodies, graph.blocks, graph.bodies_of(island),
-                              graph.blocks_of(island)};
+        const IslandView view{
+            BlockFilter::all,        graph.bodies,  graph.blocks, graph.bodies_of(island),
+            graph.blocks_of(island), graph.revision};
         frame.velocity_results[i] = solve_velocities(view, settings, frame.island_scratch[i]);
     };
     parallel_for(graph.islands.size(), solve_one);

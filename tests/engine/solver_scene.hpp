@@ -99,8 +99,12 @@ struct SolverScene {
     }
 
     IslandView view(const Island& island, BlockFilter filter = BlockFilter::all) {
-        return {filter, graph.bodies, graph.blocks, graph.bodies_of(island),
-                graph.blocks_of(island)};
+        return {filter,
+                graph.bodies,
+                graph.blocks,
+                graph.bodies_of(island),
+                graph.blocks_of(island),
+                graph.revision};
     }
     // Every island's; the result is that of the last, which in most tests is the only one.
     NewtonResult solve_positions(const NewtonSettings& settings = {},

@@ -281,6 +281,47 @@ TEST(Triads, OtherIslandsBeforeChangeNoBit) {
     }
 }
 
+// --- Velocities go on with what positions loaded
+// -----------------------------------------------------------------------------
+
+// Positions and velocities of a random island in one frame; `changed` is called between the two.
+template <typename Change>
+void expect_same_as_loaded_anew(bool resumes, Change&& change) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        SolverScene scene = random_island(random);
+        disturb(scene, 0.02, random);
+        const Island& island = scene.graph.islands.front();
+        solve_positions(scene.view(island, BlockFilter::without_contacts), {}, scene.scratch);
+        change(scene);
+        EXPECT_EQ(TriadSystem(scene.scratch.triads).resume(scene.view(island)), resumes);
+        SolverScene anew;
+        anew.graph = scene.graph;
+        solve_velocities(scene.view(island), {}, scene.scratch);
+        solve_velocities(anew.view(anew.graph.islands.front()), {}, anew.scratch);
+        EXPECT_EQ(bits_of(scene), bits_of(anew));
+    }
+}
+
+TEST(Triads, GoOnFromPositionsToVelocitiesWithTheBitsOfALoadAnew) {
+    expect_same_as_loaded_anew(true, [](SolverScene&) {});
+}
+
+TEST(Triads, LoadAnewWhereAMassAPoseOrABlockIsAnother) {
+    const auto first = [](SolverScene& scene) -> SolverBody& {
+        return scene.body(scene.graph.bodies_of(scene.graph.islands.front()).front());
+    };
+    expect_same_as_loaded_anew(false,
+                               [&](SolverScene& scene) { first(scene).inverse_mass += 0.5; });
+    expect_same_as_loaded_anew(
+        false, [&](SolverScene& scene) { first(scene).pose_ws.position.x() += 1e-3; });
+    expect_same_as_loaded_anew(false, [&](SolverScene& scene) {
+        scene.block(0).point_a_bs.x() += 1e-3;
+        build_islands(scene.graph);
+    });
+}
+
 // --- What is served
 // ---------------------------------------------------------------------------------
 

@@ -278,6 +278,8 @@ TEST(LayerAdditives, LookGoesByWhereTheHeadLooksFromTheChest) {
     EXPECT_NEAR(leant(0.5), 0.05, 1e-12);  // left
     EXPECT_NEAR(leant(-0.5), 0.0, 1e-12);
     EXPECT_NEAR(leant(2.0), 0.1, 1e-12);
+    // Straight behind, where left becomes right, nothing jumps.
+    EXPECT_NEAR(leant(k_pi - 1e-3), leant(-k_pi + 1e-3), 1e-5);
 }
 
 TEST(LayerAdditives, ClavicleGoesByAngleAndDistanceAndBothSidesAreMirrored) {
