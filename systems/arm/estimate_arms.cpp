@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/anim/two_bone_ik.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
@@ -60,6 +61,14 @@ double clavicle_reach_m(double distance) {
         }
     }
     return k_curve.back().reach_m;
+}
+
+// Directions nearer to each other than this need no trigonometry: see share_of_line.
+constexpr double k_near_cosine = 0.95;
+// The share of the line between two unit vectors that lies at this share of the angle between them,
+// to within 1e-4 of it down to k_near_cosine: the first term of its series in the angle.
+double share_of_line(double share, double cosine) {
+    return share * (1.0 + (1.0 - share) * (1.0 - 2.0 * share) * (1.0 - cosine) * (1.0 / 3.0));
 }
 
 Vec3 any_square_to(const Vec3& axis) {
@@ -245,7 +254,11 @@ Vec3 level_look(const Vec3& ahead, const Vec3& up) {
 }
 
 Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share) {
-    const double angle = arc_tangent2(cross_y(look_ps, now_ps), look_ps.dot(now_ps));
+    const double cosine_now = look_ps.dot(now_ps);
+    if (cosine_now > k_near_cosine) {
+        return level_unit(look_ps + share_of_line(share, cosine_now) * (now_ps - look_ps));
+    }
+    const double angle = arc_tangent2(cross_y(look_ps, now_ps), cosine_now);
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(angle * share, sine, cosine);
@@ -324,17 +337,8 @@ Vec3 elbow_pole(const Vec3& facing_ps, const Mat3& hand_axes_ps, HandSide side,
 }
 
 ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m, double forearm_m) {
-    const double total = upper_m + forearm_m;
-    if (distance_m >= total) {
-        return {axis_ts, axis_ts * (distance_m * upper_m / total), 0.0};
-    }
-    if (distance_m < 1e-9) {
-        return {axis_ts, Vec3::Zero(), upper_m};
-    }
-    // As solve_two_bone_ik has it.
-    const double along = std::clamp(0.5 * (distance_m + (upper_m - forearm_m) * total / distance_m),
-                                    -upper_m, upper_m);
-    return {axis_ts, axis_ts * along, std::sqrt((upper_m - along) * (upper_m + along))};
+    const MiddleJoint elbow = middle_joint(distance_m, upper_m, forearm_m);
+    return {axis_ts, axis_ts * elbow.along_m, elbow.aside_m};
 }
 
 Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
@@ -383,10 +387,15 @@ Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning&
 Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
                const BendTurn& turn) {
     const Vec3 side = axis_ts.cross(bend_ts);
-    const double angle = arc_tangent2(side.dot(wanted_ts), bend_ts.dot(wanted_ts));
-    double sine = 0.0;
-    double cosine = 1.0;
-    sin_cos(std::clamp(turn.share * angle, -turn.most_rad, turn.most_rad), sine, cosine);
+    const double sine_now = side.dot(wanted_ts);
+    const double cosine_now = bend_ts.dot(wanted_ts);
+    const double share = share_of_line(turn.share, cosine_now);
+    double sine = share * sine_now;
+    double cosine = 1.0 - share * (1.0 - cosine_now);
+    if (!(cosine_now > k_near_cosine && std::abs(sine) < 0.98 * turn.most_rad)) {
+        const double angle = arc_tangent2(sine_now, cosine_now);
+        sin_cos(std::clamp(turn.share * angle, -turn.most_rad, turn.most_rad), sine, cosine);
+    }
     const Vec3 turned = cosine * bend_ts + sine * side;
     return turned * (1.0 / turned.norm());
 }

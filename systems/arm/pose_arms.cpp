@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "engine/anim/two_bone_ik.hpp"
-#include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
@@ -26,75 +25,85 @@ Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
     return {from, rotation_of_axes(x, back.cross(x), back)};
 }
 
-// Both bones of an arm lie in one plane: its frame has -Z to the hand and +Y to the elbow's side,
-// theirs are turned about its X.
-struct ArmPlane {
-    Quat frame;
-    Vec3 axis;  // unit: from the shoulder to the hand
-    Vec3 bend;  // unit, square to it
-};
-ArmPlane arm_plane(const Vec3& reach, double distance, const Vec3& bend) {
-    const Vec3 back = reach * (-1.0 / distance);
-    return {rotation_of_axes(bend.cross(back), bend, back), -back, bend};
-}
-
-// As bone(from, to, plane.bend) for bones in the plane.
-Pose bone_in(const ArmPlane& plane, const Vec3& from, const Vec3& to) {
-    const Vec3 along = to - from;
-    const double ahead = along.dot(plane.axis);
-    const double aside = along.dot(plane.bend);
-    const double length = std::sqrt(ahead * ahead + aside * aside);
-    if (!(ahead > 0.01 * length)) {
-        return bone(from, to, plane.bend);
-    }
+// Both bones of an arm lie in one plane: its frame has -Z to the hand and +Y to the elbow's side.
+// A bone in it is turned about its X: so far ahead, so far aside.
+Quat in_plane(const Quat& frame, double ahead, double aside, double length) {
     // Half the angle: its cosine and sine are as length + ahead to aside.
     const double cosine = length + ahead;
     const double by = 1.0 / std::sqrt(cosine * cosine + aside * aside);
     const double w = cosine * by;
     const double x = aside * by;
-    const Quat& f = plane.frame;
-    return {from, Quat(f.w() * w - f.x() * x, f.w() * x + f.x() * w, f.y() * w + f.z() * x,
-                       f.z() * w - f.y() * x)};
+    return {frame.w() * w - frame.x() * x, frame.w() * x + frame.x() * w,
+            frame.y() * w + frame.z() * x, frame.z() * w - frame.y() * x};
+}
+
+// What both hands of a player share.
+struct Arms {
+    const PlayerOrigin* origin;
+    Mat3 to_ws;  // from play space
+    Vec3 chest_up_ws;
+    const BodyMeasures* measures;
+    const ArmEstimate* estimate;
+    ArmPose* pose;
+};
+Arms arms_of(const PoseArmsIo& io, Entity player) {
+    Arms arms{
+        &io.origin.at(player), Mat3(), Vec3(), &io.measures.at(player), &io.estimate.at(player),
+        &io.arms.at(player)};
+    arms.to_ws = arms.origin->pose_ws.rotation.toRotationMatrix();
+    arms.pose->chest_ws = arms.origin->pose_ws * arms.estimate->chest_ps;
+    arms.chest_up_ws = arms.pose->chest_ws.rotation * Vec3::UnitY();
+    return arms;
+}
+
+void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& palm_ws,
+              ArmPose::Arm& out) {
+    out.hand_ws = palm_ws;
+    const Vec3& hand_ws = palm_ws.position;
+    const Vec3 shoulder_ws = arms.origin->pose_ws.position + arms.to_ws * estimate.shoulder_ps;
+    const Vec3& middle_ws = arms.pose->chest_ws.position;
+    const Vec3 neck_ws = middle_ws + k_clavicle_from * (shoulder_ws - middle_ws);
+    out.clavicle_ws = bone(neck_ws, shoulder_ws, arms.chest_up_ws);
+
+    const double upper_m = estimate.stretch * arms.measures->upper_arm_m;
+    const double forearm_m = estimate.stretch * arms.measures->forearm_m;
+    const Vec3 bend_ws = arms.to_ws * estimate.bend_ps;
+    const Vec3 reach = hand_ws - shoulder_ws;
+    const double distance = reach.norm();
+    const MiddleJoint elbow = middle_joint(distance, upper_m, forearm_m);
+    const Vec3 axis = distance < 1e-6 ? Vec3(Vec3::Zero()) : Vec3(reach * (1.0 / distance));
+    const Vec3 elbow_ws = shoulder_ws + elbow.along_m * axis + elbow.aside_m * bend_ws;
+    // Folded up, an arm's bones are as good as along the line back.
+    const double rest_m = distance - elbow.along_m;
+    if (!(elbow.along_m > 0.01 * upper_m && rest_m > 0.01 * forearm_m)) {
+        out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
+        out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
+        return;
+    }
+    const Quat frame = rotation_of_axes(bend_ws.cross(-axis), bend_ws, -axis);
+    const auto length = [](double ahead, double aside) {
+        return std::sqrt(ahead * ahead + aside * aside);
+    };
+    out.upper_ws = {shoulder_ws, in_plane(frame, elbow.along_m, elbow.aside_m,
+                                          length(elbow.along_m, elbow.aside_m))};
+    out.forearm_ws = {elbow_ws,
+                      in_plane(frame, rest_m, -elbow.aside_m, length(rest_m, elbow.aside_m))};
 }
 
 }  // namespace
 
 void pose_arms(const PoseArmsIo& io) {
-    join(
-        io.arms,
-        [](Entity, ArmPose& out, const ArmEstimate& estimate, const PlayerOrigin& origin) {
-            out.chest_ws = origin.pose_ws * estimate.chest_ps;
-        },
-        io.estimate, io.origin);
+    Entity player = k_no_entity;
+    Arms arms{};
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        const std::size_t side = index_of(owner.side);
-        const Pose& origin_ws = io.origin.at(owner.player).pose_ws;
-        const BodyMeasures& measures = io.measures.at(owner.player);
-        const ArmEstimate::Arm& estimate = io.estimate.at(owner.player).arms[side];
-        ArmPose& pose = io.arms.at(owner.player);
-        ArmPose::Arm& out = pose.arms[side];
-        out.hand_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
-        const Mat3 to_ws = origin_ws.rotation.toRotationMatrix();
-        const Vec3 shoulder_ws = origin_ws.position + to_ws * estimate.shoulder_ps;
-        const Vec3 bend_ws = to_ws * estimate.bend_ps;
-        const Vec3& hand_ws = out.hand_ws.position;
-        const Vec3 elbow_ws = solve_two_bone_ik({estimate.stretch * measures.upper_arm_m,
-                                                 estimate.stretch * measures.forearm_m, shoulder_ws,
-                                                 hand_ws, bend_ws});
-        const Vec3& middle_ws = pose.chest_ws.position;
-        const Vec3 neck_ws = middle_ws + k_clavicle_from * (shoulder_ws - middle_ws);
-        out.clavicle_ws = bone(neck_ws, shoulder_ws, pose.chest_ws.rotation * Vec3::UnitY());
-        const Vec3 reach = hand_ws - shoulder_ws;
-        const double distance = reach.norm();
-        if (distance < 1e-6) {
-            out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
-            out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
-            continue;
+        if (owner.player != player) {  // hands of one player follow each other, mostly
+            player = owner.player;
+            arms = arms_of(io, player);
         }
-        const ArmPlane plane = arm_plane(reach, distance, bend_ws);
-        out.upper_ws = bone_in(plane, shoulder_ws, elbow_ws);
-        out.forearm_ws = bone_in(plane, elbow_ws, hand_ws);
+        const std::size_t side = index_of(owner.side);
+        pose_arm(arms, arms.estimate->arms[side], io.palm.at(io.owner.owners()[row]).pose_ws,
+                 arms.pose->arms[side]);
     }
 }
 
