@@ -10,18 +10,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from grips import report, svg
+from grips import report
+from pages import svg
+from pages.goals import judged
 
 
 class Goals(unittest.TestCase):
     def test_a_limit_is_met_at_its_value_and_missed_beyond(self):
-        self.assertEqual(report.judged("x", 3.0, 3, "%").verdict(), "met")
-        self.assertEqual(report.judged("x", 3.01, 3, "%").verdict(), "MISSED")
-        self.assertEqual(report.judged("x", 95.0, 95, "%", least=True).verdict(), "met")
-        self.assertEqual(report.judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
+        self.assertEqual(judged("x", 3.0, 3, "%").verdict(), "met")
+        self.assertEqual(judged("x", 3.01, 3, "%").verdict(), "MISSED")
+        self.assertEqual(judged("x", 95.0, 95, "%", least=True).verdict(), "met")
+        self.assertEqual(judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
 
     def test_what_was_not_measured_was_not_run(self):
-        self.assertEqual(report.judged("x", math.nan, 3, "%").verdict(), "not run")
+        self.assertEqual(judged("x", math.nan, 3, "%").verdict(), "not run")
         self.assertEqual({goal.verdict() for goal in report.goals(None, None, None)}, {"not run"})
 
     def test_each_goal_reads_its_own_figure(self):
