@@ -4,7 +4,7 @@ import math
 
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;max-width:1340px;margin:2rem auto;padding:0 1rem;color:#1c1c1e;background:#fff}
 h1,h2{font-weight:600}table{border-collapse:collapse;font-variant-numeric:tabular-nums;margin:.7rem 0}td,th{padding:.15rem .55rem;text-align:left;
-border-bottom:1px solid #e3e3e6}td.n,th.n{text-align:right}.miss{color:#b3261e;font-weight:600}.pass{color:#0b6e4f}
+border-bottom:1px solid #e3e3e6}td.n,th.n{text-align:right}td.n{white-space:nowrap}.miss{color:#b3261e;font-weight:600}.pass{color:#0b6e4f}
 .plots{display:flex;flex-wrap:wrap;gap:1.5rem}figure{margin:0;width:640px;max-width:100%}.title{font:600 14px system-ui}
 .tick{font:12px system-ui;fill:#555}.grid{stroke:#e3e3e6}.mark{stroke:#888;stroke-dasharray:4 3}figcaption span{margin-right:1rem;font-size:13px}
 figcaption i{display:inline-block;width:10px;height:10px;border-radius:5px;margin-right:.4rem}.sheet{display:flex;flex-wrap:wrap;gap:.7rem}
