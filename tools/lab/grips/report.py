@@ -96,6 +96,6 @@ solved cold, alone, on one thread. What each figure means: docs/lab.md.</p>
 <h2>Beside the baselines</h2>{groups}
 <div class="plots">{plots_html(by_variant, case_rows)}</div>
 <h2>By mesh</h2>{figures_html("mesh", case_rows)}
-<h2>Fallbacks</h2>{fallbacks_html([row for rows in variant_tables.values() for row in rows[:1]])}
+<h2>Fallbacks</h2>{fallbacks_html([(group, rows[0][1]) for group, rows in variant_tables.items()])}
 {f'<h2>Pictures</h2><div class="sheet">{sheet}</div>' if sheet else ""}</html>
 """
