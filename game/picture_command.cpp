@@ -38,7 +38,7 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
 Pose wrist_before_eyes(HandSide side, bool holds_controller) {
     const double out = side == HandSide::left ? -1.0 : 1.0;
     if (holds_controller) {
-        return {Vec3(out * 0.15, -0.17, -0.30), rotation_about(Vec3::UnitY(), out * 0.45) *
+        return {Vec3(out * 0.18, -0.17, -0.30), rotation_about(Vec3::UnitY(), out * 0.45) *
                                                     rotation_about(Vec3::UnitX(), 0.45) *
                                                     rotation_about(Vec3::UnitZ(), -out * 1.25)};
     }

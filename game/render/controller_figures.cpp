@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr HandleGrip k_wand_grip = {0.017, 0.6, 0.0};
+constexpr HandleGrip k_wand_grip = {0.017, 0.6, -0.015};
 
 // Pictures have no textures: a material that leaves its colour to one would be white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
