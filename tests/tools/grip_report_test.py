@@ -1,4 +1,7 @@
 """What grip_report makes of figures, and what it says where nothing can be run."""
+import argparse
+import importlib.machinery
+import importlib.util
 import math
 import subprocess
 import sys
@@ -10,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from grips import report
+from grips import glb, primitives, report
 from pages import svg
 from pages.goals import judged
 
@@ -46,6 +49,27 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(drawing.findall(".//polyline")), 1)
         drawing = ElementTree.fromstring(svg.bars("a & b", [("x", 1.0), ("y", math.nan)], "%", 3.0))
         self.assertEqual(len(drawing.findall(".//rect")), 2)
+
+
+class Refusals(unittest.TestCase):
+    def run_case(self, name, said):
+        loader = importlib.machinery.SourceFileLoader("grip_report", str(SCRIPT))
+        grip_report = importlib.util.module_from_spec(importlib.util.spec_from_loader("grip_report", loader))
+        loader.exec_module(grip_report)
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, lab = Path(folder) / "mesh.glb", Path(folder) / "lab"
+            glb.write_triangles(mesh, *primitives.make("box", 0.02))
+            lab.write_text(f"#!/bin/sh\nprintf '{said}' >&2\nexit 2\n")
+            lab.chmod(0o700)
+            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, variants=["handhold"]))
+
+    def test_a_broken_mesh_may_be_refused_in_one_line(self):
+        result = self.run_case("nasty/nan", "mesh.glb: expected finite positions\\n")
+        self.assertEqual((result.failures, result.notes), ([], ["nasty/nan: refused: mesh.glb: expected finite positions"]))
+
+    def test_a_sound_mesh_may_not_and_neither_may_a_broken_one_without_a_word(self):
+        self.assertEqual(len(self.run_case("objects/mug", "mesh.glb: expected finite positions\\n").failures), 1)
+        self.assertEqual(len(self.run_case("nasty/nan", "").failures), 1)
 
 
 class Runs(unittest.TestCase):
