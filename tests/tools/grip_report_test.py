@@ -51,11 +51,28 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(drawing.findall(".//rect")), 2)
 
 
+def load_script():
+    loader = importlib.machinery.SourceFileLoader("grip_report", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("grip_report", loader))
+    loader.exec_module(module)
+    return module
+
+
+class Placements(unittest.TestCase):
+    def test_baselines_close_the_first_of_the_same_hands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = load_script().Case("primitives/box_20", None, argparse.Namespace(count=24, baseline_count=6), folder)
+            drawn = []
+            for count in (12, 3):
+                case._write_placements("left", count)
+                drawn.append((Path(folder) / "P.jsonl").read_text().splitlines())
+        self.assertEqual((len(drawn[0]), len(drawn[1])), (12, 3))
+        self.assertEqual(drawn[0][:3], drawn[1])
+
+
 class Refusals(unittest.TestCase):
     def run_case(self, name, said):
-        loader = importlib.machinery.SourceFileLoader("grip_report", str(SCRIPT))
-        grip_report = importlib.util.module_from_spec(importlib.util.spec_from_loader("grip_report", loader))
-        loader.exec_module(grip_report)
+        grip_report = load_script()
         with tempfile.TemporaryDirectory() as folder:
             mesh, lab = Path(folder) / "mesh.glb", Path(folder) / "lab"
             glb.write_triangles(mesh, *primitives.make("box", 0.02))
