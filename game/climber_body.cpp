@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
+#include "game/controller_profile.hpp"
 #include "game/player_defaults.hpp"
 #include "game/render/primitives.hpp"
-#include "systems/input/read_tracking.hpp"
 
 namespace handhold {
 namespace {
@@ -298,10 +298,8 @@ TrackingSample sample_body(const Scene& scene, const ClimberTask& task, double t
         Pose wrist_ps = hand.wrist_ps;
         wrist_ps.position +=
             k_tremor_m * Vec3(sine(phase), sine(1.13 * phase + 1.0), sine(0.91 * phase + 2.0));
-        const ControllerToHand* const own =
-            scene.world.controller_to_hand.find(task.player.hands[index_of(side)]);
-        const Pose joint = own != nullptr ? own->hand_in_controller
-                                          : default_controller_to_hand(side, scene.tuning.hand);
+        const Pose joint = controller_joint(scene.world, task.player.hands[index_of(side)], side,
+                                            scene.tuning.hand);
         sample.controllers[index_of(side)] = {
             wrist_ps * inverse(joint),
             hand.mode != ClimberHandMode::rest && hand.mode != ClimberHandMode::reaching};

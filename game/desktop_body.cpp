@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/input/read_tracking.hpp"
+#include "game/controller_profile.hpp"
 
 namespace handhold {
 namespace {
@@ -169,7 +169,8 @@ TrackingSample DesktopBody::advance(const Scene& scene, const CollisionWorld& co
     sample.t_s = t_s;
     sample.head_ps = head_ps_;
     for (std::size_t i = 0; i < k_hand_count; ++i) {
-        const Pose joint = default_controller_to_hand(static_cast<HandSide>(i), scene.tuning.hand);
+        const Pose joint = controller_joint(scene.world, player.hands[i], static_cast<HandSide>(i),
+                                            scene.tuning.hand);
         sample.controllers[i] = {hands_[i].hand_ps * inverse(joint), hands_[i].closed};
     }
     return sample;

@@ -4,6 +4,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/body_clips_asset.hpp"
+#include "game/controller_profile.hpp"
 #include "game/place_scene.hpp"
 
 namespace handhold {
@@ -13,6 +14,10 @@ DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)
       player_(
           add_scene_player(scene_, {free_player_name(scene_.world, "player0"), origin_ws, 80.0})) {
     caches_.body_clips = game_body_clips();
+}
+
+void DesktopSession::set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip) {
+    handhold::set_controller_joints(hand_in_grip, scene_.world);
 }
 
 void DesktopSession::step(const DesktopInput& input) {

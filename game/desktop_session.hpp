@@ -29,6 +29,9 @@ class DesktopSession {
     DesktopState save(const SnapshotAssets& assets) const;
     void restore(const DesktopState& state, const SnapshotAssets& assets);
 
+    // Of controllers that are another make than Tuning's. Between frames.
+    void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
+
     const Scene& scene() const { return scene_; }
     Tuning& tuning() { return scene_.tuning; }  // between frames; a recording does not keep it
     const FrameCaches& caches() const { return caches_; }

@@ -32,6 +32,9 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
         .add_option("--body-map", files.body_map,
                     "How the figure's joints are called (.json), where their names do not tell")
         ->needs(body);
+    command.add_option("--controllers", files.controllers,
+                       "Show controllers in empty hands: builtin, or a profile (.json), whose "
+                       "controller-to-hand joint the hands then have");
 }
 
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {

@@ -33,21 +33,36 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
-// Both hands before the eyes, as a player looks at them: fingers up, palms half turned to him.
+// Before the eyes, as a player looks at them: fingers up, backs to him; or thumbs up, fists around
+// controllers.
+Pose wrist_before_eyes(HandSide side, bool holds_controller) {
+    const double out = side == HandSide::left ? -1.0 : 1.0;
+    if (holds_controller) {
+        return {Vec3(out * 0.18, -0.17, -0.30), rotation_about(Vec3::UnitY(), out * 0.45) *
+                                                    rotation_about(Vec3::UnitX(), 0.45) *
+                                                    rotation_about(Vec3::UnitZ(), -out * 1.25)};
+    }
+    return {Vec3(out * 0.10, -0.13, -0.36),
+            rotation_about(Vec3::UnitY(), -out * 0.5) * rotation_about(Vec3::UnitX(), 1.0)};
+}
+
 void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figures,
-               Renderer& renderer, RenderFrame& frame) {
+               const std::optional<ControllerFigures>& controllers, Renderer& renderer,
+               RenderFrame& frame) {
     figures.begin();
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const HandRig& rig = figures.rig(side);
-        const double out = side == HandSide::left ? -1.0 : 1.0;
-        const Pose wrist{Vec3(out * 0.10, -0.13, -0.36), rotation_about(Vec3::UnitY(), -out * 0.5) *
-                                                             rotation_about(Vec3::UnitX(), 1.0)};
+        const Pose wrist = wrist_before_eyes(side, controllers.has_value());
         std::array<FingerAngles, k_finger_count> fingers;
         for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
             const bool is_thumb = rig.fingers[i].name == FingerName::thumb;
             fingers[i] = shape == "fist" ? coupled_angles(rig.fingers[i], is_thumb ? 0.5 : 0.85)
                                          : relaxed_angles(rig.fingers[i]);
             fingers[i].opposition_rad = shape == "fist" && is_thumb ? 0.9 : 0.0;
+        }
+        if (controllers) {
+            fingers = controllers->fingers(side);
+            controllers->add(side, eyes_ws * wrist, frame);
         }
         figures.add(side, eyes_ws * wrist, fingers, renderer, frame);
     }
@@ -149,6 +164,10 @@ int picture_command(const PictureOptions& options) {
     }
     const std::vector<MeshId> meshes = add_scene_meshes(scene, *renderer);
     HandFigures figures(std::move(models.value().hands), *renderer);
+    std::optional<ControllerFigures> controllers;
+    if (models.value().controllers) {
+        controllers.emplace(*models.value().controllers, figures, *renderer);
+    }
     PictureSaver saver(*renderer, options.out);
     if (!options.grips_of.empty()) {
         const auto error = draw_grips(scene, options.grips_of, make_scene_frame(scene, meshes),
@@ -162,7 +181,7 @@ int picture_command(const PictureOptions& options) {
         RenderFrame frame = make_scene_frame(scene, meshes);
         frame.camera.pose_ws = eyes_at(spawn, options);
         if (!options.hands.empty()) {
-            add_hands(options.hands, frame.camera.pose_ws, figures, *renderer, frame);
+            add_hands(options.hands, frame.camera.pose_ws, figures, controllers, *renderer, frame);
         }
         if (const auto error = saver.save(frame, spawn.name)) {
             return refuse(*error);

@@ -17,6 +17,9 @@ PlayerView::PlayerView(const Scene& scene, PlayerModels models, Renderer rendere
       hands_(std::move(models.hands), renderer_),
       body_(std::move(models.body), renderer_) {
     visuals_ = add_scene_meshes(scene, renderer_);
+    if (models.controllers) {
+        controllers_.emplace(*models.controllers, hands_, renderer_);
+    }
 }
 
 std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels models, int width_px,
@@ -35,7 +38,14 @@ void PlayerView::add_figure(const BodyMeasures& measures, const RenderPose& rend
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         const RenderPose::Hand& hand = render.hands[side];
         const bool grips = hand.grip != GripKind::none;
-        hands_.add(static_cast<HandSide>(side), hand.shown_ws, hand.fingers, renderer_, frame);
+        const auto which = static_cast<HandSide>(side);
+        const bool holds_controller = controllers_.has_value() && !grips;
+        hands_.add(which, hand.shown_ws,
+                   holds_controller ? controllers_->fingers(which) : hand.fingers, renderer_,
+                   frame);
+        if (holds_controller) {
+            controllers_->add(which, hand.shown_ws, frame);
+        }
         frame.lines.push_back(
             {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
         if (grips) {

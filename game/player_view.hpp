@@ -40,6 +40,7 @@ class PlayerView {
     std::vector<MeshId> visuals_;  // by Scene::visuals
     HandFigures hands_;
     BodyFigures body_;
+    std::optional<ControllerFigures> controllers_;
 };
 
 }  // namespace handhold

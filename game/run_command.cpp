@@ -342,6 +342,9 @@ int run_command(const RunOptions& options) {
     if (!players) {
         return refuse(players.error());
     }
+    if (models.value().controllers && models.value().controllers->has_own_joint) {
+        set_controller_joints(models.value().controllers->joints(), scene.world);
+    }
     const SnapshotAssets assets(*scene.shapes, scene.name);
     const RunSettings settings = choose_settings(options, scene, players.value().size());
     if (const auto error = resume(options, settings, assets, scene, players.value())) {

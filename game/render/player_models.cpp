@@ -11,7 +11,15 @@ Result<PlayerModels> choose_player_models(const PlayerModelFiles& files) {
     if (!body) {
         return body.error();
     }
-    return PlayerModels{std::move(hands.value()), std::move(body.value())};
+    PlayerModels models{std::move(hands.value()), std::move(body.value()), std::nullopt};
+    if (!files.controllers.empty()) {
+        Result<ControllerModels> controllers = choose_controllers(files.controllers);
+        if (!controllers) {
+            return controllers.error();
+        }
+        models.controllers = std::move(controllers.value());
+    }
+    return models;
 }
 
 }  // namespace handhold

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "game/render/body_figures.hpp"
+#include "game/render/controller_figures.hpp"
 #include "game/render/hand_figures.hpp"
 
 // What players look like.
@@ -12,6 +14,7 @@ namespace handhold {
 struct PlayerModels {
     HandModels hands = builtin_hand_models();
     BodyModel body = builtin_body_model();
+    std::optional<ControllerModels> controllers;  // in empty hands; none: not drawn
 };
 
 // Of a command line; what is empty is the robot's.
@@ -19,6 +22,7 @@ struct PlayerModelFiles {
     std::vector<std::string> hands;  // two skins, left and right
     std::string body;                // a figure
     std::string body_map;            // names of its joints
+    std::string controllers;         // "builtin" or a profile; empty: none
 };
 Result<PlayerModels> choose_player_models(const PlayerModelFiles& files);
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/climber_session.hpp"
 
@@ -255,6 +256,49 @@ TEST_F(ResumedRun, SnapshotBeyondTheSessionIsRefused) {
     options_.snapshot_at_s = 0.3;
     EXPECT_EQ(run(options_), 2);
     EXPECT_FALSE(std::filesystem::exists(snapshot_));
+}
+
+// A plate of 2 by 10 cm in the grip's plane x = 0.
+std::string plate_glb() {
+    GltfSurface plate;
+    plate.group = "plate";
+    plate.name = "plate";
+    for (const auto& [y, z] : {std::pair(-0.01F, -0.05F), std::pair(0.01F, -0.05F),
+                               std::pair(0.01F, 0.05F), std::pair(-0.01F, 0.05F)}) {
+        GltfVertex vertex;
+        vertex.position = {0.0F, y, z};
+        vertex.normal = {1.0F, 0.0F, 0.0F};
+        plate.vertices.push_back(vertex);
+    }
+    plate.indices = {0, 1, 2, 0, 2, 3};
+    return write_glb(std::vector<GltfMaterial>(1), {&plate, 1});
+}
+
+TEST_F(RunCommand, OnlyAProfilesJointChangesWhereHandsAre) {
+    ASSERT_FALSE(write_file_atomically(folder_ / "plate.glb", plate_glb()));
+    const std::string profile = write("plate.json", R"({"name": "plate",
+        "left": {"model": "plate.glb", "handle": {}},
+        "right": {"model": "plate.glb", "handle": {}}})");
+    const auto hash_with = [this](const std::string& controllers) {
+        RunOptions options;
+        options.scene = "ship";
+        options.seconds = 1.0;
+        options.models.controllers = controllers;
+        EXPECT_EQ(run(options), 0) << err_;
+        return out_.substr(out_.rfind("state_hash"));
+    };
+    const std::string without = hash_with("");
+    EXPECT_EQ(hash_with("builtin"), without);
+    EXPECT_NE(hash_with(profile), without);
+}
+
+TEST_F(RunCommand, RefusesABrokenControllerProfileInOneLine) {
+    RunOptions options;
+    options.scene = "ship";
+    options.models.controllers = write("bad.json", R"({"name": "bad", "left": {"model": 3}})");
+    EXPECT_EQ(run(options), 2);
+    EXPECT_EQ(lines_of(err_), 1U) << err_;
+    EXPECT_NE(err_.find("bad.json: /left"), std::string::npos) << err_;
 }
 
 }  // namespace

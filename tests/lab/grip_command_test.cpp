@@ -150,10 +150,27 @@ TEST_F(GripCommand, WithoutSyncThePalmStaysWhereItIsTracked) {
     EXPECT_EQ(hand["wrist"]["position_m"], Json({0.0, 0.045, 0.085}));
 }
 
+TEST_F(GripCommand, BaselinesWriteTheSameFormat) {
+    for (const auto& [fingers, discs] : {std::pair("talk", 1), std::pair("spheres", 0)}) {
+        ASSERT_EQ(run(files() + " --fingers " + fingers), 0) << err_;
+        const auto lines = hands();
+        ASSERT_EQ(lines.size(), 2U);
+        EXPECT_EQ(lines[0]["gripped"], true);
+        EXPECT_EQ(lines[1]["gripped"], false);
+        expect_fields(lines[0], {"wrist", "sync_mm", "sync_deg", "surface", "capsules", "us"});
+        EXPECT_GT(lines[0]["us"]["fingers"].get<double>(), 0.0);
+        ASSERT_EQ(lines[0]["fingers"].size(), 5U);
+        for (const Json& finger : lines[0]["fingers"]) {
+            expect_fields(finger, {"name", "visited", "walked", "contact_link", "fallback"});
+            EXPECT_EQ(finger["discs"], discs) << finger["name"];
+        }
+    }
+}
+
 TEST_F(GripCommand, RefusesWrongFlagsAndLeavesNoOutput) {
     for (const char* flag :
          {"--hand middle", "--sync maybe", "--search dijkstra", "--grip-edge-mm 0",
-          "--grip-edge-mm wide", "--palm none", "--depth 3"}) {
+          "--grip-edge-mm wide", "--palm none", "--fingers nails", "--depth 3"}) {
         EXPECT_EQ(run(files() + " " + flag), 1) << flag;
         EXPECT_FALSE(err_.empty());
         EXPECT_FALSE(has_output());

@@ -10,8 +10,9 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
 import numpy as np
 
-from grips import files, primitives, reference, rig
+from grips import primitives, reference, rig
 from grips.surface import Surface
+from pages import files
 
 LENGTH_M, RADIUS_M = 0.04, 0.008
 INDEX = reference.FINGERS.index("index")

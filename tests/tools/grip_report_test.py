@@ -1,4 +1,7 @@
 """What grip_report makes of figures, and what it says where nothing can be run."""
+import argparse
+import importlib.machinery
+import importlib.util
 import math
 import subprocess
 import sys
@@ -10,18 +13,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from grips import report, svg
+from grips import glb, primitives, report
+from pages import svg
+from pages.goals import judged
 
 
 class Goals(unittest.TestCase):
     def test_a_limit_is_met_at_its_value_and_missed_beyond(self):
-        self.assertEqual(report.judged("x", 3.0, 3, "%").verdict(), "met")
-        self.assertEqual(report.judged("x", 3.01, 3, "%").verdict(), "MISSED")
-        self.assertEqual(report.judged("x", 95.0, 95, "%", least=True).verdict(), "met")
-        self.assertEqual(report.judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
+        self.assertEqual(judged("x", 3.0, 3, "%").verdict(), "met")
+        self.assertEqual(judged("x", 3.01, 3, "%").verdict(), "MISSED")
+        self.assertEqual(judged("x", 95.0, 95, "%", least=True).verdict(), "met")
+        self.assertEqual(judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
 
     def test_what_was_not_measured_was_not_run(self):
-        self.assertEqual(report.judged("x", math.nan, 3, "%").verdict(), "not run")
+        self.assertEqual(judged("x", math.nan, 3, "%").verdict(), "not run")
         self.assertEqual({goal.verdict() for goal in report.goals(None, None, None)}, {"not run"})
 
     def test_each_goal_reads_its_own_figure(self):
@@ -44,6 +49,44 @@ class Plots(unittest.TestCase):
         self.assertEqual(len(drawing.findall(".//polyline")), 1)
         drawing = ElementTree.fromstring(svg.bars("a & b", [("x", 1.0), ("y", math.nan)], "%", 3.0))
         self.assertEqual(len(drawing.findall(".//rect")), 2)
+
+
+def load_script():
+    loader = importlib.machinery.SourceFileLoader("grip_report", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("grip_report", loader))
+    loader.exec_module(module)
+    return module
+
+
+class Placements(unittest.TestCase):
+    def test_baselines_close_the_first_of_the_same_hands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = load_script().Case("primitives/box_20", None, argparse.Namespace(count=24, baseline_count=6), folder)
+            drawn = []
+            for count in (12, 3):
+                case._write_placements("left", count)
+                drawn.append((Path(folder) / "P.jsonl").read_text().splitlines())
+        self.assertEqual((len(drawn[0]), len(drawn[1])), (12, 3))
+        self.assertEqual(drawn[0][:3], drawn[1])
+
+
+class Refusals(unittest.TestCase):
+    def run_case(self, name, said):
+        grip_report = load_script()
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, lab = Path(folder) / "mesh.glb", Path(folder) / "lab"
+            glb.write_triangles(mesh, *primitives.make("box", 0.02))
+            lab.write_text(f"#!/bin/sh\nprintf '{said}' >&2\nexit 2\n")
+            lab.chmod(0o700)
+            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, variants=["handhold"]))
+
+    def test_a_broken_mesh_may_be_refused_in_one_line(self):
+        result = self.run_case("nasty/nan", "mesh.glb: expected finite positions\\n")
+        self.assertEqual((result.failures, result.notes), ([], ["nasty/nan: refused: mesh.glb: expected finite positions"]))
+
+    def test_a_sound_mesh_may_not_and_neither_may_a_broken_one_without_a_word(self):
+        self.assertEqual(len(self.run_case("objects/mug", "mesh.glb: expected finite positions\\n").failures), 1)
+        self.assertEqual(len(self.run_case("nasty/nan", "").failures), 1)
 
 
 class Runs(unittest.TestCase):

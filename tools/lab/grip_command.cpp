@@ -51,11 +51,18 @@ Result<HandRig> load_rig(const GripOptions& options) {
     return hand_rig_from_skin(skin.value(), side);
 }
 
+FingerMethod finger_method_of(const std::string& name) {
+    return name == "talk"      ? FingerMethod::talk
+           : name == "spheres" ? FingerMethod::spheres
+                               : FingerMethod::sweep;
+}
+
 GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
     variant.order = options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
+    variant.fingers = finger_method_of(options.fingers);
     return variant;
 }
 

@@ -15,6 +15,7 @@ struct GripOptions {
     std::string sync = "on";
     std::string search = "astar";
     std::string palm = "least";
+    std::string fingers = "sweep";  // or one to compare it with: finger_baselines.hpp
     double grip_edge_mm = 20.0;
     std::filesystem::path rig_json;  // empty: not written
     int warm_frames = 0;             // sliding, and standing still, of each hand; 0: none

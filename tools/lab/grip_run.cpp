@@ -1,9 +1,11 @@
 #include "tools/lab/grip_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "components/finger_chain.hpp"
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
@@ -16,10 +18,28 @@ namespace {
 constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
 constexpr double k_frame_s = 1.0 / 90.0;
 
+// Without capsules a palm has nothing to be pushed out with.
+HandRig fitted_rig(const HandRig& rig, FingerMethod fingers) {
+    HandRig fitted = rig;
+    if (fingers == FingerMethod::talk) {
+        fitted.palm.clear();
+    }
+    return fitted;
+}
+
+// A thumb is a finger like the others to what it is compared with.
+double resting_opposition(const FingerRig& finger, const ThumbTuning& tuning) {
+    return finger.name == FingerName::thumb
+               ? std::clamp(tuning.rest_opposition_rad, finger.lower_opposition_rad,
+                            finger.upper_opposition_rad)
+               : 0.0;
+}
+
 // The columns of one hand, and what its stages keep their memory in.
 class OneHand {
   public:
-    OneHand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist) {
+    OneHand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist, FingerMethod fingers)
+        : mesh_(mesh), rig_(fitted_rig(rig, fingers)) {
         const Entity hand = entities_.create();
         const Entity body = entities_.create();
         tracking_.add(hand).pressed = true;
@@ -27,18 +47,17 @@ class OneHand {
         offset_.add(hand);
         palm_.add(hand);
         fingers_.add(hand);
-        surroundings_.push_back({hand, body, &rig, {}, wrist, {{&mesh, {}}}, 1, true});
+        surroundings_.push_back({hand, body, &rig_, {}, wrist, {{&mesh, {}}}, 1, true});
     }
+    OneHand(const OneHand&) = delete;
+    OneHand& operator=(const OneHand&) = delete;
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
         timed(us.search_us, [&] { search(tuning, variant); });
         for (std::int32_t lifts = 0;; ++lifts) {
             const double lift_before_m = offset_.rows().front().lift_m;
             timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
-            timed(us.fingers_us, [&] {
-                sweep(k_at_once_s, tuning, variant);
-                thumb(k_at_once_s, tuning, variant);
-            });
+            timed(us.fingers_us, [&] { close(k_at_once_s, tuning, variant); });
             if (!variant.sync || offset_.rows().front().lift_m == lift_before_m) {
                 break;
             }
@@ -53,8 +72,7 @@ class OneHand {
         timed(us, [&] {
             search(tuning, variant);
             constrain(k_frame_s, tuning, variant);
-            sweep(k_frame_s, tuning, variant);
-            thumb(k_frame_s, tuning, variant);
+            close(k_frame_s, tuning, variant);
         });
         return us;
     }
@@ -76,6 +94,39 @@ class OneHand {
     void search(const Tuning& tuning, const GripVariant& variant) {
         search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
     }
+    void close(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        if (variant.fingers == FingerMethod::sweep ||
+            surface_.rows().front().triangle == GripSurface::k_none) {
+            sweep(dt_s, tuning, variant);
+            thumb(dt_s, tuning, variant);
+            return;
+        }
+        for (std::size_t f = 0; f < rig_.fingers.size(); ++f) {
+            close_baseline(f, tuning, variant);
+        }
+    }
+    // Shown at once: how a finger comes to where it is bound for is not what is compared.
+    void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
+        const FingerRig& finger = rig_.fingers[f];
+        FingerAngles& shown = fingers_.rows().front().shown[f];
+        shown.opposition_rad = resting_opposition(finger, tuning.thumb);
+        const HingeChain chain = finger_chain(finger, shown.opposition_rad, wrist());
+        const GripSurface& under_palm = surface();
+        const ClosedFinger closed =
+            variant.fingers == FingerMethod::talk
+                ? close_by_talk(chain, mesh_, under_palm.triangle, under_palm.point_bs,
+                                variant.order, fit_scratch_)
+                : close_by_spheres(chain, mesh_);
+        shown.curl_rad = closed.angle_rad;
+        fingers_.rows().front().target[f] = shown;
+        const bool touches = closed.contact_link != DiscClosure::k_none;
+        traces_.front()[f] = {closed.discs,
+                              closed.pops,
+                              closed.walked,
+                              closed.contact_link,
+                              touches ? ChainFallback::none : ChainFallback::relaxed,
+                              0.0};
+    }
     void sweep(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         sweep_fingers({dt_s, surroundings_, tracking_, surface_, palm_, offset_, fingers_, traces_,
                        fit_scratch_},
@@ -95,6 +146,8 @@ class OneHand {
         }
     }
 
+    const GripMesh& mesh_;
+    const HandRig rig_;
     EntityPool entities_;
     Column<HandTracking> tracking_;
     Column<GripSurface> surface_;
@@ -180,7 +233,7 @@ void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, Pos
 
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant) {
-    OneHand hand(mesh, rig, wrist);
+    OneHand hand(mesh, rig, wrist, variant.fingers);
     PosedHand posed;
     hand.run(tuning, variant, posed.us);
     describe(hand, mesh, rig, posed);
@@ -189,7 +242,7 @@ PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& w
 
 WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                     const Tuning& tuning, const GripVariant& variant, const HandSlide& slide) {
-    OneHand hand(mesh, rig, wrist);
+    OneHand hand(mesh, rig, wrist, variant.fingers);
     GripTimes cold;
     hand.run(tuning, variant, cold);
     WarmHand warm;

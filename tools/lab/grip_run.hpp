@@ -11,6 +11,7 @@
 #include "components/tuning.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "systems/hand/search_grip.hpp"
+#include "tools/lab/finger_baselines.hpp"
 
 // One hand on one mesh, posed by the runtime's own systems over columns of one row.
 namespace handhold::lab {
@@ -19,6 +20,9 @@ struct GripVariant {
     bool sync = true;  // the palm moves to its limits; else it stays where it is tracked
     SearchOrder order = SearchOrder::best_first;
     GripSearch palm = GripSearch::least_sync;
+    // The talk's fingers come with its palm: held to its three limits, never pushed out of what its
+    // knuckles and heel are sunk in. Palms are lifted for none but the runtime's own fingers.
+    FingerMethod fingers = FingerMethod::sweep;
 };
 
 struct GripTimes {  // microseconds of thread CPU time

@@ -58,6 +58,10 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
         ->check(one_of({"astar", "bfs"}));
     grip.add_option("--palm", options.palm, "Which surface the palm is held to")
         ->check(one_of({"least", "ray"}));
+    grip.add_option("--fingers", options.fingers,
+                    "How fingers close: the runtime's sweep; the talk taken literally, palm "
+                    "included; or spheres on the bones in 50 steps")
+        ->check(one_of({"sweep", "talk", "spheres"}));
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edges of the search detail")
         ->check(CLI::Range(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig's figures");

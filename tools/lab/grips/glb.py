@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 
-from .files import FormatError, parse_json, read_bytes
+from pages.files import FormatError, parse_json, read_bytes
 
 MAGIC, JSON_CHUNK, BIN_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}

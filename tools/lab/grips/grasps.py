@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from .files import FormatError, member, number, numbers, read_jsonl
+from pages.files import FormatError, member, number, numbers, read_jsonl
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 FALLBACKS = ("none", "bvh", "open", "relaxed")

@@ -2,43 +2,10 @@
 import html
 import math
 
-from . import scoring, svg
+from pages import svg
+from pages.goals import STYLE, Goal, figure, goals_html, judged, percent, table_html, text, triple
 
-STYLE = """body{font:15px/1.5 system-ui,sans-serif;max-width:1340px;margin:2rem auto;padding:0 1rem;color:#1c1c1e;background:#fff}
-h1,h2{font-weight:600}table{border-collapse:collapse;font-variant-numeric:tabular-nums;margin:.7rem 0}td,th{padding:.15rem .55rem;text-align:left;
-border-bottom:1px solid #e3e3e6}td.n,th.n{text-align:right}.miss{color:#b3261e;font-weight:600}.pass{color:#0b6e4f}
-.plots{display:flex;flex-wrap:wrap;gap:1.5rem}figure{margin:0;width:640px;max-width:100%}.title{font:600 14px system-ui}
-.tick{font:12px system-ui;fill:#555}.grid{stroke:#e3e3e6}.mark{stroke:#888;stroke-dasharray:4 3}figcaption span{margin-right:1rem;font-size:13px}
-figcaption i{display:inline-block;width:10px;height:10px;border-radius:5px;margin-right:.4rem}.sheet{display:flex;flex-wrap:wrap;gap:.7rem}
-.sheet figure{width:420px}.sheet img{width:100%}.wide{overflow-x:auto}"""
-
-
-class Goal:
-    def __init__(self, bar, measured, goal, passed):
-        self.bar, self.measured, self.goal, self.passed = bar, measured, goal, passed
-
-    def verdict(self):
-        return {True: "met", False: "MISSED", None: "not run"}[self.passed]
-
-
-def judged(bar, value, limit, unit, least=False):
-    """A goal that is an upper limit, or with least a lower one. What was not measured was not run."""
-    goal = f"{'>=' if least else '<='} {limit:g} {unit}".strip()
-    if value is None or not math.isfinite(value):
-        return Goal(bar, "-", goal, None)
-    return Goal(bar, f"{value:.3g} {unit}".strip(), goal, value >= limit if least else value <= limit)
-
-
-def percent(value):
-    return math.nan if value is None else 100.0 * value
-
-
-def figure(figures, *path):
-    for key in path:
-        if figures is None or key not in figures:
-            return math.nan
-        figures = figures[key]
-    return figures
+from . import scoring
 
 
 def goals(whole, flat, nasty):
@@ -66,8 +33,6 @@ def goals(whole, flat, nasty):
     ]
 
 
-# --- Tables
-
 COLUMNS = (
     ("hands", lambda f: f["grasps"]),
     ("gripped %", lambda f: percent(f["gripped_share"])),
@@ -88,28 +53,6 @@ COLUMNS = (
 )
 
 
-def triple(values, *keys):
-    return " / ".join(text(figure(values, key)) for key in keys)
-
-
-def text(value):
-    if isinstance(value, str):
-        return value
-    if isinstance(value, int):
-        return str(value)
-    if not math.isfinite(value):
-        return "-"
-    return "0" if value == 0 else f"{value:.2g}" if abs(value) < 10 else f"{value:.0f}"
-
-
-def table_html(head, rows):
-    cells = "".join(f'<th class="{"n" if i else ""}">{html.escape(cell)}</th>' for i, cell in enumerate(head))
-    body = ""
-    for row in rows:
-        body += "<tr>" + "".join(f'<td class="{"n" if i else ""}">{html.escape(str(cell))}</td>' for i, cell in enumerate(row)) + "</tr>"
-    return f'<div class="wide"><table><tr>{cells}</tr>{body}</table></div>'
-
-
 def figures_html(first, rows):
     """rows: (name, figures)."""
     return table_html([first] + [name for name, _ in COLUMNS], [[name] + [text(of(figures)) for _, of in COLUMNS] for name, figures in rows])
@@ -121,15 +64,6 @@ def fallbacks_html(rows):
     reasons = [[name, reason or "(none given)", count] for name, figures in rows for reason, count in figures["reasons"].items()]
     return (table_html(["fingers by fallback"] + kinds, counts)
             + (table_html(["hands that grip nothing", "reason", "hands"], reasons) if reasons else ""))
-
-
-def goals_html(table):
-    rows = ""
-    for goal in table:
-        style = {"met": "pass", "MISSED": "miss"}.get(goal.verdict(), "")
-        rows += (f"<tr><td>{html.escape(goal.bar)}</td><td class=n>{html.escape(goal.measured)}</td><td class=n>{html.escape(goal.goal)}</td>"
-                 f'<td class="{style}">{goal.verdict()}</td></tr>')
-    return f"<table><tr><th>bar</th><th class=n>measured</th><th class=n>goal</th><th></th></tr>{rows}</table>"
 
 
 def plots_html(by_variant, case_rows):
@@ -162,6 +96,6 @@ solved cold, alone, on one thread. What each figure means: docs/lab.md.</p>
 <h2>Beside the baselines</h2>{groups}
 <div class="plots">{plots_html(by_variant, case_rows)}</div>
 <h2>By mesh</h2>{figures_html("mesh", case_rows)}
-<h2>Fallbacks</h2>{fallbacks_html([row for rows in variant_tables.values() for row in rows[:1]])}
+<h2>Fallbacks</h2>{fallbacks_html([(group, rows[0][1]) for group, rows in variant_tables.items()])}
 {f'<h2>Pictures</h2><div class="sheet">{sheet}</div>' if sheet else ""}</html>
 """

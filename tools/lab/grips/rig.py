@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from .files import FormatError, member, number, numbers, read_json
+from pages.files import FormatError, member, number, numbers, read_json
 from .grasps import FINGERS, named, pose
 
 

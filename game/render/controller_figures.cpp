@@ -1,0 +1,125 @@
+#include "game/render/controller_figures.hpp"
+
+#include <algorithm>
+
+#include "engine/io/text_file.hpp"
+#include "game/grip_fit.hpp"
+#include "game/render/figures.hpp"
+#include "systems/input/read_tracking.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr HandleGrip k_wand_grip = {0.017, 0.6, -0.015};
+
+// Pictures have no textures: a material that leaves its colour to one would be white.
+constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
+constexpr Color k_white = {1.0F, 1.0F, 1.0F};
+
+Result<ControllerModel> load_controller(const ControllerSide& side) {
+    const Result<GltfLevel> level = load_gltf_level(side.model);
+    if (!level) {
+        return level.error();
+    }
+    ControllerModel model{make_level_meshes(level.value()), side.fit};
+    if (model.meshes.empty()) {
+        return FileError{side.model.string(), "/meshes", "expected triangles, found none"};
+    }
+    for (LevelMesh& part : model.meshes) {
+        if (part.mesh.color == k_white) {
+            part.mesh.color = k_textured_color;
+        }
+    }
+    return model;
+}
+
+Mesh whole_mesh(const ControllerModel& model) {
+    Mesh whole;
+    for (const LevelMesh& part : model.meshes) {
+        const auto first = static_cast<std::uint32_t>(whole.positions.size());
+        whole.positions.insert(whole.positions.end(), part.mesh.positions.begin(),
+                               part.mesh.positions.end());
+        for (const auto& [a, b, c] : part.mesh.triangles) {
+            whole.triangles.push_back({first + a, first + b, first + c});
+        }
+    }
+    return whole;
+}
+
+}  // namespace
+
+std::array<Pose, k_hand_count> ControllerModels::joints() const {
+    return {sides[0].fit.hand_in_grip, sides[1].fit.hand_in_grip};
+}
+
+ControllerModels builtin_controllers(const HandTuning& tuning) {
+    ControllerModels models;
+    models.name = "builtin";
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        ControllerModel& model = models.sides[index_of(side)];
+        for (Mesh& mesh : make_controller()) {
+            model.meshes.push_back({std::move(mesh), {}});
+        }
+        // The model lies in the fist; where it is tracked follows from the joint.
+        const Pose joint = default_controller_to_hand(side, tuning);
+        model.fit.hand_in_grip = joint;
+        model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));
+        model.fit.aim_ms = model.fit.grip_ms;
+    }
+    return models;
+}
+
+Result<ControllerModels> choose_controllers(const std::string& name_or_file) {
+    if (name_or_file == "builtin") {
+        return builtin_controllers(HandTuning{});
+    }
+    const Result<std::string> text = read_file(name_or_file);
+    if (!text) {
+        return text.error();
+    }
+    const Result<ControllerProfile> profile = parse_controller_profile(text.value(), name_or_file);
+    if (!profile) {
+        return profile.error();
+    }
+    ControllerModels models;
+    models.name = profile.value().name;
+    models.has_own_joint = true;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        Result<ControllerModel> model = load_controller(profile.value().sides[side]);
+        if (!model) {
+            return model.error();
+        }
+        models.sides[side] = std::move(model.value());
+    }
+    return models;
+}
+
+std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
+                                                        const HandRig& rig) {
+    AuthoredHand held;
+    held.is_there = true;
+    held.wrist_bs = inverse(controller_in_hand(model.fit));
+    return fit_grip(build_grip_mesh(whole_mesh(model)), rig, held.wrist_bs, {}, &held).fingers;
+}
+
+ControllerFigures::ControllerFigures(const ControllerModels& models, const HandFigures& hands,
+                                     Renderer& renderer) {
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ControllerModel& model = models.sides[index_of(side)];
+        Side& made = sides_[index_of(side)];
+        for (const LevelMesh& part : model.meshes) {
+            made.parts.push_back({renderer.add_mesh(part.mesh), part.look});
+        }
+        made.in_hand = controller_in_hand(model.fit);
+        made.fingers = fingers_around(model, hands.rig(side));
+    }
+}
+
+void ControllerFigures::add(HandSide side, const Pose& wrist_ws, RenderFrame& frame) const {
+    const Side& model = sides_[index_of(side)];
+    for (const Part& part : model.parts) {
+        frame.instances.push_back({part.mesh, wrist_ws * model.in_hand, std::nullopt, part.look});
+    }
+}
+
+}  // namespace handhold

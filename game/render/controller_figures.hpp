@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/controller_profile.hpp"
+#include "game/render/hand_figures.hpp"
+#include "game/render/level_meshes.hpp"
+
+// Controllers as they are drawn in hands that hold nothing else.
+namespace handhold {
+
+struct ControllerModel {
+    std::vector<LevelMesh> meshes;
+    ControllerFit fit;
+};
+struct ControllerModels {
+    std::string name;
+    std::array<ControllerModel, k_hand_count> sides;  // by HandSide
+    bool has_own_joint = false;                       // else the hands' is Tuning's
+
+    std::array<Pose, k_hand_count> joints() const;
+};
+
+// The project's own: a wand in the fist, held by Tuning's joint.
+ControllerModels builtin_controllers(const HandTuning& tuning);
+// "builtin", or a profile with its models. Errors name the file, the place, and what was expected.
+Result<ControllerModels> choose_controllers(const std::string& name_or_file);
+
+// A rig's fingers closed on the controller as far as it lets them.
+std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
+                                                        const HandRig& rig);
+
+// The meshes of both sides in one renderer.
+class ControllerFigures {
+  public:
+    ControllerFigures(const ControllerModels& models, const HandFigures& hands, Renderer& renderer);
+
+    void add(HandSide side, const Pose& wrist_ws, RenderFrame& frame) const;
+    // Of the hand that holds it.
+    const std::array<FingerAngles, k_finger_count>& fingers(HandSide side) const {
+        return sides_[index_of(side)].fingers;
+    }
+
+  private:
+    struct Part {
+        MeshId mesh{};
+        Look look;
+    };
+    struct Side {
+        std::vector<Part> parts;
+        Pose in_hand;
+        std::array<FingerAngles, k_finger_count> fingers;
+    };
+    std::array<Side, k_hand_count> sides_;
+};
+
+}  // namespace handhold
