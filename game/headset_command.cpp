@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include "game/exit_status.hpp"
@@ -11,6 +12,9 @@
 
 namespace handhold {
 namespace {
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void ask_to_end(int) { asked_to_end = 1; }
 
 int refuse_headset(const std::string& why_not) {
     std::fprintf(stderr, "play --xr: %s\n", why_not.c_str());
@@ -73,10 +77,12 @@ int headset_command(const PlayOptions& options) {
             std::fprintf(stderr, "no mirror of the headset: %s\n", no_mirror.c_str());
         }
     }
+    std::signal(SIGINT, ask_to_end);
+    std::signal(SIGTERM, ask_to_end);
     PlayTally tally;
     Image picture;
     HeadsetStage stage{options, session, view ? &*view : nullptr, mirror.get(), eye_size,
-                       tally,   picture, status.value().get()};
+                       tally,   picture, status.value().get(),    &asked_to_end};
     const bool left = play_in_headset(stage, std::move(headset), why_not);
     std::printf("%s", tally.summary().c_str());
     if (const auto error = save_play(

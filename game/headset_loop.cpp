@@ -40,7 +40,7 @@ class HeadsetLoop {
             return false;
         }
         while (!ends_) {
-            look_at_mirror();
+            look_around();
             switch (headset_->poll()) {
                 case HeadsetState::runs:
                     frame();
@@ -80,7 +80,7 @@ class HeadsetLoop {
         for (int i = 0; i < k_tries && !ends_; ++i) {
             headset_.reset();
             std::this_thread::sleep_for(k_between_tries);
-            look_at_mirror();
+            look_around();
             headset_ = Headset::open(stage_.options.xr_headless, why_not);
             if (headset_ != nullptr && begin(why_not)) {
                 clock_.pause();
@@ -101,7 +101,9 @@ class HeadsetLoop {
         }
     }
 
-    void look_at_mirror() {
+    // Who wants to end it here.
+    void look_around() {
+        ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
         if (stage_.mirror == nullptr) {
             return;
         }

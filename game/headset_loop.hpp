@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -24,7 +25,8 @@ struct HeadsetStage {
     PlayTally& tally;
     Image& picture;               // both eyes beside each other, where options ask for a picture
     std::FILE* status = nullptr;  // a line every tenth of a second; none: null
-    double hz = 90.0;             // out: frames a second of the session
+    const volatile std::sig_atomic_t* asked_to_end = nullptr;  // not 0: leave
+    double hz = 90.0;  // out: frames a second of the session
 };
 
 // One frame of the simulation for each refresh of the display, drawn for when it will be seen. A
