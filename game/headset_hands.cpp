@@ -60,7 +60,10 @@ Pose hand_in_palm(HandSide side, const HandTuning& tuning) {
 }
 
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip) {
-    const double cosine = (knuckle - wrist).normalized().dot((tip - knuckle).normalized());
+    const Vec3 hand = knuckle - wrist;
+    const Vec3 finger = tip - knuckle;
+    const double lengths = hand.norm() * finger.norm();
+    const double cosine = hand.dot(finger) / lengths;
     return std::isfinite(cosine) ? std::clamp(0.5 * (1.0 - cosine), 0.0, 1.0) : 0.0;
 }
 

@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "engine/core/profile.hpp"
+#include "game/comfort.hpp"
 #include "game/headset_hands.hpp"
+#include "game/ui/hud.hpp"
+#include "game/ui/overlay.hpp"
 
 namespace handhold {
 namespace {
@@ -33,7 +36,11 @@ void put_beside(const Image& eye, std::size_t which, Image& both) {
 class HeadsetLoop {
   public:
     HeadsetLoop(HeadsetStage& stage, std::unique_ptr<Headset> headset)
-        : stage_(stage), headset_(std::move(headset)) {}
+        : stage_(stage), headset_(std::move(headset)) {
+        if (stage.view != nullptr) {
+            overlay_.emplace(stage.eye_size.width_px, stage.eye_size.height_px);
+        }
+    }
 
     bool run(std::string& why_not) {
         if (!begin(why_not)) {
@@ -126,7 +133,8 @@ class HeadsetLoop {
         }
         if (frame.is_seen && frames_ > 0) {
             const std::int64_t begin_ns = now_ns();
-            headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye); });
+            const UiPicture& ui = darken_edges(due * clock_.dt_s());
+            headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); });
             const double draw_us = us_since(begin_ns);
             const std::int64_t shown_ns = now_ns();
             show_mirror();
@@ -170,8 +178,18 @@ class HeadsetLoop {
         std::fflush(stage_.status);
     }
 
+    const UiPicture& darken_edges(double dt_s) {
+        Hud hud;
+        hud.shows_mark = hud.shows_help = false;
+        hud.vignette =
+            vignette_of(world(), stage_.session.player().player, stage_.options.settings.vignette);
+        overlay_->begin({}, dt_s);
+        show_hud(hud);
+        return overlay_->end();
+    }
+
     // Where the eye is beside the head in the room, it is beside the head in the world.
-    void draw(const EyePicture& eye) {
+    void draw(const EyePicture& eye, const UiPicture& ui) {
         const Entity player = stage_.session.player().player;
         const RenderPose& render = world().render_pose.at(player);
         if (figures_.reading.head_ps) {
@@ -183,7 +201,7 @@ class HeadsetLoop {
         const bool keeps = !stage_.options.picture.empty();
         const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
         stage_.view->draw_eye(camera, world().render_pose.find_row(player), eye.texture,
-                              keeps || mirrors ? &eye_image_ : nullptr);
+                              keeps || mirrors ? &eye_image_ : nullptr, &ui);
         if (keeps) {
             put_beside(eye_image_, eye.eye, stage_.picture);
         }
@@ -203,9 +221,10 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    Pose head_ps_;        // as the last reading had it
-    Image eye_image_;     // reused
-    Image mirror_image_;  // the left eye's
+    std::optional<Overlay> overlay_;  // of both eyes; none: headless
+    Pose head_ps_;                    // as the last reading had it
+    Image eye_image_;                 // reused
+    Image mirror_image_;              // the left eye's
     std::uint64_t frames_ = 0;
     double next_status_s_ = 0.0;
     bool ends_ = false;

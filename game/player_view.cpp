@@ -72,9 +72,9 @@ void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
     renderer_.draw(make_frame(camera, without_head, marks), out, ui);
 }
 
-void PlayerView::draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture,
-                          Image* copy) {
-    renderer_.draw_into(texture, make_frame(eye, whose, {}), copy);
+void PlayerView::draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
+                          const UiPicture* ui) {
+    renderer_.draw_into(texture, make_frame(eye, whose, {}), copy, ui);
 }
 
 }  // namespace handhold

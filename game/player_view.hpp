@@ -29,7 +29,8 @@ class PlayerView {
               std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
               const UiPicture* ui = nullptr);
     // The same as a headset's eye sees it, into a texture of the runtime's (Renderer::draw_into).
-    void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy);
+    void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
+                  const UiPicture* ui = nullptr);
     // Lives as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }

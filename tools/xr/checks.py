@@ -148,6 +148,7 @@ def check_touch(room: Room) -> str:
     """A palm that comes near the rail shakes its controller a little, a grip more: as OpenXR's own layer saw the calls."""
     service = Service(room, "touch")
     dump = room.out / "touch.calls.txt"
+    dump.unlink(missing_ok=True)  # the layer appends
     play = Play(room, "touch", "--xr-headless", "--scene", "/scenes/rails.json", XR_ENABLE_API_LAYERS="XR_APILAYER_LUNARG_api_dump",
                 XR_API_DUMP_EXPORT_TYPE="text", XR_API_DUMP_FILE_NAME=f"/out/{dump.name}")
     play.wait("focus", lambda now: now["headset"]["focus"])
@@ -160,6 +161,8 @@ def check_touch(room: Room) -> str:
         play.wait("the touch", lambda now: now["headset"]["right"]["shakes"] == before + 1)
         take(play, service.hub, "right", True)
         play.wait("the grip's shake", lambda now: now["headset"]["right"]["shakes"] == before + 2)
+        play.next()
+        play.next()  # the hand's speed at its release is that of the last tenth of a second
         take(play, service.hub, "right", False)
     shakes = play.next()["headset"]["right"]["shakes"]
     end(play)
