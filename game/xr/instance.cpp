@@ -144,6 +144,7 @@ bool xr_succeeds(XrResult result, const char* call, std::string& why_not) {
 std::optional<HeadsetInstance> open_headset_instance(bool headless, std::string& why_not) {
     // The loader would print a page about a missing runtime; who wants it sets this himself.
     constexpr int k_keep = 0;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody else reads the environment meanwhile
     ::setenv("XR_LOADER_DEBUG", "none", k_keep);
     std::vector<XrExtensionProperties> there;
     if (!list_extensions(there, why_not)) {

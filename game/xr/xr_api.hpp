@@ -8,9 +8,11 @@
 
 #include <epoxy/egl.h>
 
+// NOLINTBEGIN(readability-identifier-naming): OpenXR asks for them by these names
 #define XR_USE_GRAPHICS_API_OPENGL
 #define XR_USE_PLATFORM_EGL
 #define XR_USE_TIMESPEC
+// NOLINTEND(readability-identifier-naming)
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
