@@ -28,7 +28,7 @@ void put_beside(const Image& eye, std::size_t which, Image& both) {
     both.rgba.resize(2 * eye.rgba.size());
     const auto row = 4 * static_cast<std::ptrdiff_t>(width);
     const auto left = which == 0 ? 0 : row;
-    for (int y = 0; y < eye.height_px; ++y) {
+    for (std::ptrdiff_t y = 0; y < eye.height_px; ++y) {
         std::copy_n(eye.rgba.begin() + y * row, row, both.rgba.begin() + 2 * y * row + left);
     }
 }

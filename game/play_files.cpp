@@ -61,7 +61,7 @@ Result<PlayedScene> load_played_scene(const PlayOptions& options) {
 std::optional<FileError> check_play_files(const PlayOptions& options) {
     for (const std::string& file :
          {options.record, options.picture, options.report, options.status}) {
-        if (const auto error = check_folder(file)) {
+        if (auto error = check_folder(file)) {
             return error;
         }
     }
