@@ -102,6 +102,13 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
 void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     play.add_option("--scene", options.scene, "As of run; default: station");
     play.add_option("--spawn", options.spawn, "A spawn of the scene; default: its first");
+    play.add_flag("--xr", options.xr, "In a headset, through the machine's OpenXR runtime");
+    play.add_flag("--xr-headless", options.xr_headless,
+                  "As --xr, but poses and buttons only: no pictures");
+    play.add_option("--eye-scale", options.eye_scale,
+                    "With --xr: of the size of picture that the headset recommends")
+        ->check(CLI::Range(0.05, 2.0));
+    play.add_flag("!--no-mirror", options.mirror, "With --xr: no window of what the left eye sees");
     play.add_option("--record", options.record,
                     "Save the session (.csv): run --input plays it again");
     play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");
@@ -177,8 +184,8 @@ int main(int argc, char** argv) {
         app.add_subcommand("run", "Play a session without a window, as fast as it can");
     add_run_options(*run, options);
     handhold::PlayOptions play_options;
-    CLI::App* const play =
-        app.add_subcommand("play", "Play in a window with keyboard, mouse or gamepad");
+    CLI::App* const play = app.add_subcommand(
+        "play", "Play in a window with keyboard, mouse or gamepad, or in a headset");
     add_play_options(*play, play_options);
     handhold::ClimbOptions climb_options;
     CLI::App* const climb =

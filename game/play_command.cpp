@@ -1,114 +1,45 @@
 #include "game/play_command.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
-#include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
+#include "game/headset_command.hpp"
+#include "game/play_files.hpp"
 #include "game/play_loop.hpp"
-#include "game/player_defaults.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 
 namespace handhold {
 namespace {
 
-// Said before anything is played: a session that cannot be kept is not begun.
-std::optional<FileError> check_folder(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.parent_path();
-    std::error_code ignored;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        return FileError{file.string(), "", "expected a folder that is there"};
-    }
-    return std::nullopt;
-}
-
-std::optional<FileError> save(const PlayOptions& options, const std::string& spawn,
-                              const DesktopSession& session, const PlayTally& tally,
-                              const Image& image) {
-    const Recording& recording = session.recording();
-    if (recording.samples.size() > 1) {
-        if (auto error = save_recording(options.record, recording)) {
-            return error;
-        }
-        std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
-                    recording.samples.size(),
-                    session.used_sticks() ? ", without turns, brake and jets" : "");
-        std::printf("handhold run --scene %s%s --players 1 --input %s\n", options.scene.c_str(),
-                    spawn.empty() ? "" : (" --spawn " + spawn).c_str(), options.record.c_str());
-    }
-    if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
-        return FileError{options.picture, "", "expected a file that can be written"};
-    }
-    if (!options.report.empty()) {
-        const std::string hash = format_hash(hash_state(session.scene().world));
-        return write_file_atomically(options.report, tally.report_json(session.scene().name, hash));
-    }
-    return std::nullopt;
-}
-
-struct LoadedScene {
-    Scene scene;
-    SceneSpawnPoint place;  // the origin where the scene names none
-};
-
-Result<LoadedScene> load(const PlayOptions& options) {
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) {
-        return scene.error();
-    }
-    LoadedScene loaded{std::move(scene.value()), {}};
-    const auto& spawns = loaded.scene.spawns;
-    const auto found = std::ranges::find_if(spawns, [&](const SceneSpawnPoint& candidate) {
-        return options.spawn.empty() || candidate.name == options.spawn;
-    });
-    if (found != spawns.end()) {
-        loaded.place = *found;
-    } else if (!options.spawn.empty()) {
-        return FileError{options.scene, "/spawns",
-                         "expected a spawn \"" + options.spawn + "\", found none of that name"};
-    }
-    if (options.jets) {
-        loaded.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
-    }
-    return loaded;
-}
-
 int refuse_window(const std::string& why_not) {
     std::fprintf(stderr, "no window: %s\n", why_not.c_str());
     return k_exit_no_window;
 }
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
-
 }  // namespace
 
 int play_command(PlayOptions options) {
-    for (const std::string& file :
-         {options.record, options.picture, options.report, options.status}) {
-        if (const auto error = check_folder(file)) {
-            return refuse(*error);
-        }
+    if (options.xr || options.xr_headless) {
+        return headset_command(options);
+    }
+    if (const auto error = check_play_files(options)) {
+        return refuse(*error);
     }
     Result<PlayerModels> models = choose_player_models(options.models);
     if (!models) {
         return refuse(models.error());
     }
-    const OpenFile status(options.status.empty() ? nullptr
-                                                 : std::fopen(options.status.c_str(), "w"));
-    if (!options.status.empty() && status == nullptr) {
-        return refuse({options.status, "", "expected a file that can be written"});
+    const Result<OpenFile> status = open_status(options);
+    if (!status) {
+        return refuse(status.error());
     }
     PlayPanels panels = options.panels;
     std::unique_ptr<Window> window;
     Overlay overlay(options.width_px, options.height_px);
     for (;;) {
-        Result<LoadedScene> loaded = load(options);
+        Result<PlayedScene> loaded = load_played_scene(options);
         if (!loaded) {
             return refuse(loaded.error());
         }
@@ -150,10 +81,13 @@ int play_command(PlayOptions options) {
                         options.page,
                         options.viewpoint,
                         options.seconds,
-                        status.get()};
+                        status.value().get()};
         const PlayEnd end = play(stage);
         std::printf("%s", tally.summary().c_str());
-        if (const auto error = save(options, place, session, tally, picture)) {
+        if (const auto error = save_play(options,
+                                         {session.scene(), place, session.recording(),
+                                          session.used_sticks(), 1.0 / DesktopSession::k_dt_s},
+                                         tally, picture)) {
             return refuse(*error);
         }
         if (end.leaves) {

@@ -15,8 +15,12 @@ struct PlayOptions {
     std::string record;   // where the session is saved; empty: nowhere
     std::string picture;  // a PNG of the last picture; empty: none
     PlayerModelFiles models;
-    std::string report;    // figures and costs (.json) when it ends; empty: none
-    std::string status;    // a line of JSON every tenth of a second (.jsonl); empty: none
+    std::string report;  // figures and costs (.json) when it ends; empty: none
+    std::string status;  // a line of JSON every tenth of a second (.jsonl); empty: none
+    bool xr = false;     // in a headset, with a mirror of the left eye where there is a display
+    bool xr_headless = false;  // the same without pictures, for tests
+    double eye_scale = 1.0;    // (0, 2]; of the size that the headset recommends for its pictures
+    bool mirror = true;
     bool jets = false;     // the keys push as well as pull
     double seconds = 0.0;  // 0: until the window is closed
     int width_px = 1280;

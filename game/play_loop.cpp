@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
+#include "game/comfort.hpp"
 #include "game/free_camera.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 constexpr double k_most_behind_s = 0.1;  // then time goes slower
 constexpr double k_status_s = 0.1;
-constexpr double k_calm_mps = 1.0;  // slower than this nothing darkens
-constexpr double k_fast_mps = 4.0;  // from here on all that is asked for
 
 double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
 
@@ -217,17 +216,6 @@ class Loop {
         }
     }
 
-    // By how fast he is carried along beside what counts as standing still.
-    double vignette() const {
-        const Entity player = stage_.session.player().player;
-        const double speed_mps = (world().player_velocity.at(player).linear_mps -
-                                  world().reference_velocity.at(player).linear_mps)
-                                     .norm();
-        const double share =
-            std::clamp((speed_mps - k_calm_mps) / (k_fast_mps - k_calm_mps), 0.0, 1.0);
-        return stage_.settings.vignette * share;
-    }
-
     void draw(double dt_s) {
         ui_.wheel = std::exchange(wheel_, 0.0F);
         ui_.text = std::exchange(typed_, {});
@@ -261,7 +249,8 @@ class Loop {
         hud.shows_help = stage_.panels.help && !stage_.panels.inspector && !stage_.panels.menu;
         hud.paused = paused_;
         hud.rewound_s = static_cast<double>(rewound_) * DesktopSession::k_dt_s;
-        hud.vignette = vignette();
+        hud.vignette =
+            vignette_of(world(), stage_.session.player().player, stage_.settings.vignette);
         hud.footer = stage_.panels.inspector ? cost_line() : "";
         show_hud(hud);
         if (stage_.panels.inspector) {

@@ -128,8 +128,36 @@ std::string PlayTally::summary() const {
     return text;
 }
 
+namespace {
+
+void add_place(const char* name, const std::optional<Pose>& pose, Json& to) {
+    to[name] = pose ? numbers(pose->position) : Json();
+}
+
+void add_headset(const HeadsetFigures& headset, Json& to) {
+    to["focus"] = headset.has_focus;
+    to["losses"] = headset.losses;
+    to["pictures"] = headset.pictures;
+    add_place("head_m", headset.reading.head_ps, to);
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        const HandReading& hand = headset.reading.hands[side];
+        Json& seen = to[side == 0 ? "left" : "right"];
+        add_place("grip_m", hand.grip_ps, seen);
+        add_place("aim_m", hand.aim_ps, seen);
+        add_place("palm_m", hand.palm_ps, seen);
+        add_place("wrist_m", hand.wrist_ps, seen);
+        seen["curl"] = hand.curl;
+        seen["squeeze"] = hand.squeeze;
+        seen["trigger"] = hand.trigger;
+        seen["stick"] = {hand.stick[0], hand.stick[1]};
+        seen["shakes"] = headset.shakes[side];
+    }
+}
+
+}  // namespace
+
 std::string status_line(const World& world, const PlayerEntities& player,
-                        const PlayFigures& figures, bool can_reach) {
+                        const PlayFigures& figures, bool can_reach, const HeadsetFigures* headset) {
     const RenderPose& render = world.render_pose.at(player.player);
     Json line;
     line["t_s"] = world.clock.t_s;
@@ -143,6 +171,9 @@ std::string status_line(const World& world, const PlayerEntities& player,
     }
     line["climbed_m"] = figures.climbed_m;
     line["hand_changes"] = figures.hand_changes;
+    if (headset != nullptr) {
+        add_headset(*headset, line["headset"]);
+    }
     return line.dump() + "\n";
 }
 

@@ -8,6 +8,7 @@
 
 #include "components/stats.hpp"
 #include "components/world.hpp"
+#include "game/headset_reading.hpp"
 
 // What a session at a window comes to: how far the player's hands carried him, and what the runtime
 // and the renderer cost, each for itself.
@@ -56,9 +57,19 @@ class PlayTally {
     std::vector<double> runtime_us_, draw_us_, show_us_;
 };
 
+// What a headset has to say beside that.
+struct HeadsetFigures {
+    HeadsetReading reading;  // the last one
+    bool has_focus = false;
+    std::uint64_t losses = 0;                          // of the runtime, each found again
+    std::uint64_t pictures = 0;                        // of both eyes
+    std::array<std::uint64_t, k_hand_count> shakes{};  // by HandSide
+};
+
 // One line (JSON) of how it stands: time, head, hands with what they hold, metres climbed. For
 // whoever drives the game from outside and cannot see its pictures.
 std::string status_line(const World& world, const PlayerEntities& player,
-                        const PlayFigures& figures, bool can_reach);
+                        const PlayFigures& figures, bool can_reach,
+                        const HeadsetFigures* headset = nullptr);
 
 }  // namespace handhold

@@ -16,8 +16,9 @@ class Playback {
     explicit Playback(const Recording& recording);
 
     double duration_s() const { return duration_s_; }
-    // The samples since the last call's end, up to frame_end_s, and the one after it where there is
-    // one. Each sample before the frame's end is handed out once; frame_end_s must not fall.
+    // The samples since the last call's end, up to frame_end_s, and, where none lies at that very
+    // time, the one after it. Each sample before the frame's end is handed out once; frame_end_s
+    // must not fall.
     std::span<const TrackingSample> window(double frame_end_s);
     // What sticks and buttons ask for as of the last sample that the last window has in its frame:
     // both menu buttons ask for calibration.

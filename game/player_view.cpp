@@ -57,9 +57,8 @@ void PlayerView::add_figure(const BodyMeasures& measures, const RenderPose& rend
     }
 }
 
-void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
-                      std::optional<std::size_t> without_head, Image& out,
-                      std::span<const Line> marks, const UiPicture* ui) {
+RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size_t> without_head,
+                                   std::span<const Line> marks) {
     RenderFrame frame = make_scene_frame(*scene_, visuals_);
     hands_.begin();
     body_.begin();
@@ -70,9 +69,22 @@ void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
                    without_head == i ? by_himself : by_others, frame);
     }
     frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
-    frame.camera.pose_ws = camera_ws;
-    frame.camera.vertical_fov_rad = vertical_fov_rad;
-    renderer_.draw(frame, out, ui);
+    frame.camera = camera;
+    return frame;
+}
+
+void PlayerView::draw(const Pose& camera_ws, double vertical_fov_rad,
+                      std::optional<std::size_t> without_head, Image& out,
+                      std::span<const Line> marks, const UiPicture* ui) {
+    Camera camera;
+    camera.pose_ws = camera_ws;
+    camera.vertical_fov_rad = vertical_fov_rad;
+    renderer_.draw(make_frame(camera, without_head, marks), out, ui);
+}
+
+void PlayerView::draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
+                          const UiPicture* ui) {
+    renderer_.draw_into(texture, make_frame(eye, whose, {}), copy, ui);
 }
 
 }  // namespace handhold

@@ -28,10 +28,17 @@ class PlayerView {
     void draw(const Pose& camera_ws, double vertical_fov_rad,
               std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
               const UiPicture* ui = nullptr);
+    // The same as a headset's eye sees it, into a texture of the runtime's (Renderer::draw_into).
+    void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
+                  const UiPicture* ui = nullptr);
+    // Lives as long as the view.
+    const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
 
   private:
     PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
+    RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
+                           std::span<const Line> marks);
     void add_figure(const BodyMeasures& measures, const RenderPose& render, BodyFigures::Seen seen,
                     RenderFrame& frame);
 

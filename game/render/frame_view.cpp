@@ -28,11 +28,20 @@ FrameView make_frame_view(const Camera& camera, int width_px, int height_px) {
     view.near_m = camera.near_m;
     view.half_height = std::tan(0.5 * camera.vertical_fov_rad);
     view.half_width = view.half_height * width_px / height_px;
+    if (camera.frustum) {
+        const EyeFrustum& sides = *camera.frustum;
+        view.half_width = 0.5 * (sides.right - sides.left);
+        view.half_height = 0.5 * (sides.up - sides.down);
+        view.middle_x = 0.5 * (sides.right + sides.left);
+        view.middle_y = 0.5 * (sides.up + sides.down);
+    }
     view.depth_scale = -(k_far_m + view.near_m) / (k_far_m - view.near_m);
     view.depth_offset = -2.0 * k_far_m * view.near_m / (k_far_m - view.near_m);
     Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
     projection(0, 0) = 1.0 / view.half_width;
     projection(1, 1) = 1.0 / view.half_height;
+    projection(0, 2) = view.middle_x / view.half_width;
+    projection(1, 2) = view.middle_y / view.half_height;
     projection(2, 2) = view.depth_scale;
     projection(2, 3) = view.depth_offset;
     projection(3, 2) = -1.0;
@@ -44,20 +53,25 @@ FrameView make_frame_view(const Camera& camera, int width_px, int height_px) {
 
 std::array<double, 4> to_clip(const FrameView& view, const Vec3& point_cs) {
     const Vec3 p = view.from_view.conjugate() * point_cs;
-    return {p.x() / view.half_width, p.y() / view.half_height,
+    return {(p.x() + view.middle_x * p.z()) / view.half_width,
+            (p.y() + view.middle_y * p.z()) / view.half_height,
             view.depth_scale * p.z() + view.depth_offset, -p.z()};
 }
 
 bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m) {
     const Vec3 c = view.from_view.conjugate() * center_cs;
     const double ahead = -c.z();
-    // Distance outside of a side plane through the eye, for a half extent h at distance 1.
-    const auto outside = [ahead](double across, double h) {
-        return (std::abs(across) - h * ahead) / std::sqrt(1.0 + h * h);
+    // Distance outside of both side planes through the eye, for a picture from middle - half to
+    // middle + half at distance 1.
+    const auto outside = [ahead](double across, double middle, double half) {
+        const double above = middle + half;
+        const double below = middle - half;
+        return std::max((across - above * ahead) / std::sqrt(1.0 + above * above),
+                        (below * ahead - across) / std::sqrt(1.0 + below * below));
     };
     return ahead > view.near_m - radius_m && ahead < k_far_m + radius_m &&
-           outside(c.x(), view.half_width) < radius_m &&
-           outside(c.y(), view.half_height) < radius_m;
+           outside(c.x(), view.middle_x, view.half_width) < radius_m &&
+           outside(c.y(), view.middle_y, view.half_height) < radius_m;
 }
 
 ShadowView make_shadow_view(const KeyLight& key, const FrameView& view, int size_px) {

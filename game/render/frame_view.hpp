@@ -16,6 +16,8 @@ struct FrameView {
     Quat from_view = Quat::Identity();  // the camera's rotation
     double half_width = 1.0;            // of the picture at distance 1
     double half_height = 1.0;
+    double middle_x = 0.0;  // of the picture at distance 1: not straight ahead for a headset's eye
+    double middle_y = 0.0;
     double near_m = 0.03;
     double depth_scale = 0.0;   // P22 and
     double depth_offset = 0.0;  // P32 of the projection

@@ -69,6 +69,7 @@ bool GlContext::try_api(GlApi api) {
     const std::array<EGLint, 3> embedded = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT,
                                 is_desktop ? desktop.data() : embedded.data());
+    config_ = config;
     api_ = api;
     if (context_ != EGL_NO_CONTEXT && make_current()) {
         return true;
@@ -84,6 +85,10 @@ bool GlContext::make_current() {
     // The bound API is per thread and decides which current context eglMakeCurrent replaces.
     eglBindAPI(api_ == GlApi::desktop_33 ? EGL_OPENGL_API : EGL_OPENGL_ES_API);
     return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+}
+
+GlContext::Handles GlContext::handles() const {
+    return {display_, config_, context_, eglGetProcAddress};
 }
 
 GlContext::~GlContext() {

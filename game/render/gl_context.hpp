@@ -21,12 +21,22 @@ class GlContext {
     bool make_current();
     GlApi api() const { return api_; }
 
+    // EGL's own, for a library that shares the context.
+    struct Handles {
+        void* display = nullptr;
+        void* config = nullptr;
+        void* context = nullptr;
+        void (*(*get_proc_address)(const char*))() = nullptr;
+    };
+    Handles handles() const;
+
   private:
     GlContext() = default;
     bool try_api(GlApi api);
 
     void* display_ =
         nullptr;  // shared by the whole process and never terminated: others may be using it
+    void* config_ = nullptr;
     void* context_ = nullptr;
     GlApi api_ = GlApi::desktop_33;
 };

@@ -1,5 +1,6 @@
 #include "game/render/picture_passes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -96,6 +97,9 @@ void PicturePasses::shade_occlusion(const FrameView& view) {
                 std::array<float, 2>{static_cast<float>(view.half_width),
                                      static_cast<float>(view.half_height)});
     set_uniform(
+        occlusion_program_, "middle",
+        std::array<float, 2>{static_cast<float>(view.middle_x), static_cast<float>(view.middle_y)});
+    set_uniform(
         occlusion_program_, "texel",
         texel_of(size_.width_px * size_.samples_across, size_.height_px * size_.samples_across));
     set_uniform(occlusion_program_, "radius_m", k_occlusion_radius_m);
@@ -145,7 +149,7 @@ void PicturePasses::compose() {
     }
 }
 
-void PicturePasses::finish(const FrameView& view, const UiPicture* ui, Image& out) {
+void PicturePasses::finish(const FrameView& view, const UiPicture* ui) {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     if (size_.effects) {
@@ -156,6 +160,22 @@ void PicturePasses::finish(const FrameView& view, const UiPicture* ui, Image& ou
     if (ui != nullptr) {
         ui_painter_.draw(*ui, {size_.width_px, size_.height_px});
     }
+    copied_ = false;
+}
+
+void PicturePasses::copy_into(GLuint texture) {
+    const GLuint finished = size_.samples_across == 1 ? final_target_ : composed_target_;
+    copy_target_ = make_framebuffer(texture, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, finished);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, copy_target_);
+    glBlitFramebuffer(0, 0, size_.width_px, size_.height_px, 0, size_.height_px, size_.width_px, 0,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, copy_target_);
+    copied_ = true;
+}
+
+// As bytes lie in rows from the top: what was finished is upside down already.
+void PicturePasses::read(Image& out) {
     out.width_px = size_.width_px;
     out.height_px = size_.height_px;
     const auto pixels =
@@ -163,6 +183,11 @@ void PicturePasses::finish(const FrameView& view, const UiPicture* ui, Image& ou
     out.rgba.resize(4 * pixels);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, size_.width_px, size_.height_px, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
+    const auto row = 4 * static_cast<std::ptrdiff_t>(size_.width_px);
+    for (int y = 0; copied_ && y < size_.height_px / 2; ++y) {
+        const auto top = out.rgba.begin() + y * row;
+        std::swap_ranges(top, top + row, out.rgba.end() - (y + 1) * row);
+    }
     // Alpha carried brightness for the edge filter.
     for (std::size_t i = 0; i < pixels; ++i) {
         out.rgba[4 * i + 3] = 255;

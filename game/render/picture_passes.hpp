@@ -29,9 +29,14 @@ class PicturePasses {
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
     // Binds the target that the scene is drawn into.
     void begin();
-    // What begin()'s target holds, as the finished picture, with panels where there are. Needs any
-    // vertex array bound.
-    void finish(const FrameView& view, const UiPicture* ui, Image& out);
+    // Makes what begin()'s target holds the finished picture, with panels where there are. Needs
+    // any vertex array bound.
+    void finish(const FrameView& view, const UiPicture* ui);
+    // The finished picture's bytes as they are, into a texture of the same size, rows from the
+    // bottom: a texture in sRGB is not encoded again.
+    void copy_into(GLuint texture);
+    // The finished picture, or the texture that it was copied into since.
+    void read(Image& out);
 
   private:
     void shade_occlusion(const FrameView& view);
@@ -43,6 +48,8 @@ class PicturePasses {
     GlTexture color_, depth_, occlusion_, occlusion_smooth_, glow_, glow_spare_, composed_, final_;
     GlFramebuffer scene_target_, occlusion_target_, smooth_target_, glow_target_,
         glow_spare_target_, composed_target_, final_target_;
+    GlFramebuffer copy_target_;
+    bool copied_ = false;
     GlProgram occlusion_program_, smooth_program_, glow_program_, blur_program_, composite_program_,
         edges_program_;
     UiPainter ui_painter_;

@@ -59,10 +59,20 @@ struct KeyLight {
     double shadow_radius_m = 3.5;  // of the region before the camera where shadows are drawn
 };
 
+// The sides of an eye's picture at distance 1 along its -Z: right of the middle and above it are
+// positive. left < right, down < up.
+struct EyeFrustum {
+    double left = -1.0;
+    double right = 1.0;
+    double down = -1.0;
+    double up = 1.0;
+};
+
 // The camera looks along its own -Z, +Y is up on the picture.
 struct Camera {
     Pose pose_ws;
     double vertical_fov_rad = 1.2;
+    std::optional<EyeFrustum> frustum;  // instead of vertical_fov_rad
     double near_m = 0.03;
 };
 

@@ -247,7 +247,8 @@ void Renderer::Impl::draw_backdrop(const RenderFrame& frame, const FrameView& vi
     const Vec3 up = view.from_view * Vec3(0.0, view.half_height, 0.0);
     set_uniform(backdrop_program, "view_right", to_floats(right));
     set_uniform(backdrop_program, "view_up", to_floats(up));
-    set_uniform(backdrop_program, "view_forward", to_floats(view.from_view * -Vec3::UnitZ()));
+    set_uniform(backdrop_program, "view_forward",
+                to_floats(view.from_view * Vec3(view.middle_x, view.middle_y, -1.0)));
     set_uniform(backdrop_program, "planet", to_floats(frame.planet_ws.normalized()));
     set_uniform(backdrop_program, "sun", to_floats(frame.key.towards_ws.normalized()));
     glBindVertexArray(empty_layout);
@@ -347,7 +348,7 @@ void Renderer::move_mesh(MeshId mesh, std::span<const Vec3> positions,
     move_gpu_mesh(positions, normals, impl_->moving_vertices, gpu);
 }
 
-void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {
+void Renderer::draw_picture(const RenderFrame& frame, const UiPicture* ui) {
     Impl& impl = *impl_;
     impl.context->make_current();
     impl.counters = {};
@@ -367,8 +368,24 @@ void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {
     impl.draw_glass(view);
     impl.draw_lines(frame, view);
     glBindVertexArray(impl.empty_layout);
-    impl.passes.finish(view, ui, out);
+    impl.passes.finish(view, ui);
 }
+
+void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {
+    draw_picture(frame, ui);
+    impl_->passes.read(out);
+}
+
+void Renderer::draw_into(std::uint32_t texture, const RenderFrame& frame, Image* copy,
+                         const UiPicture* ui) {
+    draw_picture(frame, ui);
+    impl_->passes.copy_into(texture);
+    if (copy != nullptr) {
+        impl_->passes.read(*copy);
+    }
+}
+
+const GlContext& Renderer::context() const { return *impl_->context; }
 
 const RenderCounters& Renderer::counters() const { return impl_->counters; }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/geometry/mesh.hpp"
+#include "game/render/gl_context.hpp"
 #include "game/render/image.hpp"
 #include "game/render/render_frame.hpp"
 
@@ -54,12 +55,19 @@ class Renderer {
     // are left out. Precondition: every instance's mesh came from this renderer.
     // Panels are drawn over it where there are.
     void draw(const RenderFrame& frame, Image& out, const UiPicture* ui = nullptr);
+    // The same into a texture of OpenGL's, of the same size and of eight bits a channel in sRGB,
+    // rows from the bottom; and, where it is given, into `copy` out of that texture.
+    void draw_into(std::uint32_t texture, const RenderFrame& frame, Image* copy = nullptr,
+                   const UiPicture* ui = nullptr);
 
+    // For a library that shares it: a headset's runtime. Lives as long as the renderer.
+    const GlContext& context() const;
     const RenderCounters& counters() const;
 
   private:
     struct Impl;
     explicit Renderer(std::unique_ptr<Impl> impl);
+    void draw_picture(const RenderFrame& frame, const UiPicture* ui);
     std::unique_ptr<Impl> impl_;
 };
 

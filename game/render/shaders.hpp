@@ -260,6 +260,7 @@ in vec2 uv;
 uniform sampler2D depth_map;
 uniform vec2 depth_terms;   // P22, P32 of the projection
 uniform vec2 half_extent;   // of the picture at distance 1
+uniform vec2 middle;        // of the picture there
 uniform vec2 texel;         // of depth_map
 uniform float radius_m;
 out vec4 color;
@@ -268,7 +269,7 @@ out vec4 color;
 vec3 view_at(vec2 at) {
     at = (floor(at / texel) + 0.5) * texel;
     float d = depth_terms.y / (2.0 * texture(depth_map, at).r - 1.0 + depth_terms.x);
-    return vec3((2.0 * at - 1.0) * half_extent * d, -d);
+    return vec3(((2.0 * at - 1.0) * half_extent + middle) * d, -d);
 }
 // The shorter of the steps to both neighbours: does not reach across an edge.
 vec3 slope(vec3 p, vec2 pixel, vec2 step_uv) {

@@ -259,5 +259,30 @@ TEST_F(RenderPicture, UnknownMeshIsRefused) {
     EXPECT_THROW(renderer_->draw(frame, image), PreconditionError);
 }
 
+// A headset's eye: sides at distance 1 instead of an angle.
+TEST_F(RenderPicture, LopsidedFrustumPutsThingsWhereItsSidesSay) {
+    RenderFrame frame = black_frame();
+    frame.camera.frustum = EyeFrustum{-0.9, 0.5, -0.6, 0.8};
+    const Vec3 center(0.2, 0.5, -2.0);
+    frame.instances = {box(center, Vec3::Constant(0.03), {1.0F, 0.0F, 0.0F})};
+    const Image image = draw(frame);
+    const int x = static_cast<int>((0.1 + 0.9) / 1.4 * k_width_px);
+    const int y = static_cast<int>((0.8 - 0.25) / 1.4 * k_height_px);
+    EXPECT_EQ(seen_at(image, x, y), Seen::red);
+    EXPECT_EQ(seen_at(image, k_width_px / 2, k_height_px / 2), Seen::nothing);
+    EXPECT_EQ(renderer_->counters().instances_seen, 1);
+}
+
+TEST_F(RenderPicture, FrustumOfAnAngleGivesTheAnglesPicture) {
+    RenderFrame frame = black_frame();
+    frame.backdrop = Backdrop::space;
+    frame.instances = {box({0.3, -0.2, -1.5}, Vec3::Constant(0.2), {1.0F, 0.0F, 0.0F})};
+    const Image by_angle = draw(frame);
+    const double up = std::tan(0.5 * frame.camera.vertical_fov_rad);
+    const double right = up * k_width_px / k_height_px;
+    frame.camera.frustum = EyeFrustum{-right, right, -up, up};
+    EXPECT_EQ(draw(frame).rgba, by_angle.rgba);
+}
+
 }  // namespace
 }  // namespace handhold::render_picture_test

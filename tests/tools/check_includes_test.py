@@ -85,7 +85,7 @@ class CheckIncludes(unittest.TestCase):
             "tiny_gltf.h": "engine/io/gltf.cpp",
             "meshoptimizer.h": "engine/geometry/simplify_meshopt.cpp",
             "Eigen/Core": "engine/math/math.hpp",
-            "openxr/openxr.h": "game/platform/xr.cpp",
+            "openxr/openxr.h": "game/xr/instance.cpp",
             "SDL2/SDL.h": "game/platform/window.cpp",
             "epoxy/gl.h": "game/render/renderer.cpp",
         }

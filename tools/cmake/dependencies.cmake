@@ -14,6 +14,10 @@ if(HANDHOLD_BUILD_GAME)
   pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)  # FindOpenGL would ask for libOpenGL, which nothing here uses
   pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2)
   pkg_check_modules(imgui REQUIRED imgui)
+  pkg_check_modules(openxr IMPORTED_TARGET openxr)  # the loader; without it `play --xr` says so
+  if(NOT openxr_FOUND)
+    message(STATUS "No OpenXR: the game is built without headsets")
+  endif()
   find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
   add_library(handhold_stb INTERFACE)
   add_library(handhold::stb ALIAS handhold_stb)

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+
+#include "components/world.hpp"
+
+namespace handhold {
+
+// How much the edges of what a player sees are dark, [0, strength]: by how fast he is carried along
+// beside what counts as standing still. Nothing below 1 m/s, all from 4 m/s on.
+inline double vignette_of(const World& world, Entity player, double strength) {
+    constexpr double k_calm_mps = 1.0;
+    constexpr double k_fast_mps = 4.0;
+    const double speed_mps = (world.player_velocity.at(player).linear_mps -
+                              world.reference_velocity.at(player).linear_mps)
+                                 .norm();
+    return strength * std::clamp((speed_mps - k_calm_mps) / (k_fast_mps - k_calm_mps), 0.0, 1.0);
+}
+
+}  // namespace handhold

@@ -1,0 +1,100 @@
+#include "game/headset_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+#include "game/exit_status.hpp"
+#include "game/headset_loop.hpp"
+#include "game/play_files.hpp"
+#include "game/report/run_summary.hpp"
+
+namespace handhold {
+namespace {
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void ask_to_end(int) { asked_to_end = 1; }
+
+int refuse_headset(const std::string& why_not) {
+    std::fprintf(stderr, "play --xr: %s\n", why_not.c_str());
+    return k_exit_no_window;
+}
+
+EyeSize scaled(const EyeSize& size, double scale) {
+    const auto along = [scale](int pixels) {
+        return std::clamp(static_cast<int>(std::lround(scale * pixels)), 16, 8192);
+    };
+    return {along(size.width_px), along(size.height_px)};
+}
+
+}  // namespace
+
+int headset_command(const PlayOptions& options) {
+    if (const auto error = check_play_files(options)) {
+        return refuse(*error);
+    }
+    Result<PlayerModels> models = choose_player_models(options.models);
+    if (!models) {
+        return refuse(models.error());
+    }
+    Result<PlayedScene> loaded = load_played_scene(options);
+    if (!loaded) {
+        return refuse(loaded.error());
+    }
+    const Result<OpenFile> status = open_status(options);
+    if (!status) {
+        return refuse(status.error());
+    }
+    std::string why_not;
+    std::unique_ptr<Headset> headset = Headset::open(options.xr_headless, why_not);
+    if (headset == nullptr) {
+        return refuse_headset(why_not);
+    }
+    const std::string place = loaded.value().place.name;
+    HeadsetSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
+    if (!options.record.empty()) {
+        session.record();
+    }
+    std::optional<PlayerView> view;
+    std::unique_ptr<Window> mirror;
+    EyeSize eye_size;
+    if (!options.xr_headless) {
+        eye_size = scaled(headset->eye_size(), options.eye_scale);
+        view = PlayerView::open(session.scene(), models.value(), eye_size.width_px,
+                                eye_size.height_px, why_not, options.settings.quality);
+        if (!view) {
+            return refuse_headset(why_not);
+        }
+        std::string no_mirror;
+        if (options.mirror) {
+            mirror = Window::open("Handhold: " + session.scene().name, options.width_px,
+                                  options.height_px, no_mirror);
+        }
+        if (mirror != nullptr) {
+            mirror->hold_mouse(false);
+        } else if (options.mirror) {
+            std::fprintf(stderr, "no mirror of the headset: %s\n", no_mirror.c_str());
+        }
+    }
+    std::signal(SIGINT, ask_to_end);
+    std::signal(SIGTERM, ask_to_end);
+    PlayTally tally;
+    Image picture;
+    HeadsetStage stage{options, session, view ? &*view : nullptr, mirror.get(), eye_size,
+                       tally,   picture, status.value().get(),    &asked_to_end};
+    const bool left = play_in_headset(stage, std::move(headset), why_not);
+    std::printf("%s", tally.summary().c_str());
+    if (const auto error = save_play(
+            options, {session.scene(), place, session.recording(), session.used_sticks(), stage.hz},
+            tally, picture)) {
+        return refuse(*error);
+    }
+    if (!left) {
+        return refuse_headset(why_not);
+    }
+    std::printf("state_hash %s\n", format_hash(hash_state(session.scene().world)).c_str());
+    return 0;
+}
+
+}  // namespace handhold

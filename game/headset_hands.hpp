@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "game/headset_reading.hpp"
+#include "game/play_settings.hpp"
+
+// What a headset's runtime says, as the input of the game: the samples that recordings and the
+// emulated body of keyboard and mouse give, and what sticks and buttons ask for.
+namespace handhold {
+
+// The wrist in OpenXR's grip frame: the palm's centre lies on the grip's origin, the back of the
+// hand faces outward, and the fingers' roots point k_handle_rad from the handle's axis.
+Pose hand_in_grip(HandSide side, const HandTuning& tuning);
+// The same in OpenXR's palm frame, which knows the hand's own axis.
+Pose hand_in_palm(HandSide side, const HandTuning& tuning);
+// Between a handle in a closed fist and the hand's own axis: a handle does not lie square to it.
+inline constexpr double k_handle_rad = k_pi / 3.0;
+
+// 0 for a finger in line with the hand, 1 for one whose tip has come back to point at the wrist.
+double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
+
+// What is remembered from one reading to the next.
+struct HeadsetMemory {
+    std::array<bool, k_hand_count> grabs{};
+    bool turned = false;  // one snap turn a push of the stick
+};
+
+// A hand closes from 55 % of squeeze, trigger or curled fingers on until all are below 35 %. A
+// palm counts before a grip, and both before tracked fingers; what is not tracked has a pose of NaN
+// and keeps its button as it was: losing sight of a hand does not open it.
+TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
+                            HeadsetMemory& memory);
+
+// Right stick: turns, by steps or smoothly. Left stick and head: where the jets push. Either brake
+// brakes; both calibrate buttons together ask for calibration.
+PlayerCommands read_headset_commands(const HeadsetReading& reading, TurnKind turn,
+                                     HeadsetMemory& memory);
+
+}  // namespace handhold

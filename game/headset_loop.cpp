@@ -1,0 +1,239 @@
+#include "game/headset_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "engine/core/profile.hpp"
+#include "game/comfort.hpp"
+#include "game/headset_hands.hpp"
+#include "game/ui/hud.hpp"
+#include "game/ui/overlay.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_status_s = 0.1;
+constexpr auto k_between_tries = std::chrono::milliseconds(500);
+constexpr int k_tries = 60;
+
+double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
+
+// Left and right beside each other.
+void put_beside(const Image& eye, std::size_t which, Image& both) {
+    const int width = eye.width_px;
+    both.width_px = 2 * width;
+    both.height_px = eye.height_px;
+    both.rgba.resize(2 * eye.rgba.size());
+    const auto row = 4 * static_cast<std::ptrdiff_t>(width);
+    const auto left = which == 0 ? 0 : row;
+    for (std::ptrdiff_t y = 0; y < eye.height_px; ++y) {
+        std::copy_n(eye.rgba.begin() + y * row, row, both.rgba.begin() + 2 * y * row + left);
+    }
+}
+
+class HeadsetLoop {
+  public:
+    HeadsetLoop(HeadsetStage& stage, std::unique_ptr<Headset> headset)
+        : stage_(stage), headset_(std::move(headset)) {
+        if (stage.view != nullptr) {
+            overlay_.emplace(stage.eye_size.width_px, stage.eye_size.height_px);
+        }
+    }
+
+    bool run(std::string& why_not) {
+        if (!begin(why_not)) {
+            return false;
+        }
+        while (!ends_) {
+            look_around();
+            switch (headset_->poll()) {
+                case HeadsetState::runs:
+                    frame();
+                    break;
+                case HeadsetState::waits:
+                    break;
+                case HeadsetState::leaves:
+                    ends_ = true;
+                    break;
+                case HeadsetState::lost:
+                    if (!find_again(why_not)) {
+                        return false;
+                    }
+                    break;
+            }
+        }
+        leave();
+        return true;
+    }
+
+  private:
+    const World& world() const { return stage_.session.scene().world; }
+
+    bool begin(std::string& why_not) {
+        const GlContext* const gl = stage_.view != nullptr ? &stage_.view->context() : nullptr;
+        if (!headset_->begin(gl, stage_.eye_size, why_not)) {
+            return false;
+        }
+        std::printf("headset: %s\n", headset_->description().c_str());
+        std::fflush(stdout);
+        return true;
+    }
+
+    bool find_again(std::string& why_not) {
+        std::fprintf(stderr, "the headset's runtime is lost; looking for it\n");
+        ++figures_.losses;
+        for (int i = 0; i < k_tries && !ends_; ++i) {
+            headset_.reset();
+            std::this_thread::sleep_for(k_between_tries);
+            look_around();
+            headset_ = Headset::open(stage_.options.xr_headless, why_not);
+            if (headset_ != nullptr && begin(why_not)) {
+                clock_.pause();
+                return true;
+            }
+        }
+        return false;
+    }
+
+    // The runtime ends the session while frames go on.
+    void leave() {
+        constexpr int k_most_frames = 200;
+        headset_->ask_to_leave();
+        for (int i = 0; i < k_most_frames && headset_->poll() == HeadsetState::runs; ++i) {
+            HeadsetFrame frame = headset_->begin_frame();
+            frame.is_seen = false;
+            headset_->end_frame(frame, {});
+        }
+    }
+
+    // Who wants to end it here.
+    void look_around() {
+        ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
+        if (stage_.mirror == nullptr) {
+            return;
+        }
+        const WindowEvents events = stage_.mirror->poll(stage_.options.settings);
+        ends_ = ends_ || events.quit ||
+                std::ranges::find(events.pressed, PlayKey::leave) != events.pressed.end();
+    }
+
+    void frame() {
+        const HeadsetFrame frame = headset_->begin_frame();
+        if (frame.display_ns == 0) {  // lost: poll() says so
+            return;
+        }
+        headset_->sync();
+        figures_.has_focus = headset_->has_focus();
+        const int due = clock_.advance(frame.display_ns, frame.period_ns);
+        stage_.hz = clock_.hz();
+        for (int i = due; i-- > 0 && !ends_;) {
+            step(clock_.frame_ns(i));
+        }
+        if (frame.is_seen && frames_ > 0) {
+            const std::int64_t begin_ns = now_ns();
+            const UiPicture& ui = darken_edges(due * clock_.dt_s());
+            headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); });
+            const double draw_us = us_since(begin_ns);
+            const std::int64_t shown_ns = now_ns();
+            show_mirror();
+            ++figures_.pictures;
+            stage_.tally.add_picture(draw_us, us_since(shown_ns));
+        } else {
+            headset_->end_frame({frame.display_ns, frame.period_ns, false}, {});
+        }
+    }
+
+    void step(std::int64_t time_ns) {
+        figures_.reading = headset_->read(time_ns);
+        HeadsetSession& session = stage_.session;
+        const std::int64_t begin_ns = now_ns();
+        const TrackingSample sample =
+            read_headset(figures_.reading, session.t_s(), session.scene().tuning.hand, memory_);
+        session.step(sample,
+                     read_headset_commands(figures_.reading, stage_.options.settings.turn, memory_),
+                     clock_.dt_s());
+        ++frames_;
+        stage_.tally.add_frame(world(), session.player(), session.stats(), us_since(begin_ns),
+                               clock_.dt_s());
+        const std::array<HapticPulse, k_hand_count> pulses = session.pulses();
+        for (std::size_t side = 0; side < k_hand_count; ++side) {
+            headset_->shake(static_cast<HandSide>(side), pulses[side]);
+            figures_.shakes[side] += pulses[side].duration_s > 0.0 ? 1U : 0U;
+        }
+        write_status();
+        ends_ =
+            ends_ || (stage_.options.seconds > 0.0 && world().clock.t_s >= stage_.options.seconds);
+    }
+
+    void write_status() {
+        if (stage_.status == nullptr || world().clock.t_s < next_status_s_) {
+            return;
+        }
+        next_status_s_ = world().clock.t_s + k_status_s;
+        const std::string line =
+            status_line(world(), stage_.session.player(), stage_.tally.figures(), false, &figures_);
+        std::fputs(line.c_str(), stage_.status);
+        std::fflush(stage_.status);
+    }
+
+    const UiPicture& darken_edges(double dt_s) {
+        Hud hud;
+        hud.shows_mark = hud.shows_help = false;
+        hud.vignette =
+            vignette_of(world(), stage_.session.player().player, stage_.options.settings.vignette);
+        overlay_->begin({}, dt_s);
+        show_hud(hud);
+        return overlay_->end();
+    }
+
+    // Where the eye is beside the head in the room, it is beside the head in the world.
+    void draw(const EyePicture& eye, const UiPicture& ui) {
+        const Entity player = stage_.session.player().player;
+        const RenderPose& render = world().render_pose.at(player);
+        if (figures_.reading.head_ps) {
+            head_ps_ = *figures_.reading.head_ps;
+        }
+        Camera camera;
+        camera.pose_ws = render.head_ws * (inverse(head_ps_) * eye.eye_ps);
+        camera.frustum = eye.frustum;
+        const bool keeps = !stage_.options.picture.empty();
+        const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
+        stage_.view->draw_eye(camera, world().render_pose.find_row(player), eye.texture,
+                              keeps || mirrors ? &eye_image_ : nullptr, &ui);
+        if (keeps) {
+            put_beside(eye_image_, eye.eye, stage_.picture);
+        }
+        if (mirrors) {
+            std::swap(mirror_image_, eye_image_);
+        }
+    }
+
+    void show_mirror() {
+        if (stage_.mirror != nullptr && mirror_image_.width_px > 0) {
+            stage_.mirror->show(mirror_image_);
+        }
+    }
+
+    HeadsetStage& stage_;
+    std::unique_ptr<Headset> headset_;
+    HeadsetClock clock_;
+    HeadsetMemory memory_;
+    HeadsetFigures figures_;
+    std::optional<Overlay> overlay_;  // of both eyes; none: headless
+    Pose head_ps_;                    // as the last reading had it
+    Image eye_image_;                 // reused
+    Image mirror_image_;              // the left eye's
+    std::uint64_t frames_ = 0;
+    double next_status_s_ = 0.0;
+    bool ends_ = false;
+};
+
+}  // namespace
+
+bool play_in_headset(HeadsetStage& stage, std::unique_ptr<Headset> headset, std::string& why_not) {
+    return HeadsetLoop(stage, std::move(headset)).run(why_not);
+}
+
+}  // namespace handhold

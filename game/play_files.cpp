@@ -1,0 +1,97 @@
+#include "game/play_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/io/text_file.hpp"
+#include "game/player_defaults.hpp"
+#include "game/report/run_summary.hpp"
+
+namespace handhold {
+namespace {
+
+std::optional<FileError> check_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+        return FileError{file.string(), "", "expected a folder that is there"};
+    }
+    return std::nullopt;
+}
+
+// How `run` is told to play it again bit for bit.
+void say_replay(const PlayOptions& options, const EndedPlay& play) {
+    constexpr double k_default_hz = 90.0;
+    std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
+                play.recording.samples.size(),
+                play.used_sticks ? ", without turns, brake and jets" : "");
+    std::printf("handhold run --scene %s%s --players 1 --input %s", options.scene.c_str(),
+                play.spawn.empty() ? "" : (" --spawn " + play.spawn).c_str(),
+                options.record.c_str());
+    if (play.hz != k_default_hz) {
+        std::printf(" --hz %.17g", play.hz);
+    }
+    std::printf("\n");
+}
+
+}  // namespace
+
+Result<PlayedScene> load_played_scene(const PlayOptions& options) {
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) {
+        return scene.error();
+    }
+    PlayedScene loaded{std::move(scene.value()), {}};
+    const auto& spawns = loaded.scene.spawns;
+    const auto found = std::ranges::find_if(spawns, [&](const SceneSpawnPoint& candidate) {
+        return options.spawn.empty() || candidate.name == options.spawn;
+    });
+    if (found != spawns.end()) {
+        loaded.place = *found;
+    } else if (!options.spawn.empty()) {
+        return FileError{options.scene, "/spawns",
+                         "expected a spawn \"" + options.spawn + "\", found none of that name"};
+    }
+    if (options.jets) {
+        loaded.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
+    }
+    return loaded;
+}
+
+std::optional<FileError> check_play_files(const PlayOptions& options) {
+    for (const std::string& file :
+         {options.record, options.picture, options.report, options.status}) {
+        if (auto error = check_folder(file)) {
+            return error;
+        }
+    }
+    return std::nullopt;
+}
+
+Result<OpenFile> open_status(const PlayOptions& options) {
+    OpenFile file(options.status.empty() ? nullptr : std::fopen(options.status.c_str(), "w"));
+    if (!options.status.empty() && file == nullptr) {
+        return FileError{options.status, "", "expected a file that can be written"};
+    }
+    return file;
+}
+
+std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& play,
+                                   const PlayTally& tally, const Image& image) {
+    if (!options.record.empty() && play.recording.samples.size() > 1) {
+        if (auto error = save_recording(options.record, play.recording)) {
+            return error;
+        }
+        say_replay(options, play);
+    }
+    if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
+        return FileError{options.picture, "", "expected a file that can be written"};
+    }
+    if (!options.report.empty()) {
+        const std::string hash = format_hash(hash_state(play.scene.world));
+        return write_file_atomically(options.report, tally.report_json(play.scene.name, hash));
+    }
+    return std::nullopt;
+}
+
+}  // namespace handhold

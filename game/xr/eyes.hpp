@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/xr/headset.hpp"
+#include "game/xr/instance.hpp"
+
+namespace handhold {
+
+// What the runtime would have each eye's picture be; zero where it does not say.
+EyeSize recommended_eye_size(const HeadsetInstance& instance);
+
+// The pictures of both eyes, as the runtime owns them. The session must outlive it.
+class Eyes {
+  public:
+    static std::optional<Eyes> create(XrSession session, const EyeSize& size, std::string& why_not);
+
+    // Draws both eyes, where they are at `time`, into pictures of the runtime. False where the
+    // runtime does not say where they are or lends no picture.
+    bool draw(XrSession session, XrSpace room, XrTime time, const DrawEye& draw_eye);
+    // What draw() made, for the end of a frame. Valid until the next draw().
+    const XrCompositionLayerBaseHeader* layer() const;
+
+  private:
+    struct Eye {
+        OwnedXrSwapchain swapchain;
+        std::vector<XrSwapchainImageOpenGLKHR> images;
+    };
+    Eyes() = default;
+    bool create_eye(XrSession session, Eye& eye, std::string& why_not) const;
+    bool draw_eye_picture(std::size_t which, const XrView& view, const DrawEye& draw_eye) const;
+
+    EyeSize size_;
+    std::array<Eye, k_eye_count> eyes_;
+    std::array<XrCompositionLayerProjectionView, k_eye_count> views_{};
+    XrCompositionLayerProjection layer_{};
+};
+
+}  // namespace handhold

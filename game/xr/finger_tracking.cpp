@@ -1,0 +1,93 @@
+#include "game/xr/finger_tracking.hpp"
+
+#include "game/headset_hands.hpp"
+
+namespace handhold {
+
+FingerTracking::~FingerTracking() {
+    for (const XrHandTrackerEXT tracker : trackers_) {
+        if (tracker != XR_NULL_HANDLE) {
+            destroy_(tracker);
+        }
+    }
+}
+
+FingerTracking::FingerTracking(FingerTracking&& other) noexcept
+    : locate_(other.locate_),
+      destroy_(other.destroy_),
+      trackers_(std::exchange(other.trackers_, {})) {}
+
+FingerTracking& FingerTracking::operator=(FingerTracking&& other) noexcept {
+    std::swap(locate_, other.locate_);
+    std::swap(destroy_, other.destroy_);
+    std::swap(trackers_, other.trackers_);
+    return *this;
+}
+
+FingerTracking FingerTracking::create(const HeadsetInstance& instance, XrSession session) {
+    FingerTracking made;
+    if (!instance.features.hand_tracking) {
+        return made;
+    }
+    const XrInstance xr = instance.instance.get();
+    const auto create = xr_function<PFN_xrCreateHandTrackerEXT>(xr, "xrCreateHandTrackerEXT");
+    made.destroy_ = xr_function<PFN_xrDestroyHandTrackerEXT>(xr, "xrDestroyHandTrackerEXT");
+    made.locate_ = xr_function<PFN_xrLocateHandJointsEXT>(xr, "xrLocateHandJointsEXT");
+    if (create == nullptr || made.destroy_ == nullptr || made.locate_ == nullptr) {
+        return made;
+    }
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        auto info = xr_struct<XrHandTrackerCreateInfoEXT>(XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT);
+        info.hand = side == index_of(HandSide::left) ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
+        info.handJointSet = XR_HAND_JOINT_SET_DEFAULT_EXT;
+        if (XR_FAILED(create(session, &info, &made.trackers_[side]))) {
+            made.trackers_[side] = XR_NULL_HANDLE;
+        }
+    }
+    return made;
+}
+
+void FingerTracking::read(XrSpace base, XrTime time,
+                          std::array<HandReading, k_hand_count>& hands) const {
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        hands[side].wrist_ps.reset();
+        hands[side].curl = 0.0;
+        if (trackers_[side] != XR_NULL_HANDLE) {
+            read_hand(side, base, time, hands[side]);
+        }
+    }
+}
+
+void FingerTracking::read_hand(std::size_t side, XrSpace base, XrTime time,
+                               HandReading& hand) const {
+    std::array<XrHandJointLocationEXT, XR_HAND_JOINT_COUNT_EXT> joints{};
+    auto info = xr_struct<XrHandJointsLocateInfoEXT>(XR_TYPE_HAND_JOINTS_LOCATE_INFO_EXT);
+    info.baseSpace = base;
+    info.time = time;
+    auto found = xr_struct<XrHandJointLocationsEXT>(XR_TYPE_HAND_JOINT_LOCATIONS_EXT);
+    found.jointCount = XR_HAND_JOINT_COUNT_EXT;
+    found.jointLocations = joints.data();
+    constexpr XrSpaceLocationFlags k_known =
+        XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+    const XrHandJointLocationEXT& wrist = joints[XR_HAND_JOINT_WRIST_EXT];
+    if (XR_FAILED(locate_(trackers_[side], &info, &found)) || found.isActive != XR_TRUE ||
+        (wrist.locationFlags & k_known) != k_known) {
+        return;
+    }
+    hand.wrist_ps = from_xr(wrist.pose);
+    const auto place = [&](int joint) {
+        return from_xr(joints[static_cast<std::size_t>(joint)].pose).position;
+    };
+    // A fist is the three fingers that hold; the index may point and the thumb may stand.
+    constexpr std::array<std::array<int, 2>, 3> k_fingers = {{
+        {XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT, XR_HAND_JOINT_MIDDLE_TIP_EXT},
+        {XR_HAND_JOINT_RING_PROXIMAL_EXT, XR_HAND_JOINT_RING_TIP_EXT},
+        {XR_HAND_JOINT_LITTLE_PROXIMAL_EXT, XR_HAND_JOINT_LITTLE_TIP_EXT},
+    }};
+    for (const auto& [knuckle, tip] : k_fingers) {
+        hand.curl += finger_curl(hand.wrist_ps->position, place(knuckle), place(tip)) /
+                     static_cast<double>(k_fingers.size());
+    }
+}
+
+}  // namespace handhold

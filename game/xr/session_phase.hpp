@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+namespace handhold {
+
+// OpenXR's states of a session, as it numbers them.
+enum class SessionState : std::uint8_t {
+    unknown = 0,
+    idle = 1,
+    ready = 2,
+    synchronized = 3,
+    visible = 4,
+    focused = 5,
+    stopping = 6,
+    loss_pending = 7,
+    exiting = 8
+};
+enum class SessionDeed : std::uint8_t { none, begin, end, reopen, leave };
+
+// What a program owes the runtime on entering a state.
+constexpr SessionDeed deed_on(SessionState state) {
+    switch (state) {
+        case SessionState::ready:
+            return SessionDeed::begin;
+        case SessionState::stopping:
+            return SessionDeed::end;
+        case SessionState::loss_pending:
+            return SessionDeed::reopen;
+        case SessionState::exiting:
+            return SessionDeed::leave;
+        default:
+            return SessionDeed::none;
+    }
+}
+// Pictures are seen.
+constexpr bool is_seen(SessionState state) {
+    return state == SessionState::visible || state == SessionState::focused;
+}
+
+}  // namespace handhold

@@ -1,0 +1,1 @@
+"""A real OpenXR runtime without a headset, for tools/xr_e2e."""
