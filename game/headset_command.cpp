@@ -53,6 +53,9 @@ int headset_command(const PlayOptions& options) {
     }
     const std::string place = loaded.value().place.name;
     HeadsetSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
+    if (models.value().controllers && models.value().controllers->has_own_joint) {
+        session.set_controller_joints(models.value().controllers->joints());
+    }
     if (!options.record.empty()) {
         session.record();
     }

@@ -26,7 +26,11 @@ double past_dead_zone(double value) {
     return std::copysign(size, value);
 }
 
-std::optional<Pose> hand_pose(const HandReading& hand, HandSide side, const HandTuning& tuning) {
+std::optional<Pose> hand_pose(const HandReading& hand, HandSide side, const HandTuning& tuning,
+                              const std::array<Pose, k_hand_count>* own_joints) {
+    if (own_joints != nullptr && hand.grip_ps) {
+        return *hand.grip_ps * (*own_joints)[index_of(side)];
+    }
     if (hand.palm_ps) {
         return *hand.palm_ps * hand_in_palm(side, tuning);
     }
@@ -68,7 +72,8 @@ double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip) {
 }
 
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
-                            HeadsetMemory& memory) {
+                            HeadsetMemory& memory,
+                            const std::array<Pose, k_hand_count>* own_joints) {
     TrackingSample sample;
     sample.t_s = t_s;
     sample.head_ps = reading.head_ps.value_or(not_tracked());
@@ -76,11 +81,13 @@ TrackingSample read_headset(const HeadsetReading& reading, double t_s, const Han
         const auto side = static_cast<HandSide>(i);
         const HandReading& hand = reading.hands[i];
         ControllerSample& controller = sample.controllers[i];
-        if (const std::optional<Pose> hand_ps = hand_pose(hand, side, tuning)) {
+        if (const std::optional<Pose> hand_ps = hand_pose(hand, side, tuning, own_joints)) {
             const double closes = std::max(
                 {hand.squeeze, hand.trigger, hand.grip_ps || hand.palm_ps ? 0.0 : hand.curl});
             memory.grabs[i] = closes > (memory.grabs[i] ? k_opens : k_closes);
-            controller.controller_ps = *hand_ps * inverse(default_controller_to_hand(side, tuning));
+            const Pose joint =
+                own_joints != nullptr ? (*own_joints)[i] : default_controller_to_hand(side, tuning);
+            controller.controller_ps = *hand_ps * inverse(joint);
         } else {
             controller.controller_ps = not_tracked();
         }

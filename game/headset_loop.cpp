@@ -150,7 +150,8 @@ class HeadsetLoop {
         HeadsetSession& session = stage_.session;
         const std::int64_t begin_ns = now_ns();
         const TrackingSample sample =
-            read_headset(figures_.reading, session.t_s(), session.scene().tuning.hand, memory_);
+            read_headset(figures_.reading, session.t_s(), session.scene().tuning.hand, memory_,
+                         session.controller_joints());
         session.step(sample,
                      read_headset_commands(figures_.reading, stage_.options.settings.turn, memory_),
                      clock_.dt_s());

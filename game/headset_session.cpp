@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "game/body_clips_asset.hpp"
+#include "game/controller_profile.hpp"
 #include "game/place_scene.hpp"
 
 namespace handhold {
@@ -22,6 +23,11 @@ HeadsetSession::HeadsetSession(Scene scene, const Pose& origin_ws)
       player_(add_scene_player(
           scene_, {free_player_name(scene_.world, "player0"), origin_ws, k_player_kg})) {
     caches_.body_clips = game_body_clips();
+}
+
+void HeadsetSession::set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip) {
+    handhold::set_controller_joints(hand_in_grip, scene_.world);
+    joints_ = hand_in_grip;
 }
 
 void HeadsetSession::step(TrackingSample sample, PlayerCommands commands, double dt_s) {

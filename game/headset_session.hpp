@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "game/headset_reading.hpp"
@@ -14,6 +15,13 @@ namespace handhold {
 class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const Pose& origin_ws);
+
+    // A controller's own joint in place of Tuning's; before the first frame.
+    void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
+    // Those, or nullptr.
+    const std::array<Pose, k_hand_count>* controller_joints() const {
+        return joints_ ? &*joints_ : nullptr;
+    }
 
     // One frame of dt_s: `sample` is at its end, and, before the first frame, at its beginning too.
     void step(TrackingSample sample, PlayerCommands commands, double dt_s);
@@ -41,6 +49,7 @@ class HeadsetSession {
     Scene scene_;
     FrameCaches caches_;
     PlayerEntities player_;
+    std::optional<std::array<Pose, k_hand_count>> joints_;
     std::vector<TrackingSample> samples_;  // reused
     Recording recording_;
     bool records_ = false;

@@ -61,6 +61,24 @@ TEST(HeadsetHands, HandsAreEachOthersMirrorImages) {
         k_near_m);
 }
 
+TEST(HeadsetHands, WithAProfilesJointTheGripIsTheControllerAndCountsBeforeAPalm) {
+    const HandTuning tuning;
+    const Pose grip{Vec3(0.2, 1.3, -0.4), rotation_about(Vec3::UnitY(), 0.3)};
+    const std::array<Pose, k_hand_count> joints = {
+        Pose{Vec3(0.01, -0.02, 0.09), rotation_about(Vec3::UnitX(), -0.5)},
+        Pose{Vec3(-0.01, -0.02, 0.09), rotation_about(Vec3::UnitX(), -0.5)}};
+    for (std::size_t i = 0; i < k_hand_count; ++i) {
+        HeadsetReading reading;
+        reading.hands[i].grip_ps = grip;
+        reading.hands[i].palm_ps = Pose{};
+        HeadsetMemory memory;
+        const Pose& sample =
+            read_headset(reading, 0.0, tuning, memory, &joints).controllers[i].controller_ps;
+        EXPECT_LT((sample.position - grip.position).norm(), k_near_m);
+        EXPECT_LT(sample.rotation.angularDistance(grip.rotation), 1e-7);
+    }
+}
+
 TEST(HeadsetHands, GripPalmAndWristOfOneHandGiveOneHand) {
     const HandTuning tuning;
     const Pose wrist{Vec3(0.2, 1.3, -0.4),

@@ -56,7 +56,9 @@ RenderFrame make_frame(const HandView& view, double distance_m) {
     RenderFrame frame;
     const Vec3 up = std::abs(view.towards.y()) < 0.97 ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitZ());
     const Pose eye = look_along(view.center + distance_m * view.towards, -view.towards, up);
-    frame.camera = {eye, k_fov_rad, 0.02};
+    frame.camera.pose_ws = eye;
+    frame.camera.vertical_fov_rad = k_fov_rad;
+    frame.camera.near_m = 0.02;
     frame.key.towards_ws = eye.rotation * Vec3(-0.6, 0.9, 0.8);
     frame.key.color = {0.85F, 0.82F, 0.78F};
     frame.key.caster_reach_m = 0.3;
