@@ -1,6 +1,6 @@
 #include "game/controller_profile.hpp"
 
-#include <vector>
+#include <algorithm>
 
 #include "components/hand_rig.hpp"
 #include "engine/io/json.hpp"

@@ -21,11 +21,13 @@ int refuse_headset(const std::string& why_not) {
     return k_exit_no_window;
 }
 
-EyeSize scaled(const EyeSize& size, double scale) {
-    const auto along = [scale](int pixels) {
-        return std::clamp(static_cast<int>(std::lround(scale * pixels)), 16, 8192);
+// No larger than the runtime takes.
+EyeSize scaled(const EyeSizes& sizes, double scale) {
+    const auto along = [scale](int pixels, int most) {
+        return std::min(std::max(static_cast<int>(std::lround(scale * pixels)), 16), most);
     };
-    return {along(size.width_px), along(size.height_px)};
+    return {along(sizes.recommended.width_px, sizes.largest.width_px),
+            along(sizes.recommended.height_px, sizes.largest.height_px)};
 }
 
 }  // namespace
@@ -63,7 +65,10 @@ int headset_command(const PlayOptions& options) {
     std::unique_ptr<Window> mirror;
     EyeSize eye_size;
     if (!options.xr_headless) {
-        eye_size = scaled(headset->eye_size(), options.eye_scale);
+        eye_size = scaled(headset->eye_sizes(), options.eye_scale);
+        if (eye_size.width_px <= 0 || eye_size.height_px <= 0) {
+            return refuse_headset("the OpenXR runtime does not say how large its pictures are");
+        }
         view = PlayerView::open(session.scene(), models.value(), eye_size.width_px,
                                 eye_size.height_px, why_not, options.settings.quality);
         if (!view) {

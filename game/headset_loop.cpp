@@ -14,11 +14,13 @@
 namespace handhold {
 namespace {
 
-constexpr double k_status_s = 0.1;
+constexpr double k_between_lines_s = 0.1;
 constexpr auto k_between_tries = std::chrono::milliseconds(500);
 constexpr int k_tries = 60;
 
-double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
+double microseconds_since(std::int64_t begin_ns) {
+    return 1e-3 * static_cast<double>(now_ns() - begin_ns);
+}
 
 // Left and right beside each other.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
@@ -59,7 +61,7 @@ class HeadsetLoop {
                     break;
                 case HeadsetState::lost:
                     if (!find_again(why_not)) {
-                        return false;
+                        return ends_;
                     }
                     break;
             }
@@ -134,12 +136,14 @@ class HeadsetLoop {
         if (frame.is_seen && frames_ > 0) {
             const std::int64_t begin_ns = now_ns();
             const UiPicture& ui = darken_edges(due * clock_.dt_s());
-            headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); });
-            const double draw_us = us_since(begin_ns);
+            if (!headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); })) {
+                return;
+            }
+            const double draw_us = microseconds_since(begin_ns);
             const std::int64_t shown_ns = now_ns();
             show_mirror();
             ++figures_.pictures;
-            stage_.tally.add_picture(draw_us, us_since(shown_ns));
+            stage_.tally.add_picture(draw_us, microseconds_since(shown_ns));
         } else {
             headset_->end_frame({frame.display_ns, frame.period_ns, false}, {});
         }
@@ -156,12 +160,12 @@ class HeadsetLoop {
                      read_headset_commands(figures_.reading, stage_.options.settings.turn, memory_),
                      clock_.dt_s());
         ++frames_;
-        stage_.tally.add_frame(world(), session.player(), session.stats(), us_since(begin_ns),
-                               clock_.dt_s());
+        stage_.tally.add_frame(world(), session.player(), session.stats(),
+                               microseconds_since(begin_ns), clock_.dt_s());
         const std::array<HapticPulse, k_hand_count> pulses = session.pulses();
         for (std::size_t side = 0; side < k_hand_count; ++side) {
-            headset_->shake(static_cast<HandSide>(side), pulses[side]);
-            figures_.shakes[side] += pulses[side].duration_s > 0.0 ? 1U : 0U;
+            const bool shook = headset_->shake(static_cast<HandSide>(side), pulses[side]);
+            figures_.shakes[side] += shook ? 1U : 0U;
         }
         write_status();
         ends_ =
@@ -172,7 +176,7 @@ class HeadsetLoop {
         if (stage_.status == nullptr || world().clock.t_s < next_status_s_) {
             return;
         }
-        next_status_s_ = world().clock.t_s + k_status_s;
+        next_status_s_ = world().clock.t_s + k_between_lines_s;
         const std::string line =
             status_line(world(), stage_.session.player(), stage_.tally.figures(), false, &figures_);
         std::fputs(line.c_str(), stage_.status);

@@ -31,6 +31,9 @@ void say_replay(const PlayOptions& options, const EndedPlay& play) {
     if (play.hz != k_default_hz) {
         std::printf(" --hz %.17g", play.hz);
     }
+    if (!options.models.controllers.empty()) {  // its joint is how samples became hands
+        std::printf(" --controllers %s", options.models.controllers.c_str());
+    }
     std::printf("\n");
 }
 

@@ -135,9 +135,11 @@ bool TriadSystem::resume(const IslandView& island) {
         island.filter == BlockFilter::without_hands || moving_ != island.island_bodies.size()) {
         return false;
     }
-    for (TriadBody& body : bodies_) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        TriadBody& body = bodies_[i];
         const SolverBody& from = island.bodies[body.index];
-        if (!is_as_packed(from, body)) {
+        const bool is_same = i >= moving_ || body.index == island.island_bodies[i];
+        if (!is_same || !is_as_packed(from, body)) {
             return false;
         }
         body.velocity = to_four(from.velocity_mps);

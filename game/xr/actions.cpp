@@ -98,6 +98,7 @@ bool HeadsetActions::create_actions(bool has_palms, std::string& why_not) {
 // A profile that the runtime does not know is left out: one that it does know is enough.
 bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& why_not) const {
     bool any = false;
+    std::string refusal;  // of the last; matters only where none is known
     for (const HeadsetProfile& profile : headset_profiles()) {
         std::vector<XrActionSuggestedBinding> bindings;
         for (const HeadsetBinding& binding : profile.bindings) {
@@ -118,10 +119,13 @@ bool HeadsetActions::suggest(XrInstance instance, bool has_palms, std::string& w
         info.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
         info.suggestedBindings = bindings.data();
         any = (xr_succeeds(xrStringToPath(instance, profile.path, &info.interactionProfile),
-                           "xrStringToPath", why_not) &&
+                           "xrStringToPath", refusal) &&
                xr_succeeds(xrSuggestInteractionProfileBindings(instance, &info),
-                           "xrSuggestInteractionProfileBindings", why_not)) ||
+                           "xrSuggestInteractionProfileBindings", refusal)) ||
               any;
+    }
+    if (!any) {
+        why_not = refusal;
     }
     return any;
 }

@@ -17,7 +17,7 @@ EyeFrustum frustum_of(const XrFovf& fov) {
 
 }  // namespace
 
-EyeSize recommended_eye_size(const HeadsetInstance& instance) {
+EyeSizes eye_sizes_of(const HeadsetInstance& instance) {
     std::array<XrViewConfigurationView, k_eye_count> views;
     views.fill(xr_struct<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW));
     std::uint32_t count = 0;
@@ -26,8 +26,13 @@ EyeSize recommended_eye_size(const HeadsetInstance& instance) {
         count != k_eye_count) {
         return {};
     }
-    return {static_cast<int>(views[0].recommendedImageRectWidth),
-            static_cast<int>(views[0].recommendedImageRectHeight)};
+    const auto size = [](std::uint32_t width_px, std::uint32_t height_px) {
+        constexpr std::uint32_t k_most_px = 16384;
+        return EyeSize{static_cast<int>(std::min(width_px, k_most_px)),
+                       static_cast<int>(std::min(height_px, k_most_px))};
+    };
+    return {size(views[0].recommendedImageRectWidth, views[0].recommendedImageRectHeight),
+            size(views[0].maxImageRectWidth, views[0].maxImageRectHeight)};
 }
 
 std::optional<Eyes> Eyes::create(XrSession session, const EyeSize& size, std::string& why_not) {

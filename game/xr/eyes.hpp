@@ -11,7 +11,7 @@
 namespace handhold {
 
 // What the runtime would have each eye's picture be; zero where it does not say.
-EyeSize recommended_eye_size(const HeadsetInstance& instance);
+EyeSizes eye_sizes_of(const HeadsetInstance& instance);
 
 // The pictures of both eyes, as the runtime owns them. The session must outlive it.
 class Eyes {

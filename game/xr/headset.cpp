@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "game/xr/actions.hpp"
 #include "game/xr/eyes.hpp"
@@ -56,6 +57,24 @@ std::optional<OwnedXrSession> create_session(const HeadsetInstance& instance, co
     return session;
 }
 
+// What the runtime likes best: headsets that one sees through have no opaque one.
+XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
+    XrEnvironmentBlendMode first = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+    std::uint32_t count = 0;
+    const auto enumerate = [&](std::uint32_t room, XrEnvironmentBlendMode* modes) {
+        return xrEnumerateEnvironmentBlendModes(instance.instance.get(), instance.system,
+                                                XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO, room,
+                                                &count, modes);
+    };
+    if (XR_SUCCEEDED(enumerate(0, nullptr)) && count > 0) {
+        std::vector<XrEnvironmentBlendMode> modes(count, first);
+        if (XR_SUCCEEDED(enumerate(count, modes.data()))) {
+            first = modes.front();
+        }
+    }
+    return first;
+}
+
 }  // namespace
 
 struct Headset::Impl {
@@ -75,6 +94,7 @@ struct Headset::Impl {
     bool leaves = false;
     bool has_focus = false;
     std::int64_t last_ns = 0;  // headless: of the last frame
+    XrEnvironmentBlendMode blend_mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
 
     // Remembers that the runtime is gone. True where the call succeeded.
@@ -96,6 +116,7 @@ void Headset::Impl::enter(SessionState next) {
             auto info = xr_struct<XrSessionBeginInfo>(XR_TYPE_SESSION_BEGIN_INFO);
             info.primaryViewConfigurationType = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
             runs = obeys(xrBeginSession(session.get(), &info));
+            lost = lost || !runs;  // else it would wait for ever
             break;
         }
         case SessionDeed::end:
@@ -161,8 +182,8 @@ std::unique_ptr<Headset> Headset::open(bool headless, std::string& why_not) {
     return std::unique_ptr<Headset>(new Headset(std::move(impl)));
 }
 
-EyeSize Headset::eye_size() const {
-    return impl_->headless ? EyeSize{} : recommended_eye_size(impl_->instance);
+EyeSizes Headset::eye_sizes() const {
+    return impl_->headless ? EyeSizes{} : eye_sizes_of(impl_->instance);
 }
 
 const std::string& Headset::description() const { return impl_->description; }
@@ -189,8 +210,10 @@ bool Headset::begin(const GlContext* gl, const EyeSize& size, std::string& why_n
     if (impl.headless) {
         impl.to_time = xr_function<PFN_xrConvertTimespecTimeToTimeKHR>(
             impl.instance.instance.get(), "xrConvertTimespecTimeToTimeKHR");
+        why_not = "the OpenXR runtime does not tell its time";
         return impl.to_time != nullptr;
     }
+    impl.blend_mode = first_blend_mode(impl.instance);
     auto eyes = Eyes::create(impl.session.get(), size, why_not);
     if (!eyes) {
         return false;
@@ -232,6 +255,7 @@ HeadsetFrame Headset::begin_frame() {
     auto state = xr_struct<XrFrameState>(XR_TYPE_FRAME_STATE);
     if (!impl.obeys(xrWaitFrame(impl.session.get(), nullptr, &state)) ||
         !impl.obeys(xrBeginFrame(impl.session.get(), nullptr))) {
+        impl.lost = true;  // whatever it says: there are no frames to be had
         return {};
     }
     return {state.predictedDisplayTime, state.predictedDisplayPeriod,
@@ -256,14 +280,14 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
     return reading;
 }
 
-void Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
+bool Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
     Impl& impl = *impl_;
     if (impl.headless) {
-        return;
+        return false;
     }
     auto info = xr_struct<XrFrameEndInfo>(XR_TYPE_FRAME_END_INFO);
     info.displayTime = frame.display_ns;
-    info.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+    info.environmentBlendMode = impl.blend_mode;
     const XrCompositionLayerBaseHeader* layer = nullptr;
     if (frame.is_seen &&
         impl.eyes->draw(impl.session.get(), impl.spaces.room.get(), frame.display_ns, draw_eye)) {
@@ -271,13 +295,15 @@ void Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
         info.layerCount = 1;
         info.layers = &layer;
     }
-    impl.obeys(xrEndFrame(impl.session.get(), &info));
+    return impl.obeys(xrEndFrame(impl.session.get(), &info)) && layer != nullptr;
 }
 
-void Headset::shake(HandSide side, const HapticPulse& pulse) const {
-    if (impl_->has_focus && pulse.duration_s > 0.0) {
+bool Headset::shake(HandSide side, const HapticPulse& pulse) const {
+    const bool does = impl_->has_focus && pulse.duration_s > 0.0;
+    if (does) {
         impl_->actions->shake(impl_->session.get(), side, pulse);
     }
+    return does;
 }
 
 void Headset::ask_to_leave() {

@@ -19,6 +19,12 @@ struct EyeSize {
     int height_px = 0;
 };
 
+// Of one eye's picture: what the runtime recommends, and the largest that it takes.
+struct EyeSizes {
+    EyeSize recommended;
+    EyeSize largest;
+};
+
 // One eye's picture to be drawn: OpenGL's name of a texture of the runtime, rows from the bottom,
 // bytes in sRGB.
 struct EyePicture {
@@ -57,8 +63,8 @@ class Headset {
     Headset(const Headset&) = delete;
     Headset& operator=(const Headset&) = delete;
 
-    // What the runtime recommends for one eye; zero where it is headless.
-    EyeSize eye_size() const;
+    // Zero where it is headless, or the runtime does not say.
+    EyeSizes eye_sizes() const;
     // "Monado 25.0.0, Monado: Remote HMD"
     const std::string& description() const;
 
@@ -76,9 +82,10 @@ class Headset {
     // time around now.
     void sync();
     HeadsetReading read(std::int64_t time_ns) const;
-    // Pictures are drawn where they are wanted.
-    void end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye);
-    void shake(HandSide side, const HapticPulse& pulse) const;
+    // Pictures are drawn where they are wanted. True where both eyes were shown one.
+    bool end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye);
+    // True where the controller was told to.
+    bool shake(HandSide side, const HapticPulse& pulse) const;
     // Asks the runtime to end the session; poll() says leaves when it has.
     void ask_to_leave();
 

@@ -15,7 +15,7 @@ std::unique_ptr<Headset> Headset::open(bool, std::string& why_not) {
     return nullptr;
 }
 
-EyeSize Headset::eye_size() const { return {}; }
+EyeSizes Headset::eye_sizes() const { return {}; }
 const std::string& Headset::description() const { return impl_->description; }
 bool Headset::begin(const GlContext*, const EyeSize&, std::string&) { return false; }
 HeadsetState Headset::poll() { return HeadsetState::lost; }
@@ -23,8 +23,8 @@ bool Headset::has_focus() const { return false; }
 HeadsetFrame Headset::begin_frame() { return {}; }
 void Headset::sync() {}
 HeadsetReading Headset::read(std::int64_t) const { return {}; }
-void Headset::end_frame(const HeadsetFrame&, const DrawEye&) {}
-void Headset::shake(HandSide, const HapticPulse&) const {}
+bool Headset::end_frame(const HeadsetFrame&, const DrawEye&) { return false; }
+bool Headset::shake(HandSide, const HapticPulse&) const { return false; }
 void Headset::ask_to_leave() {}
 
 }  // namespace handhold

@@ -71,7 +71,7 @@ void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& pa
     const Vec3 reach = hand_ws - shoulder_ws;
     const double distance = reach.norm();
     const MiddleJoint elbow = middle_joint(distance, upper_m, forearm_m);
-    const Vec3 axis = distance < 1e-6 ? Vec3(Vec3::Zero()) : Vec3(reach * (1.0 / distance));
+    const Vec3 axis = distance > 0.0 ? Vec3(reach * (1.0 / distance)) : Vec3(Vec3::Zero());
     const Vec3 elbow_ws = shoulder_ws + elbow.along_m * axis + elbow.aside_m * bend_ws;
     // Folded up, an arm's bones are as good as along the line back.
     const double rest_m = distance - elbow.along_m;

@@ -14,7 +14,7 @@ struct PoseArmsIo {
     const Column<HandOwner>& owner;        // in
     const Column<PalmPose>& palm;          // in
     const Column<ArmEstimate>& estimate;   // in
-    Column<ArmPose>& arms;                 // out
+    Column<ArmPose>& arms;                 // out: of players who have hands
 };
 
 // Stage 13. The arms' joints in the world: two-bone IK from the estimated shoulder to the palm. The

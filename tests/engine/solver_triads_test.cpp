@@ -322,6 +322,22 @@ TEST(Triads, LoadAnewWhereAMassAPoseOrABlockIsAnother) {
     });
 }
 
+// Islands of one size that share a scratch, one after the other.
+TEST(Triads, DoNotGoOnWithAnotherIsland) {
+    SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1), test::fixed_body(3),
+                          test::ball(4, 1.0, 0.1)};
+    scene.graph.blocks = {test::row_block(RowKind::ball, 0, 1),
+                          test::row_block(RowKind::ball, 2, 3)};
+    build_islands(scene.graph);
+    ASSERT_EQ(scene.graph.islands.size(), 2U);
+    for (const Island& island : scene.graph.islands) {
+        solve_positions(scene.view(island), {}, scene.scratch);
+    }
+    EXPECT_FALSE(scene.scratch.triads.resume(scene.view(scene.graph.islands[0])));
+    EXPECT_TRUE(scene.scratch.triads.resume(scene.view(scene.graph.islands[1])));
+}
+
 // --- What is served
 // ---------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 #include "game/headset_session.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -94,13 +95,18 @@ TEST(HeadsetSession, RecordingPlaysAgainBitForBitAtTheDisplaysRate) {
                      commands, k_dt_s);
     }
     EXPECT_FALSE(session.used_sticks());
+    const std::filesystem::path file = testing::TempDir() + "headset_session_test.csv";
+    ASSERT_FALSE(save_recording(file, session.recording()));
+    const Result<Recording> recording = load_recording(file);
+    std::filesystem::remove(file);
+    ASSERT_TRUE(recording);
     Scene scene = make_tunnel(4.0);
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     caches.body_clips = session.caches().body_clips;
     const PlayerEntities player = add_scene_player(scene, {"player0", {}, 80.0});
     RunSettings settings;
     settings.hz = k_hz;
-    const RunLog log = run_session(scene, caches, {player}, &session.recording(), settings);
+    const RunLog log = run_session(scene, caches, {player}, &recording.value(), settings);
     EXPECT_EQ(log.frames.size(), 90U);
     EXPECT_EQ(log.state_hash, hash_state(session.scene().world));
 }

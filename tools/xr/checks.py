@@ -36,8 +36,17 @@ def end(play: Play) -> str:
     return play.interrupt_free_end()
 
 
+def brake(play: Play) -> None:
+    """Until the head stays where it is for two lines; without a brake it drifts on for ever."""
+    for _ in range(100):
+        before = play.next()["head_m"]
+        if apart_mm(play.next()["head_m"], before) < 0.1:
+            return
+    raise Failed("poses: the brake does not stop the player")
+
+
 def check_poses(room: Room) -> str:
-    """Head, grips, stick and triggers are what was fed; a hand out of sight freezes where it was; a fist of tracked fingers closes."""
+    """Head, grips, stick and triggers are what was fed; the brake stops; a hand out of sight freezes where it was; fingers are tracked."""
     service = Service(room, "poses")
     play = Play(room, "poses", "--xr-headless", "--scene", "/scenes/xr_eyes.json", "--jets")
     play.wait("focus", lambda now: now["headset"]["focus"])
@@ -51,20 +60,19 @@ def check_poses(room: Room) -> str:
     service.hub.change(left={"stick": (0.0, 0.75)})
     before = play.next()["head_m"]
     play.wait("the jets", lambda now: now["head_m"][2] < before[2] - 0.05)
-    service.hub.change(left={"stick": (0.0, 0.0)}, right={"a": True})  # brakes
-    lost_at = play.next()["left"]["hand_m"]
-    play.wait("the brake", lambda now: now["left"]["hand_m"] == play.last["left"]["hand_m"] and now is not seen)
+    service.hub.change(left={"stick": (0.0, 0.0)}, right={"a": True})
+    brake(play)
     service.hub.change(right={"active": False})
     play.wait("the lost hand", lambda now: now["headset"]["right"]["grip_m"] is None)
     frozen = play.next()["right"]["hand_m"]
     service.hub.change(right={"position": (0.1, 1.2, -0.3)})
-    expect(apart_mm(play.next()["right"]["hand_m"], frozen) < 50.0, "poses: a hand that is out of sight moves")
-    del lost_at
+    strayed_mm = apart_mm(play.next()["right"]["hand_m"], frozen)
+    expect(strayed_mm < MOST_ERROR_MM, f"poses: a hand that is out of sight moves by {strayed_mm} mm")
     service.hub.change(right={"fingers": True, "curl": (1.0,) * 5})
     curled = play.wait("curled fingers", lambda now: now["headset"]["right"]["curl"] > 0.55)["headset"]["right"]["curl"]
     end(play)
     service.stop()
-    return f"poses within {worst_mm:.4f} mm of what was fed; jets, brake, a lost hand, a fist of tracked fingers ({curled:.2f})"
+    return f"poses within {worst_mm:.4f} mm of what was fed; jets, brake, a lost hand, tracked fingers that curl ({curled:.2f})"
 
 
 def take(play: Play, hub: Hub, side: str, closed: bool) -> None:
@@ -283,13 +291,19 @@ CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "t
 
 
 def run(room: Room, names: list[str]) -> int:
+    """How many failed. Feeds are real time, and a machine that stalls is no fault of the game: what fails is tried once more, and says so."""
     failed = 0
     for name in names:
-        begin = time.monotonic()
-        try:
-            words = CHECKS[name](room)
-        except (Failed, OSError, subprocess.SubprocessError) as error:
-            failed += 1
-            words = f"FAILED: {error}"
-        print(f"{name}: {words} ({time.monotonic() - begin:.0f} s)", flush=True)
+        for is_last in (False, True):
+            begin = time.monotonic()
+            try:
+                words, is_good = CHECKS[name](room), True
+            except (Failed, OSError, subprocess.SubprocessError) as error:
+                words, is_good = f"{'FAILED' if is_last else 'failed, once more'}: {error}", False
+            finally:
+                room.end_all()
+            print(f"{name}: {words} ({time.monotonic() - begin:.0f} s)", flush=True)
+            if is_good:
+                break
+        failed += not is_good
     return failed

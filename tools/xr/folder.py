@@ -14,6 +14,9 @@ LIBRARIES = "opt/handhold"
 LIBRARY_PLACES = ("usr/lib/x86_64-linux-gnu", "usr/lib/aarch64-linux-gnu", "usr/lib64", "usr/lib")
 
 
+NAMESPACE = ["unshare", "--mount", "--pid", "--fork", "--kill-child"]
+
+
 class CannotMake(Exception):
     """Why there is no such folder here, in one line."""
 
@@ -50,7 +53,8 @@ def ensure(folder: Path) -> float:
     print(f"xr_e2e: making {folder}: a few minutes, 1 GB", flush=True)
     log = folder.with_name(folder.name + ".log")
     with log.open("w") as out:
-        made = subprocess.run(["debootstrap", "--variant=minbase", f"--include={','.join(PACKAGES)}", SUITE, str(part), mirror()],
+        # In a mount namespace of its own: what debootstrap mounts in the folder is gone with it, however it ends.
+        made = subprocess.run([*NAMESPACE, "debootstrap", "--variant=minbase", f"--include={','.join(PACKAGES)}", SUITE, str(part), mirror()],
                               stdout=out, stderr=subprocess.STDOUT, check=False)
     if made.returncode != 0:
         raise CannotMake(f"debootstrap fails (no network?): {log}")

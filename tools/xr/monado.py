@@ -34,6 +34,7 @@ class Room:
     def __init__(self, folder: Path, game: Path, scenes: Path, out: Path):
         self.folder = folder
         self.out = out
+        self.started: list[subprocess.Popen] = []
         raise_loopback()
         mount("-t", "proc", "proc", str(folder / "proc"))
         mount("--rbind", "/dev", str(folder / "dev"))
@@ -48,8 +49,20 @@ class Room:
 
     def start(self, words: list[str], log: Path, **env: str) -> subprocess.Popen:
         with log.open("w") as out:
-            return subprocess.Popen([shutil.which("chroot") or "/usr/sbin/chroot", str(self.folder), *words], env=self.env | env, stdout=out,
-                                    stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+            started = subprocess.Popen([shutil.which("chroot") or "/usr/sbin/chroot", str(self.folder), *words], env=self.env | env,
+                                       stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        self.started.append(started)
+        return started
+
+    def end_all(self) -> None:
+        """What still runs after a check that failed would be in the next one's way."""
+        for process in self.started:
+            if process.poll() is None:
+                process.kill()
+                process.wait()
+        self.started.clear()
+        for left in (self.folder / RUNTIME_DIR).iterdir():
+            left.unlink()
 
 
 class Failed(Exception):

@@ -111,6 +111,8 @@ def moments(errors, rows):
     """Frames of a person where the elbows are as wrong as mostly, as in the worst twentieth, and at worst."""
     elbow = errors.elbow_cm.mean(0)
     order = [row for row in np.flatnonzero(rows)[np.argsort(elbow[rows], kind="stable")] if math.isfinite(elbow[row])]
+    if not order:  # nobody knows where this person's elbows were
+        return []
     return [(title, order[min(len(order) - 1, int(share * len(order)))]) for title, share in (("median", 0.5), ("95th percentile", 0.95), ("worst", 1.0))]
 
 
