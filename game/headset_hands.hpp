@@ -32,11 +32,11 @@ struct HeadsetMemory {
 // palm counts before a grip, and both before tracked fingers; what is not tracked has a pose of NaN
 // and keeps its button as it was: losing sight of a hand does not open it.
 //
-// `hand_in_grip`: the joint of a controller's profile, in place of the ones above and of Tuning's;
+// `own_joints`: the joint of a controller's profile, in place of the ones above and of Tuning's;
 // a grip then counts before a palm, and is itself the controller's pose.
 TrackingSample read_headset(const HeadsetReading& reading, double t_s, const HandTuning& tuning,
                             HeadsetMemory& memory,
-                            const std::array<Pose, k_hand_count>* hand_in_grip = nullptr);
+                            const std::array<Pose, k_hand_count>* own_joints = nullptr);
 
 // Right stick: turns, by steps or smoothly. Left stick and head: where the jets push. Either brake
 // brakes; both calibrate buttons together ask for calibration.

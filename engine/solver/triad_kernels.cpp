@@ -159,24 +159,24 @@ HH_INLINE Rows3 side_of(const Rows3& inverse_inertia, const Four& arm) {
              in.row[0] * arm[1] - in.row[1] * arm[0]}};
 }
 
-template <bool has_turn>
+template <bool HasTurn>
 HH_INLINE void write_sides(const TriadArrays& arrays) {
     for (std::size_t end = 0; end < 2 * arrays.triads.size(); ++end) {
         const Triad& triad = arrays.triads[end / 2];
         const Rows3& inverse_inertia = arrays.bodies[triad.bodies[end % 2]].inverse_inertia;
-        arrays.sides[end] = has_turn && triad.turns ? times(lever_of(end), inverse_inertia)
-                                                    : side_of(inverse_inertia, arrays.arms[end].v);
+        arrays.sides[end] = HasTurn && triad.turns ? times(lever_of(end), inverse_inertia)
+                                                   : side_of(inverse_inertia, arrays.arms[end].v);
     }
 }
 
 // The rotation's part of J W J^T: += side J^T, by rows. They stay in registers: of a struct GCC
 // makes copies in memory.
-template <bool has_turn>
+template <bool HasTurn>
 HH_INLINE void add_product(const TriadArrays& arrays, const TriadPlan::Coupling& coupling, Four& x,
                            Four& y, Four& z) {
     const Rows3& side = arrays.sides[coupling.row_end];
     const std::uint32_t column = coupling.column_end;
-    if (has_turn && arrays.triads[column / 2].turns) {
+    if (HasTurn && arrays.triads[column / 2].turns) {
         const double lever = lever_of(column);
         x += lever * side.row[0];
         y += lever * side.row[1];
@@ -194,9 +194,9 @@ HH_INLINE void write_rows(const Four& x, const Four& y, const Four& z, Rows3& ou
     out.row[2] = z;
 }
 
-template <bool has_turn>
+template <bool HasTurn>
 HH_INLINE void multiply_out(const TriadArrays& arrays) {
-    write_sides<has_turn>(arrays);
+    write_sides<HasTurn>(arrays);
     for (const std::uint32_t block : arrays.plan->fill_in()) {
         write_rows(zero_four(), zero_four(), zero_four(), arrays.blocks[block]);
     }
@@ -208,7 +208,7 @@ HH_INLINE void multiply_out(const TriadArrays& arrays) {
         Four y = {0.0, *mass, 0.0, 0.0};
         Four z = {0.0, 0.0, *mass, 0.0};
         for (++mass; begin < sum.end; ++begin) {
-            add_product<has_turn>(arrays, *coupling++, x, y, z);
+            add_product<HasTurn>(arrays, *coupling++, x, y, z);
         }
         write_rows(x, y, z, arrays.blocks[sum.target]);
     }

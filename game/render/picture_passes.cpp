@@ -175,7 +175,7 @@ void PicturePasses::copy_into(GLuint texture) {
 }
 
 // As bytes lie in rows from the top: what was finished is upside down already.
-void PicturePasses::read(Image& out) {
+void PicturePasses::read(Image& out) const {
     out.width_px = size_.width_px;
     out.height_px = size_.height_px;
     const auto pixels =

@@ -36,7 +36,7 @@ class PicturePasses {
     // bottom: a texture in sRGB is not encoded again.
     void copy_into(GLuint texture);
     // The finished picture, or the texture that it was copied into since.
-    void read(Image& out);
+    void read(Image& out) const;
 
   private:
     void shade_occlusion(const FrameView& view);
