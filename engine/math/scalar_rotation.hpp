@@ -9,6 +9,12 @@
 // that was a third of its time.
 namespace handhold {
 
+// Unit, square to a unit axis.
+inline Vec3 any_square_to(const Vec3& axis) {
+    const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
+    return (other - axis * axis.dot(other)).normalized();
+}
+
 // Of any length but 0.
 inline Quat unit_quat(double w, double x, double y, double z) {
     const double by = 1.0 / std::sqrt(w * w + x * x + (y * y + z * z));

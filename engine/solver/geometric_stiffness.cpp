@@ -2,21 +2,24 @@
 
 namespace handhold {
 
-// In closed form: the eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r.
+// In closed form: the eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r. Along one line, as
+// in a rope pulled straight, every direction square to it is one.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     const double product = force.norm() * arm.norm();
     if (product < 1e-12) {
         return Mat3::Zero();
     }
-    const double along = force.dot(arm);
-    const Vec3 axis = force.normalized() - sign * arm.normalized();
+    const double along = sign * force.dot(arm);
     const Vec3 normal = force.cross(arm);
-    Mat3 sum = Mat3::Zero();
-    if (axis.squaredNorm() > 1e-12) {
-        sum += (0.5 * (product + sign * along) / axis.squaredNorm()) * (axis * axis.transpose());
+    const double normal_square = normal.squaredNorm();
+    if (along > 0.0 && normal_square <= 1e-12 * product * product) {
+        const Vec3 line = force.normalized();
+        return product * (Mat3::Identity() - line * line.transpose());
     }
-    if (sign * along > 0.0 && normal.squaredNorm() > 1e-12 * product * product) {
-        sum += (sign * along / normal.squaredNorm()) * (normal * normal.transpose());
+    const Vec3 axis = force.normalized() - sign * arm.normalized();
+    Mat3 sum = (0.5 * (product + along) / axis.squaredNorm()) * (axis * axis.transpose());
+    if (along > 0.0) {
+        sum += (along / normal_square) * (normal * normal.transpose());
     }
     return sum;
 }

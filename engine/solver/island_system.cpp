@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solver/geometric_stiffness.hpp"
+
 namespace handhold {
 
 bool has_contact(std::span<const Row> rows) {
@@ -30,12 +32,7 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
             inverse.setZero();
             continue;
         }
-        inverse = inverse_inertia_ws(body);
-        const Mat3& stiffness = scratch.stiffness[body.slot];
-        if (!stiffness.isZero(0.0)) {
-            const Mat3 stiffened = inverse.inverse() + stiffness;
-            inverse = stiffened.inverse();
-        }
+        inverse = stiffened(inverse_inertia_ws(body), scratch.stiffness[body.slot]);
     }
 }
 

@@ -94,14 +94,18 @@ HH_INLINE void add_stiffness(const Four& force, const Four& arm, Rows3& out) {
         return;
     }
     const double along = dot3(force, arm);
-    const Four axis = force - (product / arm_square) * arm;
-    const double axis_square = dot3(axis, axis);
-    if (axis_square > k_least * force_square) {
-        add_outer(axis, 0.5 * (product + along) / axis_square, out);
-    }
     const Four normal = cross(force, arm);
     const double normal_square = dot3(normal, normal);
-    if (along > 0.0 && normal_square > k_least * product * product) {
+    if (along > 0.0 && normal_square <= k_least * product * product) {
+        out.row[0] += Four{product, 0.0, 0.0, 0.0};
+        out.row[1] += Four{0.0, product, 0.0, 0.0};
+        out.row[2] += Four{0.0, 0.0, product, 0.0};
+        add_outer(force, -product / force_square, out);
+        return;
+    }
+    const Four axis = force - (product / arm_square) * arm;
+    add_outer(axis, 0.5 * (product + along) / dot3(axis, axis), out);
+    if (along > 0.0) {
         add_outer(normal, along / normal_square, out);
     }
 }

@@ -71,11 +71,6 @@ double share_of_line(double share, double cosine) {
     return share * (1.0 + (1.0 - share) * (1.0 - 2.0 * share) * (1.0 - cosine) * (1.0 / 3.0));
 }
 
-Vec3 any_square_to(const Vec3& axis) {
-    const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
-    return (other - axis * axis.dot(other)).normalized();
-}
-
 bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
 }

@@ -27,9 +27,9 @@ Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
 
 // Both bones of an arm lie in one plane: its frame has -Z to the hand and +Y to the elbow's side.
 // A bone in it is turned about its X: so far ahead, so far aside.
-Quat in_plane(const Quat& frame, double ahead, double aside, double length) {
+Quat in_plane(const Quat& frame, double ahead, double aside) {
     // Half the angle: its cosine and sine are as length + ahead to aside.
-    const double cosine = length + ahead;
+    const double cosine = std::sqrt(ahead * ahead + aside * aside) + ahead;
     const double by = 1.0 / std::sqrt(cosine * cosine + aside * aside);
     const double w = cosine * by;
     const double x = aside * by;
@@ -73,21 +73,17 @@ void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& pa
     const MiddleJoint elbow = middle_joint(distance, upper_m, forearm_m);
     const Vec3 axis = distance > 0.0 ? Vec3(reach * (1.0 / distance)) : Vec3(Vec3::Zero());
     const Vec3 elbow_ws = shoulder_ws + elbow.along_m * axis + elbow.aside_m * bend_ws;
-    // Folded up, an arm's bones are as good as along the line back.
     const double rest_m = distance - elbow.along_m;
+    // A bone that points back along the line, or almost: half its angle is near a right one, where
+    // `in_plane` divides by nothing.
     if (!(elbow.along_m > 0.01 * upper_m && rest_m > 0.01 * forearm_m)) {
         out.upper_ws = bone(shoulder_ws, elbow_ws, bend_ws);
         out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
         return;
     }
     const Quat frame = rotation_of_axes(bend_ws.cross(-axis), bend_ws, -axis);
-    const auto length = [](double ahead, double aside) {
-        return std::sqrt(ahead * ahead + aside * aside);
-    };
-    out.upper_ws = {shoulder_ws, in_plane(frame, elbow.along_m, elbow.aside_m,
-                                          length(elbow.along_m, elbow.aside_m))};
-    out.forearm_ws = {elbow_ws,
-                      in_plane(frame, rest_m, -elbow.aside_m, length(rest_m, elbow.aside_m))};
+    out.upper_ws = {shoulder_ws, in_plane(frame, elbow.along_m, elbow.aside_m)};
+    out.forearm_ws = {elbow_ws, in_plane(frame, rest_m, -elbow.aside_m)};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/ecs/join.hpp"
+#include "engine/math/scalar_rotation.hpp"
 
 namespace handhold {
 namespace {
@@ -101,11 +102,6 @@ void add_look(const BodyClips& clips, const Quat& head_ps, const Vec3& facing, d
               ClipBlend::straight, turns);
 }
 
-Vec3 any_side_of(const Vec3& axis) {
-    const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
-    return (other - axis * axis.dot(other)).normalized();
-}
-
 void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double reach, double weight,
                    const Pose& chest_ps, ArmEstimate::Arm& arm) {
     const Vec3 hand = chest_ps.rotation.conjugate() * (arm.hand_ps.position - arm.shoulder_ps);
@@ -130,7 +126,7 @@ void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double r
         const Vec3 axis = line / distance;
         const Vec3 bend = arm.bend_ps - axis * axis.dot(arm.bend_ps);
         const double length = bend.norm();
-        arm.bend_ps = length > 1e-6 ? Vec3(bend / length) : any_side_of(axis);
+        arm.bend_ps = length > 1e-6 ? Vec3(bend / length) : any_square_to(axis);
     }
 }
 
