@@ -37,6 +37,11 @@ struct FrameGraph {
     // graph.bodies. What has no collider has no shape (k_no_shape) and touches nothing.
     std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
     std::vector<Entity> entities;
+    struct Identified {
+        PersistentId id;
+        Entity entity;
+    };
+    std::vector<Identified> by_id;  // scratch of place_colliders
     struct PhaseBody {
         Pose reached_ws;  // where the reach phase left it
         double forward_share =

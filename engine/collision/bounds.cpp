@@ -3,7 +3,6 @@
 #include <span>
 
 namespace handhold {
-namespace {
 
 Bounds transformed(const Bounds& bounds, const Pose& pose) {
     const Vec3 middle = transform_point(pose, 0.5 * (bounds.low + bounds.high));
@@ -11,6 +10,8 @@ Bounds transformed(const Bounds& bounds, const Pose& pose) {
         pose.rotation.toRotationMatrix().cwiseAbs() * (0.5 * (bounds.high - bounds.low));
     return {middle - half, middle + half};
 }
+
+namespace {
 
 Bounds bounds_of_points(std::span<const Vec3> points) {
     Bounds box{points.front(), points.front()};

@@ -29,6 +29,19 @@ inline bool meet(const Bounds& a, const Bounds& b) {
     return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
+// True where the second lies in the first.
+inline bool holds(const Bounds& outer, const Bounds& inner) {
+    return (outer.low.array() <= inner.low.array()).all() &&
+           (inner.high.array() <= outer.high.array()).all();
+}
+
+inline Bounds common(const Bounds& a, const Bounds& b) {
+    return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)};
+}
+
+// The box about a box in another frame; `pose`: of its own.
+Bounds transformed(const Bounds& bounds, const Pose& pose);
+
 // What bounds need of a shape, found once: a mesh's takes a walk over its vertices.
 struct ShapeExtent {
     Bounds box;             // in the shape's frame

@@ -1,6 +1,7 @@
 #include "engine/collision/bullet_broadphase.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "engine/collision/bullet_vector.hpp"
 
@@ -43,8 +44,7 @@ void Broadphase::park(BroadphaseBody& body) {
     }
 }
 
-void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
-                             std::span<const ShapeExtent> extents) {
+void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
     next_bodies_.clear();
     next_bodies_.reserve(std::max(proxies.size(), bodies_.capacity()));
     parked_.reserve(parked_.size() + bodies_.size());
@@ -56,26 +56,43 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
         for (; old < bodies_.size() && bodies_[old].proxy.id < proxy.id; ++old) {
             park(bodies_[old]);
         }
-        BroadphaseBody body;
-        if (old < bodies_.size() && bodies_[old].proxy.id == proxy.id) {
-            body = bodies_[old++];
-        }
-        const bool changed = !same_proxy(body.proxy, proxy);  // a new body's id is still 0
-        body.proxy = proxy;
-        if (changed) {
-            place(body, extents[proxy.shape.index]);
-        }
-        next_bodies_.push_back(body);
+        const bool is_old = old < bodies_.size() && bodies_[old].proxy.id == proxy.id;
+        next_bodies_.push_back(is_old ? bodies_[old++] : BroadphaseBody{});
     }
     for (; old < bodies_.size(); ++old) {
         park(bodies_[old]);
     }
     bodies_.swap(next_bodies_);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (bodies_[i].leaf != nullptr) {
-            bodies_[i].leaf->dataAsInt = static_cast<int>(i);
-        }
+}
+
+void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
+                             std::span<const ShapeExtent> extents) {
+    const auto has_shape = [](const ColliderProxy& proxy) { return proxy.shape != k_no_shape; };
+    const auto id_of = [](const BroadphaseBody& body) { return body.proxy.id; };
+    if (!std::ranges::equal(proxies | std::views::filter(has_shape), bodies_, {},
+                            &ColliderProxy::id, id_of)) {
+        match_bodies(proxies);
     }
+    auto body = bodies_.begin();
+    for (const ColliderProxy& proxy : proxies) {
+        if (!has_shape(proxy)) {
+            continue;
+        }
+        if (!same_proxy(body->proxy, proxy)) {  // a new body's id is still 0
+            body->proxy = proxy;
+            body->stamp = ++changes_;
+            place(*body, extents[proxy.shape.index]);
+        }
+        if (body->leaf != nullptr) {
+            body->leaf->dataAsInt = static_cast<int>(body - bodies_.begin());
+        }
+        ++body;
+    }
+}
+
+void Broadphase::set_quiet(std::size_t body, const Bounds& box_ws) {
+    bodies_[body].quiet_since = changes_;
+    bodies_[body].quiet_ws = box_ws;
 }
 
 // The tree's shape, and so the order in which it answers, depends on its history: sorting takes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct BroadphaseBody {
     ColliderProxy proxy;
     Bounds bounds_ws;            // of the whole way from from_ws to to_ws
     btDbvtNode* leaf = nullptr;  // null: left out, its pose is not valid
+    std::uint64_t stamp = 0;     // of its last change, in changes of any
+    // What did not change since this stamp has nothing in this box; 0: none is known.
+    std::uint64_t quiet_since = 0;
+    Bounds quiet_ws;
 };
 
 // Memory of one thread's search; its content means nothing between calls.
@@ -30,11 +35,15 @@ class Broadphase {
     void set_proxies(std::span<const ColliderProxy> proxies, std::span<const ShapeExtent> extents);
 
     std::span<const BroadphaseBody> bodies() const { return bodies_; }  // sorted by id
+    std::uint64_t last_change() const { return changes_; }
+    void set_quiet(std::size_t body, const Bounds& box_ws);
     // Numbers of the bodies that may meet the box, rising; good until the scratch is used again.
     // Any threads may ask at the same time, each with a scratch of its own.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
 
   private:
+    // Makes bodies_ one for each proxy that has a shape; what was there before stays as it was.
+    void match_bodies(std::span<const ColliderProxy> proxies);
     void place(BroadphaseBody& body, const ShapeExtent& extent);
     void park(BroadphaseBody& body);
 
@@ -43,6 +52,7 @@ class Broadphase {
     btDbvt tree_;
     // Leaves without a body, kept in the tree: Bullet frees a removed leaf's memory.
     std::vector<btDbvtNode*> parked_;
+    std::uint64_t changes_ = 0;
 };
 
 }  // namespace handhold

@@ -2,6 +2,7 @@
 // triangles), tests rays against triangles and, in bullet_separation and bullet_manifold, measures
 // distances and clips faces. What is ours, and why: docs/decisions.md, 10.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <map>
@@ -39,6 +40,24 @@ Corners moved(const Corners& corners, const Vec3& by) {
     return {corners[0] + by, corners[1] + by, corners[2] + by};
 }
 
+// A box about a's way, larger than it must be, where b, which rests, has no triangles: what drifts
+// through a room need not ask again for a while.
+std::optional<Bounds> clear_about(const BroadphaseBody& a, const ColliderProxy& b,
+                                  const ScaledTriangles& triangles, double margin_m) {
+    constexpr std::array k_slacks_m = {k_quiet_reach_m, 0.2 * k_quiet_reach_m};
+    if (!same_pose(b.from_ws, b.to_ws)) {
+        return std::nullopt;
+    }
+    const Pose to_b = inverse(b.to_ws);
+    for (const double slack_m : k_slacks_m) {
+        const Bounds box_ws = a.bounds_ws.grown(margin_m + slack_m);
+        if (!triangles.may_meet(transformed(box_ws, to_b))) {
+            return box_ws;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 CollisionWorld::Impl::Impl(const ShapeLibrary& library) : shapes(library) {
@@ -73,17 +92,10 @@ void CollisionWorld::Impl::check(std::span<const ColliderProxy> proxies) const {
     }
 }
 
-bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const {
-    if (b.proxy.free && a.proxy.id >= b.proxy.id) {
-        return false;  // two free bodies meet once, and none meets itself
-    }
-    const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
-    return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
-}
-
-void CollisionWorld::Impl::find_pair(const BroadphaseBody& a, const BroadphaseBody& b,
-                                     const ContactLimits& limits,
-                                     std::vector<ContactPoint>& contacts) const {
+std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
+                                                      const BroadphaseBody& b,
+                                                      const ContactLimits& limits,
+                                                      std::vector<ContactPoint>& contacts) const {
     PairScratch& scratch = pair_scratch();
     const Pose from_bs = inverse(b.proxy.from_ws) * a.proxy.from_ws;
     const Pose to_bs = inverse(b.proxy.to_ws) * a.proxy.to_ws;
@@ -103,7 +115,7 @@ void CollisionWorld::Impl::find_pair(const BroadphaseBody& a, const BroadphaseBo
             any = any || !near.empty();
         }
         if (!any) {
-            return;
+            return clear_about(a, b.proxy, *shape_b.triangles, limits.margin_m);
         }
     }
     const std::size_t first = contacts.size();
@@ -113,62 +125,23 @@ void CollisionWorld::Impl::find_pair(const BroadphaseBody& a, const BroadphaseBo
         contacts[i].id_a = a.proxy.id;
         contacts[i].id_b = b.proxy.id;
     }
-}
-
-void CollisionWorld::Impl::find_pairs(double margin_m) {
-    body_pairs.clear();
-    pairs.clear();
-    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BroadphaseBody& a = bodies[i];
-        if (!a.proxy.free || a.leaf == nullptr) {
-            continue;
-        }
-        const std::size_t first = pairs.size();
-        for (const std::size_t other :
-             broadphase.find(a.bounds_ws.grown(margin_m), broadphase_scratch)) {
-            if (is_pair(a, bodies[other])) {
-                pairs.push_back(other);
-            }
-        }
-        if (pairs.size() > first) {
-            body_pairs.push_back({i, first, pairs.size()});
-        }
-    }
-}
-
-void CollisionWorld::Impl::recall_pairs(const ContactLimits& limits) {
-    memory.begin(limits);
-    for (const BroadphaseBody& body : broadphase.bodies()) {
-        memory.add(body.proxy);
-    }
-    met.clear();
-    for (const BodyPairs& body : body_pairs) {
-        for (std::size_t i = body.first; i < body.last; ++i) {
-            met.push_back({memory.recall(body.body, pairs[i]), 0});
-        }
-    }
+    return std::nullopt;
 }
 
 void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
                                             std::vector<ContactPoint>& contacts) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     for (std::size_t i = body.first; i < body.last; ++i) {
+        Met& pair = met[i];
         const std::size_t before = contacts.size();
-        if (met[i].recalled) {
-            contacts.insert(contacts.end(), met[i].recalled->begin(), met[i].recalled->end());
+        if (pair.recalled) {
+            const std::span<const ContactPoint> known = pair.recalled->contacts;
+            contacts.insert(contacts.end(), known.begin(), known.end());
+            pair.clear_ws = pair.recalled->clear_ws;
         } else {
-            find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
+            pair.clear_ws = find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
         }
-        met[i].count = contacts.size() - before;
-    }
-}
-
-void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const ContactPoint> contacts) {
-    std::size_t first = 0;
-    for (std::size_t i = body.first; i < body.last; ++i) {
-        memory.note(body.body, pairs[i], contacts.subspan(first, met[i].count));
-        first += met[i].count;
+        pair.count = contacts.size() - before;
     }
 }
 
@@ -209,6 +182,7 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     parallel_for(world.body_pairs.size(), find);
     for (std::size_t i = 0; i < world.body_pairs.size(); ++i) {
         world.remember(world.body_pairs[i], world.found[i]);
+        world.note_quiet(world.body_pairs[i], limits.margin_m);
         contacts.insert(contacts.end(), world.found[i].begin(), world.found[i].end());
     }
 }

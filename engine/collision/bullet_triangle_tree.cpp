@@ -62,6 +62,14 @@ TriangleTree::NodeBox TriangleTree::node_box(const Bounds& box) const {
 ScaledTriangles::ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale)
     : tree_(std::move(tree)), scale_(scale), inverse_scale_(scale.cwiseInverse()) {}
 
+bool ScaledTriangles::may_meet(const Bounds& box) const {
+    bool found = false;
+    tree_->walk(
+        unscaled(box), [&found](const Bounds&) { return !found; },
+        [&found](std::size_t) { found = true; });
+    return found;
+}
+
 std::optional<LocalRayHit> ScaledTriangles::cast_ray(const Vec3& from, const Vec3& to) const {
     struct Nearest final : btTriangleRaycastCallback {
         using btTriangleRaycastCallback::btTriangleRaycastCallback;

@@ -91,6 +91,8 @@ class ScaledTriangles {
             unscaled(box), [](const Bounds&) { return true; },
             [&](std::size_t triangle) { visit(corners(triangle)); });
     }
+    // False only where no triangle's bounds meet the box.
+    bool may_meet(const Bounds& box) const;
     // First triangle on the way, from either side.
     std::optional<LocalRayHit> cast_ray(const Vec3& from, const Vec3& to) const;
     // Nearest point within max_distance_m.

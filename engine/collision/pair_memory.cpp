@@ -1,11 +1,10 @@
 #include "engine/collision/pair_memory.hpp"
 
-#include <algorithm>
 #include <tuple>
 
 namespace handhold {
+
 void PairMemory::Pass::clear() {
-    colliders.clear();
     pairs.clear();
     contacts.clear();
 }
@@ -13,7 +12,6 @@ void PairMemory::Pass::clear() {
 void PairMemory::begin(const ContactLimits& limits) {
     std::swap(now_, last_);
     now_.clear();
-    next_collider_ = 0;
     next_pair_ = 0;
     if (limits.margin_m != limits_.margin_m || limits.sweep_m != limits_.sweep_m) {
         last_.clear();
@@ -21,42 +19,33 @@ void PairMemory::begin(const ContactLimits& limits) {
     }
 }
 
-void PairMemory::add(const ColliderProxy& proxy) {
-    const std::vector<Seen>& before = last_.colliders;
-    while (next_collider_ < before.size() && before[next_collider_].proxy.id < proxy.id) {
-        ++next_collider_;
-    }
-    const bool same =
-        next_collider_ < before.size() && same_proxy(before[next_collider_].proxy, proxy);
-    now_.colliders.push_back({proxy, same ? before[next_collider_].stamp : ++changes_});
-}
-
-std::optional<std::span<const ContactPoint>> PairMemory::recall(std::size_t a, std::size_t b) {
-    const Seen& seen_a = now_.colliders[a];
-    const Seen& seen_b = now_.colliders[b];
-    const auto wanted = std::tie(seen_a.proxy.id, seen_b.proxy.id);
-    while (next_pair_ < last_.pairs.size() &&
-           std::tie(last_.pairs[next_pair_].id_a, last_.pairs[next_pair_].id_b) < wanted) {
+std::optional<PairMemory::Known> PairMemory::recall(const Seen& a, const Seen& b,
+                                                    const Bounds& reach_ws) {
+    const auto ids_of = [](const Pair& pair) { return std::tie(pair.a.id, pair.b.id); };
+    const auto wanted = std::tie(a.id, b.id);
+    while (next_pair_ < last_.pairs.size() && ids_of(last_.pairs[next_pair_]) < wanted) {
         ++next_pair_;
     }
     if (next_pair_ == last_.pairs.size()) {
         return std::nullopt;
     }
     const Pair& pair = last_.pairs[next_pair_];
-    if (std::tie(pair.id_a, pair.id_b) != wanted || pair.stamp_a != seen_a.stamp ||
-        pair.stamp_b != seen_b.stamp) {
+    if (ids_of(pair) != wanted || pair.b.stamp != b.stamp) {
         return std::nullopt;
     }
-    return std::span(last_.contacts).subspan(pair.first, pair.count);
+    if (pair.a.stamp == a.stamp) {
+        return Known{std::span(last_.contacts).subspan(pair.first, pair.count), pair.clear_ws};
+    }
+    if (pair.clear_ws && holds(*pair.clear_ws, reach_ws)) {
+        return Known{{}, pair.clear_ws};
+    }
+    return std::nullopt;
 }
 
-void PairMemory::note(std::size_t a, std::size_t b, std::span<const ContactPoint> found) {
-    const Seen& seen_a = now_.colliders[a];
-    const Seen& seen_b = now_.colliders[b];
-    now_.pairs.push_back({seen_a.proxy.id, seen_b.proxy.id, seen_a.stamp, seen_b.stamp,
-                          static_cast<std::uint32_t>(now_.contacts.size()),
-                          static_cast<std::uint32_t>(found.size())});
-    now_.contacts.insert(now_.contacts.end(), found.begin(), found.end());
+void PairMemory::note(const Seen& a, const Seen& b, const Known& known) {
+    now_.pairs.push_back({a, b, static_cast<std::uint32_t>(now_.contacts.size()),
+                          static_cast<std::uint32_t>(known.contacts.size()), known.clear_ws});
+    now_.contacts.insert(now_.contacts.end(), known.contacts.begin(), known.contacts.end());
 }
 
 }  // namespace handhold

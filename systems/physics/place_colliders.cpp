@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "components/play_space.hpp"
 
@@ -36,12 +37,17 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
 
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning) {
     FrameGraph& frame = io.frame;
-    frame.entities.assign(io.body.owners().begin(), io.body.owners().end());
-    frame.entities.insert(frame.entities.end(), io.origin.owners().begin(),
-                          io.origin.owners().end());
-    std::sort(frame.entities.begin(), frame.entities.end(), [&io](Entity x, Entity y) {
-        return io.persistent_id.at(x) < io.persistent_id.at(y);
-    });
+    frame.by_id.clear();
+    for (const std::span<const Entity> owners : {io.body.owners(), io.origin.owners()}) {
+        for (const Entity entity : owners) {
+            frame.by_id.push_back({io.persistent_id.at(entity), entity});
+        }
+    }
+    std::ranges::sort(frame.by_id, {}, &FrameGraph::Identified::id);
+    frame.entities.clear();
+    for (const FrameGraph::Identified& identified : frame.by_id) {
+        frame.entities.push_back(identified.entity);
+    }
     frame.proxies.clear();
     for (const Entity entity : frame.entities) {
         frame.proxies.push_back(proxy_of(io, entity, tuning));

@@ -1,0 +1,123 @@
+// Which pairs of colliders may touch, and what is known of them from before.
+#include <algorithm>
+
+#include "engine/collision/bullet_world.hpp"
+
+namespace handhold {
+namespace {
+
+PairMemory::Seen seen(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
+
+// Of more, those that changed are found sooner through the tree.
+constexpr std::size_t k_few = 128;
+
+}  // namespace
+
+bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const {
+    if (b.proxy.free && a.proxy.id >= b.proxy.id) {
+        return false;  // two free bodies meet once, and none meets itself
+    }
+    const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
+    return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
+}
+
+// What cannot touch each other any more need not be looked for: of a body that stays in its quiet
+// box only those are candidates that changed since it was found.
+void CollisionWorld::Impl::find_pairs(double margin_m) {
+    body_pairs.clear();
+    pairs.clear();
+    find_restless();
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const BroadphaseBody& a = bodies[i];
+        if (!a.proxy.free || a.leaf == nullptr) {
+            continue;
+        }
+        const Bounds reach_ws = a.bounds_ws.grown(margin_m);
+        const bool is_quiet = a.quiet_since > 0 && holds(a.quiet_ws, reach_ws);
+        const std::uint64_t since = is_quiet ? a.quiet_since : 0;
+        const std::size_t first = pairs.size();
+        for (const std::size_t other : is_quiet&& restless.size() <= k_few
+                                           ? std::span<const std::size_t>(restless)
+                                           : broadphase.find(reach_ws, broadphase_scratch)) {
+            const BroadphaseBody& b = bodies[other];
+            if (b.stamp > since && meet(b.bounds_ws, reach_ws) && is_pair(a, b)) {
+                pairs.push_back(other);
+            }
+        }
+        if (!is_quiet || pairs.size() > first) {
+            body_pairs.push_back({i, first, pairs.size(), is_quiet});
+        }
+    }
+}
+
+void CollisionWorld::Impl::find_restless() {
+    restless.clear();
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    std::uint64_t oldest = broadphase.last_change();
+    for (const BroadphaseBody& body : bodies) {
+        oldest = body.quiet_since > 0 ? std::min(oldest, body.quiet_since) : oldest;
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies[i].stamp > oldest && bodies[i].leaf != nullptr) {
+            restless.push_back(i);
+        }
+    }
+}
+
+void CollisionWorld::Impl::recall_pairs(const ContactLimits& limits) {
+    memory.begin(limits);
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    met.clear();
+    for (const BodyPairs& of_body : body_pairs) {
+        const BroadphaseBody& a = bodies[of_body.body];
+        const Bounds reach_ws = a.bounds_ws.grown(limits.margin_m);
+        for (std::size_t i = of_body.first; i < of_body.last; ++i) {
+            met.push_back({memory.recall(seen(a), seen(bodies[pairs[i]]), reach_ws), 0, {}});
+        }
+    }
+}
+
+void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const ContactPoint> contacts) {
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    std::size_t first = 0;
+    for (std::size_t i = body.first; i < body.last; ++i) {
+        memory.note(seen(bodies[body.body]), seen(bodies[pairs[i]]),
+                    {contacts.subspan(first, met[i].count), met[i].clear_ws});
+        first += met[i].count;
+    }
+}
+
+void CollisionWorld::Impl::note_quiet(const BodyPairs& body, double margin_m) {
+    const std::span<const BroadphaseBody> bodies = broadphase.bodies();
+    const BroadphaseBody& a = bodies[body.body];
+    Bounds box_ws = a.bounds_ws.grown(margin_m + k_quiet_reach_m);
+    for (std::size_t i = body.first; i < body.last; ++i) {
+        if (!met[i].clear_ws) {
+            return;
+        }
+        box_ws = common(box_ws, *met[i].clear_ws);
+    }
+    if (body.is_quiet || !holds(box_ws, a.bounds_ws.grown(margin_m))) {
+        return;
+    }
+    for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
+        if (other != body.body && may_come_into(box_ws, a, bodies[other])) {
+            return;
+        }
+    }
+    broadphase.set_quiet(body.body, box_ws);
+}
+
+// Of two free bodies the one with the lower id looks after both.
+bool CollisionWorld::Impl::may_come_into(const Bounds& box_ws, const BroadphaseBody& a,
+                                         const BroadphaseBody& b) const {
+    if (b.proxy.free) {
+        return a.proxy.id < b.proxy.id;
+    }
+    const std::optional<ScaledTriangles>& triangles = cache[b.proxy.shape.index].triangles;
+    return !triangles || !same_pose(b.proxy.from_ws, b.proxy.to_ws) ||
+           triangles->may_meet(transformed(box_ws, inverse(b.proxy.to_ws)));
+}
+
+}  // namespace handhold
