@@ -76,7 +76,7 @@ TEST(PairMemory, GivesBackWhatANewWorldFinds) {
 }
 
 // A floor and a ceiling, turned as a station's modules are, and what drifts and tumbles between
-// them: for many rounds the floor is nowhere near, then it is, then it comes nearer by itself.
+// them: for many rounds nothing is near, then the ceiling comes down on all of it.
 TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
     Random random(12);
     ShapeLibrary shapes;
@@ -87,10 +87,10 @@ TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
     std::vector<ColliderProxy> proxies = {resting(1, floor, at(Vec3::Zero(), turn), false),
                                           resting(2, floor, at(1.6 * up, turn), false)};
     std::vector<Vec3> velocities;
-    for (std::uint64_t id = 3; id < 15; ++id) {
-        proxies.push_back(
-            resting(id, box, at(0.8 * up + random.vector(0.3), random.rotation()), true));
-        velocities.push_back(random.vector(0.006));
+    for (std::uint64_t id = 3; id < 13; ++id) {
+        const Vec3 place = turn * Vec3(random.between(-1.5, 1.5), 0.8, random.between(-1.5, 1.5));
+        proxies.push_back(resting(id, box, at(place, random.rotation()), true));
+        velocities.push_back(random.vector(0.0015));
     }
     CollisionWorld old(shapes);
     std::size_t rounds_without = 0;
@@ -105,7 +105,7 @@ TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
         }
         ColliderProxy& ceiling = proxies[1];
         ceiling.from_ws = ceiling.to_ws;
-        if (round >= 300 && round % 10 == 0) {
+        if (round >= 250 && round % 5 == 0) {
             ceiling.to_ws.position -= 0.08 * up;
             ceiling.from_ws = ceiling.to_ws;  // there at once: nothing was swept
         }
@@ -118,7 +118,7 @@ TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
         met += static_cast<std::size_t>(with_walls);
     }
     EXPECT_GT(rounds_without, 20U);
-    EXPECT_GT(met, 1000U);
+    EXPECT_GT(met, 200U);
 }
 
 }  // namespace
