@@ -63,13 +63,7 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-// Directions nearer to each other than this need no trigonometry: see share_of_line.
-constexpr double k_near_cosine = 0.95;
-// The share of the line between two unit vectors that lies at this share of the angle between them,
-// to within 1e-4 of it down to k_near_cosine: the first term of its series in the angle.
-double share_of_line(double share, double cosine) {
-    return share * (1.0 + (1.0 - share) * (1.0 - 2.0 * share) * (1.0 - cosine) * (1.0 / 3.0));
-}
+constexpr double k_near_cosine = 0.95;  // nearer directions need no trigonometry: share_of_line
 
 bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);

@@ -9,6 +9,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/core/hash.hpp"
+#include "engine/math/scalar_rotation.hpp"
+#include "tests/random.hpp"
 
 namespace handhold::math_test {
 namespace {
@@ -433,6 +435,27 @@ TEST(MathGolden, BitsAreEqualOnAllCompilers) {
         hash.add(smooth_step(x, -1.0, 2.0));
     }
     EXPECT_EQ(hash.value(), k_golden) << std::hex << "0x" << hash.value();
+}
+
+TEST(ShareOfLine, PointsWhereThatShareOfTheAngleDoes) {
+    for (double angle = 0.0; std::cos(angle) > 0.95; angle += 0.003) {
+        for (double share = 0.0; share <= 1.0; share += 0.01) {
+            const double on_line = share_of_line(share, std::cos(angle));
+            const double x = 1.0 + on_line * (std::cos(angle) - 1.0);
+            const double y = on_line * std::sin(angle);
+            ASSERT_NEAR(std::atan2(y, x), share * angle, 1e-4) << angle << ' ' << share;
+        }
+    }
+}
+
+TEST(AnySquareTo, IsUnitAndSquare) {
+    test::Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 axis = i < 3 ? Vec3(Vec3::Unit(i)) : random.direction();
+        const Vec3 square = any_square_to(axis);
+        ASSERT_NEAR(square.norm(), 1.0, 1e-12);
+        ASSERT_NEAR(square.dot(axis), 0.0, 1e-12);
+    }
 }
 
 }  // namespace
