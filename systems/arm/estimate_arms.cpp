@@ -231,6 +231,26 @@ void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, Ar
     }
 }
 
+// Where the palms are in their players' play spaces.
+void take_hands(const EstimateArmsIo& io) {
+    Entity player = k_no_entity;
+    const Pose* origin_ws = nullptr;
+    ArmEstimate* estimate = nullptr;
+    for (std::size_t row = 0; row < io.owner.size(); ++row) {
+        const HandOwner& owner = io.owner.rows()[row];
+        if (owner.player != player) {  // hands of one player follow each other, mostly
+            player = owner.player;
+            origin_ws = &io.origin.at(player).pose_ws;
+            estimate = &io.estimate.at(player);
+        }
+        const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
+        const Quat turn = product(origin_ws->rotation.conjugate(), palm_ws.rotation);
+        estimate->arms[index_of(owner.side)].hand_ps = {
+            inverse_transform_point(*origin_ws, palm_ws.position),
+            unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
+    }
+}
+
 }  // namespace
 
 Vec3 level_look(const Vec3& ahead, const Vec3& up) {
@@ -390,15 +410,7 @@ Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,
 }
 
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning) {
-    for (std::size_t row = 0; row < io.owner.size(); ++row) {
-        const HandOwner& owner = io.owner.rows()[row];
-        const Pose& palm_ws = io.palm.at(io.owner.owners()[row]).pose_ws;
-        const Pose& origin_ws = io.origin.at(owner.player).pose_ws;
-        const Quat turn = product(origin_ws.rotation.conjugate(), palm_ws.rotation);
-        io.estimate.at(owner.player).arms[index_of(owner.side)].hand_ps = {
-            inverse_transform_point(origin_ws, palm_ws.position),
-            unit_quat(turn.w(), turn.x(), turn.y(), turn.z())};
-    }
+    take_hands(io);
     const Step step = step_of(io.dt_s, tuning);
     join(
         io.estimate,

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "game/built_in_scenes.hpp"
 #include "game/session_run.hpp"
@@ -13,11 +15,38 @@
 namespace handhold::frame_bench {
 namespace {
 
+double sum_us(const StageStats& stats) {
+    return std::accumulate(stats.stage_us.begin(), stats.stage_us.end(), 0.0);
+}
+
+bool grip_with_both_hands(const FrameLog& frame) {
+    return std::ranges::all_of(frame.players, [](const PlayerLog& player) {
+        return std::ranges::all_of(player.hands,
+                                   [](const HandLog& hand) { return hand.grip != 0; });
+    });
+}
+
+// Of the times, which it sorts.
+void add_percentiles(const std::string& name, std::vector<double>& times_us,
+                     benchmark::State& state) {
+    std::ranges::sort(times_us);
+    const auto at = [&times_us](double share) {
+        return times_us[static_cast<std::size_t>(share * static_cast<double>(times_us.size() - 1))];
+    };
+    state.counters[name + "_frames"] = static_cast<double>(times_us.size());
+    if (!times_us.empty()) {
+        state.counters[name + "_median_us"] = at(0.5);
+        state.counters[name + "_p99_us"] = at(0.99);
+    }
+}
+
 // The scene's session over and over; time is that of step_frame alone.
 void run_frames(benchmark::State& state, const char* name) {
     const auto players = static_cast<std::size_t>(state.range(0));
     double frames = 0.0;
     StageStats sum;
+    std::vector<double> all_us;
+    std::vector<double> both_hands_us;
     for (auto _ : state) {
         Scene scene = *make_built_in_scene(name);
         const Recording recording = *make_built_in_session(name);
@@ -32,12 +61,17 @@ void run_frames(benchmark::State& state, const char* name) {
         for (const FrameLog& frame : log.frames) {
             std::transform(frame.stats.stage_us.begin(), frame.stats.stage_us.end(),
                            sum.stage_us.begin(), sum.stage_us.begin(), std::plus<>());
+            all_us.push_back(sum_us(frame.stats));
+            if (grip_with_both_hands(frame)) {
+                both_hands_us.push_back(all_us.back());
+            }
         }
         frames += static_cast<double>(log.frames.size());
         state.SetIterationTime(log.wall_s);
     }
-    state.counters["us_per_frame"] =
-        std::accumulate(sum.stage_us.begin(), sum.stage_us.end(), 0.0) / frames;
+    state.counters["us_per_frame"] = sum_us(sum) / frames;
+    add_percentiles("all", all_us, state);
+    add_percentiles("both_hands", both_hands_us, state);
     state.counters["players_per_frame"] = static_cast<double>(players);
     for (std::size_t stage = 0; stage < sum.stage_us.size(); ++stage) {
         state.counters[std::string("us_") + name_of(static_cast<Stage>(stage))] =
