@@ -92,6 +92,11 @@ void visit_fields(const AuthoredHold& c, V&& visit) {
     visit("leave_angle_rad", c.leave_angle_rad);
 }
 template <typename V>
+void visit_fields(const HandPull& c, V&& visit) {
+    visit("body", c.body);
+    visit("closed_s", c.closed_s);
+}
+template <typename V>
 void visit_fields(const Mover& c, V&& visit) {
     visit("start_ws", c.start_ws);
     visit("velocity_ws_mps", c.velocity_ws_mps);

@@ -61,4 +61,11 @@ struct Grab {
                            // it, as on a surface
 };
 
+// A loose body that a closed, empty hand pulls towards itself (distance grab): only hands that do.
+// Written by update_grabs; read by pull_bodies.
+struct HandPull {
+    Entity body = k_no_entity;
+    double closed_s = 0.0;  // when the hand closed
+};
+
 }  // namespace handhold

@@ -124,6 +124,14 @@ const char* name_of(Fallback reason) {
             return "authored_grip_left";
         case Fallback::authored_finger_fitted:
             return "authored_finger_fitted";
+        case Fallback::pull_refused_fixed:
+            return "pull_refused_fixed";
+        case Fallback::pull_refused_heavy:
+            return "pull_refused_heavy";
+        case Fallback::pull_refused_held:
+            return "pull_refused_held";
+        case Fallback::pull_lost:
+            return "pull_lost";
         case Fallback::count:
             break;
     }

@@ -26,6 +26,15 @@ struct HandTuning {
     double max_arm_m = 2.0;
 };
 
+// Distance grab: a hand that closes on nothing pulls what its palm points at.
+struct PullTuning {
+    double reach_m = 0.0;  // 0: none
+    double radius_m = 0.05;
+    double max_mass_kg = 20.0;
+    double force_n = 40.0;
+    double speed_mps = 2.5;
+};
+
 // How the palm that is shown keeps to the surface it grips.
 struct PalmTuning {
     double min_height_m = 0.001;
@@ -124,6 +133,7 @@ struct Tuning {
     CalibrationTuning calibration;
     SpineTuning spine;
     AdditiveTuning additive;
+    PullTuning pull;
 };
 
 // What is known of one number beside its value.
@@ -268,6 +278,15 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "solves at most to find who sticks and who slides");
     visit_body_tuning(t, see);
+    see("pull.reach_m", t.pull.reach_m, "m", 0.0, 20.0,
+        "distance grab: what is this far before a closing empty palm is pulled; 0: none");
+    see("pull.radius_m", t.pull.radius_m, "m", 0.001, 0.5,
+        "radius of the sphere that is sent along the palm's ray to find it");
+    see("pull.max_mass_kg", t.pull.max_mass_kg, "kg", 0.0, 1e6, "heavier bodies stay");
+    see("pull.force_n", t.pull.force_n, "N", 0.0, 1e6,
+        "greatest force between the body and the player");
+    see("pull.speed_mps", t.pull.speed_mps, "m/s", 0.1, 100.0,
+        "greatest speed towards the hand that it is pulled to");
 }
 
 }  // namespace handhold

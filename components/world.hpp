@@ -75,6 +75,7 @@ struct World {
     Column<FingerPose> finger_pose;
     Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
     Column<AuthoredHold> authored_hold;           // only hands that sit in an authored grip
+    Column<HandPull> hand_pull;                   // only hands that pull something from afar
 };
 
 // Calls visit(name, column) for every column. The one list of them: hashing, destroying and
@@ -121,6 +122,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("finger_pose", world.finger_pose);
     visit("controller_to_hand", world.controller_to_hand);
     visit("authored_hold", world.authored_hold);
+    visit("hand_pull", world.hand_pull);
 }
 
 struct BodyDescription {

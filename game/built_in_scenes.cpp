@@ -6,6 +6,7 @@
 #include "game/crowd_scene.hpp"
 #include "game/player_defaults.hpp"
 #include "game/playground.hpp"
+#include "game/reach.hpp"
 #include "game/robot_scene.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
@@ -244,6 +245,9 @@ std::optional<Scene> make_bodies_of(std::string_view name) {
     if (name == "robot") {
         return make_robot_scene();
     }
+    if (name == "reach") {
+        return make_reach_scene();
+    }
     if (name == "crowd") {
         return make_crowd_scene();
     }
@@ -253,7 +257,7 @@ std::optional<Scene> make_bodies_of(std::string_view name) {
 }  // namespace
 
 std::vector<std::string_view> built_in_scenes() {
-    return {"station", "ship", "playground", "robot", "crowd"};
+    return {"station", "ship", "playground", "robot", "crowd", "reach"};
 }
 
 std::optional<Scene> make_built_in_scene(std::string_view name) {
@@ -284,6 +288,9 @@ std::optional<Recording> make_built_in_session(std::string_view name) {
     }
     if (name == "robot") {
         return record_session(robot_script(), tuning);
+    }
+    if (name == "reach") {
+        return record_session(reach_script(), tuning);
     }
     return std::nullopt;
 }

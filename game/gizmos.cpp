@@ -213,6 +213,11 @@ GizmoInfo info_of(Gizmo gizmo) {
                     "triangles looked at, bright first; green: the palm's"};
         case Gizmo::palm_limits:
             return {"palm limits", "constrain_palms", "how low, how high, how aslant it may be"};
+        case Gizmo::cuts:
+            return {"cuts", "sweep_fingers",
+                    "from the palm to where each finger's disc cuts the surface, and the cut"};
+        case Gizmo::snap_zones:
+            return {"snap zones", "update_grabs", "where a closing hand snaps to an authored grip"};
         case Gizmo::fingers:
             return {"fingers", "sweep_fingers", "the disc each turns in; green where it touches"};
         case Gizmo::arms:

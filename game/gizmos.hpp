@@ -24,7 +24,9 @@ enum class Gizmo : std::uint8_t {
     residuals,      // solve_phases
     search,         // search_grip
     palm_limits,    // constrain_palms
+    cuts,           // sweep_fingers
     fingers,        // sweep_fingers, pose_thumb
+    snap_zones,     // update_grabs
     arms,           // pose_arms
     spine,          // propagate_spine
     count

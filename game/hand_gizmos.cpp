@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/geometry/disc_trace.hpp"
 #include "systems/hand/search_grip.hpp"
 
 namespace handhold {
@@ -112,6 +113,66 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
     return nearest;
 }
 
+// The way from the palm's triangle to where the finger's disc cuts the surface, and that cut: as
+// sweep_fingers looks for it, on the search detail of what is gripped.
+void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
+             const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
+    constexpr double k_shown_m = 1.5e-3;  // off the surface
+    const PlacedMesh& placed = hand.meshes.front();
+    const SurfaceGraph& graph = placed.mesh->search;
+    const Pose mesh_ws = hand.body_ws * placed.pose;
+    const Pose base =
+        inverse(mesh_ws) * palm_ws * finger_link_frames(finger, coupled_angles(finger, 0.0))[0];
+    Disc disc;
+    disc.center = base.position;
+    disc.x_axis = base.rotation * -Vec3::UnitZ();
+    disc.y_axis = base.rotation * -Vec3::UnitY();
+    disc.normal = disc.x_axis.cross(disc.y_axis);
+    disc.radius_m = 0.0;
+    for (std::uint32_t link = 0; link < finger.link_count; ++link) {
+        disc.radius_m += finger.length_m[link];
+    }
+    const Vec3 from = inverse_transform_point(placed.pose, surface.point_bs);
+    const CrossingSearch found =
+        find_crossing(graph, disc, surface.triangle, from, SearchOrder::best_first, scratch);
+    if (found.triangle == k_no_triangle) {
+        return;
+    }
+    const Vec3 off = k_shown_m * graph.normals[found.triangle];
+    out.push_back({transform_point(mesh_ws, from + off),
+                   transform_point(mesh_ws, found.point + off), k_first_visited, 2.5});
+    std::vector<DiscSegment> segments;
+    walk_crossing(graph, disc, found.triangle, scratch, segments);
+    for (const DiscSegment& segment : segments) {
+        const auto point = [&](const Vec2& at) {
+            return transform_point(mesh_ws,
+                                   disc.center + at.x() * disc.x_axis + at.y() * disc.y_axis);
+        };
+        out.push_back({point(segment.a_ds), point(segment.b_ds), k_chosen, 3.5});
+    }
+}
+
+// A ball of the zone's radius about where the palm would be.
+void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>& out) {
+    for (std::size_t row = 0; row < world.authored_grips.size(); ++row) {
+        const AuthoredGrips& grips = world.authored_grips.rows()[row];
+        const Pose& body_ws = world.body_pose.at(world.authored_grips.owners()[row]).pose_ws;
+        for (std::size_t i = 0; i < grips.count; ++i) {
+            for (const HandSide side : {HandSide::left, HandSide::right}) {
+                const AuthoredHand& hand = grips.grips[i].hands[index_of(side)];
+                Vec3 palm_hs = tuning.hand.palm_center_m;
+                palm_hs.x() *= side == HandSide::right ? 1.0 : -1.0;
+                const Vec3 center_ws = transform_point(body_ws * hand.wrist_bs, palm_hs);
+                for (int axis = 0; axis < 3 && hand.is_there; ++axis) {
+                    const double radius_m = grips.grips[i].snap_radius_m;
+                    add_arc(center_ws, radius_m * Vec3::Unit(axis),
+                            radius_m * Vec3::Unit((axis + 1) % 3), k_two_pi, k_limit, out);
+                }
+            }
+        }
+    }
+}
+
 // The disc that a finger turns in, from open to closed; its links, and where they touch.
 void add_finger(const HandSurroundings& hand, const FingerRig& finger, const FingerAngles& angles,
                 const Pose& palm_ws, std::vector<Line>& out) {
@@ -151,6 +212,10 @@ void add_finger(const HandSurroundings& hand, const FingerRig& finger, const Fin
 void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                      const GizmoSet& on, std::vector<Line>& out) {
     const auto shows = [&](Gizmo gizmo) { return on[static_cast<std::size_t>(gizmo)]; };
+    if (shows(Gizmo::snap_zones)) {
+        add_snap_zones(world, tuning, out);
+    }
+    TraceScratch scratch;
     for (const HandSurroundings& hand : caches.hands.surroundings) {
         const GripSurface* const surface = world.grip_surface.find(hand.hand);
         if (!hand.grips || hand.rig == nullptr || surface == nullptr ||
@@ -163,6 +228,9 @@ void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning
         }
         if (shows(Gizmo::palm_limits)) {
             add_palm_limits(hand, *surface, palm_ws, tuning.palm, out);
+        }
+        for (std::size_t i = 0; shows(Gizmo::cuts) && i < hand.rig->fingers.size(); ++i) {
+            add_cut(hand, *surface, hand.rig->fingers[i], palm_ws, scratch, out);
         }
         for (std::size_t i = 0; shows(Gizmo::fingers) && i < hand.rig->fingers.size(); ++i) {
             add_finger(hand, hand.rig->fingers[i], world.finger_pose.at(hand.hand).shown[i],

@@ -37,6 +37,11 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
                        "controller-to-hand joint the hands then have");
 }
 
+const std::map<std::string, handhold::PictureQuality> k_qualities = {
+    {"plain", handhold::PictureQuality::plain},
+    {"quick", handhold::PictureQuality::quick},
+    {"fine", handhold::PictureQuality::fine}};
+
 void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
                    "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
@@ -68,6 +73,19 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
             ->needs(snapshot));
     run.add_option("--resume", options.resume,
                    "Go on from a saved state of the same scene and players");
+    CLI::Option* const shots =
+        run.add_option("--shots", options.shots,
+                       "Draw the shots of this scene in a list (.json) into --out, and no report");
+    run.add_option("--shot-width", options.shot_width_px, "Pixels")
+        ->check(CLI::Range(16, 8192))
+        ->needs(shots);
+    run.add_option("--shot-height", options.shot_height_px, "Pixels")
+        ->check(CLI::Range(16, 8192))
+        ->needs(shots);
+    run.add_option("--shot-quality", options.shot_quality, "plain, quick or fine")
+        ->transform(CLI::CheckedTransformer(k_qualities))
+        ->needs(shots);
+    run.add_flag("--distance-grab", options.distance_grab, "As in play, to see a session again");
     add_model_options(run, options.models);
     run.add_flag("!--no-pictures", options.pictures,
                  "With --out: files only, no pictures and no video");
@@ -112,18 +130,16 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
     play.add_option("--record", options.record,
                     "Save the session (.csv): run --input plays it again");
     play.add_flag("--jets", options.jets, "Small jets: the keys push as well as pull");
+    play.add_flag("--distance-grab", options.distance_grab,
+                  "A hand that closes on nothing pulls what its palm points at");
     play.add_option("--picture", options.picture, "Save the last picture (.png)");
     play.add_option("--report", options.report,
                     "Save what was climbed and what it cost (.json) at the end");
     play.add_option("--status", options.status,
                     "Write a line of how it stands every tenth of a second (.jsonl)");
-    const std::map<std::string, handhold::PictureQuality> qualities = {
-        {"plain", handhold::PictureQuality::plain},
-        {"quick", handhold::PictureQuality::quick},
-        {"fine", handhold::PictureQuality::fine}};
     play.add_option("--quality", options.settings.quality,
                     "plain (no graphics card), quick, or fine (four samples a pixel)")
-        ->transform(CLI::CheckedTransformer(qualities));
+        ->transform(CLI::CheckedTransformer(k_qualities));
     const std::map<std::string, handhold::TurnKind> turns = {
         {"snap", handhold::TurnKind::snap}, {"smooth", handhold::TurnKind::smooth}};
     play.add_option("--turn", options.settings.turn, "snap or smooth: how Z and C turn")

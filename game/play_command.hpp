@@ -21,8 +21,9 @@ struct PlayOptions {
     bool xr_headless = false;  // the same without pictures, for tests
     double eye_scale = 1.0;    // (0, 2]; of the size that the headset recommends for its pictures
     bool mirror = true;
-    bool jets = false;     // the keys push as well as pull
-    double seconds = 0.0;  // 0: until the window is closed
+    bool jets = false;           // the keys push as well as pull
+    bool distance_grab = false;  // a hand that closes on nothing pulls what it points at
+    double seconds = 0.0;        // 0: until the window is closed
     int width_px = 1280;
     int height_px = 720;
     PlaySettings settings;

@@ -34,7 +34,7 @@ void say_replay(const PlayOptions& options, const EndedPlay& play) {
     if (!options.models.controllers.empty()) {  // its joint is how samples became hands
         std::printf(" --controllers %s", options.models.controllers.c_str());
     }
-    std::printf("\n");
+    std::printf(options.distance_grab ? " --distance-grab\n" : "\n");
 }
 
 }  // namespace
@@ -57,6 +57,9 @@ Result<PlayedScene> load_played_scene(const PlayOptions& options) {
     }
     if (options.jets) {
         loaded.scene.tuning.locomotion.thruster_mps2 = k_jets_mps2;
+    }
+    if (options.distance_grab) {
+        loaded.scene.tuning.pull.reach_m = k_pull_reach_m;
     }
     return loaded;
 }

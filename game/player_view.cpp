@@ -1,13 +1,26 @@
 #include "game/player_view.hpp"
 
 #include "game/scene_picture.hpp"
+#include "game/snap_hint.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr Color k_ray_color = {0.1F, 0.75F, 1.0F};
 constexpr Color k_hit_color = {0.2F, 1.0F, 0.35F};
+constexpr Color k_pull_color = {0.75F, 0.35F, 1.0F};
 constexpr Color k_constraint_color = {1.0F, 0.55F, 0.05F};
+
+void add_hand_lines(const Vec3& head_ws, const RenderPose::Hand& hand, RenderFrame& frame) {
+    const bool grips = hand.grip != GripKind::none;
+    frame.lines.push_back(
+        {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
+    if (grips) {
+        frame.lines.push_back({head_ws, hand.shown_ws.position, k_constraint_color, 1.5});
+        frame.lines.push_back(
+            {hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
+    }
+}
 
 }  // namespace
 
@@ -15,7 +28,8 @@ PlayerView::PlayerView(const Scene& scene, PlayerModels models, Renderer rendere
     : scene_(&scene),
       renderer_(std::move(renderer)),
       hands_(std::move(models.hands), renderer_),
-      body_(std::move(models.body), renderer_) {
+      body_(std::move(models.body), renderer_),
+      ghosts_(models.ghosts) {
     visuals_ = add_scene_meshes(scene, renderer_);
     if (models.controllers) {
         controllers_.emplace(*models.controllers, hands_, renderer_);
@@ -32,27 +46,114 @@ std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels mode
     return PlayerView(scene, std::move(models), std::move(*renderer));
 }
 
-void PlayerView::add_figure(const BodyMeasures& measures, const RenderPose& render,
-                            BodyFigures::Seen seen, RenderFrame& frame) {
-    body_.add(measures, render, seen, renderer_, frame);
-    for (std::size_t side = 0; side < k_hand_count; ++side) {
-        const RenderPose::Hand& hand = render.hands[side];
+void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, RenderFrame& frame) {
+    const bool holds_controller = controllers_.has_value() && hand.grip == GripKind::none;
+    hands_.add(side, hand.shown_ws, holds_controller ? controllers_->fingers(side) : hand.fingers,
+               renderer_, frame);
+    if (holds_controller) {
+        controllers_->add(side, hand.shown_ws, frame);
+    }
+}
+
+// Where the tracking has the hand, where that is not where it is shown.
+void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost,
+                           RenderFrame& frame) {
+    const auto share = static_cast<float>(ghost_share(hand, ghosts_));
+    if (share <= 0.0F) {
+        return;
+    }
+    std::array<FingerAngles, k_finger_count> open;
+    for (std::size_t i = 0; i < hands_.rig(side).fingers.size(); ++i) {
+        open[i] = relaxed_angles(hands_.rig(side).fingers[i]);
+    }
+    add_ghost_of(side, hand.tracked_ws, open,
+                 {{},
+                  {},
+                  is_lost ? ghosts_.lost : ghosts_.tracked,
+                  share * ghosts_.seen,
+                  share * ghosts_.hidden},
+                 frame);
+}
+
+// How an empty hand would sit in the authored grip that it is near.
+void PlayerView::add_snap_hint(Entity hand, RenderFrame& frame) {
+    const std::optional<SnapHint> hint = find_snap_hint(scene_->world, hand, scene_->tuning.hand);
+    if (!hint) {
+        return;
+    }
+    const HandSide side = scene_->world.hand_owner.at(hand).side;
+    const HandRig& rig = hands_.rig(side);
+    std::array<FingerAngles, k_finger_count> posed;
+    for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
+        posed[i] =
+            posed_angles(rig.fingers[i], hint->hand).value_or(relaxed_angles(rig.fingers[i]));
+    }
+    const float strength = hint->is_within
+                               ? ghosts_.snap_within
+                               : static_cast<float>(2.0 * hint->nearness) * ghosts_.snap_near;
+    add_ghost_of(side, hint->wrist_ws, posed, {{}, {}, ghosts_.snap, strength, 0.5F * strength},
+                 frame);
+}
+
+void PlayerView::add_ghost_of(HandSide side, const Pose& wrist_ws,
+                              const std::array<FingerAngles, k_finger_count>& fingers,
+                              const Ghost& like, RenderFrame& frame) {
+    ghost_parts_.instances.clear();
+    hands_.add(side, wrist_ws, fingers, renderer_, ghost_parts_);
+    for (const Instance& part : ghost_parts_.instances) {
+        frame.ghosts.push_back(like);
+        frame.ghosts.back().mesh = part.mesh;
+        frame.ghosts.back().pose_ws = part.pose_ws;
+    }
+}
+
+// A hand that pulls something: from palm to body.
+void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const {
+    const HandPull* const pull = scene_->world.hand_pull.find(hand);
+    const BodyPose* const body =
+        pull != nullptr ? scene_->world.body_pose.find(pull->body) : nullptr;
+    if (body != nullptr) {
+        frame.lines.push_back({shown.ray_from_ws, body->pose_ws.position, k_pull_color, 3.0});
+    }
+}
+
+// What was added since `first`, where a wall hides it.
+void PlayerView::add_sunk(std::size_t first, RenderFrame& frame) const {
+    for (std::size_t i = first; i < frame.instances.size(); ++i) {
+        const Instance& part = frame.instances[i];
+        frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.sunk,
+                                ghosts_.sunk_from_m, ghosts_.sunk_full_m});
+    }
+}
+
+void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
+    constexpr std::size_t k_who_plays = 0;  // hints are for him, from wherever he is seen
+    const World& world = scene_->world;
+    const Entity player = world.render_pose.owners()[row];
+    const RenderPose& render = world.render_pose.rows()[row];
+    body_.add(world.body_measures.at(player), render, seen, renderer_, frame);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const RenderPose::Hand& hand = render.hands[index_of(side)];
         const bool grips = hand.grip != GripKind::none;
-        const auto which = static_cast<HandSide>(side);
-        const bool holds_controller = controllers_.has_value() && !grips;
-        hands_.add(which, hand.shown_ws,
-                   holds_controller ? controllers_->fingers(which) : hand.fingers, renderer_,
-                   frame);
-        if (holds_controller) {
-            controllers_->add(which, hand.shown_ws, frame);
+        const std::size_t first = frame.instances.size();
+        add_hand(side, hand, frame);
+        if (seen == BodyFigures::Seen::by_himself && !grips) {
+            add_sunk(first, frame);
         }
-        frame.lines.push_back(
-            {hand.ray_from_ws, hand.ray_to_ws, grips ? k_hit_color : k_ray_color, 2.0});
-        if (grips) {
-            frame.lines.push_back(
-                {render.head_ws.position, hand.shown_ws.position, k_constraint_color, 1.5});
-            frame.lines.push_back(
-                {hand.tracked_ws.position, hand.shown_ws.position, k_constraint_color, 4.0});
+        if (shows_hand_lines_) {
+            add_hand_lines(render.head_ws.position, hand, frame);
+        }
+    }
+    for (std::size_t hand = 0; hand < world.hand_owner.size(); ++hand) {
+        const HandOwner& owner = world.hand_owner.rows()[hand];
+        if (owner.player == player) {
+            const Entity entity = world.hand_owner.owners()[hand];
+            if (seen == BodyFigures::Seen::by_himself || row == k_who_plays) {
+                add_snap_hint(entity, frame);
+            }
+            add_pull(entity, render.hands[index_of(owner.side)], frame);
+            add_ghost(owner.side, render.hands[index_of(owner.side)],
+                      world.hand_tracking.at(entity).state == TrackingState::lost, frame);
         }
     }
 }
@@ -65,10 +166,10 @@ RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size
     const Column<RenderPose>& players = scene_->world.render_pose;
     for (std::size_t i = 0; i < players.size(); ++i) {
         using enum BodyFigures::Seen;
-        add_figure(scene_->world.body_measures.at(players.owners()[i]), players.rows()[i],
-                   without_head == i ? by_himself : by_others, frame);
+        add_player(i, without_head == i ? by_himself : by_others, frame);
     }
     frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
+    frame.hidden_lines = hidden_lines_;
     frame.camera = camera;
     return frame;
 }

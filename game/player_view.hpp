@@ -31,6 +31,10 @@ class PlayerView {
     // The same as a headset's eye sees it, into a texture of the runtime's (Renderer::draw_into).
     void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
                   const UiPicture* ui = nullptr);
+    // Palms' rays and what holds whom, as lines. On at first.
+    void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
+    // RenderFrame::hidden_lines.
+    void set_hidden_lines(float strength) { hidden_lines_ = strength; }
     // Lives as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
@@ -39,8 +43,15 @@ class PlayerView {
     PlayerView(const Scene& scene, PlayerModels models, Renderer renderer);
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
-    void add_figure(const BodyMeasures& measures, const RenderPose& render, BodyFigures::Seen seen,
-                    RenderFrame& frame);
+    void add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame);
+    void add_hand(HandSide side, const RenderPose::Hand& hand, RenderFrame& frame);
+    void add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const;
+    void add_ghost_of(HandSide side, const Pose& wrist_ws,
+                      const std::array<FingerAngles, k_finger_count>& fingers, const Ghost& like,
+                      RenderFrame& frame);
+    void add_snap_hint(Entity hand, RenderFrame& frame);
+    void add_sunk(std::size_t first, RenderFrame& frame) const;
+    void add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost, RenderFrame& frame);
 
     const Scene* scene_;
     Renderer renderer_;            // each has its own meshes
@@ -48,6 +59,10 @@ class PlayerView {
     HandFigures hands_;
     BodyFigures body_;
     std::optional<ControllerFigures> controllers_;
+    GhostSettings ghosts_;
+    bool shows_hand_lines_ = true;
+    float hidden_lines_ = RenderFrame{}.hidden_lines;
+    RenderFrame ghost_parts_;  // scratch
 };
 
 }  // namespace handhold

@@ -20,6 +20,7 @@
 #include "game/report/report_html.hpp"
 #include "game/report/report_json.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/run_shots.hpp"
 #include "game/session_run.hpp"
 #include "game/spawn.hpp"
 #include "systems/snapshot.hpp"
@@ -247,6 +248,9 @@ RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t
     settings.climbers_from = options.climbers ? 0 : 1;
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
+    if (options.distance_grab) {
+        scene.tuning.pull.reach_m = k_pull_reach_m;
+    }
     double& jets_mps2 = scene.tuning.locomotion.thruster_mps2;
     if (players > settings.climbers_from && jets_mps2 == 0.0) {
         jets_mps2 = k_jets_mps2;
@@ -353,6 +357,10 @@ int run_command(const RunOptions& options) {
 
     const Recording* const recording =
         session.value().recording ? &*session.value().recording : nullptr;
+    if (!options.shots.empty()) {
+        return draw_shots(options, {scene, caches, players.value(), recording, settings},
+                          std::move(models.value()));
+    }
     Film film =
         open_film(options, scene, std::move(models.value()), session_length_s(recording, settings));
     if (!options.trace.empty()) {

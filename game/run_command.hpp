@@ -11,10 +11,15 @@ namespace handhold {
 // `handhold run`, as given on the command line.
 struct RunOptions {
     std::string scene;
-    std::string input;           // empty: the scene's own session, if it has one
-    std::string spawn;           // empty: the scene's first; "auto"
-    std::string trace;           // empty: none
-    std::string out;             // empty: no files
+    std::string input;  // empty: the scene's own session, if it has one
+    std::string spawn;  // empty: the scene's first; "auto"
+    std::string trace;  // empty: none
+    std::string out;    // empty: no files
+    std::string shots;  // a list of shots: those of this scene into `out`, and no report
+    int shot_width_px = 960;
+    int shot_height_px = 540;
+    PictureQuality shot_quality = PictureQuality::fine;
+    bool distance_grab = false;  // as in play
     std::string snapshot;        // file; empty: none
     double snapshot_at_s = 0.0;  // when it is taken: after the first frame that ends then or later
     std::string resume;  // a snapshot of this scene and these players; empty: from the start

@@ -16,6 +16,7 @@
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/locomotion/locomote_players.hpp"
+#include "systems/locomotion/pull_bodies.hpp"
 #include "systems/locomotion/settle_grabs.hpp"
 #include "systems/locomotion/update_grabs.hpp"
 #include "systems/physics/animate_movers.hpp"
@@ -86,7 +87,7 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
         place(w, caches, tuning);
         update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
                       w.player_origin, w.head_tracking, w.body, w.body_pose, graph.joint_groups,
-                      w.authored_grips, w.grab, w.authored_hold, w.head_ignores},
+                      w.authored_grips, w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
                      tuning, stats);
     }
     {
@@ -95,6 +96,10 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
                           w.hand_owner, w.hand_tracking, w.grab, w.body_pose, w.body_velocity,
                           w.player_origin, w.player_velocity, w.reference_velocity},
                          tuning.locomotion);
+        pull_bodies({input.dt_s, caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
+                     w.grab, w.player, w.player_origin, w.body, w.body_pose, graph.joint_groups,
+                     w.hand_pull, w.body_velocity, w.player_velocity},
+                    tuning, stats);
     }
     {
         const StageTimer timer(Stage::animate_movers, stats);

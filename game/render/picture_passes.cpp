@@ -80,9 +80,11 @@ void PicturePasses::clear_effects() {
 }
 
 void PicturePasses::begin() {
-    glBindFramebuffer(GL_FRAMEBUFFER, scene_target_);
+    bind_scene();
     glViewport(0, 0, size_.width_px * size_.samples_across, size_.height_px * size_.samples_across);
 }
+
+void PicturePasses::bind_scene() const { glBindFramebuffer(GL_FRAMEBUFFER, scene_target_); }
 
 void PicturePasses::shade_occlusion(const FrameView& view) {
     const int width = size_.width_px / k_occlusion_part;

@@ -29,6 +29,14 @@ class PicturePasses {
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
     // Binds the target that the scene is drawn into.
     void begin();
+    // The same again, after another target.
+    void bind_scene() const;
+    // What it is made of, and its size.
+    GLuint color() const { return color_; }
+    GLuint depth() const { return depth_; }
+    std::array<int, 2> scene_size_px() const {
+        return {size_.width_px * size_.samples_across, size_.height_px * size_.samples_across};
+    }
     // Makes what begin()'s target holds the finished picture, with panels where there are. Needs
     // any vertex array bound.
     void finish(const FrameView& view, const UiPicture* ui);

@@ -11,7 +11,7 @@ Result<PlayerModels> choose_player_models(const PlayerModelFiles& files) {
     if (!body) {
         return body.error();
     }
-    PlayerModels models{std::move(hands.value()), std::move(body.value()), std::nullopt};
+    PlayerModels models{std::move(hands.value()), std::move(body.value()), std::nullopt, {}};
     if (!files.controllers.empty()) {
         Result<ControllerModels> controllers = choose_controllers(files.controllers);
         if (!controllers) {

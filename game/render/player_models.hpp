@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "game/ghost_hands.hpp"
 #include "game/render/body_figures.hpp"
 #include "game/render/controller_figures.hpp"
 #include "game/render/hand_figures.hpp"
@@ -15,6 +16,7 @@ struct PlayerModels {
     HandModels hands = builtin_hand_models();
     BodyModel body = builtin_body_model();
     std::optional<ControllerModels> controllers;  // in empty hands; none: not drawn
+    GhostSettings ghosts;
 };
 
 // Of a command line; what is empty is the robot's.

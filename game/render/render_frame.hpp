@@ -41,6 +41,18 @@ struct Line {
     double width_px = 2.5;
 };
 
+// A mesh that is not there: what a tracked hand would be, over everything else and through walls.
+// Casts no shadow. Its strengths are how much of what is behind it it covers, in [0, 1].
+struct Ghost {
+    MeshId mesh{};
+    Pose pose_ws;
+    Color color = {0.35F, 0.75F, 1.0F};
+    float seen = 0.5F;            // where nothing hides it
+    float hidden = 0.35F;         // where something does,
+    double hidden_from_m = 0.0;   // from so far before it on, along the view,
+    double hidden_full_m = 0.01;  // wholly from so far; above hidden_from_m
+};
+
 // A small lamp without shadow. Its light fades to nothing at reach_m, so that it hardly leaks
 // through walls.
 struct Lamp {
@@ -81,8 +93,10 @@ enum class Backdrop { plain, space };  // space: stars, and a planet where plane
 struct RenderFrame {
     Camera camera;
     std::vector<Instance> instances;
+    std::vector<Ghost> ghosts;
     std::vector<Line> lines;
-    std::vector<Lamp> lamps;  // the twelve that matter most to the camera are used
+    float hidden_lines = 0.22F;  // [0, 1]; how much of a line is seen where something hides it
+    std::vector<Lamp> lamps;     // the twelve that matter most to the camera are used
     KeyLight key;
     Vec3 up_ws = Vec3::UnitY();  // from the ground's ambient light to the sky's
     Color sky_ambient = {0.16F, 0.175F, 0.20F};

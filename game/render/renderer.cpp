@@ -8,6 +8,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/render/frame_view.hpp"
+#include "game/render/ghost_pass.hpp"
 #include "game/render/gl_objects.hpp"
 #include "game/render/gpu_mesh.hpp"
 #include "game/render/picture_passes.hpp"
@@ -46,6 +47,7 @@ struct Renderer::Impl {
     GlVertexArray line_layout, empty_layout;
     GlBuffer line_buffer;
     PicturePasses passes;
+    GhostPass ghosts;
     RenderCounters counters;
     std::vector<LineVertex> line_vertices;  // reused
     std::vector<Visible> visible;
@@ -264,7 +266,6 @@ void Renderer::Impl::draw_lines(const RenderFrame& frame, const FrameView& view)
         return;
     }
     constexpr float k_strength = 0.95F;
-    constexpr float k_strength_hidden = 0.22F;
     const auto count = static_cast<GLsizei>(line_vertices.size());
     glBindVertexArray(line_layout);
     glBindBuffer(GL_ARRAY_BUFFER, line_buffer);
@@ -278,7 +279,7 @@ void Renderer::Impl::draw_lines(const RenderFrame& frame, const FrameView& view)
     set_uniform(line_program, "strength", k_strength);
     glDrawArrays(GL_TRIANGLES, 0, count);
     glDepthFunc(GL_GREATER);
-    set_uniform(line_program, "strength", k_strength_hidden);
+    set_uniform(line_program, "strength", frame.hidden_lines);
     glDrawArrays(GL_TRIANGLES, 0, count);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_TRUE);
@@ -300,7 +301,8 @@ std::optional<Renderer> Renderer::create(int width_px, int height_px, std::strin
                            quality != PictureQuality::plain};
     impl->casts_shadows = quality != PictureQuality::plain;
     if (!impl->create_programs(why_not) ||
-        !impl->passes.create(impl->context->api(), size, why_not)) {
+        !impl->passes.create(impl->context->api(), size, why_not) ||
+        !impl->ghosts.create(impl->context->api(), why_not)) {
         return std::nullopt;
     }
     impl->create_shadow_map();
@@ -366,6 +368,7 @@ void Renderer::draw_picture(const RenderFrame& frame, const UiPicture* ui) {
     impl.draw_opaque(view);
     impl.draw_backdrop(frame, view);
     impl.draw_glass(view);
+    impl.counters.draw_calls += impl.ghosts.draw(frame, view, impl.meshes, impl.passes);
     impl.draw_lines(frame, view);
     glBindVertexArray(impl.empty_layout);
     impl.passes.finish(view, ui);

@@ -106,6 +106,13 @@ const char* help_text() {
            "W A S D, Q E: pull yourself by what you grip. F1 shows all keys.";
 }
 
+void show_caption(const std::string& caption) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    begin_note("caption", ImVec2(0.5F * size.x, 0.96F * size.y), ImVec2(0.5F, 1.0F));
+    ImGui::TextUnformatted(caption.c_str());
+    ImGui::End();
+}
+
 void show_hud(const Hud& hud) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (hud.vignette > 0.01) {

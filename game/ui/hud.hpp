@@ -15,6 +15,8 @@ struct Hud {
     std::string footer;      // one line, what it costs
 };
 void show_hud(const Hud& hud);
+// One line at the foot of a film's picture.
+void show_caption(const std::string& caption);
 
 // Of the keys, the mouse and a gamepad: a line each. The help that is shown.
 const char* help_text();

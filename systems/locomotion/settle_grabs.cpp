@@ -233,6 +233,11 @@ void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tu
 }
 
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
+    if (pair.hand.edge != GrabEdge::onset) {  // it has pulled something near, and has it now
+        take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
+        pair.grab.phase = GrabPhase::holding;
+        return;
+    }
     const Instant now{io, fraction_of(io, pair.hand.edge_t_s)};
     // Two that close at one instant take their anchors alike, on the predicted way: neither leads.
     const bool at_once = pair.other != nullptr && pair.other_hand->edge == GrabEdge::onset &&

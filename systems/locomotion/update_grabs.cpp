@@ -184,15 +184,33 @@ void ignore_for_head(HeadIgnores& ignores, Entity body, StageStats& stats) {
     *place = body;
 }
 
-void begin_grab(const UpdateGrabsIo& io, Entity entity, const HandTracking& hand, Grab& grab,
+// Of a hand that closes, or of one that closed and has pulled near what it may only grip then.
+struct Closing {
+    Pose hand_ps;
+    double since_s = 0.0;
+    Entity only = k_no_entity;  // null: anything
+};
+
+// What is pulled is taken where it touches the palm, or has come through it by a frame's way: not
+// as far off as a hand reaches, for it would stay there.
+bool is_at_palm(const Surface& surface, const PalmRay& ray) {
+    constexpr double k_touches_m = 0.02;
+    const Vec3 way = surface.point_ws - ray.palm_ws;
+    return way.norm() <= k_touches_m || way.dot(ray.to_ws - ray.from_ws) <= 0.0;
+}
+
+void begin_grab(const UpdateGrabsIo& io, Entity entity, const Closing& closing, Grab& grab,
                 const Tuning& tuning, StageStats& stats) {
-    ++stats.grab_onsets;
     const HandOwner& owner = io.owner.at(entity);
-    const Pose hand_ws = io.origin.at(owner.player).pose_ws * hand.edge_ps;
+    const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find();
     const auto surface =
         snap ? std::optional(snap->surface) : find_surface(io, owner.player, ray, tuning.hand);
+    if (!is_null(closing.only) &&
+        (!surface || surface->body != closing.only || !(snap || is_at_palm(*surface, ray)))) {
+        return;  // it is still on its way
+    }
     io.authored_hold.remove(entity);
     if (snap) {
         io.authored_hold.add(entity, snap->hold);
@@ -209,7 +227,7 @@ void begin_grab(const UpdateGrabsIo& io, Entity entity, const HandTracking& hand
         grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(surface->body));
     grab.phase = GrabPhase::fresh;
     grab.body = surface->body;
-    grab.since_s = hand.edge_t_s;
+    grab.since_s = closing.since_s;
     grab.hit_bs = inverse_transform_point(body_ws, surface->point_ws);
     grab.hit_normal_bs = body_ws.rotation.conjugate() * surface->normal_ws;
     if (grab.kind == GripKind::held) {
@@ -281,8 +299,14 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
             grab.phase = GrabPhase::releasing;
         }
         keep_hold(io, entity, grab, stats);
+        const HandPull* const pull = io.pull.find(entity);
         if (hand.edge == GrabEdge::onset) {
-            begin_grab(io, entity, hand, grab, tuning, stats);
+            ++stats.grab_onsets;
+            begin_grab(io, entity, {hand.edge_ps, hand.edge_t_s, k_no_entity}, grab, tuning, stats);
+        } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
+                   hand.state == TrackingState::tracked && grab.kind == GripKind::none) {
+            begin_grab(io, entity, {hand.start_ps, pull->closed_s, pull->body}, grab, tuning,
+                       stats);
         }
     }
 }

@@ -24,6 +24,7 @@ struct UpdateGrabsIo {
     const Column<BodyPose>& body_pose;            // in: at the start of the frame
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
+    const Column<HandPull>& pull;                 // in: of the last frame
     Column<Grab>& grab;                           // in/out
     Column<AuthoredHold>& authored_hold;          // in/out: of hands that sit in an authored grip
     Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
@@ -37,6 +38,7 @@ struct UpdateGrabsIo {
 // Before any surface comes an authored grip in whose snap zone the hand closes: of several the one
 // of the highest priority, of equal ones that which moves the palm least. One that another hand
 // sits in, or that something stands before, does not count. Talk row 10.
+// A closed hand that pulls a body from afar grips it as soon as it would by closing where it is.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

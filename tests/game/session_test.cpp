@@ -40,6 +40,13 @@ bool is_finite_run(const RunLog& log) {
     });
 }
 
+// Whose every closing hand grips at once: in "reach" some are meant not to.
+std::vector<std::string_view> climbed_scenes() {
+    std::vector<std::string_view> names = built_in_scenes();
+    std::erase(names, "reach");
+    return names;
+}
+
 class BuiltIn : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(BuiltIn, EveryGrabOfTheSessionGrips) {
@@ -61,14 +68,18 @@ TEST_P(BuiltIn, GripsAtOtherFrameRatesToo) {
     }
 }
 
-TEST_P(BuiltIn, EveryBodyHasASurfaceForHands) {
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltIn, testing::ValuesIn(climbed_scenes()),
+                         [](const auto& test) { return std::string(test.param); });
+
+class BuiltInScene : public testing::TestWithParam<std::string_view> {};
+TEST_P(BuiltInScene, EveryBodyHasASurfaceForHands) {
     const Scene scene = *make_built_in_scene(GetParam());
     for (std::size_t row = 0; row < scene.world.collider.size(); ++row) {
         EXPECT_TRUE(scene.grip_meshes->has(scene.world.collider.rows()[row].shape)) << row;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltIn, testing::ValuesIn(built_in_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltInScene, testing::ValuesIn(built_in_scenes()),
                          [](const auto& test) { return std::string(test.param); });
 
 class BuiltInThreaded : public testing::TestWithParam<std::string_view> {};

@@ -275,8 +275,8 @@ TEST(Tuning, EveryMemberOfEveryGroupIsVisited) {
         member_count<ContactTuning>() + member_count<SolverTuning>() + member_count<ArmTuning>() +
         member_count<SpineTuning>() + member_count<AdditiveTuning>() + member_count<PalmTuning>() +
         member_count<FingerTuning>() + member_count<ThumbTuning>() +
-        member_count<CalibrationTuning>();
-    static_assert(member_count<Tuning>() == 14, "a new group belongs into the sum above");
+        member_count<CalibrationTuning>() + member_count<PullTuning>();
+    static_assert(member_count<Tuning>() == 15, "a new group belongs into the sum above");
     const Tuning tuning;
     std::set<const void*> fields;
     visit_tuning(tuning,

@@ -41,6 +41,7 @@ struct Grabs {
     Column<AuthoredGrips> authored_grips;
     Column<Grab> grab;
     Column<AuthoredHold> authored_hold;
+    Column<HandPull> pull;
     Column<HeadIgnores> head_ignores;
     Tuning tuning;
     StageStats stats;
@@ -93,7 +94,7 @@ struct Grabs {
         collision.set_proxies(proxies);
         stats = {};
         update_grabs({collision, persistent_id, owner, hand, origin, head, body, body_pose,
-                      joint_groups, authored_grips, grab, authored_hold, head_ignores},
+                      joint_groups, authored_grips, pull, grab, authored_hold, head_ignores},
                      tuning, stats);
     }
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "game/run_command.hpp"
+#include "game/scene.hpp"
+#include "game/session_run.hpp"
+
+namespace handhold {
+
+// A session that is about to be played.
+struct ReadySession {
+    Scene& scene;
+    FrameCaches& caches;
+    const std::vector<PlayerEntities>& players;
+    const Recording* recording = nullptr;  // none: nobody plays
+    RunSettings settings;
+};
+
+// `run --shots`: plays it until its last shot, and saves the shots. Returns the exit status: 0, or
+// 2 after one line on standard error where the list is refused, asks for none of this scene, or
+// something cannot be drawn or written.
+int draw_shots(const RunOptions& options, ReadySession session, PlayerModels models);
+
+}  // namespace handhold

@@ -1,0 +1,122 @@
+#include "game/shot_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "engine/io/json.hpp"
+#include "engine/io/text_file.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ShotView>, 9> k_views = {
+    {{"eyes", ShotView::eyes},
+     {"behind", ShotView::behind},
+     {"before", ShotView::before},
+     {"hand", ShotView::hand},
+     {"chest", ShotView::chest},
+     {"pelvis", ShotView::pelvis},
+     {"player", ShotView::player},
+     {"body", ShotView::body},
+     {"place", ShotView::place}}};
+
+ShotView read_view(const JsonValue& value) {
+    const std::string name = value.text();
+    const auto* const found = std::ranges::find(
+        k_views, name, [](const auto& known) { return std::string(known.first); });
+    if (found == k_views.end()) {
+        value.refuse("eyes, behind, before, hand, chest, pelvis, player, body or place");
+        return ShotView::eyes;
+    }
+    return found->second;
+}
+
+// Their names as the inspector has them, or "all".
+void read_gizmos(const JsonValue& list, GizmoSet& gizmos) {
+    for (const JsonValue& item : list.optional_items()) {
+        const std::string name = item.text();
+        bool is_known = name == "all";
+        for (std::size_t i = 0; i < gizmos.size(); ++i) {
+            const bool is_it = name == info_of(static_cast<Gizmo>(i)).name;
+            gizmos[i] = gizmos[i] || is_it || name == "all";
+            is_known = is_known || is_it;
+        }
+        if (!is_known) {
+            item.refuse("a gizmo's name, or all");
+        }
+    }
+}
+
+// A file's name and nothing that leads elsewhere.
+bool is_plain_name(const std::string& name) {
+    return std::ranges::all_of(name, [](char letter) {
+        return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
+               letter == '_';
+    });
+}
+
+Shot read_shot(const JsonValue& value) {
+    value.allow_only({"name", "scene", "caption", "at_s", "until_s", "view", "side", "body",
+                      "from_m", "target_m", "fov_deg", "marks", "through", "gizmos"});
+    Shot shot;
+    shot.name = value["name"].text();
+    if (!is_plain_name(shot.name)) {
+        value["name"].refuse("small letters, digits and _");
+    }
+    shot.scene = value["scene"].text();
+    shot.caption = value["caption"].text_or("");
+    shot.at_s = value["at_s"].number({0.0, 1e5});
+    shot.until_s = value["until_s"].number_or(shot.at_s, {shot.at_s, 1e5});
+    shot.view = value["view"].exists() ? read_view(value["view"]) : ShotView::eyes;
+    const std::string side = value["side"].text_or("right");
+    if (side != "right" && side != "left") {
+        value["side"].refuse("right or left");
+    }
+    shot.side = side == "left" ? HandSide::left : HandSide::right;
+    shot.body = value["body"].text_or("");
+    if (shot.body.empty() && (shot.view == ShotView::body || shot.view == ShotView::player)) {
+        value.refuse("a \"body\" that the view looks at");
+    }
+    shot.from_m = value["from_m"].vector_or(shot.from_m, {-1e4, 1e4});
+    shot.target_m = value["target_m"].vector_or(shot.target_m, {-1e4, 1e4});
+    shot.fov_deg = value["fov_deg"].number_or(shot.fov_deg, {5.0, 130.0});
+    shot.marks = value["marks"].flag_or(shot.marks);
+    shot.through = value["through"].number_or(shot.through, k_unit_interval);
+    read_gizmos(value["gizmos"], shot.gizmos);
+    return shot;
+}
+
+}  // namespace
+
+Result<std::vector<Shot>> parse_shots(const std::string& text, const std::string& file) {
+    const Result<JsonDocument> document = JsonDocument::parse(text, file);
+    if (!document) {
+        return document.error();
+    }
+    const JsonValue root = document.value().root();
+    root.allow_only({"shots"});
+    std::vector<Shot> shots;
+    std::set<std::string> names;
+    for (const JsonValue& value : root["shots"].items()) {
+        shots.push_back(read_shot(value));
+        if (!names.insert(shots.back().name).second) {
+            value["name"].refuse("a name that no other shot has");
+        }
+    }
+    if (document.value().failed()) {
+        return document.value().error();
+    }
+    return shots;
+}
+
+Result<std::vector<Shot>> load_shots(const std::filesystem::path& file) {
+    const Result<std::string> text = read_file(file);
+    if (!text) {
+        return text.error();
+    }
+    return parse_shots(text.value(), file.string());
+}
+
+}  // namespace handhold

@@ -1,0 +1,134 @@
+#include "systems/locomotion/pull_bodies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "components/play_space.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_too_far = 1.5;  // of the reach: a pull that began ends there
+
+PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const HandTuning& tuning) {
+    const HandOwner& owner = io.owner.at(hand);
+    return palm_ray(io.origin.at(owner.player).pose_ws * hand_ps, owner.side, tuning);
+}
+
+bool is_held(const PullBodiesIo& io, Entity body) {
+    return std::ranges::any_of(io.grab.rows(), [body](const Grab& grab) {
+        return grab.kind != GripKind::none && grab.body == body;
+    });
+}
+
+Entity body_of_id(const PullBodiesIo& io, std::uint64_t id) {
+    const auto owners = io.body.owners();
+    const auto found = std::ranges::find_if(
+        owners, [&](Entity entity) { return io.persistent_id.at(entity).value == id; });
+    return found != owners.end() ? *found : k_no_entity;
+}
+
+// What the palm points at, where it may be pulled; null where not, and counted why.
+Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, StageStats& stats) {
+    const PalmRay ray = ray_of(io, hand, io.hand.at(hand).edge_ps, tuning.hand);
+    const Vec3 along = (ray.to_ws - ray.from_ws).normalized();
+    const std::array own_head = {io.persistent_id.at(io.owner.at(hand).player).value};
+    const auto hit = io.collision.cast_sphere(tuning.pull.radius_m, ray.palm_ws,
+                                              ray.palm_ws + tuning.pull.reach_m * along, own_head);
+    const Entity found = hit ? body_of_id(io, hit->id) : k_no_entity;
+    if (is_null(found)) {
+        return k_no_entity;
+    }
+    const RigidBody& body = io.body.at(found);
+    if (body.kind != BodyKind::free || io.joint_groups.is_anchored(io.body.find_row(found))) {
+        stats.count(Fallback::pull_refused_fixed);
+        return k_no_entity;
+    }
+    if (body.mass_kg > tuning.pull.max_mass_kg) {
+        stats.count(Fallback::pull_refused_heavy);
+        return k_no_entity;
+    }
+    if (is_held(io, found)) {
+        stats.count(Fallback::pull_refused_held);
+        return k_no_entity;
+    }
+    return found;
+}
+
+// False where it ends; counted where that is not the hand's will.
+bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
+             StageStats& stats) {
+    const HandTracking& tracking = io.hand.at(hand);
+    if (!tracking.pressed || io.grab.at(hand).kind != GripKind::none) {
+        return false;
+    }
+    const BodyPose* const body = io.body_pose.find(pull.body);
+    const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
+    const bool is_there = body != nullptr && tracking.state == TrackingState::tracked &&
+                          !is_held(io, pull.body) &&
+                          (body->pose_ws.position - palm_ws).norm() <=
+                              k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
+    if (!is_there) {
+        stats.count(Fallback::pull_lost);
+    }
+    return is_there;
+}
+
+// One frame of the rope: an impulse on the body, and its opposite on the player.
+void draw_together(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning& tuning) {
+    const Entity player = io.owner.at(hand).player;
+    const HandTracking& tracking = io.hand.at(hand);
+    const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
+    const Vec3 palm_end_ws = ray_of(io, hand, tracking.pose_ps, tuning.hand).palm_ws;
+    Vec3& player_mps = io.player_velocity.at(player).linear_mps;
+    Vec3& body_mps = io.body_velocity.at(pulled).linear_mps;
+    const Vec3 way = palm_ws - io.body_pose.at(pulled).pose_ws.position;
+    const double distance_m = way.norm();
+    if (distance_m < 1e-6) {
+        return;
+    }
+    const double body_kg = io.body.at(pulled).mass_kg;
+    const double player_kg = io.player.at(player).mass_kg;
+    const double reduced_kg = body_kg * player_kg / (body_kg + player_kg);
+    // Half of the force could stop it in the distance that is left.
+    const double stoppable_mps = std::sqrt(tuning.pull.force_n / reduced_kg * distance_m);
+    const double speed_mps = std::min(tuning.pull.speed_mps, stoppable_mps);
+    const Vec3 palm_mps = player_mps + (palm_end_ws - palm_ws) / io.dt_s;
+    Vec3 impulse = reduced_kg * (way * (speed_mps / distance_m) - (body_mps - palm_mps));
+    const double most_ns = tuning.pull.force_n * io.dt_s;
+    if (impulse.norm() > most_ns) {
+        impulse *= most_ns / impulse.norm();
+    }
+    body_mps += impulse / body_kg;
+    player_mps -= impulse / player_kg;
+}
+
+}  // namespace
+
+void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats) {
+    if (tuning.pull.reach_m <= 0.0) {
+        io.pull.clear();
+        return;
+    }
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Entity hand = io.grab.owners()[row];
+        const HandTracking& tracking = io.hand.at(hand);
+        const HandPull* const pull = io.pull.find(hand);
+        if (pull != nullptr &&
+            (tracking.edge != GrabEdge::none || !goes_on(io, hand, *pull, tuning, stats))) {
+            io.pull.remove(hand);
+        }
+        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none) {
+            const Entity loose = find_loose(io, hand, tuning, stats);
+            if (!is_null(loose)) {
+                io.pull.add(hand, {loose, tracking.edge_t_s});
+            }
+        }
+        if (const HandPull* const now = io.pull.find(hand)) {
+            draw_together(io, hand, now->body, tuning);
+        }
+    }
+}
+
+}  // namespace handhold
