@@ -77,9 +77,10 @@ class ChainFitter {
         scratch_.cuts.reserve(k_usual_segments);
         scratch_.segments.reserve(k_usual_segments);
         scratch_.disc.pairs.reserve(k_usual_segments);
+        scratch_.disc.paired.reserve(k_usual_segments);
+        scratch_.disc.bounds.reserve(k_usual_segments);
         scratch_.patch.gather(
-            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}},
-            meshes_);
+            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset)}, meshes_);
         scratch_.cuts.clear();
         for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
             const std::size_t first = scratch_.cuts.size();
@@ -189,7 +190,8 @@ class ChainFitter {
                  ++first) {
                 const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
                                               static_cast<double>(sum - first) / (k_bends - 1));
-                const double depth_m = depth_of(angle_rad).depth_m;
+                const double depth_m =
+                    chain_depth(chain_, angle_rad, scratch_.patch, {.enough_m = least_m}).depth_m;
                 if (depth_m < least_m) {
                     least_m = depth_m;
                     bent.open_rad = angle_rad;

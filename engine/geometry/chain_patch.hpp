@@ -11,6 +11,7 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/grip_mesh.hpp"
+#include "engine/math/four_floats.hpp"
 #include "engine/math/math.hpp"
 
 // What of the surfaces one chain can come to, gathered once: whatever is asked after that (cuts,
@@ -25,7 +26,8 @@ struct PlacedMesh {
 
 // How deep a capsule is sunk in the surfaces.
 struct SunkCapsule {
-    double depth_m = 0.0;              // at least 0: its radius less the distance of its middle
+    double depth_m = 0.0;    // at least 0: its radius less the distance of its middle
+    double nearest_m = 0.0;  // that distance, where it is less than the radius; else the radius
     std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
                                        // through its middle
 };
@@ -36,12 +38,14 @@ struct ReachBox {
     Vec2 high = Vec2::Constant(std::numeric_limits<double>::infinity());
 };
 
-// Where a chain's links can be: a disc with a thickness, and of that what is in a box.
+// Where a chain's links can be: a disc with a thickness, and of that what is in a box of one of
+// the links.
 struct ChainReach {
     Pose base;                // the first hinge: links along -Z at angle 0, turning towards -Y
     double radius_m = 0;      // about the hinge, in the plane
     double half_width_m = 0;  // across the plane
-    ReachBox box = {};        // in the plane
+    std::array<ReachBox, k_most_disc_links> boxes = {};  // in the plane
+    std::uint32_t box_count = 0;                         // 0: all of the disc
 };
 
 // Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.
@@ -68,9 +72,25 @@ class ChainPatch {
         std::uint32_t number = 0;
     };
 
-    void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
+    struct Across {
+        double low = 0.0;
+        double high = 0.0;
+    };
+    // Where the plane of a triangle meets the chain's own: normal . point = offset.
+    struct Line {
+        Vec2 normal;
+        double offset = 0.0;
+    };
 
-    std::vector<ReachBox> boxes_;  // around the triangles, in the plane
+    class SunkSearch;
+
+    void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
+    void settle(SunkSearch& search) const;
+
+    // By triangle; what is asked most lies together.
+    std::vector<FlatBounds> bounds_;
+    std::vector<Across> across_;
+    std::vector<Line> lines_;
     std::vector<Triangle> triangles_;
     std::size_t of_first_mesh_ = 0;
     double radius_m_ = 0.0;

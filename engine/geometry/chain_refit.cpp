@@ -18,11 +18,11 @@ class ChainRefitter {
         const ChainDepth depth = depth_of(fit_.angle_rad, refit_.still_gap_m);
         const double sunk_m = depth.depth_m - refit_.still_gap_m;
         if (sunk_m > refit_.still_depth_m) {
-            if (!open()) {
+            if (!open(own_depth(chain_, depth, chain_.link_count))) {
                 return fit_;
             }
         } else if (depth.depth_m > 0.0) {
-            stay(std::max(0.0, sunk_m));
+            stay(depth);
             if (is_done()) {
                 return fit_;
             }
@@ -53,35 +53,50 @@ class ChainRefitter {
 
     // What the chain can come to at once.
     void gather_near(std::span<const PlacedMesh> meshes) {
-        const ChainAngles& angle_rad = fit_.angle_rad;
-        ChainReach reach = {
-            chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}};
-        const ChainAngles open_rad = moved_by(angle_rad, -refit_.open_share * refit_.open_steps);
-        const ChainAngles closed_rad = moved_by(angle_rad, refit_.close_share);
+        gather_between(moved_by(fit_.angle_rad, -refit_.open_share * refit_.open_steps),
+                       moved_by(fit_.angle_rad, refit_.close_share), meshes);
+    }
+
+    // And what it can come to until it is closed, or relaxed.
+    void gather_all(std::span<const PlacedMesh> meshes) {
+        ChainAngles least_rad = fit_.angle_rad;
+        ChainAngles most_rad = chain_.closed_rad;
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            least_rad[i] = std::min(least_rad[i], chain_.relaxed_rad[i]);
+            most_rad[i] = std::max(most_rad[i], chain_.relaxed_rad[i]);
+        }
+        gather_between(least_rad, most_rad, meshes);
+    }
+
+    // With each hinge anywhere between two angles.
+    void gather_between(const ChainAngles& least_rad, const ChainAngles& most_rad,
+                        std::span<const PlacedMesh> meshes) {
+        ChainReach reach = {chain_.base, reach_m(chain_),
+                            half_width_m(chain_, settings_.plane_offset)};
         ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
-        reach.box = hinge;
         std::array<double, 2> turn_rad = {};
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            turn_rad[0] += open_rad[i];
-            turn_rad[1] += closed_rad[i];
+            turn_rad[0] += least_rad[i];
+            turn_rad[1] += most_rad[i];
             const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
-            hinge.low += chain_.length_m[i] * link.low;
-            hinge.high += chain_.length_m[i] * link.high;
-            reach.box.low = reach.box.low.cwiseMin(hinge.low);
-            reach.box.high = reach.box.high.cwiseMax(hinge.high);
+            const ReachBox next = {hinge.low + chain_.length_m[i] * link.low,
+                                   hinge.high + chain_.length_m[i] * link.high};
+            const double margin_m = chain_.radius_m[i] + refit_.still_gap_m;
+            reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - margin_m;
+            reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + margin_m;
+            hinge = next;
         }
-        const double margin_m = thickest_m(chain_) + refit_.still_gap_m;
-        reach.box.low.array() -= margin_m;
-        reach.box.high.array() += margin_m;
+        reach.box_count = chain_.link_count;
         scratch_.patch.gather(reach, meshes);
     }
 
     // Around the unit circle's points from one angle to another.
     static ReachBox arc_box(double from_rad, double to_rad) {
-        constexpr int k_pieces = 2;
-        const double piece_rad = (to_rad - from_rad) / k_pieces;
+        constexpr double k_piece_rad = 0.5;
+        const int pieces = 2 + static_cast<int>((to_rad - from_rad) / k_piece_rad);
+        const double piece_rad = (to_rad - from_rad) / pieces;
         ReachBox box = {Vec2::Constant(1.0), Vec2::Constant(-1.0)};
-        for (int i = 0; i <= k_pieces; ++i) {
+        for (int i = 0; i <= pieces; ++i) {
             double sine = 0.0;
             double cosine = 1.0;
             sin_cos(from_rad + i * piece_rad, sine, cosine);
@@ -95,14 +110,13 @@ class ChainRefitter {
     }
 
     ChainDepth depth_of(const ChainAngles& angle_rad, double more_m) const {
-        return chain_depth(chain_, angle_rad, scratch_.patch, more_m);
+        return chain_depth(chain_, angle_rad, scratch_.patch, {.more_m = more_m});
     }
 
     // Opens the hinges up to the deepest link until all is clear; false where it does not come
     // clear: then as it is sunk least.
-    bool open() {
+    bool open(ChainDepth depth) {
         ChainAngles angle_rad = fit_.angle_rad;
-        ChainDepth depth = depth_of(angle_rad, 0.0);
         fit_.depth_m = depth.depth_m;
         fit_.contact_link = static_cast<std::int32_t>(depth.link);
         for (std::int32_t step = 0; step < refit_.open_steps && depth.depth_m > 0.0; ++step) {
@@ -127,14 +141,14 @@ class ChainRefitter {
     }
 
     // Hinges up to and with the last link that touches keep their angles.
-    void stay(double depth_m) {
-        const auto points_ds = chain_points_ds(chain_, fit_.angle_rad);
-        fit_.depth_m = depth_m;
-        for (std::size_t i = chain_.link_count; kept_ == 0 && i > 0; --i) {
-            const double radius_m = chain_.radius_m[i - 1] + refit_.still_gap_m;
-            const std::array<Vec2, 2> middle_ds = {points_ds[i - 1], points_ds[i]};
-            kept_ = scratch_.patch.find_sunk(middle_ds, radius_m).depth_m > 0.0 ? i : 0;
+    void stay(const ChainDepth& depth) {
+        fit_.depth_m = std::max(0.0, depth.depth_m - refit_.still_gap_m);
+        for (std::size_t i = 0; i < depth.end; ++i) {
+            const bool touches = depth.nearest_m[i] < chain_.radius_m[i] + refit_.still_gap_m;
+            kept_ = touches ? i + 1 : kept_;
         }
+        still_kept_ = kept_;
+        kept_depth_m_ = own_depth(chain_, depth, kept_).depth_m;
         fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
     }
 
@@ -171,9 +185,7 @@ class ChainRefitter {
 
     // Nothing near is touched: is there anything farther on? Turns by this share of the way.
     void close_far(std::span<const PlacedMesh> meshes, double turn) {
-        scratch_.patch.gather(
-            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset), {}},
-            meshes);
+        gather_all(meshes);
         cut();
         const DiscClosure whole = closure_by(1.0);
         if (kept_ == 0 && whole.contact_link == DiscClosure::k_none) {
@@ -208,7 +220,9 @@ class ChainRefitter {
         const std::int32_t kept_link = static_cast<std::int32_t>(kept_) - 1;
         fit_.contact_link = std::max(kept_link, closure.contact_link);
         fit_.angle_rad = within_limits(closure.angle_rad);
-        fit_.depth_m = depth_of(fit_.angle_rad, 0.0).depth_m;
+        const ChainDepth others =
+            chain_depth(chain_, fit_.angle_rad, scratch_.patch, {.first = still_kept_});
+        fit_.depth_m = std::max(kept_depth_m_, others.depth_m);
         fit_.fallback = ChainFallback::none;
     }
 
@@ -239,7 +253,9 @@ class ChainRefitter {
     const ChainRefitSettings& refit_;
     ChainFitScratch& scratch_;
     ChainFit fit_;
-    std::size_t kept_ = 0;  // hinges that keep their angles: links up to there touch
+    std::size_t still_kept_ = 0;  // of these, links that have not moved at all
+    double kept_depth_m_ = 0.0;   // how deep the deepest of those is
+    std::size_t kept_ = 0;        // hinges that keep their angles: links up to there touch
 };
 
 }  // namespace

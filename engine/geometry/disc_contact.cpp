@@ -215,8 +215,11 @@ class Closing {
         : chain_(chain),
           segments_(segments),
           sweep_(sweep),
+          scratch_(scratch),
           pairs_(scratch.pairs),
-          links_(chain, sweep.from) {}
+          links_(chain, sweep.from) {
+        look_at_segments();
+    }
 
     DiscClosure run() {
         double at = sweep_.from;
@@ -239,14 +242,21 @@ class Closing {
   private:
     using Pair = DiscScratch::Pair;
 
-    void gather_pairs(double at) {
-        pairs_.clear();
-        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
-            for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-                if (chain_.radius_m[segments_[i].plane][link] >= 0.0) {
-                    pairs_.push_back({at, 0.0, static_cast<std::uint32_t>(link), i, false, false});
-                }
+    // None is paired yet; bounds around all segments.
+    void look_at_segments() {
+        for (std::size_t link = 0; link < chain_.link_count; ++link) {
+            for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
+                thickest_m_[link] = std::max(thickest_m_[link], chain_.radius_m[plane][link]);
             }
+        }
+        scratch_.bounds.clear();
+        scratch_.bounds.reserve(segments_.size());
+        for (const DiscSegment& segment : segments_) {
+            const Vec2 low = segment.a_ds.cwiseMin(segment.b_ds);
+            const Vec2 high = segment.a_ds.cwiseMax(segment.b_ds);
+            scratch_.bounds.push_back(
+                {FourFloats{static_cast<float>(low.x()), static_cast<float>(low.y()),
+                            static_cast<float>(-high.x()), static_cast<float>(-high.y())}});
         }
     }
 
@@ -277,14 +287,19 @@ class Closing {
     // Stretch by stretch: of most pairs, boxes around their ways tell that they stay apart.
     std::optional<Touch> first_touch(double from) {
         constexpr double k_stretch = 1.0 / 8.0;
-        gather_pairs(from);
+        pairs_.clear();
+        scratch_.paired.assign(segments_.size(), 0);
         ChainMotion before = links_.motion_at(from);
         double at = from;
         for (;;) {
             const double end = std::min(at + k_stretch, sweep_.to);
             const ChainMotion after = links_.motion_at(end);
-            const std::size_t near = find_near(before, after, end - at, end);
-            const std::optional<Touch> touch = first_touch_of(near, from, end);
+            const Ways ways = ways_of(before, after, end - at);
+            const std::size_t near = find_near(ways, end);
+            const std::size_t known = pairs_.size();
+            add_near(ways, at, at > from);
+            const std::optional<Touch> touch =
+                first_touch_of(bring_to_front(near, known), from, end);
             if (touch || end >= sweep_.to) {
                 return touch;
             }
@@ -293,29 +308,74 @@ class Closing {
         }
     }
 
+    // Where the links pass in one stretch.
+    struct Ways {
+        std::array<DiscBox, k_most_disc_links> box;
+        std::array<double, k_most_disc_links> bulge_m = {};  // of the way beyond the box
+    };
+    Ways ways_of(const ChainMotion& before, const ChainMotion& after, double length) const {
+        Ways ways;
+        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
+            ways.box[link] = {before.point[link], before.point[link + 1]};
+            ways.box[link].add({after.point[link], after.point[link + 1]});
+            ways.bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
+        }
+        return ways;
+    }
+
+    bool may_touch(const Ways& ways, std::size_t link, std::uint32_t i) const {
+        const DiscSegment& segment = segments_[i];
+        const double reach_m =
+            chain_.radius_m[segment.plane][link] + k_disc_touch_m + ways.bulge_m[link];
+        return ways.box[link].is_within(reach_m, {segment.a_ds, segment.b_ds});
+    }
+
+    // Pairs that come near in this stretch for the first time. Those that never do, which are most,
+    // cost no more than a look at the segment's bounds.
+    void add_near(const Ways& ways, double at, bool is_later) {
+        constexpr double k_rounding_m = 1e-5;  // of a float, below 16 times the usual reach
+        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
+            if (thickest_m_[link] < 0.0) {
+                continue;
+            }
+            const double m = thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_rounding_m;
+            const DiscBox& box = ways.box[link];
+            const FourFloats limits = {
+                static_cast<float>(box.high.x() + m), static_cast<float>(box.high.y() + m),
+                static_cast<float>(m - box.low.x()), static_cast<float>(m - box.low.y())};
+            for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+                const std::uint32_t bit = 1U << link;
+                if (any_beyond(scratch_.bounds[i].value, limits) ||
+                    (scratch_.paired[i] & bit) != 0 ||
+                    chain_.radius_m[segments_[i].plane][link] < 0.0 || !may_touch(ways, link, i)) {
+                    continue;
+                }
+                scratch_.paired[i] |= bit;
+                pairs_.push_back({at, 0.0, static_cast<std::uint32_t>(link), i, false, is_later});
+            }
+        }
+    }
+
     // Brings the pairs that may touch until `end` to the front; returns how many they are. The
     // others have their turn after it.
-    std::size_t find_near(const ChainMotion& before, const ChainMotion& after, double length,
-                          double end) {
-        std::array<DiscBox, k_most_disc_links> way;
-        std::array<double, k_most_disc_links> bulge_m = {};  // of the way beyond the box
-        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
-            way[link] = {before.point[link], before.point[link + 1]};
-            way[link].add({after.point[link], after.point[link + 1]});
-            bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
-        }
+    std::size_t find_near(const Ways& ways, double end) {
         std::size_t near = 0;
         for (Pair& pair : pairs_) {
-            const DiscSegment& segment = segments_[pair.segment];
-            const double reach_m = radius_m(pair) + k_disc_touch_m + bulge_m[pair.link];
-            const bool may_touch =
-                pair.leaving || way[pair.link].is_within(reach_m, {segment.a_ds, segment.b_ds});
-            if (may_touch && pair.next <= end) {
+            const bool is_near = pair.leaving || may_touch(ways, pair.link, pair.segment);
+            if (is_near && pair.next <= end) {
                 std::swap(pairs_[near++], pair);
-            } else if (!may_touch) {
+            } else if (!is_near) {
                 pair.next = std::max(pair.next, end);
                 pair.seen = true;
             }
+        }
+        return near;
+    }
+
+    // And those that were added, from `first` on, to them.
+    std::size_t bring_to_front(std::size_t near, std::size_t first) {
+        for (std::size_t i = first; i < pairs_.size(); ++i) {
+            std::swap(pairs_[near++], pairs_[i]);
         }
         return near;
     }
@@ -396,8 +456,10 @@ class Closing {
     const DiscChain& chain_;
     std::span<const DiscSegment> segments_;
     const DiscSweep& sweep_;
+    DiscScratch& scratch_;
     std::vector<Pair>& pairs_;
     ClosingChain links_;
+    std::array<double, k_most_disc_links> thickest_m_ = {-1.0, -1.0, -1.0};
     DiscClosure closure_;
 };
 

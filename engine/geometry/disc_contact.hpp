@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/math/four_floats.hpp"
 #include "engine/math/vec2.hpp"
 
 // A chain of hinged links that closes in a plane until it touches: the 2D half of a finger.
@@ -64,7 +65,9 @@ struct DiscScratch {
         bool leaving = false;  // overlapped when its turn came, and comes apart: ignored until then
         bool seen = false;
     };
-    std::vector<Pair> pairs;
+    std::vector<Pair> pairs;            // that came near
+    std::vector<std::uint32_t> paired;  // by segment, a bit for each link: is in `pairs`
+    std::vector<FlatBounds> bounds;     // around the segments
 };
 
 // Closes the chain from `sweep.from` on. The first link that touches stops its hinge and those

@@ -65,6 +65,16 @@ bool reaches_disc(const Disc& disc, const Cut& cut) {
            disc.radius_m;
 }
 
+// Within this of the disc's middle a search goes on over an edge.
+bool goes_over(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
+               std::uint32_t edge) {
+    const auto& corners = graph.triangles[triangle];
+    const double far_m = disc.radius_m + k_prune_m;
+    const Vec3 nearest = closest_on_segment(disc.center, graph.positions[corners[edge]],
+                                            graph.positions[corners[(edge + 1) % 3]]);
+    return (nearest - disc.center).squaredNorm() <= far_m * far_m;
+}
+
 class CrossingSearcher {
   public:
     CrossingSearcher(const SurfaceGraph& graph, const Disc& disc, SearchOrder order,
@@ -112,17 +122,11 @@ class CrossingSearcher {
 
     void expand(const TraceScratch::Node& node) {
         const auto& corners = graph_.triangles[node.triangle];
-        const double far_m = disc_.radius_m + k_prune_m;
         for (std::uint32_t i = 0; i < 3; ++i) {
             const std::uint32_t next = graph_.neighbours[node.triangle][i];
-            if (next == k_no_triangle) {
-                continue;
-            }
-            const Vec3& a = graph_.positions[corners[i]];
-            const Vec3& b = graph_.positions[corners[(i + 1) % 3]];
-            if ((closest_on_segment(disc_.center, a, b) - disc_.center).squaredNorm() <=
-                far_m * far_m) {
-                const Vec3 point = closest_on_segment(node.point, a, b);
+            if (next != k_no_triangle && goes_over(graph_, disc_, node.triangle, i)) {
+                const Vec3 point = closest_on_segment(node.point, graph_.positions[corners[i]],
+                                                      graph_.positions[corners[(i + 1) % 3]]);
                 push(next, point, node.way_m + (point - node.point).norm());
             }
         }
@@ -136,6 +140,37 @@ class CrossingSearcher {
     static_assert(1024 > 2 * 3 * k_most_pops);
     std::uint32_t pushed_ = 0;
 };
+
+// Everything in the disc's sphere, ring by ring; what is found first is what is nearest by edges.
+CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
+                     const Vec3& from, TraceScratch& scratch) {
+    CrossingSearch found;
+    scratch.seen.assign(graph.triangles.size(), 0);
+    scratch.open.clear();
+    scratch.open.push_back({0.0, 0.0, start, 0, from});
+    scratch.seen[start] = 1;
+    for (; found.pops < scratch.open.size(); ++found.pops) {
+        const TraceScratch::Node node = scratch.open[found.pops];
+        const std::optional<Cut> cut = cut_triangle(graph, disc, node.triangle);
+        if (found.triangle == k_no_triangle && cut && reaches_disc(disc, *cut)) {
+            found.triangle = node.triangle;
+            found.point = closest_on_segment(node.point, cut->point[0], cut->point[1]);
+        }
+        const auto& corners = graph.triangles[node.triangle];
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const std::uint32_t next = graph.neighbours[node.triangle][i];
+            if (next == k_no_triangle || scratch.seen[next] != 0 ||
+                !goes_over(graph, disc, node.triangle, i)) {
+                continue;
+            }
+            scratch.seen[next] = 1;
+            const Vec3 point = closest_on_segment(node.point, graph.positions[corners[i]],
+                                                  graph.positions[corners[(i + 1) % 3]]);
+            scratch.open.push_back({0.0, 0.0, next, 0, point});
+        }
+    }
+    return found;
+}
 
 // Follows a cut from `triangle` over its cut edge `side`; appends points beyond the first edge.
 // Returns true where it came back to the start.
@@ -215,7 +250,9 @@ void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSeg
 
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
                              const Vec3& from, SearchOrder order, TraceScratch& scratch) {
-    return CrossingSearcher(graph, disc, order, scratch).run(start, from);
+    return order == SearchOrder::flood
+               ? flood(graph, disc, start, from, scratch)
+               : CrossingSearcher(graph, disc, order, scratch).run(start, from);
 }
 
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,

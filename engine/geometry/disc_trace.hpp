@@ -28,7 +28,8 @@ inline Vec2 to_disc(const Disc& disc, const Vec3& point) {
 
 enum class SearchOrder : std::uint8_t {
     best_first,     // A*: what is near the start and leads towards the disc first
-    breadth_first,  // as a flood; for comparison
+    breadth_first,  // as a flood that stops where it finds; for comparison
+    flood,          // all that is in reach, however much that is; for comparison
 };
 
 struct CrossingSearch {
@@ -58,7 +59,8 @@ inline constexpr std::uint32_t k_most_steps = 512;
 // From `start`, with `from` on it, over neighbours to the first triangle that the disc cuts. Its
 // distance is that of a path over the closest points of the edges in between; what is left is
 // guessed as twice the distance to the plane. Gives up after k_most_pops, or where all that is left
-// is farther than 30 mm outside of the disc.
+// is farther than 30 mm outside of the disc. A flood finds the same as breadth_first, but looks at
+// the rest as well; what it has seen takes memory by the surface's size.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
                              const Vec3& from, SearchOrder order, TraceScratch& scratch);
 

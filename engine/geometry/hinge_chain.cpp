@@ -85,27 +85,48 @@ DiscChain flat_chain(const HingeChain& chain, double plane_offset) {
 }
 
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
-                       const ChainPatch& patch, double more_m) {
+                       const ChainPatch& patch, const DepthQuestion& question) {
     ChainDepth deepest;
     const auto points_ds = chain_points_ds(chain, angle_rad);
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
+    for (std::size_t i = question.first; i < chain.link_count; ++i) {
         const SunkCapsule sunk =
-            patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + more_m);
+            patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + question.more_m);
         double depth_m = sunk.depth_m;
         if (sunk.crossed_at) {
             depth_m += (1.0 - *sunk.crossed_at) * chain.length_m[i];
+            deepest.beyond_m[i] = (1.0 - *sunk.crossed_at) * chain.length_m[i];
             for (std::size_t rest = i + 1; rest < chain.link_count; ++rest) {
                 depth_m += chain.length_m[rest];
+                deepest.beyond_m[i] += chain.length_m[rest];
             }
         }
+        deepest.nearest_m[i] = sunk.nearest_m;
+        deepest.end = i + 1;
         if (depth_m > deepest.depth_m) {
-            deepest = {depth_m, i};
+            deepest.depth_m = depth_m;
+            deepest.link = i;
         }
-        if (sunk.crossed_at) {
+        if (sunk.crossed_at || deepest.depth_m >= question.enough_m) {
             break;
         }
     }
     return deepest;
+}
+
+ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end) {
+    ChainDepth own = thicker;
+    own.depth_m = 0.0;
+    own.link = 0;
+    own.end = std::min(thicker.end, end);
+    for (std::size_t i = 0; i < own.end; ++i) {
+        const double depth_m =
+            std::max(0.0, chain.radius_m[i] - own.nearest_m[i]) + own.beyond_m[i];
+        if (depth_m > own.depth_m) {
+            own.depth_m = depth_m;
+            own.link = i;
+        }
+    }
+    return own;
 }
 
 }  // namespace handhold

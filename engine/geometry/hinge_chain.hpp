@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "engine/geometry/chain_patch.hpp"
 #include "engine/geometry/disc_contact.hpp"
@@ -55,9 +56,21 @@ DiscChain flat_chain(const HingeChain& chain, double plane_offset);
 struct ChainDepth {
     double depth_m = 0.0;
     std::size_t link = 0;
+    // Of each link that was looked at: how near a surface is to its middle, no more than where it
+    // begins to count, and what is beyond a surface that goes through.
+    std::array<double, k_most_disc_links> nearest_m = {};
+    std::array<double, k_most_disc_links> beyond_m = {};
+    std::size_t end = 0;  // those from here on were not looked at
 };
-// `more_m`: of a chain that is so much thicker.
+struct DepthQuestion {
+    double more_m = 0.0;    // of a chain that is so much thicker
+    std::size_t first = 0;  // links before it are left out
+    double enough_m = std::numeric_limits<double>::infinity();  // as deep as this, how deep is of
+                                                                // no interest
+};
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
-                       const ChainPatch& patch, double more_m = 0.0);
+                       const ChainPatch& patch, const DepthQuestion& question = {});
+// What a thicker chain says of the chain itself, of links before `end`.
+ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 
 }  // namespace handhold

@@ -80,6 +80,11 @@ std::size_t TriangleBvh::memory_bytes() const {
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
                                double squared_radius) const {
     const Corners triangle = corners(slot);
+    for (const Vec3& corner : triangle) {
+        if ((corner - center).squaredNorm() <= squared_radius) {
+            return true;
+        }
+    }
     return box_squared(center, triangle) <= squared_radius * k_bound_slack &&
            (closest_on_triangle(center, triangle) - center).squaredNorm() <= squared_radius;
 }

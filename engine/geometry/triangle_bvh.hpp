@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/turned_box.hpp"
 #include "engine/math/math.hpp"
 
 // Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:
@@ -44,11 +46,11 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // visit(triangle) for each triangle of the leaves whose boxes, and those above them, may
-    // matter: may_matter(low, high) is asked with opposite corners of a box, less origin(). More
-    // triangles than would be needed, but the cheapest way to them; in the tree's order.
-    template <typename MayMatter, typename Visit>
-    void visit_boxes(MayMatter&& may_matter, Visit&& visit) const;
+    // visit(triangle, a, b, c) for each triangle of the leaves that may meet the box, which is
+    // about origin(); with its corners. More triangles than would be needed, but the cheapest way
+    // to them; always in the tree's order.
+    template <typename Visit>
+    void visit_near_box(const TurnedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
     // False where surely no triangle is as near as radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
@@ -99,6 +101,14 @@ class TriangleBvh {
         const auto& [a, b, c] = slots_[slot];
         return {positions_[a], positions_[b], positions_[c]};
     }
+    // Of coordinates about the origin.
+    double reach_m() const {
+        float most = 0.0F;
+        for (std::size_t i = 0; i < 3; ++i) {
+            most = std::max({most, nodes_[0].high[i], -nodes_[0].low[i]});
+        }
+        return static_cast<double>(most);
+    }
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
@@ -108,30 +118,33 @@ class TriangleBvh {
     std::vector<std::uint32_t> numbers_;               // of the triangles in leaf order
 };
 
-template <typename MayMatter, typename Visit>
-void TriangleBvh::visit_boxes(MayMatter&& may_matter, Visit&& visit) const {
+template <typename Visit>
+void TriangleBvh::visit_near_box(const TurnedBox& box, Visit&& visit) const {
     if (nodes_.empty()) {
         return;
     }
+    const TurnedBoxTest test(box, reach_m());
     std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
     std::size_t depth = 0;
-    stack[depth++] = 0;
+    if (test.may_meet(nodes_[0].low, nodes_[0].high)) {
+        stack[depth++] = 0;
+    }
     while (depth > 0) {
         const Node& node = nodes_[stack[--depth]];
-        const Vec3 low(static_cast<double>(node.low[0]), static_cast<double>(node.low[1]),
-                       static_cast<double>(node.low[2]));
-        const Vec3 high(static_cast<double>(node.high[0]), static_cast<double>(node.high[1]),
-                        static_cast<double>(node.high[2]));
-        if (!may_matter(low, high)) {
-            continue;
-        }
         if (node.count == 0) {
-            stack[depth++] = node.first + 1;
-            stack[depth++] = node.first;
+            const std::uint32_t left = node.first;
+            const std::uint32_t right = left + 1;
+            if (test.may_meet(nodes_[right].low, nodes_[right].high)) {
+                stack[depth++] = right;
+            }
+            if (test.may_meet(nodes_[left].low, nodes_[left].high)) {
+                stack[depth++] = left;
+            }
             continue;
         }
         for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            visit(numbers_[slot]);
+            const auto& [a, b, c] = slots_[slot];
+            visit(numbers_[slot], positions_[a], positions_[b], positions_[c]);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "broken_meshes.hpp"
+#include "engine/geometry/hinge_chain.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold::chain_patch_test {
@@ -96,6 +97,106 @@ TEST(ChainPatch, AsksOnlyWhatIsInReach) {
     EXPECT_LT(patch.size(), mesh.contact.triangles.size() / 20);
     patch.gather({{Vec3(0.0, 0.3, 0.0), Quat::Identity()}, 0.1, 0.008}, placed);
     EXPECT_EQ(patch.size(), 0U);
+}
+
+// What lies in no box is left out, and whatever is asked within the boxes has the same answer.
+TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
+    Random random(1507);
+    const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
+    const std::vector<PlacedMesh> placed = {{&mesh, {}}};
+    std::size_t of_all = 0;
+    std::size_t of_boxes = 0;
+    for (int i = 0; i < 300; ++i) {
+        ChainReach reach = random_reach(random);
+        ChainPatch all;
+        all.gather(reach, placed);
+        const double radius_m = reach.half_width_m;
+        std::array<std::array<Vec2, 2>, 2> middles;
+        for (std::array<Vec2, 2>& middle : middles) {
+            middle[0] = random.vector(0.5 * reach.radius_m).head<2>();
+            middle[1] = middle[0] + random.vector(0.3 * reach.radius_m).head<2>();
+            ReachBox& box = reach.boxes[reach.box_count++];
+            box.low = middle[0].cwiseMin(middle[1]).array() - radius_m;
+            box.high = middle[0].cwiseMax(middle[1]).array() + radius_m;
+        }
+        ChainPatch boxed;
+        boxed.gather(reach, placed);
+        of_all += all.size();
+        of_boxes += boxed.size();
+        for (const std::array<Vec2, 2>& middle : middles) {
+            const SunkCapsule expected = all.find_sunk(middle, radius_m);
+            const SunkCapsule found = boxed.find_sunk(middle, radius_m);
+            EXPECT_EQ(found.depth_m, expected.depth_m);
+            EXPECT_EQ(found.crossed_at, expected.crossed_at);
+        }
+    }
+    EXPECT_LT(of_boxes, of_all / 2);
+}
+
+// The point is in both boxes: a test that took them for apart would lose what it holds.
+TEST(TurnedBoxTest, NeverTellsBoxesWithACommonPointApart) {
+    Random random(1508);
+    constexpr double k_reach_m = 20.0;
+    int apart = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Mat3 turn = random.rotation().toRotationMatrix();
+        const Vec3 point = random.vector(10.0);
+        TurnedBox box;
+        box.half = random.vector(0.1).cwiseAbs();
+        for (int axis = 0; axis < 3; ++axis) {
+            box.axis[static_cast<std::size_t>(axis)] = turn.row(axis).transpose();
+            box.middle[axis] =
+                turn.row(axis).dot(point) + random.between(-1.0, 1.0) * box.half[axis];
+        }
+        const TurnedBoxTest test(box, k_reach_m);
+        std::array<float, 3> low = {};
+        std::array<float, 3> high = {};
+        for (int axis = 0; axis < 3; ++axis) {
+            constexpr float k_padding_m = 2e-6F;
+            const auto at = static_cast<float>(point[axis]);
+            low[static_cast<std::size_t>(axis)] =
+                at - static_cast<float>(random.between(0.0, 0.1)) - k_padding_m;
+            high[static_cast<std::size_t>(axis)] =
+                at + static_cast<float>(random.between(0.0, 0.1)) + k_padding_m;
+        }
+        ASSERT_TRUE(test.may_meet(low, high));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] += 0.4F;
+            high[axis] += 0.4F;
+        }
+        apart += test.may_meet(low, high) ? 0 : 1;
+    }
+    EXPECT_GT(apart, 19000);  // the boxes are at most 0.35 and 0.35 m long, moved by 0.69 m
+}
+
+// A thicker chain's depth says what the chain itself would be asked for.
+TEST(ChainDepth, OfAThickerChainHoldsThatOfTheChain) {
+    Random random(1509);
+    const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
+    const std::vector<PlacedMesh> placed = {{&mesh, {}}};
+    int sunk = 0;
+    for (int i = 0; i < 500; ++i) {
+        HingeChain chain;
+        chain.base = {random.vector(0.1), random.rotation()};
+        chain.length_m = {0.045, 0.026, 0.022};
+        chain.radius_m = {0.009, 0.008, 0.007};
+        const ChainAngles angle_rad = {random.between(0.0, 1.0), random.between(0.0, 1.0),
+                                       random.between(0.0, 1.0)};
+        ChainPatch patch;
+        patch.gather({chain.base, reach_m(chain) + 1e-3, 0.01}, placed);
+        const ChainDepth asked = chain_depth(chain, angle_rad, patch);
+        const ChainDepth derived =
+            own_depth(chain, chain_depth(chain, angle_rad, patch, {.more_m = 5e-4}), 3);
+        EXPECT_NEAR(derived.depth_m, asked.depth_m, 1e-15);
+        EXPECT_EQ(derived.link, asked.link);
+        // Where as much is enough, no less than that is said.
+        const ChainDepth enough =
+            chain_depth(chain, angle_rad, patch, {.enough_m = 0.5 * asked.depth_m});
+        EXPECT_GE(enough.depth_m, 0.5 * asked.depth_m);
+        EXPECT_LE(enough.depth_m, asked.depth_m);
+        sunk += asked.depth_m > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(sunk, 50);
 }
 
 }  // namespace

@@ -236,6 +236,39 @@ TEST(FindCrossing, FindsWhatAFloodFindsWithFewerPopsOnRoundThings) {
     EXPECT_LT(sum.best, sum.breadth);
 }
 
+// A floor is one sheet, and a sphere's part of it hangs together: all triangles with a common edge
+// in reach are looked at, each once.
+TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
+    const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
+    const TriangleBvh bvh(graph.positions, graph.triangles);
+    Random random(1506);
+    TraceScratch scratch;
+    for (int i = 0; i < 100; ++i) {
+        const Disc disc = test::random_disc(random.vector(0.05), 0.1, random);
+        const auto start = bvh.closest_point(disc.center, 1.0);
+        std::uint32_t in_reach = 0;
+        for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
+            bool is_near = false;
+            for (std::size_t edge = 0; edge < 3; ++edge) {
+                const Vec3 near =
+                    closest_on_segment(disc.center, graph.positions[graph.triangles[t][edge]],
+                                       graph.positions[graph.triangles[t][(edge + 1) % 3]]);
+                is_near = is_near || (graph.neighbours[t][edge] != k_no_triangle &&
+                                      (near - disc.center).norm() <= disc.radius_m + 0.03);
+            }
+            in_reach += is_near ? 1U : 0U;
+        }
+        const auto search = [&](SearchOrder order) {
+            return find_crossing(graph, disc, start->triangle, start->point, order, scratch);
+        };
+        const CrossingSearch flooded = search(SearchOrder::flood);
+        const CrossingSearch stopped = search(SearchOrder::breadth_first);
+        EXPECT_EQ(flooded.pops, in_reach);
+        EXPECT_EQ(flooded.triangle, stopped.triangle);
+        EXPECT_EQ(flooded.point, stopped.point);
+    }
+}
+
 TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     Disc disc;

@@ -57,10 +57,16 @@ FingerMethod finger_method_of(const std::string& name) {
                                : FingerMethod::sweep;
 }
 
+SearchOrder search_order_of(const std::string& name) {
+    return name == "bfs"     ? SearchOrder::breadth_first
+           : name == "flood" ? SearchOrder::flood
+                             : SearchOrder::best_first;
+}
+
 GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
-    variant.order = options.search == "bfs" ? SearchOrder::breadth_first : SearchOrder::best_first;
+    variant.order = search_order_of(options.search);
     variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
     variant.fingers = finger_method_of(options.fingers);
     return variant;

@@ -55,7 +55,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--sync", options.sync, "Whether the palm moves to its limits")
         ->check(one_of({"on", "off"}));
     grip.add_option("--search", options.search, "How a finger's disc finds the surface")
-        ->check(one_of({"astar", "bfs"}));
+        ->check(one_of({"astar", "bfs", "flood"}));
     grip.add_option("--palm", options.palm, "Which surface the palm is held to")
         ->check(one_of({"least", "ray"}));
     grip.add_option("--fingers", options.fingers,
