@@ -73,9 +73,9 @@ enum class Fallback : std::uint8_t {
     authored_grip_blocked,   // something else is between the hand and the grip: the next best
     authored_grip_left,      // a hand turned far away from its grip: held on to as to any surface
     authored_finger_fitted,  // a posed finger would be sunk: closed as on any surface
-    pull_refused_fixed,      // a distance grab at what cannot move, or hangs on joints: none
+    pull_refused_fixed,      // a distance grab at what cannot move, or has joints: none
     pull_refused_heavy,      // at more than PullTuning::max_mass_kg: none
-    pull_refused_held,       // at what is in a hand: none
+    pull_refused_held,       // at what is in a hand, or another pulls: none
     pull_lost,               // what was pulled is gone, too far or in another hand, or the hand
                              // was lost: it flies on
     count

@@ -113,8 +113,9 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
     return nearest;
 }
 
-// The way from the palm's triangle to where the finger's disc cuts the surface, and that cut: as
-// sweep_fingers looks for it, on the search detail of what is gripped.
+// The way from the palm's triangle to where the finger's disc cuts the surface, and that cut: a
+// search of its own with the stage's function, for the open finger's middle plane, on the search
+// detail of what is gripped. The stage itself may have kept last frame's answer.
 void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
              const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
     constexpr double k_shown_m = 1.5e-3;  // off the surface

@@ -30,6 +30,40 @@ EyeSize scaled(const EyeSizes& sizes, double scale) {
             along(sizes.recommended.height_px, sizes.largest.height_px)};
 }
 
+// What a headset with pictures draws with.
+struct Eyes {
+    std::optional<PlayerView> view;
+    std::unique_ptr<Window> mirror;  // null: not asked for, or not to be had
+    EyeSize size;
+};
+// Nothing, and the reason, where nothing can be drawn; a mirror that cannot be opened is only said.
+std::optional<Eyes> open_eyes(const PlayOptions& options, const Scene& scene,
+                              const PlayerModels& models, const Headset& headset,
+                              std::string& why_not) {
+    Eyes eyes;
+    eyes.size = scaled(headset.eye_sizes(), options.eye_scale);
+    if (eyes.size.width_px <= 0 || eyes.size.height_px <= 0) {
+        why_not = "the OpenXR runtime does not say how large its pictures are";
+        return std::nullopt;
+    }
+    eyes.view = PlayerView::open(scene, models, eyes.size.width_px, eyes.size.height_px, why_not,
+                                 options.settings.quality);
+    if (!eyes.view) {
+        return std::nullopt;
+    }
+    if (options.mirror) {
+        std::string no_mirror;
+        eyes.mirror =
+            Window::open("Handhold: " + scene.name, options.width_px, options.height_px, no_mirror);
+        if (eyes.mirror != nullptr) {
+            eyes.mirror->hold_mouse(false);
+        } else {
+            std::fprintf(stderr, "no mirror of the headset: %s\n", no_mirror.c_str());
+        }
+    }
+    return eyes;
+}
+
 }  // namespace
 
 int headset_command(const PlayOptions& options) {
@@ -55,42 +89,32 @@ int headset_command(const PlayOptions& options) {
     }
     const std::string place = loaded.value().place.name;
     HeadsetSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
-    if (models.value().controllers && models.value().controllers->has_own_joint) {
-        session.set_controller_joints(models.value().controllers->joints());
+    if (const auto joints = models.value().controller_joints()) {
+        session.set_controller_joints(*joints);
     }
     if (!options.record.empty()) {
         session.record();
     }
-    std::optional<PlayerView> view;
-    std::unique_ptr<Window> mirror;
-    EyeSize eye_size;
+    std::optional<Eyes> eyes = Eyes{};
     if (!options.xr_headless) {
-        eye_size = scaled(headset->eye_sizes(), options.eye_scale);
-        if (eye_size.width_px <= 0 || eye_size.height_px <= 0) {
-            return refuse_headset("the OpenXR runtime does not say how large its pictures are");
-        }
-        view = PlayerView::open(session.scene(), models.value(), eye_size.width_px,
-                                eye_size.height_px, why_not, options.settings.quality);
-        if (!view) {
+        eyes = open_eyes(options, session.scene(), models.value(), *headset, why_not);
+        if (!eyes) {
             return refuse_headset(why_not);
-        }
-        std::string no_mirror;
-        if (options.mirror) {
-            mirror = Window::open("Handhold: " + session.scene().name, options.width_px,
-                                  options.height_px, no_mirror);
-        }
-        if (mirror != nullptr) {
-            mirror->hold_mouse(false);
-        } else if (options.mirror) {
-            std::fprintf(stderr, "no mirror of the headset: %s\n", no_mirror.c_str());
         }
     }
     std::signal(SIGINT, ask_to_end);
     std::signal(SIGTERM, ask_to_end);
     PlayTally tally;
     Image picture;
-    HeadsetStage stage{options, session, view ? &*view : nullptr, mirror.get(), eye_size,
-                       tally,   picture, status.value().get(),    &asked_to_end};
+    HeadsetStage stage{options,
+                       session,
+                       eyes->view ? &*eyes->view : nullptr,
+                       eyes->mirror.get(),
+                       eyes->size,
+                       tally,
+                       picture,
+                       status.value().get(),
+                       &asked_to_end};
     const bool left = play_in_headset(stage, std::move(headset), why_not);
     std::printf("%s", tally.summary().c_str());
     if (const auto error = save_play(

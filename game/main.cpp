@@ -63,8 +63,9 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
         "A spawn of the scene, or auto: where most of the session's grabs begin near a surface");
     run.add_option("--trace", options.trace,
                    "Write stage zones as a Chrome trace (Perfetto reads it)");
-    run.add_option("--out", options.out,
-                   "Write frames.csv, report.json, report.html, pictures and a video here");
+    CLI::Option* const out =
+        run.add_option("--out", options.out,
+                       "Write frames.csv, report.json, report.html, pictures and a video here");
     CLI::Option* const snapshot = run.add_option(
         "--snapshot", options.snapshot, "Save the state to this file, at the time --snapshot-at");
     snapshot->needs(
@@ -76,6 +77,7 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     CLI::Option* const shots =
         run.add_option("--shots", options.shots,
                        "Draw the shots of this scene in a list (.json) into --out, and no report");
+    shots->needs(out);
     run.add_option("--shot-width", options.shot_width_px, "Pixels")
         ->check(CLI::Range(16, 8192))
         ->needs(shots);

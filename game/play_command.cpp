@@ -45,8 +45,8 @@ int play_command(PlayOptions options) {
         }
         const std::string place = loaded.value().place.name;
         DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
-        if (models.value().controllers && models.value().controllers->has_own_joint) {
-            session.set_controller_joints(models.value().controllers->joints());
+        if (const auto joints = models.value().controller_joints()) {
+            session.set_controller_joints(*joints);
         }
         if (!options.record.empty()) {
             session.record();

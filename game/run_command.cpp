@@ -346,8 +346,8 @@ int run_command(const RunOptions& options) {
     if (!players) {
         return refuse(players.error());
     }
-    if (models.value().controllers && models.value().controllers->has_own_joint) {
-        set_controller_joints(models.value().controllers->joints(), scene.world);
+    if (const auto joints = models.value().controller_joints()) {
+        set_controller_joints(*joints, scene.world);
     }
     const SnapshotAssets assets(*scene.shapes, scene.name);
     const RunSettings settings = choose_settings(options, scene, players.value().size());

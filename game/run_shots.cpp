@@ -1,6 +1,8 @@
 #include "game/run_shots.hpp"
 
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "game/exit_status.hpp"
@@ -16,11 +18,27 @@ Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
         return shots.error();
     }
     std::erase_if(shots.value(), [&](const Shot& shot) { return shot.scene != options.scene; });
-    if (shots.value().empty() || options.out.empty()) {
+    if (shots.value().empty()) {
         return FileError{options.shots, "/shots",
-                         "expected --out and shots of the scene \"" + options.scene + "\""};
+                         "expected shots of the scene \"" + options.scene + "\""};
     }
     return shots;
+}
+
+// The first shot of something that the scene does not have.
+std::optional<FileError> check_names(const RunOptions& options, const std::vector<Shot>& shots,
+                                     const World& world) {
+    for (const Shot& shot : shots) {
+        const Entity named = find_by_id(world, persistent_id_from_name(shot.body));
+        const bool is_there = shot.view == ShotView::body     ? world.body_pose.contains(named)
+                              : shot.view == ShotView::player ? world.render_pose.contains(named)
+                                                              : true;
+        if (!is_there) {
+            return FileError{options.shots, "/shots/" + std::to_string(shot.number) + "/body",
+                             "expected a name in the scene, found \"" + shot.body + "\""};
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -29,6 +47,9 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     Result<std::vector<Shot>> shots = choose_shots(options);
     if (!shots) {
         return refuse(shots.error());
+    }
+    if (const auto error = check_names(options, shots.value(), session.scene.world)) {
+        return refuse(*error);
     }
     ShotFilmSettings drawn;
     drawn.width_px = options.shot_width_px;

@@ -1,6 +1,7 @@
 #include "game/shot_film.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "game/outside_camera.hpp"
 #include "game/player_view.hpp"
@@ -19,7 +20,7 @@ constexpr double k_shot_palm_m = 0.08;  // from the wrist towards the fingers
 struct ShotFilm::Impl {
     const Scene& scene;
     const FrameCaches& caches;
-    std::vector<Shot> shots;  // by their ends
+    std::vector<Shot> shots;  // by when they begin
     ShotFilmSettings settings;
     PlayerView view;
     OutsideCamera outside;
@@ -144,8 +145,8 @@ struct ShotFilm::Impl {
 
     // True once the running shot is done.
     bool advance(const Shot& shot, double t_s) {
-        constexpr double k_half_frame_s = 1e-6;
-        if (t_s + k_half_frame_s < shot.at_s) {
+        constexpr double k_rounding_s = 1e-6;
+        if (t_s + k_rounding_s < shot.at_s) {
             return false;
         }
         if (shot.until_s <= shot.at_s) {
@@ -155,12 +156,12 @@ struct ShotFilm::Impl {
         if (video == nullptr) {
             begin_video(shot, t_s);
         }
-        if (video != nullptr && t_s + k_half_frame_s >= next_frame_s) {
+        if (video != nullptr && t_s + k_rounding_s >= next_frame_s) {
             next_frame_s += 1.0 / settings.video_fps;
             draw(shot);
             video->add(image);
         }
-        if (t_s + k_half_frame_s < shot.until_s && video != nullptr) {
+        if (t_s + k_rounding_s < shot.until_s && video != nullptr) {
             return false;
         }
         if (video != nullptr) {
@@ -181,8 +182,9 @@ std::unique_ptr<ShotFilm> ShotFilm::open(const Scene& scene, const FrameCaches& 
     if (!view) {
         return nullptr;
     }
-    std::stable_sort(shots.begin(), shots.end(),
-                     [](const Shot& a, const Shot& b) { return a.at_s < b.at_s; });
+    std::stable_sort(shots.begin(), shots.end(), [](const Shot& a, const Shot& b) {
+        return std::tie(a.at_s, a.until_s) < std::tie(b.at_s, b.until_s);
+    });
     return std::unique_ptr<ShotFilm>(new ShotFilm(
         std::make_unique<Impl>(scene, caches, std::move(shots), settings, std::move(*view))));
 }

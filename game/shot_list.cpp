@@ -88,6 +88,11 @@ Shot read_shot(const JsonValue& value) {
     return shot;
 }
 
+// One is drawn at a time.
+bool overlap(const Shot& a, const Shot& b) {
+    return a.scene == b.scene && a.at_s < b.until_s && b.at_s < a.until_s;
+}
+
 }  // namespace
 
 Result<std::vector<Shot>> parse_shots(const std::string& text, const std::string& file) {
@@ -100,7 +105,12 @@ Result<std::vector<Shot>> parse_shots(const std::string& text, const std::string
     std::vector<Shot> shots;
     std::set<std::string> names;
     for (const JsonValue& value : root["shots"].items()) {
-        shots.push_back(read_shot(value));
+        const Shot shot = read_shot(value);
+        if (std::ranges::any_of(shots, [&](const Shot& other) { return overlap(shot, other); })) {
+            value["at_s"].refuse("a time outside the scene's other pieces of film");
+        }
+        shots.push_back(shot);
+        shots.back().number = shots.size() - 1;
         if (!names.insert(shots.back().name).second) {
             value["name"].refuse("a name that no other shot has");
         }

@@ -26,11 +26,12 @@ enum class ShotView : std::uint8_t {
 };
 
 struct Shot {
-    std::string name;      // of the file, without folder and extension
-    std::string scene;     // whose session it is of
-    std::string caption;   // over a piece of film, one line; may be empty
-    double at_s = 0.0;     // of the session
-    double until_s = 0.0;  // a piece of film where later than at_s, else a picture
+    std::size_t number = 0;  // in the list, from 0
+    std::string name;        // of the file, without folder and extension
+    std::string scene;       // whose session it is of
+    std::string caption;     // over a piece of film, one line; may be empty
+    double at_s = 0.0;       // of the session
+    double until_s = 0.0;    // a piece of film where later than at_s, else a picture
     ShotView view = ShotView::eyes;
     HandSide side = HandSide::right;  // ShotView::hand
     std::string body;                 // ShotView::body; ShotView::player: a player's name

@@ -17,8 +17,9 @@ struct SnapHint {
     bool is_within = false;  // the zone; else it is near it
 };
 
-// Of the grips whose zone the hand is in, or near: as update_grabs chooses, but for hands that sit
-// in them already and for what stands before. None for a hand that holds something.
+// Of the grips whose zone the hand is in, or near: the one of highest priority, then the nearest to
+// its middle by its own radius and angle (update_grabs goes by the palm's way), whatever sits in it
+// or stands before. None for a hand that holds something.
 std::optional<SnapHint> find_snap_hint(const World& world, Entity hand, const HandTuning& tuning);
 
 }  // namespace handhold

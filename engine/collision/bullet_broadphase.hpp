@@ -37,6 +37,7 @@ class Broadphase {
     std::span<const BroadphaseBody> bodies() const { return bodies_; }  // sorted by id
     std::uint64_t last_change() const { return changes_; }
     void set_quiet(std::size_t body, const Bounds& box_ws);
+    void set_restless(std::size_t body) { bodies_[body].quiet_since = 0; }
     // Numbers of the bodies that may meet the box, rising; good until the scratch is used again.
     // Any threads may ask at the same time, each with a scratch of its own.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;

@@ -35,6 +35,9 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
         }
         const Bounds reach_ws = a.bounds_ws.grown(margin_m);
         const bool is_quiet = a.quiet_since > 0 && holds(a.quiet_ws, reach_ws);
+        if (!is_quiet) {
+            broadphase.set_restless(i);
+        }
         const std::uint64_t since = is_quiet ? a.quiet_since : 0;
         const std::size_t first = pairs.size();
         for (const std::size_t other : is_quiet&& restless.size() <= k_few
@@ -91,6 +94,9 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
 void CollisionWorld::Impl::note_quiet(const BodyPairs& body, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     const BroadphaseBody& a = bodies[body.body];
+    if (body.is_quiet) {
+        return;
+    }
     Bounds box_ws = a.bounds_ws.grown(margin_m + k_quiet_reach_m);
     for (std::size_t i = body.first; i < body.last; ++i) {
         if (!met[i].clear_ws) {
@@ -98,7 +104,7 @@ void CollisionWorld::Impl::note_quiet(const BodyPairs& body, double margin_m) {
         }
         box_ws = common(box_ws, *met[i].clear_ws);
     }
-    if (body.is_quiet || !holds(box_ws, a.bounds_ws.grown(margin_m))) {
+    if (!holds(box_ws, a.bounds_ws.grown(margin_m))) {
         return;
     }
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ struct PlayerModels {
     BodyModel body = builtin_body_model();
     std::optional<ControllerModels> controllers;  // in empty hands; none: not drawn
     GhostSettings ghosts;
+
+    // How the hands hold the controllers, by HandSide, where a profile says so; else Tuning does.
+    std::optional<std::array<Pose, k_hand_count>> controller_joints() const {
+        return controllers && controllers->has_own_joint ? std::optional(controllers->joints())
+                                                         : std::nullopt;
+    }
 };
 
 // Of a command line; what is empty is the robot's.

@@ -132,13 +132,14 @@ const char* meaning_of(Fallback reason) {
         case Fallback::authored_finger_fitted:
             return "A finger would have been sunk as it was posed; it closed as on any surface.";
         case Fallback::pull_refused_fixed:
-            return "A distance grab met what cannot move or hangs on joints; nothing was pulled.";
+            return "A distance grab met what cannot move or has joints; nothing was pulled.";
         case Fallback::pull_refused_heavy:
             return "A distance grab met a body that is too heavy; nothing was pulled.";
         case Fallback::pull_refused_held:
-            return "A distance grab met what somebody holds; nothing was pulled.";
+            return "A distance grab met what somebody holds or pulls; nothing was pulled.";
         case Fallback::pull_lost:
-            return "What was pulled was gone, too far or in another hand; it flies on.";
+            return "What was pulled was gone, too far or in another hand, or the hand lost; it "
+                   "flies on.";
         case Fallback::count:
             break;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "components/play_space.hpp"
 
@@ -16,10 +17,48 @@ PalmRay ray_of(const PullBodiesIo& io, Entity hand, const Pose& hand_ps, const H
     return palm_ray(io.origin.at(owner.player).pose_ws * hand_ps, owner.side, tuning);
 }
 
-bool is_held(const PullBodiesIo& io, Entity body) {
-    return std::ranges::any_of(io.grab.rows(), [body](const Grab& grab) {
-        return grab.kind != GripKind::none && grab.body == body;
-    });
+// By any hand but this one.
+bool is_taken(const PullBodiesIo& io, Entity hand, Entity body) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        if (grab.kind != GripKind::none && grab.body == body) {
+            return true;
+        }
+    }
+    for (std::size_t row = 0; row < io.pull.size(); ++row) {
+        if (io.pull.owners()[row] != hand && io.pull.rows()[row].body == body) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_jointed(const PullBodiesIo& io, std::size_t body_row) {
+    if (io.joint_groups.is_anchored(body_row)) {
+        return true;
+    }
+    for (std::size_t row = 0; row < io.body.size(); ++row) {
+        if (row != body_row && io.joint_groups.share_group(row, body_row)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Why this hand may not pull a body; nothing where it may.
+std::optional<Fallback> refusal(const PullBodiesIo& io, Entity hand, Entity pulled,
+                                const PullTuning& tuning) {
+    const RigidBody& body = io.body.at(pulled);
+    if (body.kind != BodyKind::free || is_jointed(io, io.body.find_row(pulled))) {
+        return Fallback::pull_refused_fixed;
+    }
+    if (body.mass_kg > tuning.max_mass_kg) {
+        return Fallback::pull_refused_heavy;
+    }
+    if (is_taken(io, hand, pulled)) {
+        return Fallback::pull_refused_held;
+    }
+    return std::nullopt;
 }
 
 Entity body_of_id(const PullBodiesIo& io, std::uint64_t id) {
@@ -40,17 +79,8 @@ Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, Sta
     if (is_null(found)) {
         return k_no_entity;
     }
-    const RigidBody& body = io.body.at(found);
-    if (body.kind != BodyKind::free || io.joint_groups.is_anchored(io.body.find_row(found))) {
-        stats.count(Fallback::pull_refused_fixed);
-        return k_no_entity;
-    }
-    if (body.mass_kg > tuning.pull.max_mass_kg) {
-        stats.count(Fallback::pull_refused_heavy);
-        return k_no_entity;
-    }
-    if (is_held(io, found)) {
-        stats.count(Fallback::pull_refused_held);
+    if (const auto reason = refusal(io, hand, found, tuning.pull)) {
+        stats.count(*reason);
         return k_no_entity;
     }
     return found;
@@ -65,8 +95,9 @@ bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tu
     }
     const BodyPose* const body = io.body_pose.find(pull.body);
     const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
-    const bool is_there = body != nullptr && tracking.state == TrackingState::tracked &&
-                          !is_held(io, pull.body) &&
+    const bool is_seen = tracking.state == TrackingState::tracked && !tracking.resumed;
+    const bool is_there = body != nullptr && is_seen &&
+                          !refusal(io, hand, pull.body, tuning.pull) &&
                           (body->pose_ws.position - palm_ws).norm() <=
                               k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
     if (!is_there) {

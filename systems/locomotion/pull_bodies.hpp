@@ -20,7 +20,7 @@ struct PullBodiesIo {
     const Column<HandTracking>& hand;           // in
     const Column<Grab>& grab;                   // in
     const Column<PlayerBody>& player;           // in
-    const Column<PlayerOrigin>& origin;         // in: at the start of the frame
+    const Column<PlayerOrigin>& origin;         // in: at the start of the frame, turned
     const Column<RigidBody>& body;              // in
     const Column<BodyPose>& body_pose;          // in: at the start of the frame
     const JointGroups& joint_groups;            // in
@@ -30,7 +30,8 @@ struct PullBodiesIo {
 };
 
 // Stage 2b, the distance grab; where PullTuning::reach_m is 0, which is the default, nothing. A
-// hand that closes on nothing looks along its palm for a loose, light body. While it stays closed,
+// hand that closes on nothing looks along its palm for a loose, light body that no joint ties to
+// another and no other hand has or pulls. While that is so and the hand stays closed,
 // body and player draw each other with at most PullTuning::force_n between the body's centre of
 // mass and the player, towards the hand as it moves, as two masses on a rope would: what one gets
 // of momentum the other loses, and what is in the way is in the way, for this changes velocities

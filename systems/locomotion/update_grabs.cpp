@@ -100,10 +100,14 @@ class SnapFinder {
           tuning_(tuning),
           stats_(stats) {}
 
-    std::optional<Snap> find() {
+    // Of all bodies, or of one alone.
+    std::optional<Snap> find(Entity only) {
         for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
             const AuthoredGrips& grips = io_.authored_grips.rows()[row];
             const Entity body = io_.authored_grips.owners()[row];
+            if (!is_null(only) && body != only) {
+                continue;
+            }
             for (std::uint8_t i = 0; i < grips.count; ++i) {
                 look_at(body, i, grips.grips[i]);
             }
@@ -204,7 +208,7 @@ void begin_grab(const UpdateGrabsIo& io, Entity entity, const Closing& closing, 
     const HandOwner& owner = io.owner.at(entity);
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
-    const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find();
+    const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find(closing.only);
     const auto surface =
         snap ? std::optional(snap->surface) : find_surface(io, owner.player, ray, tuning.hand);
     if (!is_null(closing.only) &&
@@ -304,7 +308,8 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
             ++stats.grab_onsets;
             begin_grab(io, entity, {hand.edge_ps, hand.edge_t_s, k_no_entity}, grab, tuning, stats);
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
-                   hand.state == TrackingState::tracked && grab.kind == GripKind::none) {
+                   hand.state == TrackingState::tracked && !hand.resumed &&
+                   grab.kind == GripKind::none) {
             begin_grab(io, entity, {hand.start_ps, pull->closed_s, pull->body}, grab, tuning,
                        stats);
         }

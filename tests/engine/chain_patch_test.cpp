@@ -1,6 +1,9 @@
 #include "engine/geometry/chain_patch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -133,40 +136,47 @@ TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
     EXPECT_LT(of_boxes, of_all / 2);
 }
 
-// The point is in both boxes: a test that took them for apart would lose what it holds.
-TEST(TurnedBoxTest, NeverTellsBoxesWithACommonPointApart) {
+// Floats that hold the box: a mesh's tree rounds its own outwards too.
+std::array<float, 3> rounded(const Vec3& corner, float towards) {
+    std::array<float, 3> out = {};
+    for (int axis = 0; axis < 3; ++axis) {
+        out[static_cast<std::size_t>(axis)] =
+            std::nextafter(static_cast<float>(corner[axis]), towards);
+    }
+    return out;
+}
+
+// A corner of the upright box lies on a face of the turned one, and all the rest of it beyond: the
+// least rounding the wrong way would take them for apart. 4 cm further they are.
+TEST(TurnedBoxTest, NeverTellsBoxesApartThatTouch) {
     Random random(1508);
-    constexpr double k_reach_m = 20.0;
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
     int apart = 0;
-    for (int i = 0; i < 20000; ++i) {
+    constexpr int k_boxes = 20000;
+    for (int i = 0; i < k_boxes; ++i) {
         const Mat3 turn = random.rotation().toRotationMatrix();
-        const Vec3 point = random.vector(10.0);
+        const Vec3 touch = random.vector(10.0);
+        const int face = i % 3;
         TurnedBox box;
         box.half = random.vector(0.1).cwiseAbs();
         for (int axis = 0; axis < 3; ++axis) {
+            const double off = axis == face ? -1.0 : random.between(-1.0, 1.0);
             box.axis[static_cast<std::size_t>(axis)] = turn.row(axis).transpose();
-            box.middle[axis] =
-                turn.row(axis).dot(point) + random.between(-1.0, 1.0) * box.half[axis];
+            box.middle[axis] = turn.row(axis).dot(touch) + off * box.half[axis];
         }
-        const TurnedBoxTest test(box, k_reach_m);
-        std::array<float, 3> low = {};
-        std::array<float, 3> high = {};
-        for (int axis = 0; axis < 3; ++axis) {
-            constexpr float k_padding_m = 2e-6F;
-            const auto at = static_cast<float>(point[axis]);
-            low[static_cast<std::size_t>(axis)] =
-                at - static_cast<float>(random.between(0.0, 0.1)) - k_padding_m;
-            high[static_cast<std::size_t>(axis)] =
-                at + static_cast<float>(random.between(0.0, 0.1)) + k_padding_m;
-        }
-        ASSERT_TRUE(test.may_meet(low, high));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] += 0.4F;
-            high[axis] += 0.4F;
-        }
-        apart += test.may_meet(low, high) ? 0 : 1;
+        const Vec3 outwards = turn.row(face).transpose();
+        const Vec3 size = random.vector(0.1).cwiseAbs();
+        const Vec3 low = touch - (outwards.array() < 0.0).select(size, Vec3::Zero());
+        const Vec3 high = low + size;
+        const double reach_m = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+        const TurnedBoxTest test(box, reach_m + 0.1);
+        ASSERT_TRUE(test.may_meet(rounded(low, -k_infinity), rounded(high, k_infinity))) << i;
+        const Vec3 away = 0.04 * outwards;
+        const bool meets =
+            test.may_meet(rounded(low + away, -k_infinity), rounded(high + away, k_infinity));
+        apart += meets ? 0 : 1;
     }
-    EXPECT_GT(apart, 19000);  // the boxes are at most 0.35 and 0.35 m long, moved by 0.69 m
+    EXPECT_EQ(apart, k_boxes);
 }
 
 // A thicker chain's depth says what the chain itself would be asked for.

@@ -1,5 +1,7 @@
 // A world that remembers pairs against new worlds that cannot: the same contacts, bit for bit.
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -119,6 +121,53 @@ TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
     }
     EXPECT_GT(rounds_without, 20U);
     EXPECT_GT(met, 200U);
+}
+
+// More that move than are compared one by one, and all that can happen to what is noted: kinds and
+// shapes change, poses become invalid and valid again, things come and go.
+TEST(PairMemory, HoldsAmongManyThatChangeInEveryWay) {
+    Random random(13);
+    ShapeLibrary shapes;
+    const std::array shape = {shapes.add_sphere(0.1), shapes.add_box(Vec3(0.15, 0.1, 0.2))};
+    const ShapeId floor = shapes.add_mesh(make_floor(16.0, 24));
+    std::vector<ColliderProxy> proxies = {resting(1, floor, at(Vec3::Zero()), false)};
+    std::vector<Vec3> places;
+    for (std::uint64_t id = 2; id < 202; ++id) {
+        const auto column = static_cast<double>((id - 2) % 15);
+        const auto row = static_cast<double>((id - 2) / 15);
+        places.emplace_back(column - 7.0, random.between(0.0, 1.2), row - 7.0);
+        proxies.push_back(resting(id, shape[id % 2], at(places.back()), true));
+    }
+    CollisionWorld old(shapes);
+    std::size_t met = 0;
+    for (int round = 0; round < 60; ++round) {
+        std::vector<ColliderProxy> present = {proxies.front()};
+        for (std::size_t i = 1; i < proxies.size(); ++i) {
+            ColliderProxy& proxy = proxies[i];
+            const double what = random.between(0.0, 1.0);
+            proxy.from_ws = proxy.to_ws;
+            if (what < 0.01) {
+                proxy.free = !proxy.free;
+            } else if (what < 0.02) {
+                proxy.shape = shape[proxy.shape == shape[0] ? 1 : 0];
+            } else if (what < 0.03) {
+                proxy.to_ws.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+            } else if (what < 0.95) {
+                proxy.to_ws.position = places[i - 1] += random.vector(0.01);
+            }
+            if (!is_valid(proxy.from_ws)) {
+                proxy.from_ws = proxy.to_ws;
+            }
+            if (what < 0.98) {
+                present.push_back(proxy);
+            }
+        }
+        const Contacts contacts = found_by(old, present, {});
+        CollisionWorld fresh(shapes);
+        ASSERT_TRUE(all_same(contacts, found_by(fresh, present, {}))) << round;
+        met += contacts.size();
+    }
+    EXPECT_GT(met, 1000U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -124,13 +125,13 @@ SolverScene hanging_ball() {
 
 // Of one step of Newton's: how far the two ways leave a body apart, metres or radians. Nothing
 // where an island has no balls, so that both are the same way.
-double apart_after_one_step(std::uint64_t seed) {
+std::optional<double> apart_after_one_step(std::uint64_t seed) {
     Random random(seed);
     SolverScene scene = random_island(random);
     disturb(scene, 0.01, random);
     SolverScene rows = solved_by_rows(scene);
     if (loads(rows)) {
-        return 0.0;
+        return std::nullopt;
     }
     NewtonSettings settings;
     settings.max_iterations = 1;
@@ -148,18 +149,26 @@ double apart_after_one_step(std::uint64_t seed) {
 
 // Rows that repeat others (a loop of balls between two bodies held still) are told apart by alpha
 // alone, 1e-10 of their diagonal: the matrix's condition is its inverse, and what two orders of the
-// same sums leave is some eps / 1e-10 = 2e-6 of a step, which is 1 cm. Of 400,000 such islands 1.6
-// % were more than 1e-7 apart, 0.06 % more than 1e-6, two more than 1e-5.
+// same sums leave is some eps / 1e-10 = 2e-6 of the angles in it, more where several loops share
+// bodies. The shares guard against regressions: of 400,000 such islands, in this solver and in the
+// one before, 1.6 in a hundred were more than 1e-7 apart, 6 in ten thousand more than 1e-6, two
+// more than 1e-5.
 TEST(Triads, MoveBodiesAsRowsOneByOneDo) {
     constexpr int k_islands = 3000;
+    int compared = 0;
     int above_100_nm = 0;
     int above_1_um = 0;
     for (std::uint64_t seed = 1; seed <= k_islands; ++seed) {
-        const double apart = apart_after_one_step(seed);
-        ASSERT_LT(apart, 1e-4) << "seed " << seed;
-        above_100_nm += apart > 1e-7 ? 1 : 0;
-        above_1_um += apart > 1e-6 ? 1 : 0;
+        const std::optional<double> apart = apart_after_one_step(seed);
+        if (!apart) {
+            continue;
+        }
+        ++compared;
+        ASSERT_LT(*apart, 1e-4) << "seed " << seed;
+        above_100_nm += *apart > 1e-7 ? 1 : 0;
+        above_1_um += *apart > 1e-6 ? 1 : 0;
     }
+    EXPECT_GE(compared, k_islands * 9 / 10);
     EXPECT_LE(above_100_nm, k_islands * 3 / 100);
     EXPECT_LE(above_1_um, k_islands / 300);
 }

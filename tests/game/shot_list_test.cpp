@@ -29,6 +29,21 @@ TEST(ShotList, ReadsWhatIsAskedForAndFillsInTheRest) {
     EXPECT_FALSE(film.marks);
 }
 
+// A picture at the moment when a piece begins comes before it.
+TEST(ShotList, RefusesWhatBeginsWithinAPieceOfTheSameScene) {
+    const auto list = [](const char* scene, double at_s) {
+        return std::string(R"({"shots": [{"name": "a", "scene": "s", "at_s": 1, "until_s": 3},)") +
+               R"({"name": "b", "scene": ")" + scene + R"(", "at_s": )" + std::to_string(at_s) +
+               "}]}";
+    };
+    EXPECT_TRUE(parse_shots(list("s", 1.0), "f"));
+    EXPECT_TRUE(parse_shots(list("s", 3.0), "f"));
+    EXPECT_TRUE(parse_shots(list("t", 2.0), "f"));
+    const auto within = parse_shots(list("s", 2.0), "f");
+    ASSERT_FALSE(within);
+    EXPECT_EQ(within.error().place, "/shots/1/at_s");
+}
+
 TEST(ShotList, SaysWhereAndWhatItExpectedInstead) {
     const struct {
         const char* member;

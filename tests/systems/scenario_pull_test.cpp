@@ -176,6 +176,67 @@ TEST(Pull, WhatIsGoneOrSeenByALostHandIsGivenUpAndCounted) {
     EXPECT_EQ(lost.s.grab(HandSide::right).kind, GripKind::none);
 }
 
+// What a host changes on the way ends it: nothing gets an impulse that cannot move, or has no mass.
+TEST(Pull, WhatCannotBePulledAnyMoreIsGivenUpAndCounted) {
+    FarRock turned_fixed;
+    turned_fixed.s.add_player_here();
+    turned_fixed.run(0.3);
+    ASSERT_TRUE(turned_fixed.pulls());
+    RigidBody& body = turned_fixed.s.world.body.at(turned_fixed.rock);
+    body.kind = BodyKind::fixed;
+    body.mass_kg = 0.0;
+    const Vec3 player_mps = turned_fixed.s.velocity();
+    turned_fixed.run(0.2);
+    EXPECT_FALSE(turned_fixed.pulls());
+    EXPECT_EQ(turned_fixed.count(Fallback::pull_lost), 1U);
+    EXPECT_TRUE(turned_fixed.s.body_velocity(turned_fixed.rock).allFinite());
+    EXPECT_LT((turned_fixed.s.velocity() - player_mps).norm(), 1e-9);
+
+    FarRock grown_heavy;
+    grown_heavy.s.add_player_here();
+    grown_heavy.run(0.3);
+    ASSERT_TRUE(grown_heavy.pulls());
+    grown_heavy.s.world.body.at(grown_heavy.rock).mass_kg = 20.1;
+    grown_heavy.run(0.1);
+    EXPECT_FALSE(grown_heavy.pulls());
+    EXPECT_EQ(grown_heavy.count(Fallback::pull_lost), 1U);
+}
+
+// A hand that was out of sight comes back somewhere else: that is no pull at the rope.
+TEST(Pull, HandThatJumpsGivesItUpAndCounts) {
+    FarRock scene;
+    const Pose there = scene.s.script.hands[1](0.0);
+    scene.s.script.hands[1] = [there](double t) {
+        Pose pose = there;
+        if (t > 0.3) {
+            pose.position.x() += 2.0;
+        }
+        return pose;
+    };
+    scene.s.add_player_here();
+    scene.run(0.29);
+    ASSERT_TRUE(scene.pulls());
+    scene.run(0.3);
+    EXPECT_FALSE(scene.pulls());
+    EXPECT_EQ(scene.count(Fallback::pull_lost), 1U);
+    EXPECT_NEAR(scene.s.body_velocity(scene.rock).x(), 0.0, 1e-9);
+}
+
+TEST(Pull, OfTwoHandsOnOneBodyOnlyOnePulls) {
+    FarRock scene;
+    // Both palms look straight down at it from 10 cm beside each other.
+    scene.s.script.hands[0] = [&](double) {
+        return Pose{hand_for_palm(scene.s, scene.palm() + Vec3(0.04, 0.1, 0.0)), Quat::Identity()};
+    };
+    scene.s.script.grabs[0] = [](double t) { return t > 0.2; };
+    scene.s.add_player_here();
+    scene.run(0.5);
+    EXPECT_TRUE(scene.pulls());
+    EXPECT_FALSE(scene.s.world.hand_pull.contains(scene.s.player.hands[0]));
+    EXPECT_EQ(scene.count(Fallback::pull_refused_held), 1U);
+    EXPECT_LT(scene.momentum().norm(), 1e-9);
+}
+
 TEST(Pull, PlayerWhoHoldsOnToAWallStaysWhereHeIs) {
     FarRock scene;
     scene.s.add_wall("wall", Vec3(0.05, 0.5, 0.5), Vec3(-0.42, 1.2, 0.3));
