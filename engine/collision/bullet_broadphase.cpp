@@ -1,7 +1,6 @@
 #include "engine/collision/bullet_broadphase.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "engine/collision/bullet_vector.hpp"
 
@@ -10,6 +9,19 @@ namespace {
 
 btDbvtVolume to_volume(const Bounds& bounds) {
     return btDbvtVolume::FromMM(to_bullet(bounds.low), to_bullet(bounds.high));
+}
+
+bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
+
+// True where the bodies are those of the proxies that have a shape, one by one.
+bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderProxy> proxies) {
+    std::size_t next = 0;
+    for (const ColliderProxy& proxy : proxies) {
+        if (has_shape(proxy) && (next == bodies.size() || bodies[next++].proxy.id != proxy.id)) {
+            return false;
+        }
+    }
+    return next == bodies.size();
 }
 
 // Overlaps nothing and widens no node above it.
@@ -50,7 +62,7 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
     parked_.reserve(parked_.size() + bodies_.size());
     std::size_t old = 0;
     for (const ColliderProxy& proxy : proxies) {
-        if (proxy.shape == k_no_shape) {
+        if (!has_shape(proxy)) {
             continue;
         }
         for (; old < bodies_.size() && bodies_[old].proxy.id < proxy.id; ++old) {
@@ -67,10 +79,7 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
 
 void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
                              std::span<const ShapeExtent> extents) {
-    const auto has_shape = [](const ColliderProxy& proxy) { return proxy.shape != k_no_shape; };
-    const auto id_of = [](const BroadphaseBody& body) { return body.proxy.id; };
-    if (!std::ranges::equal(proxies | std::views::filter(has_shape), bodies_, {},
-                            &ColliderProxy::id, id_of)) {
+    if (!matches(bodies_, proxies)) {
         match_bodies(proxies);
     }
     auto body = bodies_.begin();

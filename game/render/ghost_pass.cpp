@@ -9,6 +9,13 @@ namespace {
 
 bool has_strength(const Ghost& ghost) { return ghost.seen > 0.0F || ghost.hidden > 0.0F; }
 
+void draw_ghost(GLuint program, const Ghost& ghost, const GpuMesh& mesh, const FrameView& view) {
+    const Vec3 center_cs = transform_point(ghost.pose_ws, mesh.center) - view.eye_ws;
+    set_uniform(program, "model_to_cs", make_model_matrix(ghost.pose_ws.rotation, center_cs));
+    glBindVertexArray(mesh.layout);
+    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+}
+
 }  // namespace
 
 bool GhostPass::create(GlApi api, std::string& why_not) {
@@ -17,22 +24,16 @@ bool GhostPass::create(GlApi api, std::string& why_not) {
     return depth_program_ != 0U && ghost_program_ != 0U;
 }
 
-void GhostPass::draw_mesh(GLuint program, const Ghost& ghost, const GpuMesh& mesh,
-                          const FrameView& view) {
-    const Vec3 center_cs = transform_point(ghost.pose_ws, mesh.center) - view.eye_ws;
-    set_uniform(program, "model_to_cs", make_model_matrix(ghost.pose_ws.rotation, center_cs));
-    glBindVertexArray(mesh.layout);
-    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
-}
-
 int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
                     std::span<const GpuMesh> meshes, const PicturePasses& passes) {
+    for (const Ghost& ghost : frame.ghosts) {
+        HH_CHECK(static_cast<std::size_t>(ghost.mesh) < meshes.size(), "no such mesh",
+                 static_cast<std::size_t>(ghost.mesh));
+    }
     int drawn = 0;
     const auto for_each = [&](const auto& visit) {
         for (const Ghost& ghost : frame.ghosts) {
-            const auto index = static_cast<std::size_t>(ghost.mesh);
-            HH_CHECK(index < meshes.size(), "no such mesh", index);
-            const GpuMesh& mesh = meshes[index];
+            const GpuMesh& mesh = meshes[static_cast<std::size_t>(ghost.mesh)];
             if (mesh.index_count > 0 && has_strength(ghost) && is_valid(ghost.pose_ws) &&
                 sees_sphere(view, transform_point(ghost.pose_ws, mesh.center) - view.eye_ws,
                             mesh.radius_m)) {
@@ -55,7 +56,7 @@ int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
     glUseProgram(depth_program_);
     set_uniform(depth_program_, "cs_to_clip", view.cs_to_clip);
     for_each([&](const Ghost& ghost, const GpuMesh& mesh) {
-        draw_mesh(depth_program_, ghost, mesh, view);
+        draw_ghost(depth_program_, ghost, mesh, view);
     });
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_BLEND);
@@ -75,7 +76,7 @@ int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
         set_uniform(ghost_program_, "hidden", ghost.hidden);
         set_uniform(ghost_program_, "hidden_from_m", static_cast<float>(ghost.hidden_from_m));
         set_uniform(ghost_program_, "hidden_full_m", static_cast<float>(ghost.hidden_full_m));
-        draw_mesh(ghost_program_, ghost, mesh, view);
+        draw_ghost(ghost_program_, ghost, mesh, view);
     });
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);

@@ -23,8 +23,6 @@ class GhostPass {
              const PicturePasses& passes);
 
   private:
-    void draw_mesh(GLuint program, const Ghost& ghost, const GpuMesh& mesh, const FrameView& view);
-
     GlProgram depth_program_, ghost_program_;
     GlTexture depth_;       // made with the first ghost
     GlFramebuffer target_;  // the scene's colours over it

@@ -79,7 +79,7 @@ void PicturePasses::clear_effects() {
     }
 }
 
-void PicturePasses::begin() {
+void PicturePasses::begin() const {
     bind_scene();
     glViewport(0, 0, size_.width_px * size_.samples_across, size_.height_px * size_.samples_across);
 }

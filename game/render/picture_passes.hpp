@@ -28,7 +28,7 @@ class PicturePasses {
     // False, and the reason, where the card refuses.
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
     // Binds the target that the scene is drawn into.
-    void begin();
+    void begin() const;
     // The same again, after another target.
     void bind_scene() const;
     // What it is made of, and its size.
