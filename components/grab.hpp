@@ -62,7 +62,7 @@ struct Grab {
 };
 
 // A loose body that a closed, empty hand pulls towards itself (distance grab): only hands that do.
-// Written by update_grabs; read by pull_bodies.
+// Written by pull_bodies; read by update_grabs.
 struct HandPull {
     Entity body = k_no_entity;
     double closed_s = 0.0;  // when the hand closed

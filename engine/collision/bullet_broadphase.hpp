@@ -17,7 +17,8 @@ struct BroadphaseBody {
     Bounds bounds_ws;            // of the whole way from from_ws to to_ws
     btDbvtNode* leaf = nullptr;  // null: left out, its pose is not valid
     std::uint64_t stamp = 0;     // of its last change, in changes of any
-    // What did not change since this stamp has nothing in this box; 0: none is known.
+    // Of a free body: nothing that it looks for and that did not change since this stamp comes into
+    // this box (free bodies with lower ids look for it, not it for them); 0: none is known.
     std::uint64_t quiet_since = 0;
     Bounds quiet_ws;
 };

@@ -39,10 +39,11 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
             broadphase.set_restless(i);
         }
         const std::uint64_t since = is_quiet ? a.quiet_since : 0;
+        const bool are_few = is_quiet && restless.size() <= k_few;
+        const std::span<const std::size_t> candidates =
+            are_few ? restless : broadphase.find(reach_ws, broadphase_scratch);
         const std::size_t first = pairs.size();
-        for (const std::size_t other : is_quiet&& restless.size() <= k_few
-                                           ? std::span<const std::size_t>(restless)
-                                           : broadphase.find(reach_ws, broadphase_scratch)) {
+        for (const std::size_t other : candidates) {
             const BroadphaseBody& b = bodies[other];
             if (b.stamp > since && meet(b.bounds_ws, reach_ws) && is_pair(a, b)) {
                 pairs.push_back(other);

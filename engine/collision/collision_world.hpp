@@ -23,10 +23,11 @@ struct ColliderProxy {
                  // something
     bool free = false;  // two colliders that are both not free never make contacts
 };
-// Bit for bit: then a pair of them meets as it did.
+// Bit for bit, both.
 inline bool same_pose(const Pose& x, const Pose& y) {
     return x.position == y.position && x.rotation.coeffs() == y.rotation.coeffs();
 }
+// True where a pair of them meets as it did.
 inline bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
     return a.id == b.id && a.shape == b.shape && a.free == b.free &&
            same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);

@@ -176,7 +176,7 @@ FlatBounds flat_bounds(const Extent& box, double most_m) {
 
 // What bounds that are no farther from a box than this are not beyond.
 FourFloats limits_around(const Vec2& low, const Vec2& high, double distance_m) {
-    constexpr double k_rounding_m = 1e-6;
+    constexpr double k_rounding_m = 1e-6;  // of floats below 4 m; fingers are decimetres
     const double m = distance_m + k_rounding_m;
     return FourFloats{static_cast<float>(high.x() + m), static_cast<float>(high.y() + m),
                       static_cast<float>(m - low.x()), static_cast<float>(m - low.y())};

@@ -333,7 +333,7 @@ class Closing {
     // Pairs that come near in this stretch for the first time. Those that never do, which are most,
     // cost no more than a look at the segment's bounds.
     void add_near(const Ways& ways, double at, bool is_later) {
-        constexpr double k_rounding_m = 1e-5;  // of a float, below 16 times the usual reach
+        constexpr double k_rounding_m = 1e-5;  // of floats below 50 m; fingers are decimetres
         for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
             if (thickest_m_[link] < 0.0) {
                 continue;
