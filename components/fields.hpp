@@ -225,6 +225,16 @@ void visit_fields(const FingerRetry& c, V&& visit) {
     visit("wait_m", c.wait_m);
     visit("since_m", c.since_m);
     visit("tries", c.tries);
+    visit("queued", c.queued);
+}
+template <typename V>
+void visit_fields(const ThumbSearch& c, V&& visit) {
+    visit("runs", c.runs);
+    visit("is_near", c.is_near);
+    visit("from_step", c.from_step);
+    visit("tried", c.tried);
+    visit("cost_m", c.cost_m);
+    visit("wants_mending", c.wants_mending);
 }
 template <typename V>
 void visit_fields(const BodyMeasures& c, V&& visit) {
@@ -427,6 +437,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("thumb_wrist_bs", c.thumb_wrist_bs);
     visit("thumb_solved", c.thumb_solved);
     visit("thumb_arrived", c.thumb_arrived);
+    visit("thumb_search", c.thumb_search);
     visit("retry", c.retry);
     visit("pose_refused", c.pose_refused);
 }

@@ -58,6 +58,18 @@ struct FingerRetry {
     double wait_m = 0.0;      // still to go until then, at least -1; time counts as a way too
     double since_m = 0.0;     // gone since all was tried; 0: nothing has changed since
     std::uint32_t tries = 0;  // in vain, in a row: the wait grows with them
+    // Frames since it was to be closed anew: a hand closes a few fingers in each. 0: it has a fit.
+    std::uint32_t queued = 0;
+};
+
+// A thumb's way through its oppositions, of which a few are tried in each frame.
+struct ThumbSearch {
+    bool runs = false;
+    bool is_near = false;         // it is over early where it is not sunk next to from_step
+    std::uint32_t from_step = 0;  // below ThumbTuning::opposition_steps; the nearest come first
+    std::uint32_t tried = 0;
+    double cost_m = 0.0;         // of the cheapest so far, which is the thumb's target
+    bool wants_mending = false;  // that is sunk
 };
 
 // How the hand's fingers are shown, by place in HandRig::fingers. Written by sweep_fingers and
@@ -77,6 +89,7 @@ struct FingerPose {
     Pose thumb_wrist_bs;   // the same of the thumb
     bool thumb_solved = false;
     bool thumb_arrived = false;
+    ThumbSearch thumb_search;
     std::array<FingerRetry, k_finger_count> retry;
     // Authored poses that would be sunk with the palm in its grip: counted already.
     std::array<bool, k_finger_count> pose_refused = {};

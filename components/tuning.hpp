@@ -58,10 +58,12 @@ struct FingerTuning {
     std::int32_t open_steps = 6;
     double close_radps = 9.42;
     double stroll_m = 1e-6;
+    std::int32_t closings_per_frame = 2;
 };
 
 struct ThumbTuning {
     std::int32_t opposition_steps = 6;
+    std::int32_t tries_per_frame = 2;
     double rest_opposition_rad = 0.26;
     double sunk_cost = 4.0;
     double open_cost_m = 0.012;
@@ -206,8 +208,11 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "fingers are shown closing no faster; they open at once");
     see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
         "a hand that moved less on its surface keeps its fingers");
+    see("finger.closings_per_frame", t.finger.closings_per_frame, "", 1.0, 5.0,
+        "fingers of a hand that are closed anew in one frame; the others have their turn later");
     see("thumb.opposition_steps", t.thumb.opposition_steps, "", 1.0, 32.0,
         "angles of opposition that are tried");
+    see("thumb.tries_per_frame", t.thumb.tries_per_frame, "", 1.0, 32.0, "of these in one frame");
     see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,
         "opposition of a thumb at ease");
     see("thumb.sunk_cost", t.thumb.sunk_cost, "", 0.0, 1e3, "a thumb's cost per depth");

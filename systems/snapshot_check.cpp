@@ -230,10 +230,14 @@ class BreachFinder {
         for (std::size_t row = 0; row < w_.finger_pose.size(); ++row) {
             for (const FingerRetry& retry : w_.finger_pose.rows()[row].retry) {
                 check(std::abs(retry.wait_m) <= k_most_m && retry.since_m >= 0.0 &&
-                          retry.since_m <= k_most_m && retry.tries <= k_most_tries,
+                          retry.since_m <= k_most_m && retry.tries <= k_most_tries &&
+                          retry.queued <= k_most_tries,
                       "finger_pose", w_.finger_pose.owners()[row], ".retry",
-                      "ways within 1 m, at most a million tries");
+                      "ways within 1 m, at most a million tries or frames");
             }
+            const ThumbSearch& search = w_.finger_pose.rows()[row].thumb_search;
+            check(search.from_step < k_most_tries && search.tried <= k_most_tries, "finger_pose",
+                  w_.finger_pose.owners()[row], ".thumb_search", "at most a million steps");
         }
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
             const double look_in_m = w_.grip_surface.rows()[row].look_in_m;

@@ -55,7 +55,7 @@ class ThumbPoser {
             same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        if (take_posed(hand, thumb, pose, f)) {
+        if (take_posed(hand, thumb, pose, f) || waits_for_fingers(f, pose)) {
             return;
         }
         const ThumbFit best = fit_thumb(hand, thumb, f, pose);
@@ -78,6 +78,8 @@ class ThumbPoser {
     }
 
   private:
+    static constexpr std::uint32_t k_beside = 3;  // an opposition's step and those beside it
+
     static std::optional<FingerAngles> posed_in(const HandSurroundings& hand,
                                                 const FingerRig& thumb) {
         return hand.authored != nullptr ? posed_angles(thumb, *hand.authored) : std::nullopt;
@@ -102,7 +104,23 @@ class ThumbPoser {
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
         pose.thumb_arrived = true;
+        pose.thumb_search.runs = false;
         return true;
+    }
+
+    // At first fingers are closed, a few in each frame, and then the thumb; but where they have no
+    // end, since the hand is fast, it has its turn beside them.
+    static bool waits_for_fingers(std::size_t thumb, FingerPose& pose) {
+        constexpr std::uint32_t k_most_frames = 4;
+        bool is_first = pose.thumb_solved || pose.retry[thumb].queued >= k_most_frames;
+        if (!is_first) {
+            is_first = true;
+            for (std::size_t f = 0; f < k_finger_count; ++f) {
+                is_first = is_first && (f == thumb || pose.retry[f].queued == 0);
+            }
+        }
+        pose.retry[thumb].queued = is_first ? 0 : pose.retry[thumb].queued + 1;
+        return !is_first;
     }
 
     // As a thumb of a sliding hand should be: else another opposition may do better.
@@ -139,25 +157,25 @@ class ThumbPoser {
         return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
     }
 
-    double opposition_at(const FingerRig& thumb, std::int32_t step) const {
-        const std::int32_t steps = tuning_.thumb.opposition_steps;
-        const double share = steps > 1 ? static_cast<double>(step) / (steps - 1) : 0.5;
+    double opposition_at(const FingerRig& thumb, std::uint32_t step) const {
+        const double share = steps() > 1 ? static_cast<double>(step) / (steps() - 1) : 0.5;
         return thumb.lower_opposition_rad +
                share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
     }
 
-    // The step that the thumb was posed at, in the same hold; none at first.
-    std::optional<std::int32_t> last_step(const FingerRig& thumb, const FingerPose& pose,
-                                          std::size_t f) const {
+    // The step nearest to an opposition.
+    std::uint32_t step_at(const FingerRig& thumb, double opposition_rad) const {
         const double range_rad = thumb.upper_opposition_rad - thumb.lower_opposition_rad;
-        const std::int32_t steps = tuning_.thumb.opposition_steps;
-        if (!pose.thumb_solved || steps < 2 || !(range_rad > 0.0)) {
-            return std::nullopt;
+        if (!(range_rad > 0.0)) {
+            return 0;
         }
         const double share =
-            (pose.target[f].opposition_rad - thumb.lower_opposition_rad) / range_rad;
-        return static_cast<std::int32_t>(
-            std::floor(std::clamp(share, 0.0, 1.0) * (steps - 1) + 0.5));
+            std::clamp((opposition_rad - thumb.lower_opposition_rad) / range_rad, 0.0, 1.0);
+        return static_cast<std::uint32_t>(std::floor(share * (steps() - 1) + 0.5));
+    }
+
+    std::uint32_t steps() const {
+        return static_cast<std::uint32_t>(std::max(1, tuning_.thumb.opposition_steps));
     }
 
     // As long as it touches there and is not sunk, a thumb keeps its opposition; and where another
@@ -165,11 +183,13 @@ class ThumbPoser {
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                        FingerPose& pose) {
         FingerRetry& retry = pose.retry[f];
-        if (!pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
-            const ThumbFit first = find_best(hand, thumb, f, pose);
-            retry = {};
-            note_try(retry, !is_well(first.fit));  // all oppositions
-            return first;
+        const bool is_new =
+            !pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs);
+        if (is_new && !pose.thumb_search.runs) {
+            begin_search(thumb, f, pose);
+        }
+        if (pose.thumb_search.runs) {
+            return go_on(hand, thumb, f, pose);
         }
         age(retry, hand_way_m(pose.thumb_wrist_bs, pose.solved_wrist_bs), io_.dt_s);
         const FingerAngles& last = pose.target[f];
@@ -190,62 +210,99 @@ class ThumbPoser {
     ThumbFit change_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                               const ThumbFit& kept, FingerPose& pose) {
         const bool is_sunk = kept.fit.depth_m > settings_.open_depth_m;
-        const std::int32_t most = std::min(tuning_.thumb.opposition_steps, is_sunk ? 1000 : 3);
-        const auto steps = static_cast<std::uint32_t>(std::max(1, most));
-        const std::int32_t step =
-            step_beside(last_step(thumb, pose, f).value_or(0), pose.retry[f].tries % steps);
+        const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
+        const std::uint32_t step =
+            step_beside(step_at(thumb, kept.opposition_rad), pose.retry[f].tries % most);
         const ThumbFit anew =
             close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
         const bool changes =
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
-        note_try(pose.retry[f], !is_well(anew.fit), steps);
+        note_try(pose.retry[f], !is_well(anew.fit), most);
         return changes ? anew : kept;
     }
 
     // Of all steps the one that is `rank`th nearest to `step`, from 0.
-    std::int32_t step_beside(std::int32_t step, std::uint32_t rank) const {
-        const std::int32_t steps = tuning_.thumb.opposition_steps;
+    std::uint32_t step_beside(std::uint32_t step, std::uint32_t rank) const {
+        const std::uint32_t last = steps() - 1;
+        step = std::min(step, last);
         if (rank-- == 0) {
             return step;
         }
-        for (std::int32_t away = 1; away < steps; ++away) {
-            for (const std::int32_t next : {step + away, step - away}) {
-                if (next >= 0 && next < steps && rank-- == 0) {
-                    return next;
-                }
+        for (std::uint32_t away = 1; away <= last; ++away) {
+            if (step + away <= last && rank-- == 0) {
+                return step + away;
+            }
+            if (step >= away && rank-- == 0) {
+                return step - away;
             }
         }
         return step;
     }
 
-    // A thumb that was posed before turns by one step at most, as long as it fits there.
-    ThumbFit find_best(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       const FingerPose& pose) {
+    void begin_search(const FingerRig& thumb, std::size_t f, FingerPose& pose) const {
+        const double from_rad =
+            pose.thumb_solved ? pose.target[f].opposition_rad : rest_opposition(thumb);
+        pose.retry[f] = {};
+        pose.thumb_search = {};
+        pose.thumb_search.runs = true;
+        pose.thumb_search.is_near = pose.thumb_solved;
+        pose.thumb_search.from_step = step_at(thumb, from_rad);
+    }
+
+    // The cheapest of all oppositions. A few are tried in each frame, those next to where it stands
+    // first; a thumb that was posed before turns by one step at most, as long as it fits there.
+    ThumbFit go_on(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                   FingerPose& pose) {
+        constexpr double k_once_more_m = 1e-3;
+        ThumbSearch& search = pose.thumb_search;
+        ThumbFit best = best_so_far(pose, f);
         const std::uint32_t seed = pose.seed_triangle[f];
-        const std::int32_t last_of_all = tuning_.thumb.opposition_steps - 1;
-        ThumbFit best;
         settings_.mends = false;
-        const std::optional<std::int32_t> last = last_step(thumb, pose, f);
-        if (last) {
-            for (std::int32_t step = std::max(0, *last - 1);
-                 step <= std::min(last_of_all, *last + 1); ++step) {
-                take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
-            }
-        }
-        if (!last || best.fit.wants_mending) {
-            for (std::int32_t step = 0; step <= last_of_all; ++step) {
-                if (!last || std::abs(step - *last) > 1) {
-                    take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
-                }
-            }
+        for (std::uint32_t left = most_tries(); left > 0 && !is_over(search, best); --left) {
+            const std::uint32_t step = step_beside(search.from_step, search.tried);
+            take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
+            ++search.tried;
         }
         settings_.mends = true;
+        search.cost_m = best.cost_m;
+        search.wants_mending = best.fit.wants_mending;
+        search.runs = !is_over(search, best);
+        if (!std::isinf(io_.dt_s)) {
+            // It is looked at once more in the next frame: what is sunk is mended then.
+            best.fit.is_on_its_way = true;
+            pose.retry[f].since_m = k_once_more_m;
+            return best;
+        }
         if (best.fit.wants_mending) {
             ThumbFit mended = try_at(hand, thumb, best.opposition_rad, seed);
             add_visits(best.fit, mended.fit);
-            return mended;
+            best = mended;
+        }
+        note_try(pose.retry[f], !is_well(best.fit));  // all oppositions
+        return best;
+    }
+
+    static ThumbFit best_so_far(const FingerPose& pose, std::size_t f) {
+        ThumbFit best;
+        if (pose.thumb_search.tried > 0) {
+            best.cost_m = pose.thumb_search.cost_m;
+            best.opposition_rad = pose.target[f].opposition_rad;
+            best.fit.angle_rad = pose.target[f].curl_rad;
+            best.fit.wants_mending = pose.thumb_search.wants_mending;
         }
         return best;
+    }
+
+    bool is_over(const ThumbSearch& search, const ThumbFit& best) const {
+        const bool ends_early =
+            search.is_near && search.tried >= k_beside && !best.fit.wants_mending;
+        return search.tried >= steps() || ends_early;
+    }
+
+    std::uint32_t most_tries() const {
+        return std::isinf(io_.dt_s)
+                   ? steps()
+                   : static_cast<std::uint32_t>(std::max(1, tuning_.thumb.tries_per_frame));
     }
 
     // Keeps the cheaper, and counts what both took.

@@ -26,6 +26,7 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
                 finger.lower_rad[i] + k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
             pose.target[f].curl_rad[i] = is_fist ? fist : finger.relaxed_rad[i];
         }
+        pose.retry[f].queued = 0;
     }
     pose.solved = false;
     pose.pose_refused.fill(false);
@@ -42,6 +43,8 @@ void count_fallback(ChainFallback fallback, StageStats& stats) {
         stats.count(Fallback::finger_touches_nothing);
     }
 }
+
+using FingerSet = std::array<bool, k_finger_count>;
 
 class HandCloser {
   public:
@@ -122,32 +125,25 @@ class HandCloser {
         return true;
     }
 
-    // All fingers stay with the fits that they have, but for one of those that are sunk, which is
-    // closed anew: a hand that slides never pays for more in one frame. Returns how deep they are,
-    // but for what is yet to be closed anew.
+    // Fingers stay with the fits that they have, but for a few: those that have none have their
+    // turn to close anew, or one of those that are sunk. A hand never pays for more in one frame.
+    // Returns how deep the fingers are, but for what is yet to be closed anew.
     double close_fingers(std::size_t place, const Pose& wrist_bs, FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[place];
         const bool keeps = keeps_fit(pose, hand, wrist_bs);
+        const FingerSet is_free = queue(hand, wrist_bs, keeps, pose);
+        std::size_t closings = most_closings();
+        FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
         const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
         std::size_t neediest = k_finger_count;
-        std::array<bool, k_finger_count> is_fitted = {};
-        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            if (hand.rig->fingers[f].name == FingerName::thumb) {
-                continue;
-            }
-            const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
-            is_fitted[f] = !take_posed(hand, f, chain, pose);
-            if (!is_fitted[f]) {
-                continue;
-            }
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
             FingerRetry& retry = pose.retry[f];
-            if (!keeps) {
-                retry = {};
-                fits_[f] = close_anew(hand, chain, f, pose);
+            if (!is_free[f] || is_fitted[f] || retry.queued > 0) {
                 continue;
             }
             age(retry, way_m, io_.dt_s);
-            fits_[f] = keep(hand, chain, pose.target[f].curl_rad);
+            fits_[f] = keep(hand, wrist_bs, f, pose);
+            is_fitted[f] = true;
             if (fits_[f].depth_m > settings_.open_depth_m) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
@@ -156,7 +152,7 @@ class HandCloser {
                 retry.tries = 0;
             }
         }
-        if (neediest != k_finger_count) {
+        if (neediest != k_finger_count && closings > 0) {
             change_if_better(hand, wrist_bs, neediest, pose);
         }
         double depth_m = 0.0;
@@ -164,21 +160,71 @@ class HandCloser {
             if (is_fitted[f]) {
                 depth_m = std::max(depth_m, take_fit(place, f, pose));
             }
+            pose.arrived = pose.arrived && pose.retry[f].queued == 0;
         }
         return depth_m;
     }
 
-    ChainFit keep(const HandSurroundings& hand, const HingeChain& chain,
-                  const ChainAngles& last_rad) {
+    // Those that are to be closed anew wait one frame longer. Returns the fingers that are to be
+    // fitted: thumbs and those that an authored grip poses are not.
+    FingerSet queue(const HandSurroundings& hand, const Pose& wrist_bs, bool keeps,
+                    FingerPose& pose) {
+        FingerSet is_free = {};
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            const FingerRig& finger = hand.rig->fingers[f];
+            if (finger.name == FingerName::thumb) {
+                continue;
+            }
+            is_free[f] = !take_posed(hand, f, finger_chain(finger, 0.0, wrist_bs), pose);
+            std::uint32_t& queued = pose.retry[f].queued;
+            queued = is_free[f] && (queued > 0 || !keeps) ? queued + 1 : 0;
+        }
+        return is_free;
+    }
+
+    // As many as may be, those that wait longest first.
+    FingerSet close_queued(const HandSurroundings& hand, const Pose& wrist_bs,
+                           std::size_t& closings, FingerPose& pose) {
+        FingerSet is_closed = {};
+        for (; closings > 0; --closings) {
+            std::size_t next = 0;
+            for (std::size_t f = 1; f < k_finger_count; ++f) {
+                next = waits(hand, f, pose) > waits(hand, next, pose) ? f : next;
+            }
+            if (waits(hand, next, pose) == 0) {
+                break;
+            }
+            pose.retry[next] = {};
+            fits_[next] = close_anew(hand, wrist_bs, next, pose);
+            is_closed[next] = true;
+        }
+        return is_closed;
+    }
+
+    static std::uint32_t waits(const HandSurroundings& hand, std::size_t f,
+                               const FingerPose& pose) {
+        const bool is_finger =
+            f < hand.rig->fingers.size() && hand.rig->fingers[f].name != FingerName::thumb;
+        return is_finger ? pose.retry[f].queued : 0;
+    }
+
+    std::size_t most_closings() const {
+        return std::isinf(io_.dt_s)
+                   ? k_finger_count
+                   : static_cast<std::size_t>(std::max(1, tuning_.finger.closings_per_frame));
+    }
+
+    ChainFit keep(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
+                  const FingerPose& pose) {
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        return refit_chain(chain, last_rad, hand.meshes, settings_, refit, io_.scratch);
+        return refit_chain(finger_chain(hand.rig->fingers[f], 0.0, wrist_bs),
+                           pose.target[f].curl_rad, hand.meshes, settings_, refit, io_.scratch);
     }
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                           FingerPose& pose) {
-        const ChainFit anew =
-            close_anew(hand, finger_chain(hand.rig->fingers[f], 0.0, wrist_bs), f, pose);
+        const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
         if (is_clearly_better(anew, fits_[f], settings_)) {
             fits_[f] = anew;
         }
@@ -198,8 +244,9 @@ class HandCloser {
         return pose.retry[f].wait_m > 0.0 ? fit.depth_m : 0.0;
     }
 
-    ChainFit close_anew(const HandSurroundings& hand, const HingeChain& chain, std::size_t f,
+    ChainFit close_anew(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                         FingerPose& pose) {
+        const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
         const ChainSeed seed =
             chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);

@@ -109,6 +109,52 @@ TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
     }
 }
 
+// A hand that grips pays for a few fingers in each frame; the thumb comes when they are closed.
+TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
+    FittedHand hand(beam, on_beam);
+    const auto most = static_cast<std::size_t>(hand.tuning.finger.closings_per_frame);
+    const auto most_tries = static_cast<std::uint32_t>(hand.tuning.thumb.tries_per_frame);
+    std::size_t closed_in_all = 0;
+    std::uint32_t thumb_frames = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        hand.traces[0] = {};
+        hand.frame(k_dt_s);
+        std::size_t closed = 0;
+        for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
+            closed += hand.traces[0][f].discs > 0 ? 1U : 0U;
+        }
+        EXPECT_LE(closed, most) << frame;
+        EXPECT_LE(hand.traces[0][0].discs, most_tries * k_disc_planes) << frame;
+        if (hand.traces[0][0].discs > 0) {
+            EXPECT_GE(closed_in_all + closed, rig.fingers.size() - 1) << frame;
+            ++thumb_frames;
+        }
+        closed_in_all += closed;
+    }
+    EXPECT_GE(thumb_frames * most_tries,
+              static_cast<std::uint32_t>(hand.tuning.thumb.opposition_steps));
+    EXPECT_LT(deepest_m(hand), 1.5e-3);
+    EXPECT_EQ(hand.pose().shown[2].curl_rad, hand.pose().target[2].curl_rad);
+}
+
+// Faster than fits can be kept: all are to be closed anew in every frame.
+TEST_F(SweepFingers, EveryFingerOfAFastHandHasItsTurn) {
+    FittedHand hand(beam, on_beam);
+    constexpr int k_frames = 30;
+    std::array<int, k_finger_count> turns = {};
+    for (int frame = 0; frame < k_frames; ++frame) {
+        hand.traces[0] = {};
+        hand.wrist_bs().position.x() = on_beam.position.x() + (frame % 2 == 0 ? 0.01 : -0.01);
+        hand.frame(k_dt_s);
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            turns[f] += hand.traces[0][f].discs > 0 ? 1 : 0;
+        }
+    }
+    for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+        EXPECT_GE(turns[f], k_frames / 2 - 3) << f;
+    }
+}
+
 TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
     FittedHand hand(beam, on_beam);
     for (int frame = 0; frame < 20; ++frame) {
