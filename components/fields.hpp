@@ -407,6 +407,10 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("held_bs", c.held_bs);
     visit("is_held", c.is_held);
     visit("look_in_m", c.look_in_m);
+    visit("tried", c.tried);
+    visit("tried_count", c.tried_count);
+    visit("cost_m", c.cost_m);
+    visit("has_room_m", c.has_room_m);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {

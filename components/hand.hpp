@@ -26,9 +26,17 @@ struct GripSurface {
     std::uint64_t surroundings = 0;
     Pose held_bs;  // the wrist held to it, without a lift, where that is known
     bool is_held = false;
-    // Where the palm had no room at the cheapest surface: how far the hand still goes until it
-    // looks for another. 0: it had room.
+    // Where palm or fingers had no room at the cheapest surface: how far the hand still goes until
+    // it looks for another. 0: they had room.
     double look_in_m = 0.0;
+    // While it looks, a few surfaces in each frame: those it has tried, by their triangles, and
+    // what the best of them costs, which is this one.
+    static constexpr std::size_t k_most_tries = 14;
+    std::array<std::uint32_t, k_most_tries> tried = {};
+    std::uint32_t tried_count = 0;  // 0: it does not look
+    double cost_m = 0.0;
+    // Where the fingers had room: how far the hand still goes until that is asked again.
+    double has_room_m = 0.0;
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space

@@ -43,6 +43,7 @@ struct GripSearchScratch {
     std::vector<Node> open;
     std::vector<Found> found;
     std::vector<std::uint32_t> seen;
+    ChainPatch patch;
 };
 
 // Triangle-wise figures of a frame's hands, for the measuring tools and the pictures. Not state.

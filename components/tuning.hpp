@@ -43,6 +43,7 @@ struct PalmTuning {
     double tilt_cost_m_per_rad = 0.08;
     double back_cost_m = 0.02;
     double reach_m = 0.12;
+    std::int32_t tries_per_frame = 1;
     double normal_radius_m = 0.03;
     double rate_mps = 0.25;
     double lift_m = 0.005;
@@ -188,6 +189,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "what a surface whose outside is turned away from the palm counts more");
     see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,
         "surfaces farther from the palm than this are not looked at");
+    see("palm.tries_per_frame", t.palm.tries_per_frame, "", 1.0, 14.0,
+        "surfaces that are tried in one frame where the cheapest leaves palm or fingers no room");
     see("palm.normal_radius_m", t.palm.normal_radius_m, "m", 1e-3, 0.2,
         "the palm lies against the mean of the surface within this");
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,

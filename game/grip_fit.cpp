@@ -32,7 +32,7 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     GripSearchScratch search;
     ChainFitScratch fit;
     StageStats stats;
-    search_grip({hands, surface, search}, tuning, stats);
+    search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
     for (int lift = 0; lift < k_most_lifts; ++lift) {
         constrain_palms({k_at_once_s, hands, surface, offset, palm}, tuning);
         sweep_fingers({k_at_once_s, hands, tracking, surface, palm, offset, fingers, {}, fit},

@@ -171,7 +171,7 @@ void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameI
     }
     {
         const StageTimer timer(Stage::search_grip, stats);
-        search_grip({hands.surroundings, w.grip_surface, hands.search}, tuning, stats);
+        search_grip({input.dt_s, hands.surroundings, w.grip_surface, hands.search}, tuning, stats);
     }
     {
         const StageTimer timer(Stage::constrain_palms, stats);

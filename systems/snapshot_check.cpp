@@ -240,9 +240,13 @@ class BreachFinder {
                   w_.finger_pose.owners()[row], ".thumb_search", "at most a million steps");
         }
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
-            const double look_in_m = w_.grip_surface.rows()[row].look_in_m;
-            check(look_in_m >= 0.0 && look_in_m <= k_most_m, "grip_surface",
+            const GripSurface& surface = w_.grip_surface.rows()[row];
+            check(surface.look_in_m >= 0.0 && surface.look_in_m <= k_most_m, "grip_surface",
                   w_.grip_surface.owners()[row], ".look_in_m", "a way in [0, 1] m");
+            check(surface.has_room_m >= 0.0 && surface.has_room_m <= k_most_m, "grip_surface",
+                  w_.grip_surface.owners()[row], ".has_room_m", "a way in [0, 1] m");
+            check(surface.tried_count <= GripSurface::k_most_tries, "grip_surface",
+                  w_.grip_surface.owners()[row], ".tried_count", "at most 14");
         }
     }
 

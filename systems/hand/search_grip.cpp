@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/finger_chain.hpp"
+#include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/triangle_set.hpp"
@@ -191,9 +192,9 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
 
 class PalmHolder {
   public:
-    PalmHolder(const HandSurroundings& hand, const Tuning& tuning, GripSearch search,
+    PalmHolder(const HandSurroundings& hand, double dt_s, const Tuning& tuning, GripSearch search,
                GripSearchScratch& scratch)
-        : hand_(hand), tuning_(tuning), search_(search), scratch_(scratch) {}
+        : hand_(hand), dt_s_(dt_s), tuning_(tuning), search_(search), scratch_(scratch) {}
 
     void run(GripSurface& surface) {
         const PlacedMesh& placed = hand_.meshes.front();
@@ -217,11 +218,13 @@ class PalmHolder {
         searcher.add_seed(near ? near->triangle : GripSurface::k_none);
         searcher.add_seed(before);
         searcher.run(k_patience);
-        if (before < mesh.search.triangles.size() && last.look_in_m > 0.0 &&
-            stay(placed, palm, searcher, last, surface)) {
+        const bool is_known = before < mesh.search.triangles.size();
+        if (is_known && last.tried_count == 0 &&
+            (stay(placed, palm, searcher, last, surface) ||
+             keep_room(placed, palm, searcher, last, surface))) {
             return;
         }
-        surface = roomiest(placed, palm, searcher);
+        surface = try_surfaces(placed, palm, searcher, is_known ? last : GripSurface{});
     }
 
     // Under a palm in an authored grip: fingers that close begin there.
@@ -240,55 +243,158 @@ class PalmHolder {
     }
 
   private:
+    using Found = GripSearcher::Found;
+
+    // Time counts as a way too: a hand at rest looks again.
+    double still_to_go_m(double left_m, const GripSurface& last) const {
+        constexpr double k_least_m = 5e-4;
+        return left_m - std::max(hand_way_m(last.wrist_bs, hand_.wrist_bs), k_least_m);
+    }
+
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
     // looked stays with what it found for a while. False where it is to look now.
     bool stay(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
               const GripSurface& last, GripSurface& surface) const {
-        constexpr double k_least_m = 5e-4;  // so that a hand at rest looks too
-        const double way_m = hand_way_m(last.wrist_bs, hand_.wrist_bs);
-        const double left_m = last.look_in_m - std::max(way_m, k_least_m);
-        const auto near = searcher.cheapest_near(
-            inverse_transform_point(placed.pose, last.point_bs), last.triangle);
-        if (left_m <= 0.0 || !near) {
+        const double left_m = still_to_go_m(last.look_in_m, last);
+        if (left_m <= 0.0) {
             return false;
         }
-        surface = surface_at(placed, palm, *near);
-        surface.held_bs = fit_palm(hand_, surface, 0.0, tuning_.palm).wrist_bs;
-        surface.is_held = true;
-        surface.look_in_m = left_m;
-        return true;
+        const auto near = near_last(placed, searcher, last);
+        if (near) {
+            surface = held_at(placed, palm, *near).surface;
+            surface.look_in_m = left_m;
+        }
+        return near.has_value();
     }
 
-    // The cheapest surface, if it leaves room for the palm. Else the first that does, of those that
-    // are found by looking farther; else the one where cost and what stays sunk are least.
-    GripSurface roomiest(const PlacedMesh& placed, const Palm& palm, GripSearcher& searcher) const {
-        std::array<GripSearcher::Found, k_most_tries> tried;
-        GripSurface best;
-        double best_cost_m = std::numeric_limits<double>::infinity();
-        for (std::size_t tries = 0; tries < k_most_tries; ++tries) {
-            const auto way = searcher.cheapest_beside({tried.data(), tries});
-            if (!way || way->cost_m >= best_cost_m) {
-                break;
+    // What had room for fingers mostly has it a little farther on. False where it is to be asked.
+    bool keep_room(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+                   const GripSurface& last, GripSurface& surface) const {
+        const double left_m = still_to_go_m(last.has_room_m, last);
+        const auto cheapest = searcher.cheapest_beside({});
+        if (left_m <= 0.0 || !cheapest || !is_near_last(placed, *cheapest, last)) {
+            return false;
+        }
+        const Held held = held_at(placed, palm, *cheapest);
+        surface = held.surface;
+        surface.has_room_m = left_m;
+        return held.sunk_m <= k_roomy_m;
+    }
+
+    bool is_near_last(const PlacedMesh& placed, const Found& found, const GripSurface& last) const {
+        const SurfaceGraph& graph = placed.mesh->search;
+        return is_beside(found.point, graph.normals[found.triangle],
+                         inverse_transform_point(placed.pose, last.point_bs),
+                         graph.normals[last.triangle]);
+    }
+    static std::optional<Found> near_last(const PlacedMesh& placed, const GripSearcher& searcher,
+                                          const GripSurface& last) {
+        return last.triangle == GripSurface::k_none
+                   ? std::nullopt
+                   : searcher.cheapest_near(inverse_transform_point(placed.pose, last.point_bs),
+                                            last.triangle);
+    }
+
+    // The cheapest surface, if it leaves room for palm and fingers. Else the first that does, of
+    // those that are found by looking farther; else the one where cost and what stays sunk are
+    // least. A few in each frame: goes on from where `last` came to, or begins with where that is.
+    GripSurface try_surfaces(const PlacedMesh& placed, const Palm& palm, GripSearcher& searcher,
+                             const GripSurface& last) const {
+        std::array<Found, GripSurface::k_most_tries> tried;
+        std::size_t count = 0;
+        std::size_t left = most_tries();
+        Judged best;
+        const auto near = near_last(placed, searcher, last);
+        if (near && last.tried_count > 0) {
+            best.surface = held_at(placed, palm, *near).surface;
+            best.surface.cost_m = last.cost_m;
+            for (; count < last.tried_count; ++count) {
+                tried[count] = found_at(placed, palm, last.tried[count]);
             }
-            tried[tries] = *way;
-            GripSurface surface = surface_at(placed, palm, *way);
-            const PalmFit fit = fit_palm(hand_, surface, 0.0, tuning_.palm);
-            surface.held_bs = fit.wrist_bs;
-            surface.is_held = true;
-            surface.look_in_m = tries == 0 && fit.sunk_m <= k_roomy_m ? 0.0 : k_look_again_m;
-            if (fit.sunk_m <= k_roomy_m) {
-                return surface;
-            }
-            const double cost_m = way->cost_m + k_sunk_cost * fit.sunk_m;
-            if (cost_m < best_cost_m) {
-                best = surface;
-                best_cost_m = cost_m;
-            }
-            if (tries == 0) {
-                look_around(*placed.mesh, palm, searcher);
+        } else if (near) {
+            best = judge(placed, palm, *near);
+            tried[count++] = *near;
+            --left;
+            const auto cheapest = searcher.cheapest_beside({});
+            if (best.has_room && cheapest && is_near_last(placed, *cheapest, best.surface)) {
+                return best.surface;
             }
         }
-        return best;
+        bool has_looked_around = false;
+        bool is_over = false;
+        for (; left > 0 && !is_over; --left) {
+            if (count > 0 && !has_looked_around) {
+                look_around(*placed.mesh, palm, searcher);
+                has_looked_around = true;
+            }
+            const auto way = searcher.cheapest_beside({tried.data(), count});
+            if (!way || (count > 0 && way->cost_m >= best.surface.cost_m)) {
+                is_over = true;
+                break;
+            }
+            const Judged next = judge(placed, palm, *way);
+            if (count == 0 || next.has_room || next.surface.cost_m < best.surface.cost_m) {
+                best = next;
+            }
+            tried[count++] = *way;
+            is_over = next.has_room || count == tried.size();
+        }
+        if (count == 0) {
+            return {};
+        }
+        const bool is_cheapest = count == 1 && best.has_room && !near;
+        best.surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
+        best.surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(count);
+        for (std::size_t i = 0; i < best.surface.tried_count; ++i) {
+            best.surface.tried[i] = tried[i].triangle;
+        }
+        return best.surface;
+    }
+
+    struct Judged {
+        GripSurface surface;
+        bool has_room = false;
+    };
+    Judged judge(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
+        const Held held = held_at(placed, palm, found);
+        const double fingers_m = fingers_sunk_m(hand_, held.surface.held_bs, scratch_.patch);
+        Judged judged = {held.surface,
+                         held.sunk_m <= k_roomy_m && fingers_m <= k_fingers_have_room_m};
+        judged.surface.cost_m = found.cost_m;
+        if (judged.has_room) {
+            judged.surface.has_room_m = k_look_again_m;
+        } else {
+            judged.surface.cost_m += k_sunk_cost * held.sunk_m + k_finger_cost * fingers_m;
+        }
+        return judged;
+    }
+
+    std::size_t most_tries() const {
+        return std::isinf(dt_s_)
+                   ? GripSurface::k_most_tries
+                   : static_cast<std::size_t>(std::max(1, tuning_.palm.tries_per_frame));
+    }
+
+    // What the palm would be held to there now. The triangle may be of an older mesh.
+    Found found_at(const PlacedMesh& placed, const Palm& palm, std::uint32_t triangle) const {
+        const SurfaceGraph& graph = placed.mesh->search;
+        const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
+        triangle = static_cast<std::uint32_t>(known);
+        const Candidate candidate = cost_of(graph, triangle, palm, tuning_.palm);
+        return {triangle, candidate.point, candidate.cost_m};
+    }
+
+    struct Held {
+        GripSurface surface;
+        double sunk_m = 0.0;  // how deep the palm is that is held to it
+    };
+    Held held_at(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
+        Held held = {surface_at(placed, palm, found), 0.0};
+        const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm);
+        held.surface.held_bs = fit.wrist_bs;
+        held.surface.is_held = true;
+        held.sunk_m = fit.sunk_m;
+        return held;
     }
 
     // From the nearest triangles to places around the palm, as long as there is anything to see.
@@ -304,8 +410,7 @@ class PalmHolder {
         searcher.run(k_most_search_pops);
     }
 
-    GripSurface surface_at(const PlacedMesh& placed, const Palm& palm,
-                           const GripSearcher::Found& found) const {
+    GripSurface surface_at(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
         const GripMesh& mesh = *placed.mesh;
         const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.palm.reach_m);
         const Vec3 point = on_contact ? on_contact->point : found.point;
@@ -324,11 +429,12 @@ class PalmHolder {
         return surface;
     }
 
-    static constexpr std::size_t k_most_tries = 6;
     static constexpr double k_roomy_m = 1e-3;
-    static constexpr double k_sunk_cost = 8.0;  // of a metre that a palm stays sunk
+    static constexpr double k_sunk_cost = 8.0;    // of a metre that a palm stays sunk
+    static constexpr double k_finger_cost = 4.0;  // and a finger
 
     const HandSurroundings& hand_;
+    double dt_s_;
     const Tuning& tuning_;
     GripSearch search_;
     GripSearchScratch& scratch_;
@@ -348,16 +454,17 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             const bool is_known = surface.body == hand.body && surface.surroundings == 0 &&
                                   hand_way_m(surface.wrist_bs, hand.authored->wrist_bs) == 0.0;
             if (!is_known) {
-                PalmHolder(hand, tuning, search, io.scratch).run_authored(surface);
+                PalmHolder(hand, io.dt_s, tuning, search, io.scratch).run_authored(surface);
             }
             continue;
         }
-        const bool is_to_look = surface.look_in_m > 0.0 && surface.look_in_m < k_look_again_m;
+        const bool is_to_look = surface.tried_count > 0 ||
+                                (surface.look_in_m > 0.0 && surface.look_in_m < k_look_again_m);
         if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&
             !is_to_look && hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
             continue;
         }
-        PalmHolder(hand, tuning, search, io.scratch).run(surface);
+        PalmHolder(hand, io.dt_s, tuning, search, io.scratch).run(surface);
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);
         }

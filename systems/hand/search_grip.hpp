@@ -18,6 +18,7 @@ enum class GripSearch : std::uint8_t {
 };
 
 struct SearchGripIo {
+    double dt_s = 0.0;                        // of the frame; infinity: all is tried at once
     std::span<const HandSurroundings> hands;  // in
     Column<GripSurface>& surface;             // in/out: last frame's is where the search begins too
     GripSearchScratch& scratch;
@@ -26,8 +27,10 @@ struct SearchGripIo {
 // Finds the triangle under each gripping palm that needs the least movement of the palm to meet its
 // limits: best first over the surface's neighbours, from where the palm's ray ends, from the
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
-// PalmTuning::tilt_cost_m_per_rad apart. Hands with nothing within PalmTuning::reach_m are left
-// without a surface. Talk rows 2, 11, 17.
+// PalmTuning::tilt_cost_m_per_rad apart. Where that leaves no room for the palm, or for a finger
+// however it bends, others are tried, PalmTuning::tries_per_frame in each frame; the first with
+// room is taken, or the one where cost and what stays sunk are least. Hands with nothing within
+// PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17.
 // Under a palm in an authored grip nothing is searched for: it has the nearest triangle.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::least_sync);

@@ -60,7 +60,9 @@ struct FittedHand {
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
 
-    void search() { search_grip({hands, surface, search_scratch}, tuning, stats); }
+    void search(double dt_s = k_at_once_s) {
+        search_grip({dt_s, hands, surface, search_scratch}, tuning, stats);
+    }
     void constrain(double dt_s) { constrain_palms({dt_s, hands, surface, offset, palm}, tuning); }
     void sweep(double dt_s) {
         sweep_fingers({dt_s, hands, tracking, surface, palm, offset, fingers, traces, fit_scratch},
@@ -71,7 +73,7 @@ struct FittedHand {
                    stats);
     }
     void frame(double dt_s) {
-        search();
+        search(dt_s);
         constrain(dt_s);
         sweep(dt_s);
         thumb(dt_s);

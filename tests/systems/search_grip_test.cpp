@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "fitted_hand.hpp"
@@ -52,11 +53,13 @@ TEST(SearchGrip, FindsTheTriangleThatNeedsTheLeastMovement) {
     for (std::uint64_t seed = 2201; seed < 2211; ++seed) {
         Random random(seed);
         const GripMesh mesh = build_grip_mesh(make_dunes(random));
-        const HandRig rig = builtin_hand_rig(HandSide::right);
+        HandRig rig = builtin_hand_rig(HandSide::right);
+        rig.fingers.clear();  // whose room counts too
         for (int i = 0; i < 30; ++i) {
             const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
             const Vec3 center = Vec3(0.0, random.between(0.0, 0.06), 0.0) + random.vector(0.05);
             FittedHand hand(mesh, wrist_with_palm_at(rig, center, up));
+            hand.hands.front().rig = &rig;
             hand.search();
             const GripSurface& surface = hand.surface.at(k_right);
             double least_m = 1.0;
@@ -84,6 +87,80 @@ TEST(SearchGrip, FindsTheTriangleThatNeedsTheLeastMovement) {
     }
     EXPECT_GT(compared, 200);
     EXPECT_LE(missed, compared / 100);
+}
+
+// A floor with a block on it before the fingers, which are sunk in it wherever they bend.
+GripMesh make_floor_and_block() {
+    constexpr double k_front_m = -0.05;
+    constexpr double k_back_m = -0.25;
+    constexpr double k_top_m = 0.12;
+    Mesh mesh = test::make_floor_mesh();
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const double y : {-0.01, k_top_m}) {
+        for (const auto& [x, z] : {std::array{-0.2, k_front_m}, std::array{0.2, k_front_m},
+                                   std::array{0.2, k_back_m}, std::array{-0.2, k_back_m}}) {
+            mesh.positions.emplace_back(x, y, z);
+        }
+    }
+    for (std::uint32_t side = 0; side < 4; ++side) {
+        const std::uint32_t a = first + side;
+        const std::uint32_t b = first + (side + 1) % 4;
+        mesh.triangles.push_back({a, b, b + 4});
+        mesh.triangles.push_back({a, b + 4, a + 4});
+    }
+    mesh.triangles.push_back({first + 4, first + 5, first + 6});
+    mesh.triangles.push_back({first + 4, first + 6, first + 7});
+    return build_grip_mesh(mesh);
+}
+
+struct FingerRoom {
+    const GripMesh mesh = make_floor_and_block();
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Pose before_block = wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
+    ChainPatch patch;
+
+    double sunk_m(FittedHand& hand) {
+        return fingers_sunk_m(hand.hands.front(), hand.surface.at(k_right).held_bs, patch);
+    }
+};
+
+TEST(SearchGrip, LeavesFingersRoom) {
+    FingerRoom room;
+    FittedHand hand(room.mesh, room.before_block);
+    // Under the palm there is none.
+    GripSurface under;
+    under.normal_bs = Vec3::UnitY();
+    const auto near = room.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
+    ASSERT_TRUE(near);
+    under.triangle = near->triangle;
+    const Pose held_bs = fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
+    ASSERT_GT(fingers_sunk_m(hand.hands.front(), held_bs, room.patch), 0.005);
+    hand.search();
+    EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
+}
+
+// In frames, a surface or two in each, a hand at rest comes to what it finds at once, and rests.
+TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    FingerRoom room;
+    FittedHand at_once(room.mesh, room.before_block);
+    at_once.search();
+    for (const std::int32_t tries : {1, 2}) {
+        FittedHand hand(room.mesh, room.before_block);
+        hand.tuning.palm.tries_per_frame = tries;
+        hand.search(k_dt_s);
+        EXPECT_EQ(room.sunk_m(hand) <= k_fingers_have_room_m, tries > 1);  // the second has room
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.search(k_dt_s);
+        }
+        const GripSurface found = hand.surface.at(k_right);
+        EXPECT_EQ(found.tried_count, 0U);
+        EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
+        EXPECT_LT((found.held_bs.position - at_once.surface.at(k_right).held_bs.position).norm(),
+                  5e-3);
+        hand.search(k_dt_s);
+        EXPECT_EQ(hand.surface.at(k_right).held_bs.position, found.held_bs.position);
+    }
 }
 
 TEST(SearchGrip, PrefersTheOuterSideOfAPlate) {

@@ -104,6 +104,7 @@ void append(const WarmHand& one, WarmHand& all) {
     all.pops.insert(all.pops.end(), one.pops.begin(), one.pops.end());
     all.joint_frames += one.joint_frames;
     all.jumps += one.jumps;
+    all.shown_jumps += one.shown_jumps;
 }
 
 // Prints the figures; returns the hands as they are at the end of their slide.
@@ -122,8 +123,9 @@ std::string slide_all(const GripOptions& options, const GripMesh& mesh, const Ha
     std::printf("slide_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
                 quantile(all.slide_us, 0.5), quantile(all.slide_us, 0.99),
                 quantile(all.stand_us, 0.5), quantile(all.stand_us, 0.99));
-    std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames\n",
-                quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames);
+    std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames, shown %u\n",
+                quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames,
+                all.shown_jumps);
     return text;
 }
 

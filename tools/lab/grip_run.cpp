@@ -53,7 +53,7 @@ class OneHand {
     OneHand& operator=(const OneHand&) = delete;
 
     void run(const Tuning& tuning, const GripVariant& variant, GripTimes& us) {
-        timed(us.search_us, [&] { search(tuning, variant); });
+        timed(us.search_us, [&] { search(k_at_once_s, tuning, variant); });
         for (std::int32_t lifts = 0;; ++lifts) {
             const double lift_before_m = offset_.rows().front().lift_m;
             timed(us.palm_us, [&] { constrain(k_at_once_s, tuning, variant); });
@@ -70,7 +70,7 @@ class OneHand {
         traces_.front() = {};
         double us = 0.0;
         timed(us, [&] {
-            search(tuning, variant);
+            search(k_frame_s, tuning, variant);
             constrain(k_frame_s, tuning, variant);
             close(k_frame_s, tuning, variant);
         });
@@ -91,8 +91,8 @@ class OneHand {
         sum_us += 1e-3 * static_cast<double>(stage_now_ns() - begin_ns);
     }
 
-    void search(const Tuning& tuning, const GripVariant& variant) {
-        search_grip({surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
+    void search(double dt_s, const Tuning& tuning, const GripVariant& variant) {
+        search_grip({dt_s, surroundings_, surface_, search_scratch_}, tuning, stats_, variant.palm);
     }
     void close(double dt_s, const Tuning& tuning, const GripVariant& variant) {
         if (variant.fingers == FingerMethod::sweep ||
@@ -193,8 +193,10 @@ void count_jumps(const HandRig& rig, const FingerPose& before, const FingerPose&
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
             const double way_rad = after.target[f].curl_rad[i] - before.target[f].curl_rad[i];
+            const double shown_rad = after.shown[f].curl_rad[i] - before.shown[f].curl_rad[i];
             ++warm.joint_frames;
             warm.jumps += std::abs(way_rad) >= k_jump_rad ? 1U : 0U;
+            warm.shown_jumps += std::abs(shown_rad) >= k_jump_rad ? 1U : 0U;
         }
     }
 }

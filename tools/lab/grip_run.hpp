@@ -66,6 +66,7 @@ struct WarmHand {
     std::uint32_t joint_frames = 0;   // sliding: hinges of all fingers, times frames
     PosedHand slid;                   // in the last frame of these; without times
     std::uint32_t jumps = 0;          // of these, bound for 10 degrees away or more in one frame
+    std::uint32_t shown_jumps = 0;    // of these, shown 10 degrees away or more: opened
 };
 
 // A hand that has closed at `wrist` as pose_cold_hand closes it, and then slides and stands. Empty
