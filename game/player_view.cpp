@@ -117,12 +117,12 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
     }
 }
 
-// What was added since `first`, where a wall hides it.
+// What was added since `first`, where something hides it that is not his own.
 void PlayerView::add_sunk(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
         frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.sunk,
-                                ghosts_.sunk_from_m, ghosts_.sunk_full_m});
+                                ghosts_.sunk_from_m, ghosts_.sunk_full_m, true});
     }
 }
 
@@ -131,6 +131,7 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
     const World& world = scene_->world;
     const Entity player = world.render_pose.owners()[row];
     const RenderPose& render = world.render_pose.rows()[row];
+    const std::size_t first_own = frame.instances.size();
     body_.add(world.body_measures.at(player), render, seen, renderer_, frame);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const RenderPose::Hand& hand = render.hands[index_of(side)];
@@ -143,6 +144,9 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         if (shows_hand_lines_) {
             add_hand_lines(render.head_ws.position, hand, frame);
         }
+    }
+    for (std::size_t i = first_own; i < frame.instances.size(); ++i) {
+        frame.instances[i].is_own = seen == BodyFigures::Seen::by_himself;
     }
     for (std::size_t hand = 0; hand < world.hand_owner.size(); ++hand) {
         const HandOwner& owner = world.hand_owner.rows()[hand];

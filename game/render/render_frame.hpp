@@ -30,6 +30,7 @@ struct Instance {
     Pose pose_ws;
     std::optional<Color> color;  // the mesh's own where empty
     Look look;
+    bool is_own = false;  // of him whose eyes the camera is: hides ghosts that say so
 };
 
 // A straight mark of constant width on the picture (palm rays, constraints): faint where something
@@ -51,6 +52,7 @@ struct Ghost {
     float hidden = 0.35F;         // where something does,
     double hidden_from_m = 0.0;   // from so far before it on, along the view,
     double hidden_full_m = 0.01;  // wholly from so far; above hidden_from_m
+    bool own_hides = false;       // not drawn behind what is_own, where that is seen
 };
 
 // A small lamp without shadow. Its light fades to nothing at reach_m, so that it hardly leaks
