@@ -203,6 +203,9 @@ class HeadsetLoop {
         Camera camera;
         camera.pose_ws = render.head_ws * (inverse(head_ps_) * eye.eye_ps);
         camera.frustum = eye.frustum;
+        const auto& hands = figures_.reading.hands;
+        stage_.view->show_controls(world().render_pose.find_row(player),
+                                   {control_values(hands[0]), control_values(hands[1])});
         const bool keeps = !stage_.options.picture.empty();
         const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
         stage_.view->draw_eye(camera, world().render_pose.find_row(player), eye.texture,

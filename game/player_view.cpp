@@ -46,12 +46,28 @@ std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels mode
     return PlayerView(scene, std::move(models), std::move(*renderer));
 }
 
-void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, RenderFrame& frame) {
+ControlValues PlayerView::controls_of(std::size_t row, HandSide side) const {
+    if (controls_ && controls_->row == row) {
+        return controls_->values[index_of(side)];
+    }
+    const World& world = scene_->world;
+    const Entity player = world.render_pose.owners()[row];
+    for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
+        const HandOwner& owner = world.hand_owner.rows()[i];
+        if (owner.player == player && owner.side == side) {
+            return closing_values(world.hand_tracking.at(world.hand_owner.owners()[i]).pressed);
+        }
+    }
+    return k_controls_at_rest;
+}
+
+void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand,
+                          const ControlValues& controls, RenderFrame& frame) {
     const bool holds_controller = controllers_.has_value() && hand.grip == GripKind::none;
     hands_.add(side, hand.shown_ws, holds_controller ? controllers_->fingers(side) : hand.fingers,
                renderer_, frame);
     if (holds_controller) {
-        controllers_->add(side, hand.shown_ws, frame);
+        controllers_->add(side, hand.shown_ws, controls, frame);
     }
 }
 
@@ -137,7 +153,7 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         const RenderPose::Hand& hand = render.hands[index_of(side)];
         const bool grips = hand.grip != GripKind::none;
         const std::size_t first = frame.instances.size();
-        add_hand(side, hand, frame);
+        add_hand(side, hand, controls_of(row, side), frame);
         if (seen == BodyFigures::Seen::by_himself && !grips) {
             add_sunk(first, frame);
         }
