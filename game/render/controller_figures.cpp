@@ -10,7 +10,9 @@
 namespace handhold {
 namespace {
 
-constexpr HandleGrip k_wand_grip = {0.017, 0.6, -0.015};
+// Its handle lies where a real one's does: along the same line through the fist. Its head is
+// longer, so the hand is lower on it.
+constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
 
 // Pictures have no textures: a material that leaves its colour to one would be white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};

@@ -9,7 +9,7 @@ import time
 import zlib
 from pathlib import Path
 
-from xr.hands import about, conjugate, grip_of_flat_hand, rotate
+from xr.hands import about, conjugate, grip_below_palm, grip_of_flat_hand, rotate
 from xr.hub import Eye, Hub
 from xr.monado import Failed, Play, Room, Service
 
@@ -81,8 +81,8 @@ def take(play: Play, hub: Hub, side: str, closed: bool) -> None:
     play.wait(f"the {side} hand to {'grip' if closed else 'let go'}", lambda now: now[side]["grip"] == wanted)
 
 
-def on_rail(z: float) -> tuple:
-    return (0.0, RAIL_TOP_M + PALM_GAP_M, z)
+def on_rail(side: str, z: float) -> tuple:
+    return grip_below_palm(side, (0.0, RAIL_TOP_M + PALM_GAP_M, z))
 
 
 def check_crawl(room: Room) -> str:
@@ -93,17 +93,17 @@ def check_crawl(room: Room) -> str:
                 "/out/crawl.report.json")
     play.wait("focus", lambda now: now["headset"]["focus"])
     for side in ("left", "right"):
-        hub.change(**{side: {"rotation": grip_of_flat_hand(side), "position": on_rail(FAR_Z)}})
+        hub.change(**{side: {"rotation": grip_of_flat_hand(side), "position": on_rail(side, FAR_Z)}})
     begin = play.next()["head_m"]
     strokes = round(GOAL_M / STROKE_M)
     holds, other = "left", "right"
     take(play, hub, holds, True)
     for stroke in range(strokes):
-        hub.move(holds, on_rail(NEAR_Z), 0.3)
+        hub.move(holds, on_rail(holds, NEAR_Z), 0.3)
         if stroke + 1 < strokes:
             take(play, hub, other, True)
             take(play, hub, holds, False)
-            hub.move(holds, on_rail(FAR_Z), 0.15)
+            hub.move(holds, on_rail(holds, FAR_Z), 0.15)
             holds, other = other, holds
     play.next()
     went = play.next()["head_m"]
@@ -161,11 +161,11 @@ def check_touch(room: Room) -> str:
                 XR_API_DUMP_EXPORT_TYPE="text", XR_API_DUMP_FILE_NAME=f"/out/{dump.name}")
     play.wait("focus", lambda now: now["headset"]["focus"])
     for _ in range(3):
-        above = (0.0, RAIL_TOP_M + 0.12, FAR_Z)
+        above = grip_below_palm("right", (0.0, RAIL_TOP_M + 0.12, FAR_Z))
         service.hub.change(right={"rotation": grip_of_flat_hand("right"), "position": above})
         play.next()
         before = play.next()["headset"]["right"]["shakes"]
-        service.hub.move("right", on_rail(FAR_Z), 0.3)
+        service.hub.move("right", on_rail("right", FAR_Z), 0.3)
         play.wait("the touch", lambda now: now["headset"]["right"]["shakes"] == before + 1)
         take(play, service.hub, "right", True)
         play.wait("the grip's shake", lambda now: now["headset"]["right"]["shakes"] == before + 2)
