@@ -190,6 +190,7 @@ RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size
     }
     frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
     frame.hidden_lines = hidden_lines_;
+    frame.sheet = sheet_;
     frame.camera = camera;
     return frame;
 }

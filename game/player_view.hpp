@@ -39,6 +39,8 @@ class PlayerView {
     void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{row, values};
     }
+    // A sheet of panels in the world; none: nothing.
+    void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
     // Lives as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
@@ -71,6 +73,7 @@ class PlayerView {
     BodyFigures body_;
     std::optional<ControllerFigures> controllers_;
     std::optional<PlayerControls> controls_;
+    std::optional<Sheet> sheet_;
     GhostSettings ghosts_;
     bool shows_hand_lines_ = true;
     float hidden_lines_ = RenderFrame{}.hidden_lines;

@@ -248,6 +248,31 @@ def check_eyes(room: Room) -> str:
     return f"{pictures} pairs of {width} x {height}; boxes within {worst_px:.2f} px of where a pinhole has them"
 
 
+def check_panel(room: Room) -> str:
+    """The left calibrate button by itself shows the help before both eyes and puts it away; both together do not."""
+    service = Service(room, "panel")
+    eyes = [Eye((-0.75, 0.75, 0.7, -0.7), (-0.032, 0.0, 0.0)), Eye((-0.75, 0.75, 0.7, -0.7), (0.032, 0.0, 0.0))]
+    service.hub.change(eyes=eyes, left={"position": (-0.3, 0.9, 0.3)}, right={"position": (0.3, 0.9, 0.3)})
+    play = Play(room, "panel", "--xr", "--scene", "/scenes/xr_eyes.json", "--picture", "/out/panel.png", "--quality", "plain", "--eye-scale", "2")
+    play.wait("focus", lambda now: now["headset"]["focus"], 40.0)
+
+    def press(*sides):
+        for down in (True, False):
+            for side in sides:
+                service.hub.change(**{side: {"b": down}})
+            play.next()
+            play.next()
+        return play.next()["headset"]["panel"]
+
+    shown = [press("left"), press("left"), press("left", "right"), press("right"), press("left")]
+    expect(shown == [True, False, False, False, True], f"panel: shown {shown}")
+    before = play.next()["headset"]["pictures"]
+    play.wait("pictures", lambda now: now["headset"]["pictures"] > before + 2, 60.0)
+    end(play)
+    service.stop()
+    return f"shown, put away, and shown again by the left button alone: {room.out / 'panel.png'}"
+
+
 def lose(room: Room, name: str, *words: str) -> tuple[float, float]:
     """How many seconds the game takes to find the runtime that is there again, and by how many millimetres the player moved."""
     service = Service(room, name)
@@ -287,7 +312,7 @@ def check_absent(room: Room) -> str:
     return said[0]
 
 
-CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "touch": check_touch, "eyes": check_eyes, "loss": check_loss}
+CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "touch": check_touch, "eyes": check_eyes, "panel": check_panel, "loss": check_loss}
 
 
 def run(room: Room, names: list[str]) -> int:
