@@ -1,6 +1,8 @@
 #include "game/controller_profile.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "components/hand_rig.hpp"
 #include "engine/io/json.hpp"
@@ -38,14 +40,32 @@ Pose read_joint(const JsonValue& value, HandSide side) {
     return inverse(handle_in_hand(side, grip, HandTuning{}));
 }
 
+constexpr std::array<const char*, k_control_count> k_control_names = {
+    "trigger", "squeeze", "stick_x", "stick_y", "lower_button", "upper_button"};
+
+ControlledNode read_control(const JsonValue& value) {
+    value.allow_only({"control", "node", "from", "to"});
+    const std::string name = value["control"].text();
+    const auto* const known = std::ranges::find(k_control_names, name);
+    if (known == k_control_names.end()) {
+        value["control"].refuse("trigger, squeeze, stick_x, stick_y, lower_button or upper_button");
+        return {};
+    }
+    return {static_cast<Control>(known - k_control_names.begin()), value["node"].text(),
+            value["from"].text(), value["to"].text()};
+}
+
 ControllerSide read_own_side(const JsonValue& value, HandSide side,
                              const std::filesystem::path& folder) {
-    value.allow_only({"model", "grip", "aim", "hand", "handle"});
+    value.allow_only({"model", "grip", "aim", "hand", "handle", "controls"});
     ControllerSide made;
     made.model = folder / value["model"].text();
     made.fit.grip_ms = read_controller_pose(value["grip"]);
     made.fit.aim_ms = value["aim"].exists() ? read_controller_pose(value["aim"]) : made.fit.grip_ms;
     made.fit.hand_in_grip = read_joint(value, side);
+    for (const JsonValue& control : value["controls"].optional_items()) {
+        made.controls.push_back(read_control(control));
+    }
     return made;
 }
 
@@ -61,6 +81,55 @@ bool is_layout_of(std::string_view key, std::string_view side) {
     return false;
 }
 
+// What of ours a component's property is; none of what no reading tells: touches, a stick's click.
+std::optional<Control> webxr_control(const std::string& component, const std::string& property,
+                                     bool has_stick) {
+    const bool is_stick = component == "xr-standard-thumbstick";
+    const bool is_pad = component == "xr-standard-touchpad";
+    if (is_stick || (is_pad && !has_stick)) {
+        if (property == "xAxis") {
+            return Control::stick_x;
+        }
+        if (property == "yAxis") {
+            return Control::stick_y;
+        }
+    }
+    constexpr std::array<std::pair<const char*, Control>, 8> k_buttons = {
+        {{"xr-standard-trigger", Control::trigger},
+         {"xr-standard-squeeze", Control::squeeze},
+         {"xr-standard-touchpad", Control::lower_button},
+         {"x-button", Control::lower_button},
+         {"a-button", Control::lower_button},
+         {"y-button", Control::upper_button},
+         {"b-button", Control::upper_button},
+         {"menu", Control::upper_button}}};
+    for (const auto& [name, control] : k_buttons) {
+        const bool is_menu_of_its_own =
+            component == "menu" && has_stick;  // a controller with X and Y or A and B
+        if (property == "button" && component == name && !is_menu_of_its_own) {
+            return control;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<ControlledNode> read_webxr_controls(const JsonValue& components) {
+    std::vector<ControlledNode> controls;
+    const bool has_stick = components.exists() && components["xr-standard-thumbstick"].exists();
+    for (const auto& [component, value] : components.optional_members()) {
+        for (const auto& [name, response] : value["visualResponses"].optional_members()) {
+            const std::optional<Control> control =
+                webxr_control(component, response["componentProperty"].text_or(""), has_stick);
+            if (control && response["valueNodeProperty"].text_or("") == "transform") {
+                controls.push_back({*control, response["valueNodeName"].text(),
+                                    response["minNodeName"].text(),
+                                    response["maxNodeName"].text()});
+            }
+        }
+    }
+    return controls;
+}
+
 ControllerSide read_webxr_side(const JsonValue& layouts, HandSide side,
                                const std::filesystem::path& folder) {
     constexpr std::array<const char*, 5> k_keys = {"left", "right", "left-right", "right-left",
@@ -71,6 +140,7 @@ ControllerSide read_webxr_side(const JsonValue& layouts, HandSide side,
     for (const char* key : k_keys) {
         if (is_layout_of(key, name) && layouts[key].exists()) {
             made.model = folder / layouts[key]["assetPath"].text();
+            made.controls = read_webxr_controls(layouts[key]["components"]);
             return made;
         }
     }

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
+#include "game/controller_motion.hpp"
 
 // How controllers sit in hands, as data: docs/controllers.md. Talk row 9.
 //
@@ -39,6 +41,7 @@ Pose handle_in_hand(HandSide side, const HandleGrip& handle, const HandTuning& t
 struct ControllerSide {
     std::filesystem::path model;  // glTF, beside the profile
     ControllerFit fit;
+    std::vector<ControlledNode> controls;  // what moves on it
 };
 struct ControllerProfile {
     std::string name;

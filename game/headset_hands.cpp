@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "game/controller_profile.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {
@@ -40,27 +41,18 @@ std::optional<Pose> hand_pose(const HandReading& hand, HandSide side, const Hand
     return hand.wrist_ps;
 }
 
-// The palm's centre on the origin, the back of the hand outward, tilted about X.
-Pose hand_about_palm(HandSide side, double tilt_rad, const HandTuning& tuning) {
-    const double outward = side == HandSide::right ? 1.0 : -1.0;
-    Pose hand;
-    hand.rotation = (rotation_about(Vec3::UnitX(), tilt_rad) *
-                     rotation_about(Vec3::UnitZ(), -k_half_pi * outward))
-                        .normalized();
-    Vec3 palm = tuning.palm_center_m;
-    palm.x() *= outward;
-    hand.position = -(hand.rotation * palm);
-    return hand;
-}
-
 }  // namespace
 
 Pose hand_in_grip(HandSide side, const HandTuning& tuning) {
-    return hand_about_palm(side, -k_handle_rad, tuning);
+    return inverse(handle_in_hand(side, HandleGrip{}, tuning));
 }
 
 Pose hand_in_palm(HandSide side, const HandTuning& tuning) {
-    return hand_about_palm(side, 0.0, tuning);
+    const double outward = side == HandSide::right ? 1.0 : -1.0;
+    const Quat rotation = rotation_about(Vec3::UnitZ(), -k_half_pi * outward);
+    Vec3 palm = tuning.palm_center_m;
+    palm.x() *= outward;
+    return {-(rotation * palm), rotation};
 }
 
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip) {

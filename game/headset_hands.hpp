@@ -11,13 +11,12 @@
 // emulated body of keyboard and mouse give, and what sticks and buttons ask for.
 namespace handhold {
 
-// The wrist in OpenXR's grip frame: the palm's centre lies on the grip's origin, the back of the
-// hand faces outward, and the fingers' roots point k_handle_rad from the handle's axis.
+// The wrist in OpenXR's grip frame, which lies in a controller's handle: the palm's skin is on the
+// handle as HandleGrip says, as with WebXR's profiles.
 Pose hand_in_grip(HandSide side, const HandTuning& tuning);
-// The same in OpenXR's palm frame, which knows the hand's own axis.
+// The wrist in OpenXR's palm frame, whose origin is the palm's centre, on its skin, and which knows
+// the hand's own axis.
 Pose hand_in_palm(HandSide side, const HandTuning& tuning);
-// Between a handle in a closed fist and the hand's own axis: a handle does not lie square to it.
-inline constexpr double k_handle_rad = k_pi / 3.0;
 
 // 0 for a finger in line with the hand, 1 for one whose tip has come back to point at the wrist.
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);

@@ -8,6 +8,8 @@
 #include "engine/core/profile.hpp"
 #include "game/comfort.hpp"
 #include "game/headset_hands.hpp"
+#include "game/headset_panel.hpp"
+#include "game/ui/headset_help.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/overlay.hpp"
 
@@ -40,7 +42,7 @@ class HeadsetLoop {
     HeadsetLoop(HeadsetStage& stage, std::unique_ptr<Headset> headset)
         : stage_(stage), headset_(std::move(headset)) {
         if (stage.view != nullptr) {
-            overlay_.emplace(stage.eye_size.width_px, stage.eye_size.height_px);
+            overlay_.emplace(k_headset_help_px[0], k_headset_letters_for_px);
         }
     }
 
@@ -135,6 +137,7 @@ class HeadsetLoop {
         }
         if (frame.is_seen && frames_ > 0) {
             const std::int64_t begin_ns = now_ns();
+            lay_out_panel();
             const UiPicture& ui = darken_edges(due * clock_.dt_s());
             if (!headset_->end_frame(frame, [&](const EyePicture& eye) { draw(eye, ui); })) {
                 return;
@@ -151,6 +154,8 @@ class HeadsetLoop {
 
     void step(std::int64_t time_ns) {
         figures_.reading = headset_->read(time_ns);
+        panel_.follow(figures_.reading);
+        figures_.shows_panel = panel_.shows();
         HeadsetSession& session = stage_.session;
         const std::int64_t begin_ns = now_ns();
         const TrackingSample sample =
@@ -183,11 +188,48 @@ class HeadsetLoop {
         std::fflush(stage_.status);
     }
 
+    // What he is told of himself.
+    std::string notice() const {
+        const Calibration& calibration = world().calibration.at(stage_.session.player().player);
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            const Entity hand = stage_.session.player().hands[index_of(side)];
+            if (world().hand_tracking.at(hand).state == TrackingState::lost) {
+                return side == HandSide::left ? "The left hand is out of sight."
+                                              : "The right hand is out of sight.";
+            }
+        }
+        return calibration.held_s > 0.0 ? "Hold still: you are being measured."
+               : calibration.done       ? "You are measured."
+                                        : "";
+    }
+
+    void lay_out_panel() {
+        if (!panel_.shows()) {
+            return;
+        }
+        const Tuning& tuning = stage_.session.scene().tuning;
+        overlay_->resize(k_headset_help_px[0], k_headset_help_px[1]);
+        overlay_->begin({}, clock_.dt_s());
+        show_headset_help({stage_.options.settings.turn, tuning.locomotion.thruster_mps2 > 0.0,
+                           tuning.pull.reach_m > 0.0, notice()});
+        sheet_ui_ = overlay_->end();
+    }
+
+    // Where it is beside the head in the room, it is beside the head in the world.
+    std::optional<Sheet> sheet_before(const Pose& head_ws) const {
+        if (!panel_.shows()) {
+            return std::nullopt;
+        }
+        return Sheet{&sheet_ui_, k_headset_help_px,
+                     head_ws * (inverse(head_ps_) * panel_.pose_ps()), HeadsetPanel::k_width_m};
+    }
+
     const UiPicture& darken_edges(double dt_s) {
         Hud hud;
         hud.shows_mark = hud.shows_help = false;
         hud.vignette =
             vignette_of(world(), stage_.session.player().player, stage_.options.settings.vignette);
+        overlay_->resize(stage_.eye_size.width_px, stage_.eye_size.height_px);
         overlay_->begin({}, dt_s);
         show_hud(hud);
         return overlay_->end();
@@ -203,6 +245,10 @@ class HeadsetLoop {
         Camera camera;
         camera.pose_ws = render.head_ws * (inverse(head_ps_) * eye.eye_ps);
         camera.frustum = eye.frustum;
+        stage_.view->show_sheet(sheet_before(render.head_ws));
+        const auto& hands = figures_.reading.hands;
+        stage_.view->show_controls(world().render_pose.find_row(player),
+                                   {control_values(hands[0]), control_values(hands[1])});
         const bool keeps = !stage_.options.picture.empty();
         const bool mirrors = stage_.mirror != nullptr && eye.eye == 0;
         stage_.view->draw_eye(camera, world().render_pose.find_row(player), eye.texture,
@@ -226,10 +272,12 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    std::optional<Overlay> overlay_;  // of both eyes; none: headless
-    Pose head_ps_;                    // as the last reading had it
-    Image eye_image_;                 // reused
-    Image mirror_image_;              // the left eye's
+    std::optional<Overlay> overlay_;  // of both eyes and the panel; none: headless
+    HeadsetPanel panel_;
+    UiPicture sheet_ui_;  // while it shows
+    Pose head_ps_;        // as the last reading had it
+    Image eye_image_;     // reused
+    Image mirror_image_;  // the left eye's
     std::uint64_t frames_ = 0;
     double next_status_s_ = 0.0;
     bool ends_ = false;

@@ -62,7 +62,7 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
         }
         if (controllers) {
             fingers = controllers->fingers(side);
-            controllers->add(side, eyes_ws * wrist, frame);
+            controllers->add(side, eyes_ws * wrist, closing_values(shape == "fist"), frame);
         }
         figures.add(side, eyes_ws * wrist, fingers, renderer, frame);
     }

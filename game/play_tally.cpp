@@ -136,6 +136,7 @@ void add_place(const char* name, const std::optional<Pose>& pose, Json& to) {
 
 void add_headset(const HeadsetFigures& headset, Json& to) {
     to["focus"] = headset.has_focus;
+    to["panel"] = headset.shows_panel;
     to["losses"] = headset.losses;
     to["pictures"] = headset.pictures;
     add_place("head_m", headset.reading.head_ps, to);

@@ -61,6 +61,7 @@ class PlayTally {
 struct HeadsetFigures {
     HeadsetReading reading;  // the last one
     bool has_focus = false;
+    bool shows_panel = false;
     std::uint64_t losses = 0;                          // of the runtime, each found again
     std::uint64_t pictures = 0;                        // of both eyes
     std::array<std::uint64_t, k_hand_count> shakes{};  // by HandSide

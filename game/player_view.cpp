@@ -46,12 +46,28 @@ std::optional<PlayerView> PlayerView::open(const Scene& scene, PlayerModels mode
     return PlayerView(scene, std::move(models), std::move(*renderer));
 }
 
-void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand, RenderFrame& frame) {
+ControlValues PlayerView::controls_of(std::size_t row, HandSide side) const {
+    if (controls_ && controls_->row == row) {
+        return controls_->values[index_of(side)];
+    }
+    const World& world = scene_->world;
+    const Entity player = world.render_pose.owners()[row];
+    for (std::size_t i = 0; i < world.hand_owner.size(); ++i) {
+        const HandOwner& owner = world.hand_owner.rows()[i];
+        if (owner.player == player && owner.side == side) {
+            return closing_values(world.hand_tracking.at(world.hand_owner.owners()[i]).pressed);
+        }
+    }
+    return k_controls_at_rest;
+}
+
+void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand,
+                          const ControlValues& controls, RenderFrame& frame) {
     const bool holds_controller = controllers_.has_value() && hand.grip == GripKind::none;
     hands_.add(side, hand.shown_ws, holds_controller ? controllers_->fingers(side) : hand.fingers,
                renderer_, frame);
     if (holds_controller) {
-        controllers_->add(side, hand.shown_ws, frame);
+        controllers_->add(side, hand.shown_ws, controls, frame);
     }
 }
 
@@ -117,12 +133,12 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
     }
 }
 
-// What was added since `first`, where a wall hides it.
+// What was added since `first`, where something hides it that is not his own.
 void PlayerView::add_sunk(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
         frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.sunk,
-                                ghosts_.sunk_from_m, ghosts_.sunk_full_m});
+                                ghosts_.sunk_from_m, ghosts_.sunk_full_m, true});
     }
 }
 
@@ -131,18 +147,22 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
     const World& world = scene_->world;
     const Entity player = world.render_pose.owners()[row];
     const RenderPose& render = world.render_pose.rows()[row];
+    const std::size_t first_own = frame.instances.size();
     body_.add(world.body_measures.at(player), render, seen, renderer_, frame);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const RenderPose::Hand& hand = render.hands[index_of(side)];
         const bool grips = hand.grip != GripKind::none;
         const std::size_t first = frame.instances.size();
-        add_hand(side, hand, frame);
+        add_hand(side, hand, controls_of(row, side), frame);
         if (seen == BodyFigures::Seen::by_himself && !grips) {
             add_sunk(first, frame);
         }
         if (shows_hand_lines_) {
             add_hand_lines(render.head_ws.position, hand, frame);
         }
+    }
+    for (std::size_t i = first_own; i < frame.instances.size(); ++i) {
+        frame.instances[i].is_own = seen == BodyFigures::Seen::by_himself;
     }
     for (std::size_t hand = 0; hand < world.hand_owner.size(); ++hand) {
         const HandOwner& owner = world.hand_owner.rows()[hand];
@@ -170,6 +190,7 @@ RenderFrame PlayerView::make_frame(const Camera& camera, std::optional<std::size
     }
     frame.lines.insert(frame.lines.end(), marks.begin(), marks.end());
     frame.hidden_lines = hidden_lines_;
+    frame.sheet = sheet_;
     frame.camera = camera;
     return frame;
 }

@@ -35,6 +35,12 @@ class PlayerView {
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
+    // How far the controls are of whoever has this row; others' are as far as their hands close.
+    void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
+        controls_ = PlayerControls{row, values};
+    }
+    // A sheet of panels in the world; none: nothing.
+    void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
     // Lives as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
@@ -44,7 +50,9 @@ class PlayerView {
     RenderFrame make_frame(const Camera& camera, std::optional<std::size_t> without_head,
                            std::span<const Line> marks);
     void add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame);
-    void add_hand(HandSide side, const RenderPose::Hand& hand, RenderFrame& frame);
+    void add_hand(HandSide side, const RenderPose::Hand& hand, const ControlValues& controls,
+                  RenderFrame& frame);
+    ControlValues controls_of(std::size_t row, HandSide side) const;
     void add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const;
     void add_ghost_of(HandSide side, const Pose& wrist_ws,
                       const std::array<FingerAngles, k_finger_count>& fingers, const Ghost& like,
@@ -53,12 +61,19 @@ class PlayerView {
     void add_sunk(std::size_t first, RenderFrame& frame) const;
     void add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost, RenderFrame& frame);
 
+    struct PlayerControls {
+        std::size_t row = 0;
+        std::array<ControlValues, k_hand_count> values{};
+    };
+
     const Scene* scene_;
     Renderer renderer_;            // each has its own meshes
     std::vector<MeshId> visuals_;  // by Scene::visuals
     HandFigures hands_;
     BodyFigures body_;
     std::optional<ControllerFigures> controllers_;
+    std::optional<PlayerControls> controls_;
+    std::optional<Sheet> sheet_;
     GhostSettings ghosts_;
     bool shows_hand_lines_ = true;
     float hidden_lines_ = RenderFrame{}.hidden_lines;

@@ -7,6 +7,7 @@
 
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/built_in_scenes.hpp"
 
 namespace handhold {
 namespace {
@@ -93,9 +94,17 @@ bool overlap(const Shot& a, const Shot& b) {
     return a.scene == b.scene && a.at_s < b.until_s && b.at_s < a.until_s;
 }
 
+// A list has shots of many scenes: one of none would never be asked for, and not be missed.
+bool is_scene(const std::string& scene) {
+    const std::vector<std::string_view> built_in = built_in_scenes();
+    std::error_code ignored;
+    return std::ranges::find(built_in, scene) != built_in.end() ||
+           std::filesystem::is_regular_file(scene, ignored);
+}
+
 }  // namespace
 
-Result<std::vector<Shot>> parse_shots(const std::string& text, const std::string& file) {
+Result<std::vector<Shot>> parse_shots(std::string_view text, const std::string& file) {
     const Result<JsonDocument> document = JsonDocument::parse(text, file);
     if (!document) {
         return document.error();
@@ -126,7 +135,16 @@ Result<std::vector<Shot>> load_shots(const std::filesystem::path& file) {
     if (!text) {
         return text.error();
     }
-    return parse_shots(text.value(), file.string());
+    Result<std::vector<Shot>> shots = parse_shots(text.value(), file.string());
+    if (shots) {
+        const auto lost = std::ranges::find_if_not(shots.value(), is_scene, &Shot::scene);
+        if (lost != shots.value().end()) {
+            return FileError{
+                file.string(), "/shots/" + std::to_string(lost->number) + "/scene",
+                "expected a built-in scene or a file that is there, found \"" + lost->scene + "\""};
+        }
+    }
+    return shots;
 }
 
 }  // namespace handhold

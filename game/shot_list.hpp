@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "components/tracking.hpp"
@@ -46,7 +47,8 @@ struct Shot {
 };
 
 // Errors name the file, the JSON pointer, and what was expected.
-Result<std::vector<Shot>> parse_shots(const std::string& text, const std::string& file);
+Result<std::vector<Shot>> parse_shots(std::string_view text, const std::string& file);
+// The same; every scene is one that is built in, or a file that is there.
 Result<std::vector<Shot>> load_shots(const std::filesystem::path& file);
 
 }  // namespace handhold

@@ -128,4 +128,27 @@ std::optional<SurfacePoint> CollisionWorld::closest_point(
     return best;
 }
 
+std::optional<SurfacePoint> CollisionWorld::closest_point_on(std::uint64_t id,
+                                                             const Vec3& point_ws) const {
+    const std::span<const BroadphaseBody> bodies = impl_->broadphase.bodies();
+    const auto found = std::ranges::find_if(
+        bodies, [id](const BroadphaseBody& body) { return body.proxy.id == id; });
+    if (found == bodies.end() || found->proxy.shape == k_no_shape ||
+        !is_valid(found->proxy.to_ws)) {
+        return std::nullopt;
+    }
+    const ColliderProxy& proxy = found->proxy;
+    const std::optional<ScaledTriangles>& triangles = impl_->cache[proxy.shape.index].triangles;
+    const Vec3 point = inverse_transform_point(proxy.to_ws, point_ws);
+    constexpr double k_anywhere_m = 1e9;
+    const std::optional<LocalSurfacePoint> near =
+        triangles ? triangles->closest_point(point, k_anywhere_m)
+                  : closest_on_shape(impl_->shapes.at(proxy.shape), point);
+    if (!near) {
+        return std::nullopt;
+    }
+    return SurfacePoint{id, transform_point(proxy.to_ws, near->point),
+                        proxy.to_ws.rotation * near->normal, near->distance_m};
+}
+
 }  // namespace handhold

@@ -130,6 +130,8 @@ class CollisionWorld {
     // precision, closed form).
     std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
                                               std::span<const std::uint64_t> skip = {}) const;
+    // The same on the collider with this id alone, however far it is; none where there is none.
+    std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
   private:
     struct Impl;

@@ -89,6 +89,7 @@ bool LevelReader::read_part(int index, const Affine& transform) {
     }
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
     LevelPart part;
+    part.pointer = place;
     part.mesh.name = !node.name.empty()   ? node.name
                      : !mesh.name.empty() ? mesh.name
                                           : "node " + std::to_string(index);

@@ -28,6 +28,7 @@ struct ColorRun {
 struct LevelPart {
     Mesh mesh;  // in the frame of the scene: every node's transform is applied; named after the
                 // node; its colour is that of the first run
+    std::string pointer;     // of the node: "/nodes/3"
     bool synthetic = false;  // extras.synthetic of the node or its mesh: filled in by us, not by
                              // the model's author
     std::vector<ColorRun>

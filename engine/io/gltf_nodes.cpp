@@ -21,10 +21,16 @@ Result<std::vector<GltfNode>> parse_gltf_nodes(std::string_view bytes,
         return reader.error();
     }
     std::vector<GltfNode> nodes;
+    std::map<int, std::size_t> parent_of;  // by the node's number
     for (const PlacedNode& node : placed) {
         const tinygltf::Node& from = model.value().nodes[static_cast<std::size_t>(node.node)];
+        const auto parent = parent_of.find(node.node);
+        for (const int child : from.children) {
+            parent_of.emplace(child, nodes.size());
+        }
         nodes.push_back({from.name, rigid_part(node.world), read_gltf_numbers(from.extras),
-                         gltf_pointer("nodes", node.node)});
+                         gltf_pointer("nodes", node.node),
+                         parent != parent_of.end() ? std::optional(parent->second) : std::nullopt});
     }
     return nodes;
 }

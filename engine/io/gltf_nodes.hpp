@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,7 +20,8 @@ struct GltfNode {
     std::optional<Pose> pose_ms;  // in the frame of the file's scene, without its scale; none of
                                   // one that is squashed or mirrored
     std::map<std::string, std::vector<double>> numbers;  // of its extras
-    std::string pointer;                                 // "/nodes/3": for messages
+    std::string pointer;                                 // "/nodes/3"
+    std::optional<std::size_t> parent;                   // its place in the list; none of a root
 };
 
 // The nodes of the default scene (else of the first one, else all), parents before children.

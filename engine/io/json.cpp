@@ -245,6 +245,23 @@ std::vector<JsonValue> JsonValue::optional_items() const {
     return exists() ? items() : std::vector<JsonValue>();
 }
 
+std::vector<std::pair<std::string, JsonValue>> JsonValue::optional_members() const {
+    std::vector<std::pair<std::string, JsonValue>> result;
+    if (!exists()) {
+        return result;
+    }
+    if (!is_object()) {
+        refuse("an object");
+        return result;
+    }
+    result.reserve(node_->size());
+    for (auto member = node_->begin(); member != node_->end(); ++member) {
+        result.emplace_back(member.key(),
+                            JsonValue(document_, &*member, append_key(pointer_, member.key())));
+    }
+    return result;
+}
+
 void JsonValue::allow_only(std::initializer_list<std::string_view> keys) const {
     allow_only(std::span(keys.begin(), keys.size()));
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -46,6 +47,8 @@ class JsonValue {
     // The elements of an array. `optional_items` takes an absent array for an empty one.
     std::vector<JsonValue> items() const;
     std::vector<JsonValue> optional_items() const;
+    // The members of an object by their keys, in the keys' order; none where it is absent.
+    std::vector<std::pair<std::string, JsonValue>> optional_members() const;
     // Makes every key that is not listed an error.
     void allow_only(std::initializer_list<std::string_view> keys) const;
     void allow_only(std::span<const std::string_view> keys) const;

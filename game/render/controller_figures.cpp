@@ -10,7 +10,9 @@
 namespace handhold {
 namespace {
 
-constexpr HandleGrip k_wand_grip = {0.017, 0.6, -0.015};
+// Its handle lies where a real one's does: along the same line through the fist. Its head is
+// longer, so the hand is lower on it.
+constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
 
 // Pictures have no textures: a material that leaves its colour to one would be white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
@@ -21,7 +23,19 @@ Result<ControllerModel> load_controller(const ControllerSide& side) {
     if (!level) {
         return level.error();
     }
-    ControllerModel model{make_level_meshes(level.value()), side.fit};
+    const Result<std::vector<GltfNode>> nodes = load_gltf_nodes(side.model);
+    if (!nodes) {
+        return nodes.error();
+    }
+    ControllerModel model;
+    model.fit = side.fit;
+    for (const LevelPart& part : level.value().parts) {
+        const std::vector<ControlMove> moves = moves_of(part.pointer, nodes.value(), side.controls);
+        for (LevelMesh& mesh : make_level_meshes(GltfLevel{{part}})) {
+            model.meshes.push_back(std::move(mesh));
+            model.moves.push_back(moves);
+        }
+    }
     if (model.meshes.empty()) {
         return FileError{side.model.string(), "/meshes", "expected triangles, found none"};
     }
@@ -31,6 +45,39 @@ Result<ControllerModel> load_controller(const ControllerSide& side) {
         }
     }
     return model;
+}
+
+// From rest about a point of the wand.
+ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from_rad,
+                         const Vec3& to_rad) {
+    const Pose rest{about_ms, Quat::Identity()};
+    return {control,
+            rest,
+            {about_ms, rotation_from_vector(from_rad)},
+            {about_ms, rotation_from_vector(to_rad)}};
+}
+
+// Its trigger swings on a pin, its squeeze goes in, its pad tilts.
+void add_wand(ControllerModel& model) {
+    constexpr double k_trigger_rad = 0.35;
+    constexpr double k_tilt_rad = 0.2;
+    constexpr double k_squeeze_m = 0.0025;
+    const auto add = [&model](std::vector<Mesh> meshes, const std::vector<ControlMove>& moves) {
+        for (Mesh& mesh : meshes) {
+            model.meshes.push_back({std::move(mesh), {}});
+            model.moves.push_back(moves);
+        }
+    };
+    WandMeshes wand = make_wand();
+    add(std::move(wand.body), {});
+    add(std::move(wand.trigger), {turn_of_wand(Control::trigger, k_wand_pin_m, Vec3::Zero(),
+                                               -k_trigger_rad * Vec3::UnitX())});
+    add(std::move(wand.squeeze),
+        {{Control::squeeze, {}, {}, {k_squeeze_m * Vec3::UnitY(), Quat::Identity()}}});
+    const Vec3 right = k_tilt_rad * Vec3::UnitZ();
+    const Vec3 back = k_tilt_rad * Vec3::UnitX();
+    add(std::move(wand.pad), {turn_of_wand(Control::stick_x, k_wand_pad_m, right, -right),
+                              turn_of_wand(Control::stick_y, k_wand_pad_m, -back, back)});
 }
 
 Mesh whole_mesh(const ControllerModel& model) {
@@ -57,9 +104,7 @@ ControllerModels builtin_controllers(const HandTuning& tuning) {
     models.name = "builtin";
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         ControllerModel& model = models.sides[index_of(side)];
-        for (Mesh& mesh : make_controller()) {
-            model.meshes.push_back({std::move(mesh), {}});
-        }
+        add_wand(model);
         // The model lies in the fist; where it is tracked follows from the joint.
         const Pose joint = default_controller_to_hand(side, tuning);
         model.fit.hand_in_grip = joint;
@@ -107,18 +152,22 @@ ControllerFigures::ControllerFigures(const ControllerModels& models, const HandF
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const ControllerModel& model = models.sides[index_of(side)];
         Side& made = sides_[index_of(side)];
-        for (const LevelMesh& part : model.meshes) {
-            made.parts.push_back({renderer.add_mesh(part.mesh), part.look});
+        for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+            made.parts.push_back(
+                {renderer.add_mesh(model.meshes[i].mesh), model.meshes[i].look, model.moves[i]});
         }
         made.in_hand = controller_in_hand(model.fit);
         made.fingers = fingers_around(model, hands.rig(side));
     }
 }
 
-void ControllerFigures::add(HandSide side, const Pose& wrist_ws, RenderFrame& frame) const {
+void ControllerFigures::add(HandSide side, const Pose& wrist_ws, const ControlValues& values,
+                            RenderFrame& frame) const {
     const Side& model = sides_[index_of(side)];
     for (const Part& part : model.parts) {
-        frame.instances.push_back({part.mesh, wrist_ws * model.in_hand, std::nullopt, part.look});
+        frame.instances.push_back({part.mesh,
+                                   wrist_ws * model.in_hand * moved_by(part.moves, values),
+                                   std::nullopt, part.look});
     }
 }
 

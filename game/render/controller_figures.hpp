@@ -13,7 +13,8 @@
 namespace handhold {
 
 struct ControllerModel {
-    std::vector<LevelMesh> meshes;
+    std::vector<LevelMesh> meshes;                // at rest
+    std::vector<std::vector<ControlMove>> moves;  // of each mesh, the outermost first
     ControllerFit fit;
 };
 struct ControllerModels {
@@ -38,7 +39,8 @@ class ControllerFigures {
   public:
     ControllerFigures(const ControllerModels& models, const HandFigures& hands, Renderer& renderer);
 
-    void add(HandSide side, const Pose& wrist_ws, RenderFrame& frame) const;
+    void add(HandSide side, const Pose& wrist_ws, const ControlValues& values,
+             RenderFrame& frame) const;
     // Of the hand that holds it.
     const std::array<FingerAngles, k_finger_count>& fingers(HandSide side) const {
         return sides_[index_of(side)].fingers;
@@ -48,6 +50,7 @@ class ControllerFigures {
     struct Part {
         MeshId mesh{};
         Look look;
+        std::vector<ControlMove> moves;
     };
     struct Side {
         std::vector<Part> parts;

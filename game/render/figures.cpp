@@ -32,7 +32,7 @@ FigureKit build_head() {
     return kit;
 }
 
-std::vector<Mesh> make_controller() {
+WandMeshes make_wand() {
     constexpr std::array<LoftSection, 7> k_handle = {{{-0.062, 0.012, 0.012, 0.010, 0.0, -0.010},
                                                       {-0.058, 0.016, 0.017, 0.014, 0.0, -0.010},
                                                       {-0.010, 0.017, 0.018, 0.015, 0.0, -0.004},
@@ -45,13 +45,19 @@ std::vector<Mesh> make_controller() {
     kit.add(joint, loft_sections(k_handle), forward);
     kit.add(shell, make_torus(0.047, 0.0085, 40, 12),
             {Vec3(0.0, 0.004, -0.125), rotation_about(Vec3::UnitX(), 1.05)});
-    const Vec3 pad(0.0, 0.0175, -0.058);
-    kit.add(shell, make_cylinder(pad, pad + Vec3(0.0, 0.0042, -0.0005), 0.0175, 32));
-    kit.add(accent,
-            make_cylinder(pad + Vec3(0.0, 0.004, 0.0), pad + Vec3(0.0, 0.0052, 0.0), 0.0050, 20));
-    kit.add(accent, make_bevelled_box(Vec3(0.007, 0.012, 0.006), 0.003),
-            {Vec3(0.0, -0.016, -0.062), rotation_about(Vec3::UnitX(), 0.35)});
-    return kit.finish("controller");
+    FigureKit pad;
+    pad.add(shell,
+            make_cylinder(k_wand_pad_m, k_wand_pad_m + Vec3(0.0, 0.0042, -0.0005), 0.0175, 32));
+    pad.add(accent, make_cylinder(k_wand_pad_m + Vec3(0.0, 0.004, 0.0),
+                                  k_wand_pad_m + Vec3(0.0, 0.0052, 0.0), 0.0050, 20));
+    FigureKit trigger;
+    trigger.add(accent, make_bevelled_box(Vec3(0.007, 0.012, 0.006), 0.003),
+                {Vec3(0.0, -0.016, -0.062), rotation_about(Vec3::UnitX(), 0.35)});
+    FigureKit squeeze;
+    squeeze.add(shell, make_bevelled_box(Vec3(0.008, 0.004, 0.014), 0.002),
+                {Vec3(0.0, -0.0205, 0.003), Quat::Identity()});
+    return {kit.finish("wand"), trigger.finish("wand trigger"), squeeze.finish("wand squeeze"),
+            pad.finish("wand pad")};
 }
 
 }  // namespace handhold

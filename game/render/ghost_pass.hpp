@@ -11,8 +11,10 @@ namespace handhold {
 
 // Draws a frame's ghosts over what is drawn already: the nearest of their surfaces at each pixel
 // and no more, so that no fingers shimmer through a palm; behind what hides them too. Their depths
-// lie in a texture of their own, and the scene's say how far behind it they are. What the scene's
-// depths are used for afterwards sees no ghosts. Costs nothing while there are none.
+// lie in a texture of their own, and the scene's say how far behind it they are. Those with
+// Ghost::own_hides are not drawn behind what is_own: an arm seen lengthwise is no wall before its
+// hand. What the scene's depths are used for afterwards sees no ghosts. Costs nothing while there
+// are none.
 class GhostPass {
   public:
     // False, and the reason, where the card refuses.
@@ -23,7 +25,16 @@ class GhostPass {
              const PicturePasses& passes);
 
   private:
-    GlProgram depth_program_, ghost_program_;
+    struct Picture {
+        const RenderFrame& frame;
+        const FrameView& view;
+        std::span<const GpuMesh> meshes;
+        const PicturePasses& passes;
+    };
+    int draw_alike(const Picture& picture, bool own_hides) const;
+    int draw_own_depths(const Picture& picture) const;
+
+    GlProgram depth_program_, own_program_, ghost_program_;
     GlTexture depth_;       // made with the first ghost
     GlFramebuffer target_;  // the scene's colours over it
 };

@@ -29,4 +29,13 @@ void main() {
 }
 )";
 
+// Depths of what is seen itself, and of nothing that something hides. The scene's are of the same
+// vertices, rounded to 24 bits.
+inline constexpr const char* k_own_depth_fragment = R"(
+uniform sampler2D scene_depth;
+void main() {
+    if (gl_FragCoord.z > texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r + 1e-6) discard;
+}
+)";
+
 }  // namespace handhold::shaders

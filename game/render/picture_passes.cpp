@@ -151,7 +151,7 @@ void PicturePasses::compose() {
     }
 }
 
-void PicturePasses::finish(const FrameView& view, const UiPicture* ui) {
+void PicturePasses::finish(const FrameView& view, const Sheet* sheet, const UiPicture* ui) {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     if (size_.effects) {
@@ -159,6 +159,10 @@ void PicturePasses::finish(const FrameView& view, const UiPicture* ui) {
         blur_glow();
     }
     compose();
+    if (sheet != nullptr && sheet->ui != nullptr && is_valid(sheet->pose_ws)) {
+        ui_painter_.draw_sheet(*sheet, view, depth_, {size_.width_px, size_.height_px},
+                               size_.samples_across);
+    }
     if (ui != nullptr) {
         ui_painter_.draw(*ui, {size_.width_px, size_.height_px});
     }

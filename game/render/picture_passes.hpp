@@ -37,9 +37,9 @@ class PicturePasses {
     std::array<int, 2> scene_size_px() const {
         return {size_.width_px * size_.samples_across, size_.height_px * size_.samples_across};
     }
-    // Makes what begin()'s target holds the finished picture, with panels where there are. Needs
-    // any vertex array bound.
-    void finish(const FrameView& view, const UiPicture* ui);
+    // Makes what begin()'s target holds the finished picture, with panels where there are, in the
+    // world and over all. Needs any vertex array bound.
+    void finish(const FrameView& view, const Sheet* sheet, const UiPicture* ui);
     // The finished picture's bytes as they are, into a texture of the same size, rows from the
     // bottom: a texture in sRGB is not encoded again.
     void copy_into(GLuint texture);

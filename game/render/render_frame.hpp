@@ -30,6 +30,7 @@ struct Instance {
     Pose pose_ws;
     std::optional<Color> color;  // the mesh's own where empty
     Look look;
+    bool is_own = false;  // of him whose eyes the camera is: hides ghosts that say so
 };
 
 // A straight mark of constant width on the picture (palm rays, constraints): faint where something
@@ -51,6 +52,7 @@ struct Ghost {
     float hidden = 0.35F;         // where something does,
     double hidden_from_m = 0.0;   // from so far before it on, along the view,
     double hidden_full_m = 0.01;  // wholly from so far; above hidden_from_m
+    bool own_hides = false;       // not drawn behind what is_own, where that is seen
 };
 
 // A small lamp without shadow. Its light fades to nothing at reach_m, so that it hardly leaks
@@ -88,6 +90,17 @@ struct Camera {
     double near_m = 0.03;
 };
 
+struct UiPicture;  // ui_picture.hpp
+
+// Panels on a sheet that stands in the world, hidden by what is before it: its middle at the pose,
+// +Z to whoever reads it, +Y up.
+struct Sheet {
+    const UiPicture* ui = nullptr;  // must outlive the drawing
+    std::array<int, 2> size_px = {1, 1};
+    Pose pose_ws;
+    double width_m = 0.6;
+};
+
 enum class Backdrop { plain, space };  // space: stars, and a planet where planet_ws points
 
 struct RenderFrame {
@@ -96,7 +109,8 @@ struct RenderFrame {
     std::vector<Ghost> ghosts;
     std::vector<Line> lines;
     float hidden_lines = 0.22F;  // [0, 1]; how much of a line is seen where something hides it
-    std::vector<Lamp> lamps;     // the twelve that matter most to the camera are used
+    std::optional<Sheet> sheet;
+    std::vector<Lamp> lamps;  // the twelve that matter most to the camera are used
     KeyLight key;
     Vec3 up_ws = Vec3::UnitY();  // from the ground's ambient light to the sky's
     Color sky_ambient = {0.16F, 0.175F, 0.20F};

@@ -371,7 +371,7 @@ void Renderer::draw_picture(const RenderFrame& frame, const UiPicture* ui) {
     impl.counters.draw_calls += impl.ghosts.draw(frame, view, impl.meshes, impl.passes);
     impl.draw_lines(frame, view);
     glBindVertexArray(impl.empty_layout);
-    impl.passes.finish(view, ui);
+    impl.passes.finish(view, frame.sheet ? &*frame.sheet : nullptr, ui);
 }
 
 void Renderer::draw(const RenderFrame& frame, Image& out, const UiPicture* ui) {

@@ -183,6 +183,46 @@ out vec4 color;
 void main() { color = tint * texture(glyphs, uv); }
 )";
 
+// The same on a sheet in the world. The target's first row is the picture's highest, the scene's is
+// its lowest.
+inline constexpr const char* k_sheet_vertex = R"(
+layout(location = 0) in vec2 place_px;
+layout(location = 1) in vec2 glyph_uv;
+layout(location = 2) in vec4 rgba;
+uniform vec2 sheet_px;
+uniform float m_per_px;
+uniform mat4 sheet_to_cs;
+uniform mat4 cs_to_clip;
+out vec2 uv;
+out vec2 at_px;
+out vec4 tint;
+void main() {
+    uv = glyph_uv;
+    tint = rgba;
+    at_px = place_px;
+    vec2 at = (place_px - 0.5 * sheet_px) * m_per_px;
+    gl_Position = cs_to_clip * (sheet_to_cs * vec4(at.x, -at.y, 0.0, 1.0));
+    gl_Position.y = -gl_Position.y;
+}
+)";
+inline constexpr const char* k_sheet_fragment = R"(
+in vec2 uv;
+in vec2 at_px;
+in vec4 tint;
+uniform sampler2D glyphs;
+uniform sampler2D scene_depth;
+uniform vec4 clip_px;
+uniform float target_rows;
+uniform int samples_across;
+out vec4 color;
+void main() {
+    if (any(lessThan(at_px, clip_px.xy)) || any(greaterThan(at_px, clip_px.zw))) discard;
+    ivec2 pixel = ivec2(gl_FragCoord.x, target_rows - gl_FragCoord.y);
+    if (gl_FragCoord.z > texelFetch(scene_depth, pixel * samples_across, 0).r) discard;
+    color = tint * texture(glyphs, uv);
+}
+)";
+
 // One triangle that covers the picture; depth at the far end.
 inline constexpr const char* k_screen_vertex = R"(
 out vec2 uv;

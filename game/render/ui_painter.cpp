@@ -16,6 +16,7 @@ const void* offset(std::size_t bytes) {
 
 bool UiPainter::create(GlApi api, std::string& why_not) {
     program_ = make_program(api, shaders::k_ui_vertex, shaders::k_ui_fragment, why_not);
+    sheet_program_ = make_program(api, shaders::k_sheet_vertex, shaders::k_sheet_fragment, why_not);
     layout_ = make_vertex_array();
     vertices_ = make_buffer();
     indices_ = make_buffer();
@@ -30,7 +31,7 @@ bool UiPainter::create(GlApi api, std::string& why_not) {
     attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(UiVertex, place_px));
     attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(UiVertex, glyph_uv));
     attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(UiVertex, rgba));
-    return program_ != 0U;
+    return program_ != 0U && sheet_program_ != 0U;
 }
 
 void UiPainter::upload(const UiPicture& ui) {
@@ -79,6 +80,42 @@ void UiPainter::draw(const UiPicture& ui, std::array<int, 2> size_px) {
     }
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
+}
+
+void UiPainter::draw_sheet(const Sheet& sheet, const FrameView& view, GLuint scene_depth,
+                           std::array<int, 2> size_px, int samples_across) {
+    const UiPicture& ui = *sheet.ui;
+    if (ui.commands.empty() || ui.glyphs.width_px == 0) {
+        return;
+    }
+    upload(ui);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, scene_depth);
+    const auto floats = [](double a, double b) {
+        return std::array<float, 2>{static_cast<float>(a), static_cast<float>(b)};
+    };
+    glUseProgram(sheet_program_);
+    set_uniform(sheet_program_, "glyphs", 0);
+    set_uniform(sheet_program_, "scene_depth", 1);
+    set_uniform(sheet_program_, "cs_to_clip", view.cs_to_clip);
+    set_uniform(sheet_program_, "sheet_to_cs",
+                make_model_matrix(sheet.pose_ws.rotation, sheet.pose_ws.position - view.eye_ws));
+    set_uniform(sheet_program_, "sheet_px", floats(sheet.size_px[0], sheet.size_px[1]));
+    set_uniform(sheet_program_, "m_per_px", static_cast<float>(sheet.width_m / sheet.size_px[0]));
+    set_uniform(sheet_program_, "target_rows", static_cast<float>(size_px[1]));
+    set_uniform(sheet_program_, "samples_across", samples_across);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    for (const UiCommand& command : ui.commands) {
+        const auto& clip = command.clip_px;
+        set_uniform(sheet_program_, "clip_px",
+                    std::array<float, 4>{static_cast<float>(clip[0]), static_cast<float>(clip[1]),
+                                         static_cast<float>(clip[2]), static_cast<float>(clip[3])});
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.count), GL_UNSIGNED_INT,
+                       offset(command.first * sizeof(std::uint32_t)));
+    }
+    glDisable(GL_BLEND);
+    glActiveTexture(GL_TEXTURE0);
 }
 
 }  // namespace handhold

@@ -82,6 +82,12 @@ Overlay::Overlay(int width_px, int height_px) : impl_(std::make_unique<Impl>()) 
 
 Overlay::~Overlay() { ImGui::DestroyContext(impl_->context); }
 
+void Overlay::resize(int width_px, int height_px) {
+    ImGui::SetCurrentContext(impl_->context);
+    ImGui::GetIO().DisplaySize =
+        ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
+}
+
 void Overlay::begin(const UiInput& input, double dt_s) {
     ImGui::SetCurrentContext(impl_->context);
     ImGuiIO& io = ImGui::GetIO();

@@ -17,6 +17,8 @@ class Overlay {
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
+    // Of what is laid out from the next begin() on; letters stay as large as they are.
+    void resize(int width_px, int height_px);
     void begin(const UiInput& input, double dt_s);
     // The panels as triangles; good until the next begin().
     const UiPicture& end();

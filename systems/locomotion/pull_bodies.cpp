@@ -106,6 +106,13 @@ bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tu
     return is_there;
 }
 
+// From what of the body is nearest to the palm: a ring's middle may come to a palm that then has
+// nothing to close on. Its middle, where it has no surface.
+Vec3 way_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
+    const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
+    return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
+}
+
 // One frame of the rope: an impulse on the body, and its opposite on the player.
 void draw_together(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning& tuning) {
     const Entity player = io.owner.at(hand).player;
@@ -114,11 +121,8 @@ void draw_together(const PullBodiesIo& io, Entity hand, Entity pulled, const Tun
     const Vec3 palm_end_ws = ray_of(io, hand, tracking.pose_ps, tuning.hand).palm_ws;
     Vec3& player_mps = io.player_velocity.at(player).linear_mps;
     Vec3& body_mps = io.body_velocity.at(pulled).linear_mps;
-    const Vec3 way = palm_ws - io.body_pose.at(pulled).pose_ws.position;
-    const double distance_m = way.norm();
-    if (distance_m < 1e-6) {
-        return;
-    }
+    const Vec3 way = way_to_palm(io, pulled, palm_ws);
+    const double distance_m = std::max(way.norm(), 1e-6);
     const double body_kg = io.body.at(pulled).mass_kg;
     const double player_kg = io.player.at(player).mass_kg;
     const double reduced_kg = body_kg * player_kg / (body_kg + player_kg);

@@ -33,10 +33,11 @@ struct PullBodiesIo {
 // hand that closes on nothing looks along its palm for a loose, light body that no joint ties to
 // another and no other hand has or pulls. While that is so and the hand stays closed,
 // body and player draw each other with at most PullTuning::force_n between the body's centre of
-// mass and the player, towards the hand as it moves, as two masses on a rope would: what one gets
-// of momentum the other loses, and what is in the way is in the way, for this changes velocities
-// before prediction and nothing else. Slower the nearer it is, so that it can be stopped.
-// update_grabs takes it once it is at the palm. A hand that opens lets it fly on.
+// mass and the player, so that what of its surface is nearest comes to the palm as that moves, as
+// two masses on a rope would: what one gets of momentum the other loses, and what is in the way is
+// in the way, for this changes velocities before prediction and nothing else. Slower the nearer it
+// is, so that it can be stopped. update_grabs takes it once it is at the palm. A hand that opens
+// lets it fly on.
 void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

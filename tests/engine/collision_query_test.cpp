@@ -247,5 +247,31 @@ TEST(ClosestPointQuery, OnTheSurfaceTheNormalIsTheTriangles) {
     EXPECT_NEAR(found->normal_ws.y(), 1.0, 1e-12);
 }
 
+// Each collider by itself gives what the nearest of all gives where it is alone in the world.
+TEST(ClosestPointOn, IsThatOfAWorldWithNothingElse) {
+    World all;
+    const std::vector<std::pair<ShapeId, Pose>> bodies = {
+        {all.shapes.add_sphere(0.3), at({2.0, 0.0, 0.0})},
+        {all.shapes.add_box({0.4, 0.1, 0.2}), at({-1.0, 0.5, 0.0})},
+        {all.shapes.add_mesh(test::make_floor(4.0, 7, test::Winding::mixed)),
+         at({0.0, -2.0, 0.0})}};
+    for (const auto& [shape, pose] : bodies) {
+        all.add(shape, pose);
+    }
+    CollisionWorld& world = all.make();
+    const Vec3 point(0.1, 0.2, 0.3);
+    for (std::uint64_t id = 1; id <= bodies.size(); ++id) {
+        std::vector<std::uint64_t> others = {1, 2, 3};
+        std::erase(others, id);
+        const auto near = world.closest_point_on(id, point);
+        const auto expected = world.closest_point(point, 100.0, others);
+        ASSERT_TRUE(near && expected) << id;
+        EXPECT_EQ(near->id, id);
+        EXPECT_LT((near->point_ws - expected->point_ws).norm(), 1e-12);
+        EXPECT_NEAR(near->distance_m, expected->distance_m, 1e-12);
+    }
+    EXPECT_FALSE(world.closest_point_on(99, point));
+}
+
 }  // namespace
 }  // namespace handhold::collision_query_test

@@ -15,6 +15,7 @@ void run_scene(Bytes bytes);
 void run_gltf(Bytes bytes);
 void run_recording(Bytes bytes);
 void run_tuning(Bytes bytes);
+void run_shots(Bytes bytes);
 // The first byte says what the others are: 0 patches of a good snapshot, 1 a payload, 2 all of a
 // snapshot. So most inputs come behind the checksum, and seeds outlive changes of the schema.
 void run_snapshot(Bytes bytes);

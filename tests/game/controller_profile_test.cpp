@@ -99,6 +99,32 @@ TEST(ControllerProfile, WebXrLayoutMayServeBothHands) {
     }
 }
 
+TEST(ControllerProfile, ReadsWhatMovesOfOursAndOfWebXrs) {
+    const std::string controls =
+        R"("handle": {}, "controls": [{"control": "squeeze", "node": "s", "from": "a", "to": "b"}])";
+    const ControllerProfile own = parse(with(k_own, R"("handle": {})", controls));
+    ASSERT_EQ(own.sides[0].controls.size(), 1U);
+    EXPECT_EQ(own.sides[0].controls[0].control, Control::squeeze);
+    EXPECT_EQ(own.sides[0].controls[0].to, "b");
+    EXPECT_TRUE(own.sides[1].controls.empty());
+    const std::string components = R"("components": {
+      "menu": {"visualResponses": {"m": {"componentProperty": "button",
+        "valueNodeProperty": "transform", "valueNodeName": "m", "minNodeName": "n", "maxNodeName": "o"}}},
+      "thumbrest": {"visualResponses": {"r": {"componentProperty": "button",
+        "valueNodeProperty": "transform", "valueNodeName": "r", "minNodeName": "s", "maxNodeName": "t"}}},
+      "xr-standard-touchpad": {"visualResponses": {
+        "seen": {"componentProperty": "state", "valueNodeProperty": "visibility", "valueNodeName": "v"},
+        "tilt": {"componentProperty": "yAxis", "valueNodeProperty": "transform",
+                 "valueNodeName": "y", "minNodeName": "ahead", "maxNodeName": "back"}}}})";
+    const ControllerProfile webxr = parse(with(k_webxr, R"("components": {})", components));
+    const std::vector<ControlledNode>& found = webxr.sides[1].controls;
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].control, Control::upper_button);
+    EXPECT_EQ(found[0].node, "m");
+    EXPECT_EQ(found[1].control, Control::stick_y);
+    EXPECT_EQ(found[1].from, "ahead");
+}
+
 TEST(ControllerProfile, RefusesWithFilePointerAndWhatWasExpected) {
     const auto expect_refused = [](const std::string& text, const std::string& place,
                                    const std::string& expected) {
@@ -123,6 +149,14 @@ TEST(ControllerProfile, RefusesWithFilePointerAndWhatWasExpected) {
     expect_refused(with(own, "[0.70710678, 0, 0, 0.70710678]", "[1, 0, 0, 1]"),
                    "/right/grip/rotation_xyzw", "");
     expect_refused(with(own, R"("sub/r.glb")", "7"), "/right/model", "7");
+    expect_refused(
+        with(own, R"("handle": {})", R"("handle": {}, "controls": [{"control": "knob"}])"),
+        "/left/controls/0/control", "trigger");
+    expect_refused(
+        with(own, R"("handle": {})", R"("handle": {}, "controls": [{"control": "trigger"}])"),
+        "/left/controls/0/node", "nothing");
+    expect_refused(with(k_webxr, R"("components": {})", R"("components": [])"),
+                   "/layouts/left-right/components", "an object");
     expect_refused(with(k_webxr, "left-right", "left"), "/layouts", "right hand");
     expect_refused(with(k_webxr, "assetPath", "asset"), "/layouts/left-right/assetPath", "nothing");
     EXPECT_FALSE(parse_controller_profile("{", "folder/p.json").ok());

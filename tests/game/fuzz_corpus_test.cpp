@@ -31,12 +31,11 @@ TEST_P(FuzzCorpus, EveryFileIsReadOrRefused) {
     }
     EXPECT_GT(files, 0);
 }
-INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
-                         testing::Values(Target{"scene", fuzz::run_scene},
-                                         Target{"gltf", fuzz::run_gltf},
-                                         Target{"recording", fuzz::run_recording},
-                                         Target{"tuning", fuzz::run_tuning},
-                                         Target{"snapshot", fuzz::run_snapshot}));
+INSTANTIATE_TEST_SUITE_P(
+    Formats, FuzzCorpus,
+    testing::Values(Target{"scene", fuzz::run_scene}, Target{"gltf", fuzz::run_gltf},
+                    Target{"recording", fuzz::run_recording}, Target{"tuning", fuzz::run_tuning},
+                    Target{"shots", fuzz::run_shots}, Target{"snapshot", fuzz::run_snapshot}));
 
 }  // namespace
 }  // namespace handhold::fuzz_corpus_test

@@ -11,6 +11,7 @@
 #include "game/render/primitives.hpp"
 #include "game/snap_hint.hpp"
 #include "systems/frame.hpp"
+#include "systems/input/read_tracking.hpp"
 
 namespace handhold::ghost_hands_test {
 namespace {
@@ -73,6 +74,7 @@ class GhostPicture : public testing::Test {
         scene_.head_shape = scene_.shapes->add_sphere(scene_.tuning.head.radius_m);
         player_ = add_scene_player(scene_, {"player", {}, 80.0});
         RenderPose& render = scene_.world.render_pose.at(player_.player);
+        lay_body_behind(render);
         for (RenderPose::Hand& hand : render.hands) {
             put(hand, Vec3(0.0, 0.0, 5.0));  // behind him
         }
@@ -84,6 +86,18 @@ class GhostPicture : public testing::Test {
     static void put(RenderPose::Hand& hand, const Vec3& place) {
         hand.tracked_ws = hand.shown_ws = {place, Quat::Identity()};
         hand.ray_from_ws = hand.ray_to_ws = place;
+    }
+    // No frame was played: his body would lie about his eyes.
+    static void lay_body_behind(RenderPose& render) {
+        const Pose behind{Vec3(0.0, 0.0, 5.0), Quat::Identity()};
+        render.arms.chest_ws = render.spine.chest_ws = render.spine.pelvis_ws = behind;
+        for (ArmPose::Arm& arm : render.arms.arms) {
+            arm.clavicle_ws = arm.upper_ws = arm.forearm_ws = arm.hand_ws = behind;
+        }
+        render.spine.spine_ws.fill(behind);
+        for (SpinePose::Leg& leg : render.spine.legs) {
+            leg.thigh_ws = leg.shin_ws = leg.foot_ws = behind;
+        }
     }
     // Between the eyes and everything beyond `ahead_m`.
     void add_wall(double ahead_m) {
@@ -184,12 +198,54 @@ TEST_F(GhostPicture, EmptyHandDeepInAWallShinesThroughInItsOwnEyesOnly) {
     const Image no_hand_for_others = draw(std::nullopt);
     put(right(), Vec3(0.0, -0.05, -0.75));
     const Differing sunk = compare(draw(), no_hand, Vec3(0.0, -0.05, -0.75), k_hand_m);
-    EXPECT_GT(sunk.all, 400);
+    EXPECT_GT(sunk.all, 300);  // seen from its wrist
     EXPECT_EQ(sunk.outside, 0);
     EXPECT_EQ(compare(draw(std::nullopt), no_hand_for_others, Vec3(0.0, 0.0, -1.0), 0.0).all, 0);
     // One that grips is behind what it grips, and hidden as anything.
     right().grip = GripKind::held;
     EXPECT_EQ(compare(draw(), no_hand, Vec3(0.0, -0.05, -0.75), k_hand_m).all, 0);
+}
+
+// Nothing is there but himself: with the ghosts of hands in walls and without, the same picture.
+TEST(GhostOfOwnHand, IsNotSeenThroughHisOwnArmOrOtherHand) {
+    Scene scene;
+    scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
+    const PlayerEntities player = add_scene_player(scene, {"player", {}, 80.0});
+    PlayerModels without;
+    without.ghosts.sunk = 0.0F;
+    std::string why_not;
+    auto view = PlayerView::open(scene, {}, k_width_px, k_height_px, why_not);
+    auto bare = PlayerView::open(scene, without, k_width_px, k_height_px, why_not);
+    if (!view || !bare) {
+        GTEST_SKIP() << "no picture can be drawn here";
+    }
+    FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
+    StageStats stats;
+    Image image;
+    Image expected;
+    for (int pose = 0; pose < 6; ++pose) {
+        // From a fist at the shoulder to an arm stretched up before the eyes; the left hand half
+        // way.
+        const double reach = 0.2 * pose;
+        const Quat points_up = rotation_about(Vec3::UnitX(), 0.6 * reach);
+        TrackingSample sample;
+        sample.head_ps.position = Vec3(0.0, 1.6, 0.0);
+        const auto put = [&](HandSide side, const Pose& hand_ps) {
+            sample.controllers[index_of(side)].controller_ps =
+                hand_ps * inverse(default_controller_to_hand(side, scene.tuning.hand));
+        };
+        put(HandSide::right, {Vec3(0.06, 1.40 + 0.2 * reach, -0.3 - 0.35 * reach), points_up});
+        put(HandSide::left, {Vec3(0.02, 1.42 + 0.1 * reach, -0.25 - 0.1 * reach), points_up});
+        for (int frame = 0; frame < 10; ++frame) {
+            sample.t_s = scene.world.clock.t_s + 0.02;
+            const PlayerInput input{player.player, {&sample, 1}, {}};
+            step_frame(scene.world, caches, scene.tuning, {0.02, {&input, 1}}, stats);
+        }
+        const Pose eyes_ws = scene.world.render_pose.at(player.player).head_ws;
+        view->draw(eyes_ws, 1.3, 0, image);
+        bare->draw(eyes_ws, 1.3, 0, expected);
+        EXPECT_EQ(compare(image, expected, Vec3(0.0, 0.0, -1.0), 0.0).all, 0) << pose;
+    }
 }
 
 }  // namespace

@@ -27,9 +27,11 @@ struct PlayCase {
     std::size_t hostile;
     std::size_t climbers;
     std::uint64_t frames;
+    bool pulls = false;  // the distance grab is on
 };
 
 constexpr double k_far_jump_m = 5000.0;
+constexpr double k_pull_reach_m = 6.0;  // across a module: hands point anywhere
 // Of a head in a frame, by three samples of two metres each and what its hands and a ship do.
 constexpr double k_farthest_step_m = 15.0;
 
@@ -69,12 +71,16 @@ struct Playground {
     double farthest_step_m = 0.0;     // of a head
     std::vector<Vec3> last_heads_ws;  // by player
     std::uint64_t grabs = 0;
+    std::uint64_t pulled_frames = 0;  // of hands
 
     Playground(const PlayCase& in, std::uint64_t seed)
         : play(in),
           scene(*make_built_in_scene(in.scene)),
           caches(*scene.shapes, scene.grip_meshes.get()) {
         scene.tuning.locomotion.thruster_mps2 = 0.5;
+        if (in.pulls) {
+            scene.tuning.pull.reach_m = k_pull_reach_m;
+        }
         const Pose& first_ws = scene.spawns.front().pose_ws;
         for (const Pose& origin_ws :
              spread_players(scene, caches, first_ws, in.hostile + in.climbers, seed)) {
@@ -91,6 +97,7 @@ struct Playground {
     }
     void watch(const StageStats& stats) {
         grabs += stats.grabs_gripped;
+        pulled_frames += scene.world.hand_pull.size();
         fastest_player = std::max(fastest_player, fastest_player_mps(scene.world));
         fastest_loose = std::max(fastest_loose, fastest_loose_mps(scene.world));
         for (std::size_t i = 0; i < players.size(); ++i) {
@@ -151,16 +158,20 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
         stage.farthest_step_m);
     EXPECT_LE(stage.farthest_step_m, k_farthest_step_m);
     EXPECT_GT(stage.grabs, frames / 100);
+    EXPECT_EQ(stage.pulled_frames > 0, play.pulls);
     // Twice what letting go allows: what two of them may give each other on top.
     EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning.locomotion.release_speed_max_mps);
     EXPECT_LE(stage.fastest_loose, 2.0 * stage.scene.tuning.locomotion.object_speed_max_mps);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, HostilePlay,
-                         testing::Values(PlayCase{"crowd", 3, 4, 1000},
-                                         PlayCase{"station", 4, 4, 9000},
-                                         PlayCase{"ship", 2, 3, 10000}),
-                         [](const auto& test) { return std::string(test.param.scene); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, HostilePlay,
+    testing::Values(PlayCase{"crowd", 3, 4, 1000}, PlayCase{"station", 4, 4, 9000},
+                    PlayCase{"ship", 2, 3, 10000}, PlayCase{"reach", 3, 0, 6000, true},
+                    PlayCase{"station", 4, 2, 4000, true}),
+    [](const auto& test) {
+        return std::string(test.param.scene) + (test.param.pulls ? "_with_distance_grab" : "");
+    });
 
 }  // namespace
 }  // namespace handhold::random_play_test

@@ -1,6 +1,11 @@
 #include "game/shot_list.hpp"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
+
+#include "engine/io/text_file.hpp"
+#include "tests/places.hpp"
 
 namespace handhold::shot_list_test {
 namespace {
@@ -73,6 +78,34 @@ TEST(ShotList, SaysWhereAndWhatItExpectedInstead) {
                                    "list.json");
     ASSERT_FALSE(twice.ok());
     EXPECT_EQ(twice.error().place, "/shots/1/name");
+}
+
+TEST(ShotList, MisspeltSceneIsRefusedWhereverItStands) {
+    const auto folder = std::filesystem::path(testing::TempDir());
+    const auto load = [&](const std::string& scene) {
+        const auto file = folder / "shots_of_scenes.json";
+        const std::string text = R"({"shots": [{"name": "a", "scene": "ship", "at_s": 1},
+                                               {"name": "b", "scene": ")" +
+                                 scene + R"(", "at_s": 1}]})";
+        EXPECT_FALSE(write_file_atomically(file, text));
+        return load_shots(file);
+    };
+    EXPECT_TRUE(load("station"));
+    ASSERT_FALSE(write_file_atomically(folder / "a_scene.json", "{}"));
+    EXPECT_TRUE(load((folder / "a_scene.json").string()));
+    for (const std::string scene : {"sttion", "no/such/scene.json"}) {
+        const auto shots = load(scene);
+        ASSERT_FALSE(shots.ok()) << scene;
+        EXPECT_EQ(shots.error().place, "/shots/1/scene");
+        EXPECT_NE(shots.error().expected.find(scene), std::string::npos);
+    }
+}
+
+TEST(ShotList, EveryListOfTheProjectIsOfScenesThatAreThere) {
+    for (const char* name : {"pictures.json", "film.json"}) {
+        const auto shots = load_shots(source_dir() / "tools/shots" / name);
+        EXPECT_TRUE(shots.ok()) << (shots.ok() ? "" : shots.error().message());
+    }
 }
 
 }  // namespace

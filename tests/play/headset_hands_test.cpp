@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "game/controller_profile.hpp"
+#include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold::headset_hands_test {
@@ -24,27 +26,50 @@ Pose hand_of(const TrackingSample& sample, HandSide side, const HandTuning& tuni
            default_controller_to_hand(side, tuning);
 }
 
-TEST(HeadsetHands, PalmCentreLiesOnGripsOrigin) {
+// OpenXR: a palm's origin is the palm's centre, on its skin; a controller's grip lies in the middle
+// of its handle, +X into the right palm and out of the left one, -Z to the thumb.
+TEST(HeadsetHands, PalmLiesOnPalmsOriginAndOnTheHandleAroundAGrip) {
     const HandTuning tuning;
+    const HandleGrip handle;
     for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const double outward = side == HandSide::right ? 1.0 : -1.0;
         Vec3 palm = tuning.palm_center_m;
-        palm.x() *= side == HandSide::right ? 1.0 : -1.0;
-        EXPECT_LT(transform_point(hand_in_grip(side, tuning), palm).norm(), k_near_m);
+        palm.x() *= outward;
         EXPECT_LT(transform_point(hand_in_palm(side, tuning), palm).norm(), k_near_m);
+        const Vec3 on_skin(outward * handle.radius_m, 0.0, handle.along_m);
+        EXPECT_LT((transform_point(hand_in_grip(side, tuning), palm) - on_skin).norm(), k_near_m);
     }
 }
 
-// OpenXR: +X of a grip goes into the right hand's palm, out of the left one's; -Z along the handle
-// to the thumb, which is on the left of a right hand seen from its back.
+// The thumb is on the left of a right hand seen from its back.
 TEST(HeadsetHands, BackOfHandFacesAwayFromTheHandleAndThumbLiesUpIt) {
     const HandTuning tuning;
+    const HandleGrip handle;
     const Quat right = hand_in_grip(HandSide::right, tuning).rotation;
     const Quat left = hand_in_grip(HandSide::left, tuning).rotation;
     EXPECT_LT((right * Vec3::UnitY() - Vec3::UnitX()).norm(), k_near_m);
     EXPECT_LT((left * Vec3::UnitY() + Vec3::UnitX()).norm(), k_near_m);
-    EXPECT_NEAR((right * -Vec3::UnitX()).dot(-Vec3::UnitZ()), std::sin(k_handle_rad), k_near_m);
-    EXPECT_NEAR((left * Vec3::UnitX()).dot(-Vec3::UnitZ()), std::sin(k_handle_rad), k_near_m);
-    EXPECT_NEAR((right * -Vec3::UnitZ()).dot(-Vec3::UnitZ()), std::cos(k_handle_rad), k_near_m);
+    EXPECT_NEAR((right * -Vec3::UnitX()).dot(-Vec3::UnitZ()), std::cos(handle.slant_rad), k_near_m);
+    EXPECT_NEAR((left * Vec3::UnitX()).dot(-Vec3::UnitZ()), std::cos(handle.slant_rad), k_near_m);
+    EXPECT_NEAR((right * -Vec3::UnitZ()).dot(-Vec3::UnitZ()), std::sin(handle.slant_rad), k_near_m);
+}
+
+// What one feels and what one sees: the wand's handle lies along the grip's axis, turned like it.
+TEST(HeadsetHands, WandsHandleIsDrawnWhereTheRealHandleIs) {
+    const HandTuning tuning;
+    const Pose grip_ps{Vec3(0.2, 1.3, -0.4), rotation_about(Vec3(0.6, 0.0, 0.8), 1.2)};
+    const ControllerModels wand = builtin_controllers(tuning);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        HeadsetReading reading;
+        reading.hands[index_of(side)] = hold(grip_ps);
+        HeadsetMemory memory;
+        const Pose hand_ps = hand_of(read_headset(reading, 0.0, tuning, memory), side, tuning);
+        const Pose wand_ps = hand_ps * controller_in_hand(wand.sides[index_of(side)].fit);
+        const Pose seen = inverse(grip_ps) * wand_ps;
+        EXPECT_LT(std::hypot(seen.position.x(), seen.position.y()), 1e-9);
+        EXPECT_LT(std::abs(seen.position.z()), 0.04);  // along it: nobody feels how long it is
+        EXPECT_LT(rotation_to_vector(seen.rotation).norm(), 1e-9);
+    }
 }
 
 TEST(HeadsetHands, HandsAreEachOthersMirrorImages) {

@@ -1,8 +1,10 @@
 // Panels in pictures: drawn where they are said to be, and without a window.
 #include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"
 #include "game/render/ui_picture.hpp"
 #include "game/ui/hud.hpp"
@@ -129,6 +131,43 @@ TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
         }
     }
     EXPECT_EQ(chosen, "station");  // the first on the list
+}
+
+// A sheet 2 m ahead and turned to the camera: a pinhole has its corners at the picture's middle and
+// half its size times the focal length over 2 m; rows above are further up.
+TEST(UiPainter, DrawsASheetWhereAPinholeHasItAndBehindWhatHidesIt) {
+    constexpr int k_size_px = 64;
+    for (const PictureQuality quality :
+         {PictureQuality::plain, PictureQuality::quick, PictureQuality::fine}) {
+        std::string why_not;
+        auto renderer = Renderer::create(k_size_px, k_size_px, why_not, quality);
+        if (!renderer) {
+            GTEST_SKIP() << why_not;
+        }
+        // Of a sheet of 40 x 20 pixels and 1 m only the upper left quarter is red.
+        const UiPicture ui = make_rectangle(0.0F, 0.0F, 40.0F, 20.0F, {0, 0, 20, 10});
+        RenderFrame frame;
+        frame.camera.vertical_fov_rad = 2.0 * std::atan(0.5);  // at 2 m as wide as it is away
+        frame.sheet = Sheet{&ui, {40, 20}, {Vec3(0.0, 0.0, -2.0), Quat::Identity()}, 1.0};
+        Image image;
+        renderer->draw(frame, image);
+        for (int y = 0; y < k_size_px; ++y) {
+            for (int x = 0; x < k_size_px; ++x) {
+                const bool inside = x >= 16 && x < 32 && y >= 24 && y < 32;
+                ASSERT_EQ(is_red(image, x, y), inside) << x << ", " << y;
+            }
+        }
+        // A box before its left half.
+        frame.instances.push_back({renderer->add_mesh(make_box(Vec3(0.1, 0.5, 0.1))),
+                                   {Vec3(-0.25, 0.0, -1.0), Quat::Identity()},
+                                   {},
+                                   {}});
+        renderer->draw(frame, image);
+        EXPECT_FALSE(is_red(image, 18, 28));
+        frame.instances[0].pose_ws.position.z() = -3.0;
+        renderer->draw(frame, image);
+        EXPECT_TRUE(is_red(image, 18, 28));
+    }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -100,6 +101,37 @@ TEST(Pull, HandTakesItOnceItsSurfaceIsAtThePalm) {
     EXPECT_LT(gap_m, 0.02 + 1e-6);
     EXPECT_GT(gap_m, -scene.s.tuning.hand.ray_back_m);
     EXPECT_EQ(scene.count(Fallback::pull_lost), 0U);
+}
+
+// Twelve rods in a circle that faces the palm, which looks at one of them: its middle is air.
+ShapeId add_ring(ShapeLibrary& shapes, double radius_m) {
+    constexpr int k_rods = 12;
+    constexpr double k_thick_m = 0.015;
+    const ShapeId rod = shapes.add_capsule(k_thick_m, k_pi * radius_m / k_rods);
+    std::vector<CompoundChild> rods;
+    for (int i = 0; i < k_rods; ++i) {
+        const Quat around = rotation_about(Vec3::UnitY(), 2.0 * k_pi * i / k_rods);
+        const Quat along = rotation_about(Vec3::UnitX(), k_half_pi);  // capsules stand on Y
+        rods.push_back({rod, {around * Vec3(radius_m, 0.0, 0.0), around * along}, 1.0});
+    }
+    return shapes.add_compound(rods);
+}
+
+TEST(Pull, RingIsTakenByItsRimAndDoesNotHangAboutThePalm) {
+    for (const double radius_m : {0.12, 0.3}) {
+        FarRock scene;
+        Scenario& s = scene.s;
+        destroy(s.world, scene.rock);
+        const ShapeId shape = add_ring(s.shapes, radius_m);
+        const Vec3 center = scene.palm() - Vec3(radius_m, 1.5, 0.0);
+        scene.rock =
+            s.add("ring", {BodyKind::free, 1.0, solid_inertia(s.shapes.at(shape), 1.0), 0.0}, shape,
+                  {center, Quat::Identity()});
+        s.add_player_here();
+        scene.run(3.0);
+        EXPECT_EQ(s.grab(HandSide::right).kind, GripKind::held) << radius_m;
+        EXPECT_EQ(s.grab(HandSide::right).body, scene.rock) << radius_m;
+    }
 }
 
 TEST(Pull, HandThatOpensOnTheWayLetsItFlyOn) {

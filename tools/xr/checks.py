@@ -9,7 +9,7 @@ import time
 import zlib
 from pathlib import Path
 
-from xr.hands import about, conjugate, grip_of_flat_hand, rotate
+from xr.hands import about, conjugate, grip_below_palm, grip_of_flat_hand, rotate
 from xr.hub import Eye, Hub
 from xr.monado import Failed, Play, Room, Service
 
@@ -81,8 +81,8 @@ def take(play: Play, hub: Hub, side: str, closed: bool) -> None:
     play.wait(f"the {side} hand to {'grip' if closed else 'let go'}", lambda now: now[side]["grip"] == wanted)
 
 
-def on_rail(z: float) -> tuple:
-    return (0.0, RAIL_TOP_M + PALM_GAP_M, z)
+def on_rail(side: str, z: float) -> tuple:
+    return grip_below_palm(side, (0.0, RAIL_TOP_M + PALM_GAP_M, z))
 
 
 def check_crawl(room: Room) -> str:
@@ -93,17 +93,17 @@ def check_crawl(room: Room) -> str:
                 "/out/crawl.report.json")
     play.wait("focus", lambda now: now["headset"]["focus"])
     for side in ("left", "right"):
-        hub.change(**{side: {"rotation": grip_of_flat_hand(side), "position": on_rail(FAR_Z)}})
+        hub.change(**{side: {"rotation": grip_of_flat_hand(side), "position": on_rail(side, FAR_Z)}})
     begin = play.next()["head_m"]
     strokes = round(GOAL_M / STROKE_M)
     holds, other = "left", "right"
     take(play, hub, holds, True)
     for stroke in range(strokes):
-        hub.move(holds, on_rail(NEAR_Z), 0.3)
+        hub.move(holds, on_rail(holds, NEAR_Z), 0.3)
         if stroke + 1 < strokes:
             take(play, hub, other, True)
             take(play, hub, holds, False)
-            hub.move(holds, on_rail(FAR_Z), 0.15)
+            hub.move(holds, on_rail(holds, FAR_Z), 0.15)
             holds, other = other, holds
     play.next()
     went = play.next()["head_m"]
@@ -161,11 +161,11 @@ def check_touch(room: Room) -> str:
                 XR_API_DUMP_EXPORT_TYPE="text", XR_API_DUMP_FILE_NAME=f"/out/{dump.name}")
     play.wait("focus", lambda now: now["headset"]["focus"])
     for _ in range(3):
-        above = (0.0, RAIL_TOP_M + 0.12, FAR_Z)
+        above = grip_below_palm("right", (0.0, RAIL_TOP_M + 0.12, FAR_Z))
         service.hub.change(right={"rotation": grip_of_flat_hand("right"), "position": above})
         play.next()
         before = play.next()["headset"]["right"]["shakes"]
-        service.hub.move("right", on_rail(FAR_Z), 0.3)
+        service.hub.move("right", on_rail("right", FAR_Z), 0.3)
         play.wait("the touch", lambda now: now["headset"]["right"]["shakes"] == before + 1)
         take(play, service.hub, "right", True)
         play.wait("the grip's shake", lambda now: now["headset"]["right"]["shakes"] == before + 2)
@@ -248,6 +248,31 @@ def check_eyes(room: Room) -> str:
     return f"{pictures} pairs of {width} x {height}; boxes within {worst_px:.2f} px of where a pinhole has them"
 
 
+def check_panel(room: Room) -> str:
+    """The left calibrate button by itself shows the help before both eyes and puts it away; both together do not."""
+    service = Service(room, "panel")
+    eyes = [Eye((-0.75, 0.75, 0.7, -0.7), (-0.032, 0.0, 0.0)), Eye((-0.75, 0.75, 0.7, -0.7), (0.032, 0.0, 0.0))]
+    service.hub.change(eyes=eyes, left={"position": (-0.3, 0.9, 0.3)}, right={"position": (0.3, 0.9, 0.3)})
+    play = Play(room, "panel", "--xr", "--scene", "/scenes/xr_eyes.json", "--picture", "/out/panel.png", "--quality", "plain", "--eye-scale", "2")
+    play.wait("focus", lambda now: now["headset"]["focus"], 40.0)
+
+    def press(*sides):
+        for down in (True, False):
+            for side in sides:
+                service.hub.change(**{side: {"b": down}})
+            play.next()
+            play.next()
+        return play.next()["headset"]["panel"]
+
+    shown = [press("left"), press("left"), press("left", "right"), press("right"), press("left")]
+    expect(shown == [True, False, False, False, True], f"panel: shown {shown}")
+    before = play.next()["headset"]["pictures"]
+    play.wait("pictures", lambda now: now["headset"]["pictures"] > before + 2, 60.0)
+    end(play)
+    service.stop()
+    return f"shown, put away, and shown again by the left button alone: {room.out / 'panel.png'}"
+
+
 def lose(room: Room, name: str, *words: str) -> tuple[float, float]:
     """How many seconds the game takes to find the runtime that is there again, and by how many millimetres the player moved."""
     service = Service(room, name)
@@ -287,7 +312,7 @@ def check_absent(room: Room) -> str:
     return said[0]
 
 
-CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "touch": check_touch, "eyes": check_eyes, "loss": check_loss}
+CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "touch": check_touch, "eyes": check_eyes, "panel": check_panel, "loss": check_loss}
 
 
 def run(room: Room, names: list[str]) -> int:

@@ -1,7 +1,9 @@
 """The game's own convention of a hand on a grip, written again from OpenXR's words: what tools/xr_e2e feeds must lie on things."""
 import math
 
-HANDLE_RAD = math.pi / 3.0  # from the handle's axis to the fingers' roots
+SLANT_RAD = 0.55   # of the handle's thumb end towards the fingers
+RADIUS_M = 0.017   # of the handle: from its axis to the palm
+ALONG_M = 0.018    # of the grip along it, to the thumb, from the middle of the palm
 
 
 def multiply(a: tuple, b: tuple) -> tuple:
@@ -27,5 +29,11 @@ def rotate(q: tuple, v: tuple) -> tuple:
 def grip_of_flat_hand(side: str) -> tuple:
     """The grip's rotation where the hand points ahead with its palm down: the handle's axis lies across it, to the thumb."""
     outward = 1.0 if side == "right" else -1.0
-    hand_in_grip = multiply(about((1.0, 0.0, 0.0), -HANDLE_RAD), about((0.0, 0.0, 1.0), -0.5 * math.pi * outward))
+    hand_in_grip = multiply(about((1.0, 0.0, 0.0), SLANT_RAD - 0.5 * math.pi), about((0.0, 0.0, 1.0), -0.5 * math.pi * outward))
     return conjugate(hand_in_grip)
+
+
+def grip_below_palm(side: str, palm: tuple) -> tuple:
+    """Where the grip is of such a hand whose palm's centre is there."""
+    to_thumb = -1.0 if side == "right" else 1.0
+    return (palm[0] + to_thumb * ALONG_M * math.cos(SLANT_RAD), palm[1] - RADIUS_M, palm[2] - ALONG_M * math.sin(SLANT_RAD))
