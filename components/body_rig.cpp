@@ -31,14 +31,23 @@ double trunk_length(const SpinePose& spine) {
     return length;
 }
 
-PlacedBone place_arm(const ArmPose::Arm& arm, BodyBone bone) {
-    switch (bone) {
+// Its own share of the hand's twist, beside what it has in the file.
+Pose twisted(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
+    const double twist_rad =
+        followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation) - carrier.twist_rad;
+    const Quat turn = rotation_about(Vec3::UnitZ(), carrier.along * twist_rad);
+    return {arm.forearm_ws.position, (arm.forearm_ws.rotation * turn).normalized()};
+}
+
+PlacedBone place_arm(const ArmPose::Arm& arm, const BodyRig::Carrier& carrier) {
+    switch (carrier.bone) {
         case BodyBone::clavicle:
             return {arm.clavicle_ws, (arm.upper_ws.position - arm.clavicle_ws.position).norm()};
         case BodyBone::upper_arm:
             return {arm.upper_ws, (arm.forearm_ws.position - arm.upper_ws.position).norm()};
         case BodyBone::forearm:
-            return {arm.forearm_ws, (arm.hand_ws.position - arm.forearm_ws.position).norm()};
+            return {carrier.along > 0.0 ? twisted(carrier, arm) : arm.forearm_ws,
+                    (arm.hand_ws.position - arm.forearm_ws.position).norm()};
         default:
             return {arm.hand_ws, 0.0};
     }
@@ -66,7 +75,7 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
         case BodyBone::upper_arm:
         case BodyBone::forearm:
         case BodyBone::hand:
-            return place_arm(render.arms.arms[index_of(carrier.side)], carrier.bone);
+            return place_arm(render.arms.arms[index_of(carrier.side)], carrier);
         case BodyBone::thigh:
         case BodyBone::shin:
         case BodyBone::foot:
@@ -116,6 +125,20 @@ bool is_identity(const Pose& pose) {
 }
 
 }  // namespace
+
+double followed_twist(const Quat& forearm, const Quat& hand) {
+    constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
+    const Quat turn = forearm.conjugate() * hand;
+    // Half the twist's cosine and sine, times the cosine of half the wrist's bend.
+    const double cosine = std::abs(turn.w());
+    const double sine = turn.w() < 0.0 ? -turn.z() : turn.z();
+    const double twist_rad = 2.0 * arc_tangent2(sine, cosine);
+    const double size = std::abs(twist_rad);
+    const double followed =
+        size <= k_wholly_rad ? size : k_wholly_rad * (k_pi - size) / (k_pi - k_wholly_rad);
+    const double bent = smooth_step(cosine * cosine + sine * sine, 0.0, 0.25);
+    return std::copysign(bent * std::max(followed, 0.0), twist_rad);
+}
 
 Pose trunk_at(const SpinePose& spine, double along) {
     const auto points = trunk_points(spine);

@@ -34,9 +34,12 @@ struct BodyRig {
     struct Carrier {
         BodyBone bone = BodyBone::trunk;
         HandSide side = HandSide::left;  // of a limb
-        double along = 0.0;              // on the trunk: 0 pelvis .. 1 between the shoulders
-        Pose rest_ms;                    // the bone's frame
-        double length_m = 0.0;           // the bone's; 0: it ends in itself, as head and hands do
+        // On the trunk: 0 pelvis .. 1 between the shoulders. On a forearm: how much of the hand's
+        // twist it takes, 0 elbow .. 1 wrist.
+        double along = 0.0;
+        Pose rest_ms;            // the bone's frame
+        double length_m = 0.0;   // the bone's; 0: it ends in itself, as head and hands do
+        double twist_rad = 0.0;  // of a forearm: followed_twist in the file
     };
     struct Joint {
         std::string name;
@@ -67,11 +70,17 @@ struct SkeletonPose {
 
 // Talk rows 19 to 23 for any rig: joints of `rig` where the player's head, chest, arms, hands,
 // spine and legs are. How long bones are goes by the player, how thick legs are by eye heights, the
-// trunk by shoulders, all else by the lesser of both. A hand's joint whose axes are hand space's is
-// RenderPose's hand bit for bit. The vectors of `out` are filled, without allocating from the
-// second call on.
+// trunk by shoulders, all else by the lesser of both. What is along a forearm takes its share of
+// the hand's twist. A hand's joint whose axes are hand space's is RenderPose's hand bit for bit.
+// The vectors of `out` are filled, without allocating from the second call on.
 void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,
                    SkeletonPose& out);
+
+// How far a hand is turned about its forearm's length, as the forearm follows it: from where the
+// hand's back is on the elbow's side. An arm turns by 90 degrees either way; from 120 on the
+// forearm follows less, at 180 not at all, so that neither side of that is a jump. Likewise where
+// the wrist is bent back by more than 120.
+double followed_twist(const Quat& forearm, const Quat& hand);
 
 // Trunk of a player: where it is at `along`, in [0, 1] from the pelvis up.
 Pose trunk_at(const SpinePose& spine, double along);

@@ -172,6 +172,8 @@ class BodyFitter {
         const Vec3 fingers = hand_direction(side);
         const Quat turn = look_rotation(fingers, choose_aside(fingers, stance_.up_ms, outwards));
         add_for(hand, {BodyBone::hand, side, 0.0, {place(hand), turn}, 0.0});
+        BodyRig::Carrier& forearm = rig_.carriers[carrier_of_[joint(BodyBone::forearm)]];
+        forearm.twist_rad = followed_twist(forearm.rest_ms.rotation, turn);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = parse_body_joint_name(figure_.joints[i].name);
             const bool is_hand = (guess && guess->name.bone == BodyBone::hand) ||
@@ -232,7 +234,8 @@ class BodyFitter {
         for (; at >= 0; at = figure_.joints[static_cast<std::size_t>(at)].parent) {
             const std::size_t carrier = carrier_of_[static_cast<std::size_t>(at)];
             if (carrier != k_none) {
-                return carrier;
+                return at == static_cast<std::int32_t>(joint) ? carrier
+                                                              : carry_along(joint, carrier);
             }
         }
         const double above =
@@ -243,6 +246,18 @@ class BodyFitter {
                     along,
                     {stance_.pelvis_ms + along * stance_.trunk_m * stance_.up_ms, stance_.axes_ms},
                     stance_.trunk_m});
+    }
+
+    // What hangs on a forearm twists with the hand by where it is along it.
+    std::size_t carry_along(std::size_t joint, std::size_t above) {
+        constexpr double k_at_elbow = 0.02;
+        BodyRig::Carrier carrier = rig_.carriers[above];
+        if (carrier.bone != BodyBone::forearm) {
+            return above;
+        }
+        const double along = -inverse_transform_point(carrier.rest_ms, place(joint)).z();
+        carrier.along = std::clamp(along / carrier.length_m, 0.0, 1.0);
+        return carrier.along < k_at_elbow ? above : add(carrier);
     }
 
     void find_eyes() {

@@ -50,7 +50,8 @@ Result<BodyMap> parse_body_map(std::string_view text, const std::string& file);
 // Of several joints whose names are alike the one nearest to the root is taken, but of a hip's the
 // last above the knee, and a shoulder's last where no upper arm is named. What hangs on a forearm
 // and is called hand, palm or finger goes with the hand; other joints that are no bones go with the
-// limb above them, or with the trunk where they are. The trunk goes from a little above the hips
+// limb above them, or with the trunk where they are; those on a forearm twist with the hand. The
+// trunk goes from a little above the hips
 // (the pelvis counts only where there are no thighs) to between the shoulders. The eyes are where
 // the head's joints of that name are, else in front of the middle of what the head carries.
 //

@@ -294,6 +294,13 @@ void visit_fields(const ArmPose& c, V&& visit) {
     visit("arms", c.arms);
 }
 template <typename V>
+void visit_fields(const LegContact& c, V&& visit) {
+    visit("touches", c.touches);
+    visit("normal_ps", c.normal_ps);
+    visit("surface_m", c.surface_m);
+    visit("ankle_m", c.ankle_m);
+}
+template <typename V>
 void visit_fields(const SpineMemory& c, V&& visit) {
     visit("known", c.known);
     visit("since_tick_s", c.since_tick_s);
@@ -308,6 +315,7 @@ void visit_fields(const SpineMemory& c, V&& visit) {
     visit("velocity_mps", c.velocity_mps);
     visit("twist_rad", c.twist_rad);
     visit("angle_rad", c.angle_rad);
+    visit("contacts", c.contacts);
 }
 template <typename V>
 void visit_fields(const BodyClipState& c, V&& visit) {

@@ -20,6 +20,15 @@ inline BodyLinkVectors zero_vectors() {
     return zero;
 }
 
+// A surface that a leg stays before: normal_ps . point >= least, from the chest at the last frame's
+// end, in play space's axes. It moves with the reference velocity.
+struct LegContact {
+    bool touches = false;
+    Vec3 normal_ps = Vec3::UnitY();  // unit, to the head's side
+    double surface_m = 0.0;          // least for a knee
+    double ankle_m = 0.0;            // least for an ankle, so that the sole is before it
+};
+
 // What propagate_spine remembers. Offsets are from the chest to each link's lower end, in play
 // space's axes; velocities are against `reference_ws_mps`. The chain lives on a clock of its own.
 struct SpineMemory {
@@ -36,6 +45,7 @@ struct SpineMemory {
     BodyLinkVectors velocity_mps = zero_vectors();
     std::array<double, k_spine_links> twist_rad{};  // of each link against the one above
     std::array<double, k_body_links> angle_rad{};   // from the rest; of a knee, from straight
+    std::array<LegContact, k_hand_count> contacts;  // by side
 };
 
 // Written by propagate_spine.

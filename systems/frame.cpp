@@ -213,10 +213,10 @@ void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInpu
     }
     {
         const StageTimer timer(Stage::propagate_spine, stats);
-        propagate_spine(
-            {input.dt_s, w.clock.t_s + input.dt_s, w.player_origin, w.player_velocity,
-             w.reference_velocity, w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose},
-            tuning.spine);
+        propagate_spine({input.dt_s, w.clock.t_s + input.dt_s, w.player_origin, w.player_velocity,
+                         w.reference_velocity, w.body_measures, w.arm_estimate, w.spine_memory,
+                         w.spine_pose, &caches.collision, &w.head_tracking, &w.persistent_id},
+                        tuning.spine);
     }
     {
         const StageTimer timer(Stage::layer_additives, stats);

@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "components/forearm_twist.hpp"
 #include "engine/core/check.hpp"
 #include "game/render/robot_body.hpp"
 
@@ -37,6 +38,7 @@ BodyModel builtin_body_model() {
     Result<BodyRig> rig = fit_body_rig(model.figure);
     HH_CHECK(rig.ok(), "the robot has a body's joints", rig.ok());
     model.rig = std::move(rig.value());
+    spread_forearm_twist(model.figure, model.rig);
     return model;
 }
 
@@ -60,7 +62,9 @@ Result<BodyModel> choose_body_model(const std::string& figure_file, const std::s
     if (!rig) {
         return rig.error();
     }
-    return BodyModel{std::move(figure.value()), std::move(rig.value())};
+    BodyModel model{std::move(figure.value()), std::move(rig.value())};
+    spread_forearm_twist(model.figure, model.rig);
+    return model;
 }
 
 BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move(model)) {

@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/anim/bent_way.hpp"
+#include "engine/anim/joint_range.hpp"
+#include "engine/anim/turn_out.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 
@@ -76,54 +80,12 @@ Vec3 base_of(const Frame& above, const BodyLinkVectors& offset_m, const Link& li
     return offset_m[link.parent];
 }
 
-// A link nears the end of its range by at most a share of what is left a tick. A stop within one
-// tick would whip what hangs below, differently for each place in the tick at which it comes.
-struct Range {
-    double low_rad, high_rad, share;
-};
-double nearing(const Range& range, double before_rad, double now_rad) {
-    const double before = std::clamp(before_rad, range.low_rad, range.high_rad);
-    return std::clamp(now_rad, before + range.share * (range.low_rad - before),
-                      before + range.share * (range.high_rad - before));
-}
-
-// In the frame of the link above, as all that follows.
-// Spine and hips: a cone about `rest`. `angle_rad` is the angle to it, of the last tick, then of
-// this one.
-Vec3 within_cone(const Vec3& towards, const Vec3& rest, const Range& range, double& angle_rad) {
-    const double along = towards.dot(rest);
-    const Vec3 aside = towards - along * rest;
-    const double length = aside.norm();
-    const double wanted = arc_tangent2(length, along);
-    // From the rest there is no way below.
-    angle_rad = std::min(wanted, nearing(range, angle_rad, std::max(wanted, angle_rad)));
-    if (angle_rad >= wanted) {
-        return towards;
-    }
-    if (length < 1e-9) {
-        return rest;
-    }
-    double sine = 0.0;
-    double cosine = 1.0;
-    sin_cos(angle_rad, sine, cosine);
-    return cosine * rest + aside * (sine / length);
-}
-
-// A knee: in the plane of its hinge, which is the thigh's X, from straight back to its limit.
-Vec3 within_knee(const Vec3& towards, const Range& range, double& angle_rad) {
-    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
-    double sine = 0.0;
-    double cosine = 1.0;
-    sin_cos(angle_rad, sine, cosine);
-    return {0.0, -cosine, sine};
-}
-
 // How far a link is bent where it points to its rest, as the limits measure it.
 double rest_angle(const Link& link) {
     return link.kind == LinkKind::shin ? arc_tangent2(link.rest.z(), -link.rest.y()) : 0.0;
 }
 
-Range range_of(LinkKind kind, const SpineTuning& tuning) {
+JointRange range_of(LinkKind kind, const SpineTuning& tuning) {
     const double share = k_tick_s / (k_tick_s + tuning.limit_lag_s);
     switch (kind) {
         case LinkKind::spine:
@@ -178,6 +140,7 @@ void rest_at(const Quat& chest, double scale, double t_s, SpineMemory& memory) {
     memory.moved_m = Vec3::Zero();
     memory.since_tick_s = std::fmod(t_s, k_tick_s);
     memory.tick_chest_ps = chest;
+    memory.contacts = {};
     for (std::size_t i = 0; i < k_body_links; ++i) {
         const Link& link = links()[i];
         const Frame& above = parent_frame(chain, link);
@@ -206,7 +169,7 @@ void pass_twist(const Quat& from, const Quat& to, const SpineTuning& tuning, Spi
 // What of a tick does not depend on the player.
 struct TickShares {
     double back, drag;
-    std::array<Range, 3> range;  // by LinkKind
+    std::array<JointRange, 3> range;  // by LinkKind
 };
 TickShares tick_shares(const SpineTuning& tuning) {
     return {std::min(1.0, tuning.return_per_s * k_tick_s),
@@ -226,8 +189,40 @@ void slow_down(double drag, double speed_max_mps, BodyLinkVectors& velocity_mps)
     }
 }
 
-void tick(const Quat& chest, const Vec3& moved_m, double scale, const SpineTuning& tuning,
-          SpineMemory& memory) {
+// Of the leg that a link is in; nothing for the spine and where the leg touches nothing.
+const LegContact* contact_of(const SpineMemory& memory, std::size_t i) {
+    const LegContact* const contact =
+        i < k_spine_links ? nullptr : &memory.contacts[(i - k_spine_links) / 2];
+    return contact != nullptr && contact->touches ? contact : nullptr;
+}
+
+// The link's direction, in the frame of the one above, turned out of what its end has gone into.
+// No faster than a leg is drawn up: who is put into a wall comes out of it without a jump.
+Vec3 before_surface(const Vec3& towards, const Vec3& base_m, const Link& link, double scale,
+                    const Frame& above, const LegContact& contact) {
+    constexpr double k_out_mps = 3.0;
+    const double length_m = scale * link.length_m;
+    const double place_m = link.kind == LinkKind::shin ? contact.ankle_m : contact.surface_m;
+    const double least_m = place_m - contact.normal_ps.dot(base_m);
+    return turn_out(towards, above.axes.transpose() * contact.normal_ps, least_m / length_m,
+                    k_out_mps * k_tick_s / length_m);
+}
+
+// What of a correction would throw a joint off the surface faster than it goes already.
+Vec3 rebound_mps(const Vec3& normal, const Vec3& velocity_mps, const Vec3& correction_mps) {
+    const double before = normal.dot(velocity_mps);
+    const double after = before + normal.dot(correction_mps);
+    return std::max(0.0, after - std::max(0.0, before)) * normal;
+}
+
+struct Ticked {
+    Quat chest;
+    Vec3 moved_m;  // by the chest since the last tick
+    Vec3 ahead_m;  // what it still goes until the frame's end
+};
+
+void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemory& memory) {
+    const Quat& chest = now.chest;
     pass_twist(memory.tick_chest_ps, chest, tuning, memory);
     memory.tick_chest_ps = chest;
     memory.before_m = memory.offset_m;
@@ -238,19 +233,27 @@ void tick(const Quat& chest, const Vec3& moved_m, double scale, const SpineTunin
         const Link& link = links()[i];
         const Frame& above = parent_frame(chain, link);
         const Vec3 base = base_of(above, memory.offset_m, link, scale);
-        const Vec3 predicted = memory.offset_m[i] + k_tick_s * memory.velocity_mps[i] - moved_m;
+        const Vec3 predicted = memory.offset_m[i] + k_tick_s * memory.velocity_mps[i] - now.moved_m;
         Vec3 towards = above.axes.transpose() * (predicted - base);
         const double distance = towards.norm();
         towards = distance > 1e-6 ? Vec3(towards * (1.0 / distance)) : link.rest;
         const Vec3 blend = (1.0 - shares.back) * towards + shares.back * link.rest;
-        const Vec3 returned = blend * (1.0 / blend.norm());
-        const Range& range = shares.range[static_cast<std::size_t>(link.kind)];
+        Vec3 returned = blend * (1.0 / blend.norm());
+        const LegContact* const contact = contact_of(memory, i);
+        if (contact != nullptr) {
+            returned = before_surface(returned, base - now.ahead_m, link, scale, above, *contact);
+        }
+        const JointRange& range = shares.range[static_cast<std::size_t>(link.kind)];
         const Vec3 allowed = link.kind == LinkKind::shin
-                                 ? within_knee(returned, range, memory.angle_rad[i])
+                                 ? within_hinge(returned, range, memory.angle_rad[i])
                                  : within_cone(returned, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // With the return in it the velocity swings past the rest; what is handed back damps that.
-        const Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
+        Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
+        if (contact != nullptr) {
+            correction_mps -=
+                rebound_mps(contact->normal_ps, memory.velocity_mps[i], correction_mps);
+        }
         memory.velocity_mps[i] += correction_mps;
         if (link.parent != k_chest) {
             const double share = link.kind == LinkKind::thigh ? 0.5 : 1.0;  // there are two
@@ -299,31 +302,6 @@ void show(const Pose& chest_ws, const SpineMemory& memory, const Pose& chest_ps,
     }
 }
 
-// The chest's way in one frame, against the reference, in play space's axes: through where it was
-// at both ends of the last frame and is now, so that a steady acceleration looks the same at any
-// frame rate. Never back past either end.
-class Way {
-  public:
-    Way(const Vec3& moved_m, double span_s, const SpineMemory& memory)
-        : span_s_(span_s), rate_mps_(moved_m / span_s) {
-        const Vec3 change = rate_mps_ - memory.rate_mps;
-        bend_ = change / (span_s + memory.rate_span_s);
-        // Twice what the way leaves the straight line at its ends must not exceed the line.
-        const double most = rate_mps_.norm();
-        const double ends = bend_.norm() * span_s;
-        if (ends > most) {
-            bend_ *= most / ends;
-        }
-    }
-    Vec3 at(double t_s) const { return t_s * rate_mps_ + (t_s * (t_s - span_s_)) * bend_; }
-    const Vec3& rate_mps() const { return rate_mps_; }
-
-  private:
-    double span_s_;
-    Vec3 rate_mps_;
-    Vec3 bend_;  // half the acceleration
-};
-
 struct Motion {
     double dt_s;
     double t_s;  // of the world's clock, at the end
@@ -333,15 +311,15 @@ struct Motion {
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
     const double span_s = std::min(motion.dt_s, k_longest_s);
-    const Way way(motion.moved_m, span_s, memory);
+    const BentWay way(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;
     while (memory.since_tick_s + (span_s - played_s) >= k_tick_s) {
         const double until_s = played_s + (k_tick_s - memory.since_tick_s);
         const Vec3 moved_m = memory.moved_m + (way.at(until_s) - way.at(played_s));
         played_s = until_s;
-        tick(between(from, motion.chest_ps.rotation, played_s / span_s), moved_m, scale, tuning,
-             memory);
+        const Quat chest = between(from, motion.chest_ps.rotation, played_s / span_s);
+        tick({chest, moved_m, way.at(span_s) - way.at(until_s)}, scale, tuning, memory);
         memory.moved_m = Vec3::Zero();
         memory.since_tick_s = 0.0;
     }
@@ -351,6 +329,65 @@ void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMe
     memory.moved_m += way.at(span_s) - way.at(played_s);
     memory.rate_mps = way.rate_mps();
     memory.rate_span_s = span_s;
+}
+
+// Whether it is this player's and leg's turn to look for surfaces: 15 times a second of the world's
+// clock, each at times of their own.
+bool looks_now(const PropagateSpineIo& io, std::uint64_t player, std::size_t side) {
+    constexpr double k_looks_per_s = 15.0;
+    constexpr std::uint64_t k_phases = 8;
+    const double phase = static_cast<double>(player % k_phases) / static_cast<double>(k_phases) +
+                         0.5 * static_cast<double>(side);
+    return std::floor(io.t_s * k_looks_per_s + phase) !=
+           std::floor((io.t_s - io.dt_s) * k_looks_per_s + phase);
+}
+
+// First surface on the line from the head to the sole, as the leg hung at the last tick: the head
+// is before all surfaces, hips need not be.
+LegContact look_down(const PropagateSpineIo& io, Entity player, const Pose& chest_ps,
+                     const Vec3& ankle_m, double scale) {
+    constexpr double k_ahead_m = 0.2;  // for what comes until the next look
+    const double sole_m = 0.11 * scale;
+    const Pose& origin_ws = io.origin.at(player).pose_ws;
+    // Well inside the head: eyes are at its rim, which may touch.
+    const Vec3 in_head_m(0.0, 0.0, 0.08);
+    const Vec3 head_ps = transform_point(io.head->at(player).pose_ps, in_head_m);
+    const Vec3 way = chest_ps.position + ankle_m - head_ps;
+    const double length = way.norm();
+    if (!(length > sole_m)) {
+        return {};
+    }
+    const Vec3 along = way * (1.0 / length);
+    const std::array<std::uint64_t, 1> skip = {io.persistent_id->at(player).value};
+    const auto hit = io.collision->cast_ray(
+        transform_point(origin_ws, head_ps),
+        transform_point(origin_ws, head_ps + (length + sole_m + k_ahead_m) * along), skip);
+    if (!hit) {
+        return {};
+    }
+    const Vec3 normal_ps = origin_ws.rotation.conjugate() * hit->normal_ws;
+    const double surface_m =
+        normal_ps.dot(inverse_transform_point(origin_ws, hit->point_ws) - chest_ps.position);
+    return {true, normal_ps, surface_m, surface_m - sole_m * normal_ps.dot(along)};
+}
+
+void touch_surfaces(const PropagateSpineIo& io, Entity player, const Motion& motion, double scale,
+                    SpineMemory& memory) {
+    if (io.collision == nullptr) {
+        return;
+    }
+    const std::uint64_t id = io.persistent_id->at(player).value;
+    for (std::size_t side = 0; side < k_hand_count; ++side) {
+        LegContact& contact = memory.contacts[side];
+        if (looks_now(io, id, side)) {
+            const Vec3& ankle_m = memory.offset_m[k_spine_links + 2 * side + 1];
+            contact = look_down(io, player, motion.chest_ps, ankle_m, scale);
+        } else {
+            const double nearer_m = contact.normal_ps.dot(motion.moved_m);
+            contact.surface_m -= nearer_m;
+            contact.ankle_m -= nearer_m;
+        }
+    }
 }
 
 }  // namespace
@@ -378,7 +415,9 @@ void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning) {
                 velocity += shift;
             }
             memory.rate_mps += shift;
-            play({io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative}, scale, tuning, memory);
+            const Motion motion{io.dt_s, io.t_s, chest_ps, own_m + io.dt_s * relative};
+            touch_surfaces(io, player, motion, scale, memory);
+            play(motion, scale, tuning, memory);
         }
         memory.reference_ws_mps = reference_ws;
         memory.chest_ps = chest_ps;

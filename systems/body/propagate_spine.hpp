@@ -4,6 +4,8 @@
 #include "components/body_tuning.hpp"
 #include "components/player.hpp"
 #include "components/spine.hpp"
+#include "components/tracking.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 
 namespace handhold {
@@ -18,6 +20,10 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
+    // What legs touch; without it nothing.
+    const CollisionWorld* collision = nullptr;            // in
+    const Column<HeadTracking>* head = nullptr;           // in: before all surfaces
+    const Column<PersistentId>* persistent_id = nullptr;  // in: nobody's legs touch his own head
 };
 
 // Stage 14. Spine and legs of every player: momentum snakes down from the chest, link by link.
@@ -26,6 +32,10 @@ struct PropagateSpineIo {
 // count, against the reference velocity, and the chest's own motion in play space: turning the play
 // space, and whatever puts a player elsewhere, takes the chain along unmoved. Where the chest jumps
 // the chain starts at rest. Of a frame longer than half a second only half a second is played.
+// Knees and soles stay on the head's side of the surface that the line from the head to the sole
+// meets, and slide along it, as far as their limits let them; they push nothing, and the player not
+// at all. Each leg looks 15 times a second; what it found stays where it is against the reference.
+// Clips lie on top and see no surfaces.
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);
 
 }  // namespace handhold

@@ -177,6 +177,21 @@ class Drawings(unittest.TestCase):
         drawing = svg.lines("a < b", "s", "cm", {"one": ("#000", [(0.0, 1.0), (1.0, 2.0), (2.0, float("nan")), (3.0, 4.0)]), "none": ("#111", [])})
         self.assertEqual(len(ElementTree.fromstring(drawing).findall(".//polyline")), 2)
 
+    def test_moments_are_where_both_elbows_are_as_wrong_as_mostly_nearly_worst_and_worst(self):
+        truth = Case([1] * 45)
+        estimate = truth.copy()
+        off_cm = np.random.default_rng(5).permutation(41).astype(float)
+        estimate.elbow_m[0, :41, 0] += 0.02 * off_cm  # one arm: the mean of both is off_cm
+        truth.valid[41:] = False
+        errors = measure(truth, estimate)
+        found = report.moments(errors, np.ones(45, bool))
+        self.assertEqual([title for title, _ in found], ["median", "95th percentile", "worst"])
+        np.testing.assert_allclose([errors.elbow_cm[:, row].mean() for _, row in found], [20.0, 38.0, 40.0])
+        own = np.arange(45) < 11  # of one person: nothing of the others counts
+        self.assertEqual([row for _, row in report.moments(errors, own)][2], int(np.argmax(off_cm[:11])))
+        self.assertEqual(report.moments(errors, np.arange(45) == 7), [(title, 7) for title in ("median", "95th percentile", "worst")])
+        self.assertEqual(report.moments(errors, np.arange(45) > 40), [])  # no truth there
+
     def test_who_faces_left_looks_right_when_seen_from_his_right(self):
         local = stick_figures.about(90.0, np.array([1.0, 1.0, 1.0]), np.array([[0.0, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 2.0, 1.0]]))
         np.testing.assert_allclose(local, [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], atol=1e-12)  # ahead, right, up

@@ -1,0 +1,45 @@
+#include "engine/anim/joint_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+double nearing(const JointRange& range, double before_rad, double now_rad) {
+    const double before = std::clamp(before_rad, range.low_rad, range.high_rad);
+    return std::clamp(now_rad, before + range.share * (range.low_rad - before),
+                      before + range.share * (range.high_rad - before));
+}
+
+}  // namespace
+
+Vec3 within_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
+                 double& angle_rad) {
+    const double along = towards.dot(rest);
+    const Vec3 aside = towards - along * rest;
+    const double length = aside.norm();
+    const double wanted = arc_tangent2(length, along);
+    // From the rest there is no way below.
+    angle_rad = std::min(wanted, nearing(range, angle_rad, std::max(wanted, angle_rad)));
+    if (angle_rad >= wanted) {
+        return towards;
+    }
+    if (length < 1e-9) {
+        return rest;
+    }
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(angle_rad, sine, cosine);
+    return cosine * rest + aside * (sine / length);
+}
+
+Vec3 within_hinge(const Vec3& towards, const JointRange& range, double& angle_rad) {
+    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
+    double sine = 0.0;
+    double cosine = 1.0;
+    sin_cos(angle_rad, sine, cosine);
+    return {0.0, -cosine, sine};
+}
+
+}  // namespace handhold

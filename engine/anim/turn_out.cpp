@@ -1,0 +1,22 @@
+#include "engine/anim/turn_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace handhold {
+
+Vec3 turn_out(const Vec3& towards, const Vec3& normal, double least, double most) {
+    const double out = towards.dot(normal);
+    if (out >= least) {
+        return towards;
+    }
+    const double wanted = std::clamp(std::min(least, out + most), -1.0, 1.0);
+    const Vec3 aside = towards - out * normal;
+    const double length = aside.norm();
+    if (length < 1e-9 || wanted >= 1.0) {
+        return wanted >= 1.0 ? normal : towards;
+    }
+    return wanted * normal + aside * (std::sqrt(1.0 - wanted * wanted) / length);
+}
+
+}  // namespace handhold
