@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -25,6 +26,46 @@ struct Wide4 {
 struct WideSymmetric {
     Four xx, yy, zz, xy, xz, yz;
 };
+
+// Number by number: of the whole GCC makes copies in memory, in pieces of other sizes.
+HH_INLINE void assign(const Wide3& from, Wide3& to) {
+    to.x = from.x;
+    to.y = from.y;
+    to.z = from.z;
+}
+HH_INLINE void assign(const Wide4& from, Wide4& to) {
+    to.x = from.x;
+    to.y = from.y;
+    to.z = from.z;
+    to.w = from.w;
+}
+HH_INLINE void assign(const WideSymmetric& from, WideSymmetric& to) {
+    to.xx = from.xx;
+    to.yy = from.yy;
+    to.zz = from.zz;
+    to.xy = from.xy;
+    to.xz = from.xz;
+    to.yz = from.yz;
+}
+
+// One lane's.
+HH_INLINE void set_lane(std::size_t lane, const Vec3& v, Wide3& out) {
+    out.x[lane] = v.x();
+    out.y[lane] = v.y();
+    out.z[lane] = v.z();
+}
+HH_INLINE void set_lane(std::size_t lane, const Quat& q, Wide4& out) {
+    out.x[lane] = q.x();
+    out.y[lane] = q.y();
+    out.z[lane] = q.z();
+    out.w[lane] = q.w();
+}
+HH_INLINE Vec3 vec3_in_lane(std::size_t lane, const Wide3& v) {
+    return {v.x[lane], v.y[lane], v.z[lane]};
+}
+HH_INLINE Quat quat_in_lane(std::size_t lane, const Wide4& q) {
+    return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
+}
 
 HH_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -52,18 +93,8 @@ HH_INLINE double largest(const Four& v) {
     return high > low ? high : low;
 }
 
-// 0 in the lanes whose bits are the same.
+// Lane by lane: -1, which is all bits, where something is true.
 using FourBits = std::int64_t __attribute__((vector_size(32), aligned(32)));
-HH_INLINE FourBits changed_bits(const Four& a, const Four& b) {
-    return __builtin_bit_cast(FourBits, a) ^ __builtin_bit_cast(FourBits, b);
-}
-HH_INLINE FourBits changed_bits(const Wide3& a, const Wide3& b) {
-    return changed_bits(a.x, b.x) | changed_bits(a.y, b.y) | changed_bits(a.z, b.z);
-}
-HH_INLINE FourBits changed_bits(const Wide4& a, const Wide4& b) {
-    return (changed_bits(a.x, b.x) | changed_bits(a.y, b.y)) |
-           (changed_bits(a.z, b.z) | changed_bits(a.w, b.w));
-}
 
 // By the instruction, not by std::sqrt, which would look at every number's sign for errno.
 HH_INLINE Four square_root(const Four& v) {

@@ -2,7 +2,7 @@
 
 // Sources: geometric stiffness after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics
 // (2015), as in geometric_stiffness.cpp.
-#include "engine/solver/rows.hpp"
+#include "engine/math/wide_rotation.hpp"
 #include "engine/solver/triad_kernels.hpp"
 
 // What the triad kernels do for four bodies at once. Included by triad_kernels.cpp alone: all is
@@ -10,29 +10,6 @@
 namespace handhold::triads {
 
 // --- Poses and ends ----------------------------------------------------------------------------
-
-HH_INLINE void write_axes(FourBodies& bodies) {
-    const Wide4& q = bodies.rotation;
-    const Four x2 = q.x + q.x;
-    const Four y2 = q.y + q.y;
-    const Four z2 = q.z + q.z;
-    const Four xx = x2 * q.x;
-    const Four yy = y2 * q.y;
-    const Four zz = z2 * q.z;
-    const Four xy = x2 * q.y;
-    const Four xz = x2 * q.z;
-    const Four yz = y2 * q.z;
-    const Four wx = x2 * q.w;
-    const Four wy = y2 * q.w;
-    const Four wz = z2 * q.w;
-    bodies.axes[0] = {1.0 - (yy + zz), xy + wz, xz - wy};
-    bodies.axes[1] = {xy - wz, 1.0 - (xx + zz), yz + wx};
-    bodies.axes[2] = {xz + wy, yz - wx, 1.0 - (xx + yy)};
-}
-
-HH_INLINE Wide3 rotate(const Wide3* axes, const Wide3& v) {
-    return (v.x * axes[0] + v.y * axes[1]) + v.z * axes[2];
-}
 
 HH_INLINE void write_ends(const Wide3& parts, const TriadPlan::Lanes& lanes,
                           const TriadArrays& arrays) {
@@ -53,11 +30,14 @@ HH_INLINE void evaluate(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
         FourBodies& bodies = arrays.bodies[i];
-        write_axes(bodies);
+        const WideAxes axes = axes_of(bodies.rotation);
+        assign(axes.x, bodies.axes.x);
+        assign(axes.y, bodies.axes.y);
+        assign(axes.z, bodies.axes.z);
         for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
             FourEnds& ends = arrays.body_ends[j];
-            const Wide3 arm = rotate(bodies.axes, ends.point_bs);
-            ends.arm = arm;
+            const Wide3 arm = rotate(axes, ends.point_bs);
+            assign(arm, ends.arm);
             write_ends(ends.sign * bodies.position + arm, arrays.plan->ends()[j], arrays);
         }
     }
@@ -103,16 +83,16 @@ HH_INLINE double worst_square(const TriadArrays& arrays) {
 // --- Inertia -----------------------------------------------------------------------------------
 
 // A diagonal matrix in the bodies' axes, in the world's.
-HH_INLINE WideSymmetric to_world(const Wide3* axes, const Wide3& diagonal) {
-    const Wide3 x = diagonal.x * axes[0];
-    const Wide3 y = diagonal.y * axes[1];
-    const Wide3 z = diagonal.z * axes[2];
-    return {(axes[0].x * x.x + axes[1].x * y.x) + axes[2].x * z.x,
-            (axes[0].y * x.y + axes[1].y * y.y) + axes[2].y * z.y,
-            (axes[0].z * x.z + axes[1].z * y.z) + axes[2].z * z.z,
-            (axes[0].x * x.y + axes[1].x * y.y) + axes[2].x * z.y,
-            (axes[0].x * x.z + axes[1].x * y.z) + axes[2].x * z.z,
-            (axes[0].y * x.z + axes[1].y * y.z) + axes[2].y * z.z};
+HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
+    const Wide3 x = diagonal.x * axes.x;
+    const Wide3 y = diagonal.y * axes.y;
+    const Wide3 z = diagonal.z * axes.z;
+    return {(axes.x.x * x.x + axes.y.x * y.x) + axes.z.x * z.x,
+            (axes.x.y * x.y + axes.y.y * y.y) + axes.z.y * z.y,
+            (axes.x.z * x.z + axes.y.z * y.z) + axes.z.z * z.z,
+            (axes.x.x * x.y + axes.y.x * y.y) + axes.z.x * z.y,
+            (axes.x.x * x.z + axes.y.x * y.z) + axes.z.x * z.z,
+            (axes.x.y * x.z + axes.y.y * y.z) + axes.z.y * z.z};
 }
 
 HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m) {
@@ -130,7 +110,7 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m) {
 
 HH_INLINE WideSymmetric stiff_inverse(const FourBodies& bodies, const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
-    const auto may_turn = ((in.x + in.y) + in.z) > 0.0;
+    const FourBits may_turn = ((in.x + in.y) + in.z) > 0.0;
     const Four one = zero_four() + 1.0;
     const Wide3 inertia_bs{may_turn ? 1.0 / in.x : one, may_turn ? 1.0 / in.y : one,
                            may_turn ? 1.0 / in.z : one};
@@ -165,9 +145,9 @@ HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric
     const Four along = dot(force, arm);
     const Wide3 normal = cross(force, arm);
     const Four normal_square = dot(normal, normal);
-    const auto counts = product >= k_least;
-    const auto pulls = along > 0.0;
-    const auto is_straight = pulls & (normal_square <= k_least * product * product);
+    const FourBits counts = product >= k_least;
+    const FourBits pulls = along > 0.0;
+    const FourBits is_straight = pulls & (normal_square <= k_least * product * product);
     const Four ratio = counts ? product / arm_square : zero;
     const Wide3 bent = force - ratio * arm;
     const Wide3 axis{is_straight ? force.x : bent.x, is_straight ? force.y : bent.y,
@@ -196,19 +176,30 @@ HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
         for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
             add_stiffness(lambdas_of(arrays.plan->ends()[j], arrays), arrays.body_ends[j].arm, sum);
         }
-        arrays.stiffness[i] = sum;
+        assign(sum, arrays.stiffness[i]);
     }
 }
 
 // --- J W J^T -----------------------------------------------------------------------------------
 
-HH_INLINE void add_row(const Wide3& row, const TriadPlan::Lanes& lanes, int place,
-                       const TriadArrays& arrays) {
+HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int place,
+                         const TriadArrays& arrays) {
     const Wide4 rows = to_rows(row);
-    arrays.blocks[lanes[0]].row[place] += rows.x;
-    arrays.blocks[lanes[1]].row[place] += rows.y;
-    arrays.blocks[lanes[2]].row[place] += rows.z;
-    arrays.blocks[lanes[3]].row[place] += rows.w;
+    Four& a = arrays.blocks[pair.blocks[0]].row[place];
+    Four& b = arrays.blocks[pair.blocks[1]].row[place];
+    Four& c = arrays.blocks[pair.blocks[2]].row[place];
+    Four& d = arrays.blocks[pair.blocks[3]].row[place];
+    if (pair.is_alone) {
+        a = rows.x;
+        b = rows.y;
+        c = rows.z;
+        d = rows.w;
+    } else {
+        a += rows.x;
+        b += rows.y;
+        c += rows.z;
+        d += rows.w;
+    }
 }
 
 // Rows of J W of an end, the rotation's part: J's are arm x e_k, or the axes at their lever.
@@ -235,7 +226,7 @@ HH_INLINE Wide3 times_end(const Wide3& side, const FourEnds& end) {
 template <bool HasTurn>
 HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Group& group,
                                  const TriadArrays& arrays) {
-    const TriadPlan::Lanes* target = arrays.plan->pairs().data() + group.pairs;
+    const TriadPlan::Pair* pair = arrays.plan->pairs().data() + group.pairs;
     const FourEnds* const ends = arrays.body_ends.data() + group.ends;
     for (std::uint32_t i = 0; i < group.width; ++i) {
         Wide3 side[3];
@@ -249,16 +240,17 @@ HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Grou
             x.x += shared;
             y.y += shared;
             z.z += shared;
-            add_row(x, *target, 0, arrays);
-            add_row(y, *target, 1, arrays);
-            add_row(z, *target, 2, arrays);
-            ++target;
+            write_row(x, *pair, 0, arrays);
+            write_row(y, *pair, 1, arrays);
+            write_row(z, *pair, 2, arrays);
+            ++pair;
         }
     }
 }
 
 HH_INLINE void multiply_out(const TriadArrays& arrays) {
-    for (Rows3& block : arrays.blocks) {
+    for (const std::uint32_t zero : arrays.plan->zeros()) {
+        Rows3& block = arrays.blocks[zero];
         block.row[0] = zero_four();
         block.row[1] = zero_four();
         block.row[2] = zero_four();
@@ -298,8 +290,8 @@ HH_INLINE TriadReach gather_moves(const TriadArrays& arrays) {
         }
         const Wide3 move = bodies.inverse_mass * impulse;
         const Wide3 turn = multiply(bodies.inverse_inertia, couple);
-        bodies.move = move;
-        bodies.turn = turn;
+        assign(move, bodies.move);
+        assign(turn, bodies.turn);
         longest_move = larger(longest_move, dot(move, move));
         longest_turn = larger(longest_turn, dot(turn, turn));
     }
@@ -309,33 +301,27 @@ HH_INLINE TriadReach gather_moves(const TriadArrays& arrays) {
 // Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one. What does not turn
 // keeps its bits.
 HH_INLINE void turn_by(const Wide3& turn, Wide4& rotation) {
-    const Wide4 q = rotation;
     const Four half = zero_four() + 0.5;
-    const Wide3 h = half * turn;
-    const Wide3 vector{q.x, q.y, q.z};
-    const Wide3 v = (vector + q.w * h) + cross(h, vector);
-    const Four w = q.w - dot(h, vector);
-    const Four length = square_root((v.x * v.x + v.y * v.y) + (v.z * v.z + w * w));
-    const Four by = 1.0 / length;
-    const auto turns = dot(turn, turn) > 0.0;
-    rotation.x = turns ? v.x * by : q.x;
-    rotation.y = turns ? v.y * by : q.y;
-    rotation.z = turns ? v.z * by : q.z;
-    rotation.w = turns ? w * by : q.w;
+    const Wide4 after = turned(half * turn, zero_four() + 1.0, rotation);
+    const FourBits turns = dot(turn, turn) > 0.0;
+    rotation.x = turns ? after.x : rotation.x;
+    rotation.y = turns ? after.y : rotation.y;
+    rotation.z = turns ? after.z : rotation.z;
+    rotation.w = turns ? after.w : rotation.w;
 }
 
 HH_INLINE void apply(const TriadArrays& arrays, double scale) {
     const Four by = zero_four() + scale;
     for (FourBodies& bodies : arrays.bodies) {
-        bodies.position = bodies.position + by * bodies.move;
+        assign(bodies.position + by * bodies.move, bodies.position);
         turn_by(by * bodies.turn, bodies.rotation);
     }
 }
 
 HH_INLINE void apply_velocities(const TriadArrays& arrays) {
     for (FourBodies& bodies : arrays.bodies) {
-        bodies.velocity = bodies.velocity + bodies.move;
-        bodies.spin = bodies.spin + bodies.turn;
+        assign(bodies.velocity + bodies.move, bodies.velocity);
+        assign(bodies.spin + bodies.turn, bodies.spin);
     }
 }
 

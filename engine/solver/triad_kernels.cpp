@@ -1,5 +1,6 @@
 #include "engine/solver/triad_kernels.hpp"
 
+#include "engine/math/processor.hpp"
 #include "engine/solver/triad_bodies.hpp"
 #include "engine/solver/triad_factor.hpp"
 
@@ -12,9 +13,6 @@ HH_INLINE TriadReach solve_triads(const TriadArrays& arrays) {
 }
 
 #ifdef __x86_64__
-// Built for AVX2: no fused operations, so that the bits stay.
-#define HH_AVX2 [[gnu::target("avx2")]]
-
 HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { triads::evaluate(arrays); }
 HH_AVX2 void evaluate_velocities_avx2(const TriadArrays& arrays) {
     triads::evaluate_velocities(arrays);
@@ -59,8 +57,7 @@ constexpr TriadKernels k_portable{evaluate_portable,        evaluate_velocities_
 
 const TriadKernels& triad_kernels() {
 #ifdef __x86_64__
-    static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-    return has_avx2 ? k_avx2 : k_portable;
+    return fastest_vectors() == Vectors::avx2 ? k_avx2 : k_portable;
 #else
     return k_portable;
 #endif

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/math/wide.hpp"
+#include "engine/math/wide_rotation.hpp"
 #include "engine/solver/triad_plan.hpp"
 
 // The arithmetic of TriadSystem, over packed arrays: once for any processor, once for AVX2, with
@@ -22,7 +22,7 @@ struct FourBodies {
     Wide4 rotation;  // unit
     Wide3 velocity;
     Wide3 spin;
-    Wide3 axes[3];                  // its own axes
+    WideAxes axes;                  // its own axes in the world
     WideSymmetric inverse_inertia;  // with the stiffness; 0 where it cannot turn
     Wide3 inverse_inertia_bs;       // principal, body axes
     Four inverse_mass;

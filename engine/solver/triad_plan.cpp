@@ -38,11 +38,16 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
             }
         }
         const auto end = static_cast<std::uint32_t>(later_.size());
-        steps_.push_back({panel.node, block_at(panel, panel.begin), begin, end, updates});
+        const bool is_independent =
+            !steps_.empty() &&
+            std::ranges::find(later(steps_.back()), panel.node) == later(steps_.back()).end();
+        steps_.push_back(
+            {panel.node, block_at(panel, panel.begin), begin, end, updates, is_independent});
     }
     block_count_ = plan_.value_count() / k_block_size;
     find_groups(nodes, turns.size());
     find_pairs(nodes);
+    find_zeros();
 }
 
 // Nodes that go first come first: a product's block lies in the panel of the earlier of its two.
@@ -72,7 +77,7 @@ void TriadPlan::find_groups(std::span<const RowNode> nodes, std::size_t bodies) 
     spare.fill(spare_end());
     ends_.assign(ends, spare);
     spare.fill(spare_block());
-    pairs_.assign(pairs, spare);
+    pairs_.assign(pairs, {spare});
     for (std::uint32_t end = 0; end < spare_end(); ++end) {
         const std::uint32_t slot = nodes[end / 2].slots[end % 2];
         if (slot != k_no_slot) {
@@ -89,8 +94,35 @@ void TriadPlan::find_pairs(std::span<const RowNode> nodes) {
         const Group& group = groups_[slot / 4];
         // Rows before this one have one pair less each.
         const std::uint32_t before = row * group.width - row * (row + 1) / 2;
-        pairs_[group.pairs + before + column][slot % 4] =
+        pairs_[group.pairs + before + column].blocks[slot % 4] =
             block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
+    }
+}
+
+void TriadPlan::find_zeros() {
+    std::vector<std::uint32_t> sums(block_count_ + 1, 0);
+    for (const Pair& pair : pairs_) {
+        for (const std::uint32_t block : pair.blocks) {
+            ++sums[block];
+        }
+    }
+    sums[spare_block()] = 1;
+    std::vector<std::uint8_t> is_written(block_count_ + 1, 0);
+    for (Pair& pair : pairs_) {
+        pair.is_alone = std::ranges::all_of(
+            pair.blocks, [&sums](std::uint32_t block) { return sums[block] == 1; });
+        if (pair.is_alone) {
+            for (const std::uint32_t block : pair.blocks) {
+                is_written[block] = 1;
+            }
+        }
+    }
+    is_written[spare_block()] = 0;
+    zeros_.clear();
+    for (std::uint32_t block = 0; block <= spare_block(); ++block) {
+        if (is_written[block] == 0) {
+            zeros_.push_back(block);
+        }
     }
 }
 

@@ -33,52 +33,25 @@ bool may_turn(const SolverBody& body) {
     return body.inverse_mass > 0.0 && !body.inverse_inertia_bs.isZero(0.0);
 }
 
-// The four of a group; where the island has no more bodies, one that nothing moves.
-struct FourPlaces {
-    FourPlaces(const IslandView& island, std::size_t group) {
-        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-            const std::size_t slot = k_lanes * group + lane;
-            body[lane] = slot < island.island_bodies.size()
-                             ? &island.bodies[island.island_bodies[slot]]
-                             : &none();
-        }
-    }
-    template <typename Part>
-    Wide3 gather(Part&& part) const {
-        return to_wide3(to_four(part(*body[0])), to_four(part(*body[1])), to_four(part(*body[2])),
-                        to_four(part(*body[3])));
-    }
-
-    const SolverBody* body[k_lanes];
-
-  private:
-    static const SolverBody& none() {
-        static const SolverBody body;
-        return body;
-    }
-};
-
-void load_poses(const FourPlaces& from, FourBodies& to) {
-    to.position = from.gather([](const SolverBody& body) { return body.pose_ws.position; });
-    to.rotation =
-        to_wide4(to_four(from.body[0]->pose_ws.rotation), to_four(from.body[1]->pose_ws.rotation),
-                 to_four(from.body[2]->pose_ws.rotation), to_four(from.body[3]->pose_ws.rotation));
+void pack_velocity(const SolverBody& from, std::size_t lane, FourBodies& to) {
+    set_lane(lane, from.velocity_mps, to.velocity);
+    set_lane(lane, from.spin_radps, to.spin);
 }
-void load_masses(const FourPlaces& from, FourBodies& to) {
-    to.inverse_mass = Four{from.body[0]->inverse_mass, from.body[1]->inverse_mass,
-                           from.body[2]->inverse_mass, from.body[3]->inverse_mass};
-    to.inverse_inertia_bs = from.gather([](const SolverBody& body) {
-        return may_turn(body) ? body.inverse_inertia_bs : Vec3(Vec3::Zero());
-    });
+void pack(const SolverBody& from, std::size_t lane, FourBodies& to) {
+    set_lane(lane, from.pose_ws.position, to.position);
+    set_lane(lane, from.pose_ws.rotation, to.rotation);
+    to.inverse_mass[lane] = from.inverse_mass;
+    set_lane(lane, may_turn(from) ? from.inverse_inertia_bs : Vec3(Vec3::Zero()),
+             to.inverse_inertia_bs);
+    pack_velocity(from, lane, to);
 }
-void load_velocities(const FourPlaces& from, FourBodies& to) {
-    to.velocity = from.gather([](const SolverBody& body) { return body.velocity_mps; });
-    to.spin = from.gather([](const SolverBody& body) { return body.spin_radps; });
-}
-
-Vec3 vec3_of(const Wide3& v, std::size_t lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
-Quat quat_of(const Wide4& q, std::size_t lane) {
-    return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
+// True where it has the mass and the pose that it was packed with, or stored with.
+bool is_as_packed(const SolverBody& from, std::size_t lane, const FourBodies& body) {
+    return from.inverse_mass == body.inverse_mass[lane] &&
+           from.pose_ws.position == vec3_in_lane(lane, body.position) &&
+           from.pose_ws.rotation.coeffs() == quat_in_lane(lane, body.rotation).coeffs() &&
+           (!may_turn(from) ||
+            from.inverse_inertia_bs == vec3_in_lane(lane, body.inverse_inertia_bs));
 }
 
 double sign_of(std::uint32_t end) { return end % 2 == 0 ? 1.0 : -1.0; }
@@ -90,15 +63,14 @@ void TriadSystem::load_bodies(const IslandView& island) {
     body_indices_.assign(island.island_bodies.begin(), island.island_bodies.end());
     bodies_.resize((count + k_lanes - 1) /
                    k_lanes);  // of other islands: all that counts is written
-    for (std::size_t group = 0; group < bodies_.size(); ++group) {
-        const FourPlaces from(island, group);
-        load_poses(from, bodies_[group]);
-        load_masses(from, bodies_[group]);
-        load_velocities(from, bodies_[group]);
-    }
     may_turn_.resize(count);
     for (std::size_t slot = 0; slot < count; ++slot) {
-        may_turn_[slot] = may_turn(island.bodies[body_indices_[slot]]) ? 1 : 0;
+        const SolverBody& body = island.bodies[body_indices_[slot]];
+        pack(body, slot % k_lanes, bodies_[slot / k_lanes]);
+        may_turn_[slot] = may_turn(body) ? 1 : 0;
+    }
+    for (std::size_t slot = count; slot < k_lanes * bodies_.size(); ++slot) {
+        pack({}, slot % k_lanes, bodies_[slot / k_lanes]);
     }
     uses_.assign(count, 0);
 }
@@ -106,21 +78,24 @@ void TriadSystem::load_bodies(const IslandView& island) {
 // False where more meet in one body than are served.
 bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns) {
     const RowBlock& block = island.blocks[index];
-    RowNode& node = nodes_.emplace_back();
-    node.width = 3;
-    triads_.push_back({index, turns});
     const bool is_hand = handhold::is_hand(block);
-    hands_.push_back(is_hand ? 1 : 0);
+    const std::size_t triad = triad_count_++;
+    if (triad_count_ > triads_.size()) {
+        resize(2 * triad_count_);
+    }
+    triads_[triad] = {index, turns};
+    hands_[triad] = is_hand ? 1 : 0;
     has_hand_ = has_hand_ || is_hand;
     has_turn_ = has_turn_ || turns;
+    RowNode& node = nodes_[triad];
+    node = {{k_no_slot, k_no_slot}, 3};
     bool fits = true;
     for (std::uint32_t side = 0; side < 2; ++side) {
         const std::uint32_t body_index = side == 0 ? block.a : block.b;
         const Vec3& point_bs = side == 0 ? block.point_a_bs : block.point_b_bs;
-        const auto end = static_cast<std::uint32_t>(points_.size());
+        const auto end = static_cast<std::uint32_t>(2 * triad + side);
         const double sign = turns ? 0.0 : sign_of(end);
-        points_.push_back(
-            {Four{sign * point_bs.x(), sign * point_bs.y(), sign * point_bs.z(), sign}});
+        points_[end].v = Four{sign * point_bs.x(), sign * point_bs.y(), sign * point_bs.z(), sign};
         const SolverBody& body = island.bodies[body_index];
         if (body.inverse_mass > 0.0) {
             node.slots[side] = body.slot;
@@ -132,14 +107,19 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns)
     return fits;
 }
 
+// Room for so many triads, and the spare ones.
+void TriadSystem::resize(std::size_t triads) {
+    triads_.resize(triads);
+    hands_.resize(triads);
+    nodes_.resize(triads);
+    points_.resize(2 * triads + 1);
+}
+
 bool TriadSystem::load(const IslandView& island, double touch_m) {
     revision_ = 0;
     load_bodies(island);
-    triads_.clear();
-    hands_.clear();
     anchors_.clear();
-    points_.clear();
-    nodes_.clear();
+    triad_count_ = 0;
     is_evaluated_ = has_hand_ = has_turn_ = is_stiff_ = false;
     bool has_contact = false;
     for (const std::uint32_t index : island.island_blocks) {
@@ -159,6 +139,7 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
             return false;
         }
     }
+    resize(triad_count_);
     plan_nodes();
     if (!has_contact && island.filter != BlockFilter::without_hands) {
         revision_ = island.revision;
@@ -170,22 +151,15 @@ bool TriadSystem::is_as_loaded(const IslandView& island) const {
     if (!std::ranges::equal(body_indices_, island.island_bodies)) {
         return false;
     }
-    FourBits changes{};
-    for (std::size_t group = 0; group < bodies_.size(); ++group) {
-        const FourPlaces from(island, group);
-        FourBodies now;
-        load_poses(from, now);
-        load_masses(from, now);
-        const FourBodies& then = bodies_[group];
-        changes |= changed_bits(now.position, then.position) |
-                   changed_bits(now.rotation, then.rotation) |
-                   changed_bits(now.inverse_mass, then.inverse_mass) |
-                   changed_bits(now.inverse_inertia_bs, then.inverse_inertia_bs);
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        if (!is_as_packed(island.bodies[body_indices_[slot]], slot % k_lanes,
+                          bodies_[slot / k_lanes])) {
+            return false;
+        }
     }
-    return ((changes[0] | changes[1]) | (changes[2] | changes[3])) == 0 &&
-           std::ranges::none_of(anchors_, [&](const Anchor& anchor) {
-               return island.bodies[anchor.body].inverse_mass > 0.0;
-           });
+    return std::ranges::none_of(anchors_, [&](const Anchor& anchor) {
+        return island.bodies[anchor.body].inverse_mass > 0.0;
+    });
 }
 
 bool TriadSystem::resume(const IslandView& island) {
@@ -193,8 +167,8 @@ bool TriadSystem::resume(const IslandView& island) {
         island.filter == BlockFilter::without_hands || !is_as_loaded(island)) {
         return false;
     }
-    for (std::size_t group = 0; group < bodies_.size(); ++group) {
-        load_velocities(FourPlaces(island, group), bodies_[group]);
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        pack_velocity(island.bodies[body_indices_[slot]], slot % k_lanes, bodies_[slot / k_lanes]);
     }
     is_stiff_ = false;
     std::ranges::fill(impulses_, TriadVector{});
@@ -205,9 +179,10 @@ void TriadSystem::plan_nodes() {
     const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
     const std::size_t count = triads_.size();
     ends_.resize(2 * count + 1);
-    points_.resize(2 * count + 1);  // the spare one is 0
+    points_.back() = {};
     values_.resize(count);
-    lambdas_.assign(count + 1, {});
+    lambdas_.resize(count + 1);
+    lambdas_.back() = {};
     impulses_.assign(count, {});
     blocks_.resize(plan.block_count() + 1);
     inverses_.resize(count);
@@ -219,18 +194,16 @@ void TriadSystem::load_ends() {
     const std::span<const TriadPlan::Lanes> ends = plans_.current().ends();
     body_ends_.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        const TriadPlan::Lanes& lanes = ends[i];
-        const Wide4 points = to_wide4(points_[lanes[0]].v, points_[lanes[1]].v, points_[lanes[2]].v,
-                                      points_[lanes[3]].v);
-        body_ends_[i].point_bs = {points.x, points.y, points.z};
-        body_ends_[i].sign = points.w;
-        if (!has_turn_) {
-            continue;
-        }
+        FourEnds& four = body_ends_[i];
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-            const bool turns =
-                lanes[lane] != plans_.current().spare_end() && triads_[lanes[lane] / 2].turns;
-            body_ends_[i].lever[lane] = turns ? k_angle_m * sign_of(lanes[lane]) : 0.0;
+            const std::uint32_t end = ends[i][lane];
+            const Four& point = points_[end].v;
+            four.point_bs.x[lane] = point[0];
+            four.point_bs.y[lane] = point[1];
+            four.point_bs.z[lane] = point[2];
+            four.sign[lane] = point[3];
+            const bool turns = has_turn_ && end / 2 < triads_.size() && triads_[end / 2].turns;
+            four.lever[lane] = turns ? k_angle_m * sign_of(end) : 0.0;
         }
     }
 }
@@ -246,8 +219,8 @@ void TriadSystem::store_poses(const IslandView& island) const {
         const FourBodies& bodies = bodies_[slot / k_lanes];
         const std::size_t lane = slot % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            island.bodies[body_indices_[slot]].pose_ws = {vec3_of(bodies.position, lane),
-                                                          quat_of(bodies.rotation, lane)};
+            island.bodies[body_indices_[slot]].pose_ws = {vec3_in_lane(lane, bodies.position),
+                                                          quat_in_lane(lane, bodies.rotation)};
         }
     }
 }
@@ -258,8 +231,8 @@ void TriadSystem::store_velocities(const IslandView& island) const {
         const std::size_t lane = slot % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             SolverBody& body = island.bodies[body_indices_[slot]];
-            body.velocity_mps = vec3_of(bodies.velocity, lane);
-            body.spin_radps = vec3_of(bodies.spin, lane);
+            body.velocity_mps = vec3_in_lane(lane, bodies.velocity);
+            body.spin_radps = vec3_in_lane(lane, bodies.spin);
         }
     }
     for (std::size_t i = 0; i < triads_.size(); ++i) {
@@ -275,7 +248,7 @@ void TriadSystem::store_velocities(const IslandView& island) const {
 Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const {
     const std::uint32_t slot = nodes_[end / 2].slots[end % 2];
     if (slot != k_no_slot) {
-        return quat_of(bodies_[slot / k_lanes].rotation, slot % k_lanes);
+        return quat_in_lane(slot % k_lanes, bodies_[slot / k_lanes].rotation);
     }
     const RowBlock& block = island.blocks[triads_[end / 2].block];
     return island.bodies[end % 2 == 0 ? block.a : block.b].pose_ws.rotation;

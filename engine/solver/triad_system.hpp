@@ -70,6 +70,7 @@ class TriadSystem {
 
     void load_bodies(const IslandView& island);
     bool add(const IslandView& island, std::uint32_t index, bool turns);
+    void resize(std::size_t triads);
     void plan_nodes();
     void load_ends();
     bool is_as_loaded(const IslandView& island) const;
@@ -82,6 +83,7 @@ class TriadSystem {
     const TriadKernels* kernels_;
     std::uint64_t revision_ = 0;               // of the graph that `resume` may go on with; 0: none
     std::vector<std::uint32_t> body_indices_;  // by slot: into the graph's bodies
+    std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
     std::vector<TriadVector> points_;    // by end: times the sign; the sign
