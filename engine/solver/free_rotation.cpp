@@ -40,24 +40,24 @@ HH_INLINE FourBits sort_two(PrincipalAxis& a, PrincipalAxis& b, Four& hand) {
 }
 
 // Turns the bodies about one of their own axes; the momentum stays in the world, so it turns back
-// in the body. `next` and `last` follow it in the order of a right hand.
-HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, PrincipalAxis& axis,
-                               PrincipalAxis& next, PrincipalAxis& last, Four& w) {
+// in the body. `following` and `remaining` come after it in the order of a right hand.
+HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, PrincipalAxis& about,
+                               PrincipalAxis& following, PrincipalAxis& remaining, Four& w) {
     Four s;
     Four c;
     sin_cos(0.5 * angle_rad, s, c);
     const Four before = w;
-    w = before * c - axis.vector * s;
-    axis.vector = axis.vector * c + before * s;
-    const Four along = next.vector;
+    w = before * c - about.vector * s;
+    about.vector = about.vector * c + before * s;
+    const Four along = following.vector;
     const Four handed = hand * s;
-    next.vector = along * c + last.vector * handed;
-    last.vector = last.vector * c - along * handed;
+    following.vector = along * c + remaining.vector * handed;
+    remaining.vector = remaining.vector * c - along * handed;
     const Four sine = 2.0 * handed * c;
     const Four cosine = c * c - s * s;
-    const Four momentum = next.momentum;
-    next.momentum = momentum * cosine + last.momentum * sine;
-    last.momentum = last.momentum * cosine - momentum * sine;
+    const Four momentum = following.momentum;
+    following.momentum = momentum * cosine + remaining.momentum * sine;
+    remaining.momentum = remaining.momentum * cosine - momentum * sine;
 }
 
 // What the moments have more or less than the middle one, for bodies two of whose moments are
