@@ -1,47 +1,15 @@
-// Sources: range reduction after Cody and Waite 1980, with pi/2 in three parts; Taylor series with
-// remainders below half a unit in the last place on [-pi/4, pi/4]; arc tangent by addition from a
-// table and series.
+// Sources: sine and cosine as trigonometry_series.hpp says; arc tangent by addition from a table
+// and series.
 #include "engine/math/math.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/math/scalar_rotation.hpp"
+#include "engine/math/trigonometry_series.hpp"
 
 namespace handhold {
 namespace {
-
-constexpr double k_two_over_pi = 0.63661977236758134308;
-// pi/2 = high + middle + low; the first two have trailing zeros, so that multiples up to 2^20 are
-// exact.
-constexpr double k_half_pi_high = 1.57079632673412561417e+00;
-constexpr double k_half_pi_middle = 6.07710050630396597660e-11;
-constexpr double k_half_pi_low = 2.02226624879595063154e-21;
-
-double sine_series(double x) {
-    const double z = x * x;
-    double sum = 2.8114572543455206e-15;  // 1/17!
-    sum = sum * z - 7.6471637318198164e-13;
-    sum = sum * z + 1.6059043836821613e-10;
-    sum = sum * z - 2.5052108385441720e-08;
-    sum = sum * z + 2.7557319223985893e-06;
-    sum = sum * z - 1.9841269841269841e-04;
-    sum = sum * z + 8.3333333333333332e-03;
-    sum = sum * z - 1.6666666666666666e-01;
-    return x + x * z * sum;
-}
-
-double cosine_series(double x) {
-    const double z = x * x;
-    double sum = 4.7794773323873853e-14;  // 1/16!
-    sum = sum * z - 1.1470745597729725e-11;
-    sum = sum * z + 2.0876756987868099e-09;
-    sum = sum * z - 2.7557319223985888e-07;
-    sum = sum * z + 2.4801587301587302e-05;
-    sum = sum * z - 1.3888888888888889e-03;
-    sum = sum * z + 4.1666666666666664e-02;
-    return 1.0 - 0.5 * z + z * z * sum;
-}
 
 // arctan on [0, 1]: from the nearest sixteenth on, whose angle is known; the rest is below 1/32,
 // where five terms reach full precision.
@@ -95,18 +63,13 @@ bool is_valid(const Pose& pose) {
 }
 
 void sin_cos(double angle_rad, double& sine, double& cosine) {
-    if (!(std::abs(angle_rad) <
-          1e6)) {  // NaN, infinity, or beyond exact reduction: no direction is right
+    if (!(std::abs(angle_rad) < k_largest_reduced_rad)) {  // or NaN: no direction is right
         sine = 0.0;
         cosine = 1.0;
         return;
     }
-    // To the nearest whole number: where its last place is one, a sum has no other.
-    constexpr double k_last_place_one = 6755399441055744.0;  // 1.5 * 2^52
     const double quarters = (angle_rad * k_two_over_pi + k_last_place_one) - k_last_place_one;
-    double x = angle_rad - quarters * k_half_pi_high;
-    x -= quarters * k_half_pi_middle;
-    x -= quarters * k_half_pi_low;
+    const double x = reduced_angle(angle_rad, quarters);
     const double s = sine_series(x);
     const double c = cosine_series(x);
     switch (static_cast<long>(quarters) & 3) {

@@ -28,8 +28,12 @@ void unite_blocks(ConstraintGraph& graph) {
         }
         graph.root_of_block.push_back(moves_a ? block.a : block.b);
     }
+    // A root comes before all others of its set: from here on every body's parent is its root.
+    for (std::uint32_t& parent : graph.parent) {
+        parent = graph.parent[parent];
+    }
     for (std::uint32_t& root : graph.root_of_block) {
-        root = find_root(graph.parent, root);
+        root = graph.parent[root];
     }
 }
 
@@ -48,7 +52,7 @@ void place_members(ConstraintGraph& graph) {
     graph.island_bodies.resize(bodies);
     graph.island_blocks.resize(blocks);
     for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
-        const std::uint32_t index = graph.island_of_root[find_root(graph.parent, i)];
+        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
         if (is_movable(graph.bodies[i]) && index != k_none) {
             Island& island = graph.islands[index];
             graph.bodies[i].slot = island.bodies_end - island.bodies_begin;
@@ -111,7 +115,7 @@ void build_islands(ConstraintGraph& graph) {
         }
     }
     for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
-        const std::uint32_t index = graph.island_of_root[find_root(graph.parent, i)];
+        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
         if (is_movable(graph.bodies[i]) && index != k_none) {
             ++graph.islands[index].bodies_end;
         }

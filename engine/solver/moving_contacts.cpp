@@ -4,6 +4,7 @@
 #include <span>
 #include <tuple>
 
+#include "engine/solver/collider_pose.hpp"
 #include "engine/solver/contact_rows.hpp"
 
 namespace handhold {
@@ -14,8 +15,14 @@ constexpr double k_slid_m = 5e-3;   // a point whose bodies slid farther touches
 constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
 
-Pose collider_pose(const SolverBody& body) {
-    return {transform_point(body.pose_ws, body.collider_offset_bs), body.pose_ws.rotation};
+// True where a collider went farther than contacts stay good for.
+bool went_far(const Pose& from, const Pose& to) {
+    const double way = (to.position - from.position).norm();
+    if (way > k_moved_m) {
+        return true;
+    }
+    const double turn = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
+    return way + turn * 0.5 > k_moved_m;
 }
 
 // Moves the proxies after the solver's bodies; true where any collider went farther than contacts
@@ -29,8 +36,7 @@ bool move_proxies(const MovingContacts& moving) {
         }
         ColliderProxy& proxy = moving.proxies[i];
         const Pose now = collider_pose(body);
-        const double turn = 2.0 * (now.rotation.conjugate() * proxy.to_ws.rotation).vec().norm();
-        if ((now.position - proxy.to_ws.position).norm() + turn * 0.5 > k_moved_m) {
+        if (went_far(proxy.to_ws, now)) {
             proxy.to_ws = now;
             moved = moved || proxy.shape != k_no_shape;
         }

@@ -245,7 +245,7 @@ class TriadSteps {
 
     void evaluate(bool /*was_whole*/) { system_.evaluate(island_); }
     static void renew() {}
-    double worst_m() const { return system_.worst_value(); }
+    double worst_m() { return system_.worst_value(); }
     static double overlap_m() { return 0.0; }
     static bool has_contact() { return false; }
     static bool is_unsettled() { return false; }

@@ -3,42 +3,41 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/math/four.hpp"
+#include "engine/math/wide_rotation.hpp"
 #include "engine/solver/triad_plan.hpp"
 
 // The arithmetic of TriadSystem, over packed arrays: once for any processor, once for AVX2, with
 // equal bits. TriadSystem fills the arrays and calls the kernels in turn; nothing here fails or
 // allocates. Metres, seconds, kilograms, radians; the world's axes where nothing else is said.
+//
+// A triad is three rows, one a world axis: a point held on a point, or a rotation on a rotation.
+// Its ends, 2 * triad for a's and 2 * triad + 1 for b's, are what bodies see of it. Everything that
+// belongs to a body is done for four bodies at once, everything between triads block by block.
 namespace handhold {
 
-// Three rows, one a world axis: a point held on a point, or a rotation on a rotation.
-struct Triad {
-    std::uint32_t block = 0;       // into the graph's blocks
-    std::uint32_t bodies[2] = {};  // into TriadArrays::bodies: a, b
-    bool turns = false;            // rotation on rotation
-    bool is_hand = false;
-    Four points[2] = {};  // of a and b, in their axes
+// Lane i belongs to the i-th of four bodies that may move; all 0 where there is none, or where
+// nothing moves it.
+struct FourBodies {
+    Wide3 position;  // of the centre
+    Wide4 rotation;  // unit
+    Wide3 velocity;
+    Wide3 spin;
+    WideAxes axes;                  // its own axes in the world
+    WideSymmetric inverse_inertia;  // with the stiffness; 0 where it cannot turn
+    Wide3 inverse_inertia_bs;       // principal, body axes
+    Four inverse_mass;
+    Wide3 move;  // W J^T lambda of the last solve
+    Wide3 turn;
 };
 
-struct TriadBody {
-    Four position = {};  // of the centre
-    Four rotation = {};  // unit, (x, y, z, w)
-    Four velocity = {};
-    Four spin = {};
-    Rows3 axes{};                  // by columns: its own axes in the world
-    Rows3 inverse_inertia{};       // in the world; with the stiffness
-    Four inverse_inertia_bs = {};  // principal, body axes
-    Four move = {};                // W J^T lambda of the last solve
-    Four turn = {};
-    double inverse_mass = 0.0;
-    std::uint32_t index = 0;  // into the graph's bodies
-    bool may_turn = false;
-};
-
-// A block's LDL^T: the inverse pivots and what lies below L's diagonal.
-struct TriadPivots {
-    double inverse[3];
-    double l10, l20, l21;
+// An end at each of four bodies. Its part in the triad's value is sign * position + arm, or
+// lever * rotation: b's sign and lever are negative, and its arm points from its point to its
+// centre.
+struct FourEnds {
+    Wide3 point_bs;  // times the sign
+    Four sign;       // +-1 where it holds a point, else 0
+    Four lever;      // +-k_angle_m where it holds a rotation, else 0
+    Wide3 arm;
 };
 
 // In a struct, for a template's argument would forget the alignment.
@@ -46,43 +45,52 @@ struct TriadVector {
     Four v = {};
 };
 
+// Where a plan speaks of a spare end or block, there is one: it is written and means nothing.
+// The spare triad's multiplier is 0.
 struct TriadArrays {
-    std::span<TriadBody> bodies;  // those that may move, then others
-    std::size_t moving = 0;
-    std::span<const Triad> triads;
-    std::span<TriadVector>
-        arms;  // by end, 2 * triad + side: from the centres, world axes; b's negative
+    std::span<FourBodies> bodies;        // by group of the plan
+    std::span<FourEnds> body_ends;       // as the plan's ends
+    std::span<WideSymmetric> stiffness;  // by group
+    std::span<TriadVector> ends;         // by end: its part in the triad's value
     std::span<TriadVector> values;   // by triad: metres, angles at k_angle_m; or metres a second
     std::span<TriadVector> lambdas;  // by triad, of the last solve: on a, b's is the opposite
-    std::span<Rows3> stiffness;      // by body that may move, world axes
-    std::span<Rows3> sides;          // by end: J W of its rotation
-    std::span<Rows3> blocks;         // the plan's
-    std::span<TriadPivots> pivots;   // by step of the plan
+    std::span<const std::uint8_t> hands;  // by triad: whether it is a hand's
+    std::span<Rows3> blocks;              // the plan's
+    std::span<Rows3> inverses;            // by step of the plan: of its own block
     // Scratch by step: the diagonals while it is factorised, what is not yet solved for afterwards.
     std::span<TriadVector> unknowns;
-    std::span<const double> masses;  // by sum of the plan: what its points share
     const TriadPlan* plan = nullptr;
-    bool has_turn = false;  // some triad
+    bool has_turn = false;  // some triad holds a rotation
+    bool is_stiff = false;  // inertia has the stiffness added
+};
+
+// The largest squares among the bodies, metres and radians.
+struct TriadReach {
+    double move_square = 0.0;
+    double turn_square = 0.0;
 };
 
 struct TriadKernels {
-    // Axes, arms and positional errors at the bodies' poses; rotations' errors are not its matter.
+    // Axes, arms, ends and positional errors at the bodies' poses; rotations' errors are not its
+    // matter. What is at the ends of those that nothing moves is there already.
     void (*evaluate)(const TriadArrays& arrays);
     // What each triad's velocity lacks but for the hands' own.
     void (*evaluate_velocities)(const TriadArrays& arrays);
+    // The largest square of a value.
+    double (*worst_square)(const TriadArrays& arrays);
     // Geometric stiffness at the arms and multipliers of the last solve: positive_stiffness,
     // summed.
     void (*gather_stiffness)(const TriadArrays& arrays);
-    void (*write_inertia)(const TriadArrays& arrays);
-    void (*write_stiff_inertia)(const TriadArrays& arrays);
-    // J W J^T in the plan's blocks.
+    // Inertia at the axes, and J W J^T in the plan's blocks.
     void (*multiply_out)(const TriadArrays& arrays);
     // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.
     void (*factorise)(const TriadArrays& arrays, double hand_alpha, double joint_alpha);
     // lambda of the values, and the bodies' moves and turns.
-    void (*solve)(const TriadArrays& arrays);
+    TriadReach (*solve)(const TriadArrays& arrays);
     // Moves and turns the bodies by so much of it.
     void (*apply)(const TriadArrays& arrays, double scale);
+    // Adds it to their velocities.
+    void (*apply_velocities)(const TriadArrays& arrays);
 };
 
 // The fastest that this processor has; and those that every one has.

@@ -27,84 +27,100 @@ bool holds_rotation(RowKind kind) {
     return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
 }
 
-Rows3 to_rows(const Mat3& m) {
-    return {{to_four(Vec3(m.row(0))), to_four(Vec3(m.row(1))), to_four(Vec3(m.row(2)))}};
+constexpr std::size_t k_lanes = 4;
+
+bool may_turn(const SolverBody& body) {
+    return body.inverse_mass > 0.0 && !body.inverse_inertia_bs.isZero(0.0);
 }
 
-void pack(const SolverBody& from, std::uint32_t index, TriadBody& body) {
-    body.index = index;
-    body.position = to_four(from.pose_ws.position);
-    body.rotation = to_four(from.pose_ws.rotation);
-    body.velocity = to_four(from.velocity_mps);
-    body.spin = to_four(from.spin_radps);
-    body.inverse_mass = from.inverse_mass;
-    body.inverse_inertia_bs = to_four(from.inverse_inertia_bs);
-    body.may_turn = from.inverse_mass > 0.0 && !from.inverse_inertia_bs.isZero(0.0);
-    if (!body.may_turn) {
-        body.inverse_inertia = {};
-    }
+void pack_velocity(const SolverBody& from, std::size_t lane, FourBodies& to) {
+    set_lane(lane, from.velocity_mps, to.velocity);
+    set_lane(lane, from.spin_radps, to.spin);
 }
-
-bool are_equal(const Four& a, const Four& b) {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+void pack(const SolverBody& from, std::size_t lane, FourBodies& to) {
+    set_lane(lane, from.pose_ws.position, to.position);
+    set_lane(lane, from.pose_ws.rotation, to.rotation);
+    to.inverse_mass[lane] = from.inverse_mass;
+    set_lane(lane, may_turn(from) ? from.inverse_inertia_bs : Vec3(Vec3::Zero()),
+             to.inverse_inertia_bs);
+    pack_velocity(from, lane, to);
 }
 // True where it has the mass and the pose that it was packed with, or stored with.
-bool is_as_packed(const SolverBody& from, const TriadBody& body) {
-    return from.inverse_mass == body.inverse_mass &&
-           are_equal(to_four(from.inverse_inertia_bs), body.inverse_inertia_bs) &&
-           are_equal(to_four(from.pose_ws.position), body.position) &&
-           are_equal(to_four(from.pose_ws.rotation), body.rotation);
+bool is_as_packed(const SolverBody& from, std::size_t lane, const FourBodies& body) {
+    return from.inverse_mass == body.inverse_mass[lane] &&
+           from.pose_ws.position == vec3_in_lane(lane, body.position) &&
+           from.pose_ws.rotation.coeffs() == quat_in_lane(lane, body.rotation).coeffs() &&
+           (!may_turn(from) ||
+            from.inverse_inertia_bs == vec3_in_lane(lane, body.inverse_inertia_bs));
 }
+
+double sign_of(std::uint32_t end) { return end % 2 == 0 ? 1.0 : -1.0; }
 
 }  // namespace
 
 void TriadSystem::load_bodies(const IslandView& island) {
-    moving_ = island.island_bodies.size();
-    bodies_.resize(moving_);  // of other islands: all that counts is written
-    may_turn_.resize(moving_);
-    for (std::size_t slot = 0; slot < moving_; ++slot) {
-        const std::uint32_t index = island.island_bodies[slot];
-        pack(island.bodies[index], index, bodies_[slot]);
-        may_turn_[slot] = bodies_[slot].may_turn ? 1 : 0;
+    const std::size_t count = island.island_bodies.size();
+    body_indices_.assign(island.island_bodies.begin(), island.island_bodies.end());
+    bodies_.resize((count + k_lanes - 1) /
+                   k_lanes);  // of other islands: all that counts is written
+    may_turn_.resize(count);
+    for (std::size_t slot = 0; slot < count; ++slot) {
+        const SolverBody& body = island.bodies[body_indices_[slot]];
+        pack(body, slot % k_lanes, bodies_[slot / k_lanes]);
+        may_turn_[slot] = may_turn(body) ? 1 : 0;
     }
-    uses_.assign(moving_, 0);
+    for (std::size_t slot = count; slot < k_lanes * bodies_.size(); ++slot) {
+        pack({}, slot % k_lanes, bodies_[slot / k_lanes]);
+    }
+    uses_.assign(count, 0);
 }
 
 // False where more meet in one body than are served.
 bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns) {
     const RowBlock& block = island.blocks[index];
-    Triad& triad = triads_.emplace_back();
-    RowNode& node = nodes_.emplace_back();
-    node.width = 3;
-    triad.block = index;
-    triad.turns = turns;
-    triad.is_hand = is_hand(block);
-    has_hand_ = has_hand_ || triad.is_hand;
+    const bool is_hand = handhold::is_hand(block);
+    const std::size_t triad = triad_count_++;
+    if (triad_count_ > triads_.size()) {
+        resize(2 * triad_count_);
+    }
+    triads_[triad] = {index, turns};
+    hands_[triad] = is_hand ? 1 : 0;
+    has_hand_ = has_hand_ || is_hand;
     has_turn_ = has_turn_ || turns;
+    RowNode& node = nodes_[triad];
+    node = {{k_no_slot, k_no_slot}, 3};
     bool fits = true;
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (std::uint32_t side = 0; side < 2; ++side) {
         const std::uint32_t body_index = side == 0 ? block.a : block.b;
+        const Vec3& point_bs = side == 0 ? block.point_a_bs : block.point_b_bs;
+        const auto end = static_cast<std::uint32_t>(2 * triad + side);
+        const double sign = turns ? 0.0 : sign_of(end);
+        points_[end].v = Four{sign * point_bs.x(), sign * point_bs.y(), sign * point_bs.z(), sign};
         const SolverBody& body = island.bodies[body_index];
-        triad.points[side] = to_four(side == 0 ? block.point_a_bs : block.point_b_bs);
         if (body.inverse_mass > 0.0) {
-            triad.bodies[side] = node.slots[side] = body.slot;
+            node.slots[side] = body.slot;
             fits = fits && ++uses_[body.slot] <= k_hub_nodes;
-            continue;
+        } else {
+            anchors_.push_back({end, body_index, point_bs});
         }
-        // What nothing moves is beside the others, once for each that it holds.
-        triad.bodies[side] = static_cast<std::uint32_t>(bodies_.size());
-        pack(body, body_index, bodies_.emplace_back());
-        bodies_.back().axes = to_rows(body.pose_ws.rotation.conjugate().toRotationMatrix());
     }
     return fits;
+}
+
+// Room for so many triads, and the spare ones.
+void TriadSystem::resize(std::size_t triads) {
+    triads_.resize(triads);
+    hands_.resize(triads);
+    nodes_.resize(triads);
+    points_.resize(2 * triads + 1);
 }
 
 bool TriadSystem::load(const IslandView& island, double touch_m) {
     revision_ = 0;
     load_bodies(island);
-    triads_.clear();
-    nodes_.clear();
-    has_hand_ = has_turn_ = is_stiff_ = false;
+    anchors_.clear();
+    triad_count_ = 0;
+    is_evaluated_ = has_hand_ = has_turn_ = is_stiff_ = false;
     bool has_contact = false;
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
@@ -123,6 +139,7 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
             return false;
         }
     }
+    resize(triad_count_);
     plan_nodes();
     if (!has_contact && island.filter != BlockFilter::without_hands) {
         revision_ = island.revision;
@@ -130,120 +147,166 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
     return true;
 }
 
-bool TriadSystem::resume(const IslandView& island) {
-    if (revision_ == 0 || revision_ != island.revision ||
-        island.filter == BlockFilter::without_hands || moving_ != island.island_bodies.size()) {
+bool TriadSystem::is_as_loaded(const IslandView& island) const {
+    if (!std::ranges::equal(body_indices_, island.island_bodies)) {
         return false;
     }
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        TriadBody& body = bodies_[i];
-        const SolverBody& from = island.bodies[body.index];
-        const bool is_same = i >= moving_ || body.index == island.island_bodies[i];
-        if (!is_same || !is_as_packed(from, body)) {
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        if (!is_as_packed(island.bodies[body_indices_[slot]], slot % k_lanes,
+                          bodies_[slot / k_lanes])) {
             return false;
         }
-        body.velocity = to_four(from.velocity_mps);
-        body.spin = to_four(from.spin_radps);
+    }
+    return std::ranges::none_of(anchors_, [&](const Anchor& anchor) {
+        return island.bodies[anchor.body].inverse_mass > 0.0;
+    });
+}
+
+bool TriadSystem::resume(const IslandView& island) {
+    if (revision_ == 0 || revision_ != island.revision ||
+        island.filter == BlockFilter::without_hands || !is_as_loaded(island)) {
+        return false;
+    }
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        pack_velocity(island.bodies[body_indices_[slot]], slot % k_lanes, bodies_[slot / k_lanes]);
     }
     is_stiff_ = false;
+    std::ranges::fill(impulses_, TriadVector{});
     return true;
 }
 
 void TriadSystem::plan_nodes() {
     const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
-    arms_.resize(2 * triads_.size());
-    values_.resize(triads_.size());
-    lambdas_.resize(triads_.size());
-    sides_.resize(2 * triads_.size());
-    blocks_.resize(plan.block_count());
-    pivots_.resize(triads_.size());
-    unknowns_.resize(triads_.size());
-    share_masses(plan);
+    const std::size_t count = triads_.size();
+    ends_.resize(2 * count + 1);
+    points_.back() = {};
+    values_.resize(count);
+    lambdas_.resize(count + 1);
+    lambdas_.back() = {};
+    impulses_.assign(count, {});
+    blocks_.resize(plan.block_count() + 1);
+    inverses_.resize(count);
+    unknowns_.resize(count);
+    load_ends();
 }
 
-// What points that meet in a body share of its 1/mass: the translations' part of J W J^T.
-void TriadSystem::share_masses(const TriadPlan& plan) {
-    masses_.clear();
-    std::uint32_t begin = 0;
-    for (const TriadPlan::Sum& sum : plan.sums()) {
-        double mass = 0.0;
-        for (; begin < sum.end; ++begin) {
-            const TriadPlan::Coupling& coupling = plan.couplings()[begin];
-            const Triad& row = triads_[coupling.row_end / 2];
-            if (!row.turns && !triads_[coupling.column_end / 2].turns) {
-                const std::uint32_t side = coupling.row_end % 2;
-                const double share = bodies_[row.bodies[side]].inverse_mass;
-                mass += side == coupling.column_end % 2 ? share : -share;
-            }
+void TriadSystem::load_ends() {
+    const std::span<const TriadPlan::Lanes> ends = plans_.current().ends();
+    body_ends_.resize(ends.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        FourEnds& four = body_ends_[i];
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+            const std::uint32_t end = ends[i][lane];
+            const Four& point = points_[end].v;
+            four.point_bs.x[lane] = point[0];
+            four.point_bs.y[lane] = point[1];
+            four.point_bs.z[lane] = point[2];
+            four.sign[lane] = point[3];
+            const bool turns = has_turn_ && end / 2 < triads_.size() && triads_[end / 2].turns;
+            four.lever[lane] = turns ? k_angle_m * sign_of(end) : 0.0;
         }
-        masses_.push_back(mass);
     }
 }
 
 TriadArrays TriadSystem::arrays() {
-    return {bodies_, moving_, triads_, arms_,     values_, lambdas_,          stiffness_,
-            sides_,  blocks_, pivots_, unknowns_, masses_, &plans_.current(), has_turn_};
+    return {bodies_,           body_ends_, stiffness_, ends_,     values_,
+            lambdas_,          hands_,     blocks_,    inverses_, unknowns_,
+            &plans_.current(), has_turn_,  is_stiff_};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
-    for (const TriadBody& body : moving()) {
-        if (body.inverse_mass > 0.0) {
-            island.bodies[body.index].pose_ws = {to_vec3(body.position), to_quat(body.rotation)};
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        const FourBodies& bodies = bodies_[slot / k_lanes];
+        const std::size_t lane = slot % k_lanes;
+        if (bodies.inverse_mass[lane] > 0.0) {
+            island.bodies[body_indices_[slot]].pose_ws = {vec3_in_lane(lane, bodies.position),
+                                                          quat_in_lane(lane, bodies.rotation)};
         }
     }
 }
 
 void TriadSystem::store_velocities(const IslandView& island) const {
-    for (const TriadBody& body : moving()) {
-        if (body.inverse_mass > 0.0) {
-            island.bodies[body.index].velocity_mps = to_vec3(body.velocity);
-            island.bodies[body.index].spin_radps = to_vec3(body.spin);
+    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
+        const FourBodies& bodies = bodies_[slot / k_lanes];
+        const std::size_t lane = slot % k_lanes;
+        if (bodies.inverse_mass[lane] > 0.0) {
+            SolverBody& body = island.bodies[body_indices_[slot]];
+            body.velocity_mps = vec3_in_lane(lane, bodies.velocity);
+            body.spin_radps = vec3_in_lane(lane, bodies.spin);
+        }
+    }
+    for (std::size_t i = 0; i < triads_.size(); ++i) {
+        RowBlock& block = island.blocks[triads_[i].block];
+        if (triads_[i].turns) {
+            block.couple_ws_nms = k_angle_m * to_vec3(impulses_[i].v);
+        } else {
+            block.impulse_ws_ns = to_vec3(impulses_[i].v);
         }
     }
 }
 
+Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const {
+    const std::uint32_t slot = nodes_[end / 2].slots[end % 2];
+    if (slot != k_no_slot) {
+        return quat_in_lane(slot % k_lanes, bodies_[slot / k_lanes].rotation);
+    }
+    const RowBlock& block = island.blocks[triads_[end / 2].block];
+    return island.bodies[end % 2 == 0 ? block.a : block.b].pose_ws.rotation;
+}
+
 void TriadSystem::evaluate(const IslandView& island) {
+    is_evaluated_ = true;
+    for (const Anchor& anchor : anchors_) {
+        const Vec3 point_ws = transform_point(island.bodies[anchor.body].pose_ws, anchor.point_bs);
+        ends_[anchor.end].v = to_four(Vec3(sign_of(anchor.end) * point_ws));
+    }
     kernels_->evaluate(arrays());
     if (!has_turn_) {
         return;
     }
-    for (std::size_t i = 0; i < triads_.size(); ++i) {
-        const Triad& triad = triads_[i];
-        if (triad.turns) {
-            const RowBlock& block = island.blocks[triad.block];
-            values_[i].v = to_four(Vec3(
-                k_angle_m * rotation_error(to_quat(bodies_[triad.bodies[0]].rotation),
-                                           to_quat(bodies_[triad.bodies[1]].rotation), block)));
+    for (std::uint32_t i = 0; i < triads_.size(); ++i) {
+        if (triads_[i].turns) {
+            values_[i].v =
+                to_four(Vec3(k_angle_m * rotation_error(rotation_at(island, 2 * i),
+                                                        rotation_at(island, 2 * i + 1),
+                                                        island.blocks[triads_[i].block])));
         }
     }
 }
 
+void TriadSystem::evaluate_moved(const IslandView& island) {
+    if (!is_evaluated_) {
+        evaluate(island);
+    }
+}
+
 void TriadSystem::evaluate_velocities(const IslandView& island) {
+    for (const Anchor& anchor : anchors_) {
+        const SolverBody& body = island.bodies[anchor.body];
+        const Vec3 arm = body.pose_ws.rotation * anchor.point_bs;
+        const Vec3 speed = triads_[anchor.end / 2].turns
+                               ? Vec3(k_angle_m * body.spin_radps)
+                               : Vec3(body.velocity_mps + body.spin_radps.cross(arm));
+        ends_[anchor.end].v = to_four(Vec3(sign_of(anchor.end) * speed));
+    }
     kernels_->evaluate_velocities(arrays());
     if (!has_hand_) {
         return;
     }
     for (std::size_t i = 0; i < triads_.size(); ++i) {
-        const Triad& triad = triads_[i];
-        if (triad.is_hand) {
-            const RowBlock& block = island.blocks[triad.block];
-            values_[i].v += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
-                                        : to_four(block.drive_velocity_ws_mps);
+        if (hands_[i] != 0) {
+            const RowBlock& block = island.blocks[triads_[i].block];
+            values_[i].v += triads_[i].turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
+                                             : to_four(block.drive_velocity_ws_mps);
         }
     }
 }
 
-double TriadSystem::worst_value() const {
-    double square = 0.0;
-    for (const TriadVector& value : values_) {
-        square = std::max(square, dot3(value.v, value.v));
-    }
-    return std::sqrt(square);
-}
+double TriadSystem::worst_value() { return std::sqrt(kernels_->worst_square(arrays())); }
 
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
-    stiffness_.resize(moving_);
+    stiffness_.resize(bodies_.size());
     kernels_->gather_stiffness(arrays());
 }
 
@@ -263,41 +326,27 @@ double TriadSystem::hand_size() const {
 }
 
 void TriadSystem::factorise(const Softness& softness, double factor) {
-    (is_stiff_ ? kernels_->write_stiff_inertia : kernels_->write_inertia)(arrays());
     kernels_->multiply_out(arrays());
     const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
     kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
 }
 
 void TriadSystem::solve() {
-    kernels_->solve(arrays());
-    double move = 0.0;
-    double turn = 0.0;
-    for (const TriadBody& body : moving()) {
-        move = std::max(move, dot3(body.move, body.move));
-        turn = std::max(turn, dot3(body.turn, body.turn));
-    }
-    longest_move_ = std::sqrt(move);
-    longest_turn_ = std::sqrt(turn);
+    const TriadReach reach = kernels_->solve(arrays());
+    longest_move_ = std::sqrt(reach.move_square);
+    longest_turn_ = std::sqrt(reach.turn_square);
 }
 
 double TriadSystem::apply_moves(double scale) {
+    is_evaluated_ = false;
     kernels_->apply(arrays(), scale);
     return scale * std::max(longest_move_, k_angle_m * longest_turn_);
 }
 
-void TriadSystem::apply_impulses(const IslandView& island) {
-    for (TriadBody& body : std::span(bodies_).first(moving_)) {
-        body.velocity += body.move;
-        body.spin += body.turn;
-    }
+void TriadSystem::apply_impulses() {
+    kernels_->apply_velocities(arrays());
     for (std::size_t i = 0; i < triads_.size(); ++i) {
-        RowBlock& block = island.blocks[triads_[i].block];
-        if (triads_[i].turns) {
-            block.couple_ws_nms += k_angle_m * to_vec3(lambdas_[i].v);
-        } else {
-            block.impulse_ws_ns += to_vec3(lambdas_[i].v);
-        }
+        impulses_[i].v += lambdas_[i].v;
     }
 }
 

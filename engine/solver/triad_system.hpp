@@ -13,8 +13,8 @@
 namespace handhold {
 
 // The rows of an island that all hold, always, in threes: ropes, chains, rings, things in hands.
-// RowSystem's equations in a quarter of its instructions: every block is three by three, and bodies
-// and rows are packed copies that are read in once a solve.
+// RowSystem's equations in a fraction of its instructions: every block is three by three, and
+// bodies and rows are packed copies, four bodies side by side, that are read in once a solve.
 class TriadSystem {
   public:
     explicit TriadSystem(const TriadKernels& kernels = triad_kernels()) : kernels_(&kernels) {}
@@ -27,15 +27,18 @@ class TriadSystem {
     // came before, in the same revision of the graph, and masses and poses are as they were. False
     // where it has not, or where contacts might count by now.
     bool resume(const IslandView& island);
-    // Writes the bodies back, those that something moves: poses, or velocities.
+    // Writes the bodies back, those that something moves: poses; or velocities, and the impulses
+    // of the island's blocks that take part.
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
 
     // What the triads lack at the present poses: `worst_value` metres. Angles at k_angle_m.
     void evaluate(const IslandView& island);
-    // The same of the velocities, m/s, against what drives the hands.
+    // Where they have not been evaluated since they moved.
+    void evaluate_moved(const IslandView& island);
+    // The same of the velocities, m/s, against what drives the hands; at the arms of `evaluate`.
     void evaluate_velocities(const IslandView& island);
-    double worst_value() const;
+    double worst_value();
 
     void clear_stiffness() { is_stiff_ = false; }
     // From the last multipliers and the present arms.
@@ -50,41 +53,61 @@ class TriadSystem {
 
     // Moves the bodies by so much of the last solve. Returns the longest step, metres.
     double apply_moves(double scale);
-    // Adds the last solve to the velocities here, and to the impulses of the island's blocks.
-    void apply_impulses(const IslandView& island);
+    // Adds the last solve to the velocities and impulses here.
+    void apply_impulses();
 
   private:
+    struct Triad {
+        std::uint32_t block = 0;  // into the graph's blocks
+        bool turns = false;       // rotation on rotation
+    };
+    // An end at a body that nothing moves: it has no place among the four.
+    struct Anchor {
+        std::uint32_t end = 0;
+        std::uint32_t body = 0;  // into the graph's bodies
+        Vec3 point_bs;
+    };
+
     void load_bodies(const IslandView& island);
     bool add(const IslandView& island, std::uint32_t index, bool turns);
+    void resize(std::size_t triads);
     void plan_nodes();
-    void share_masses(const TriadPlan& plan);
+    void load_ends();
+    bool is_as_loaded(const IslandView& island) const;
+    Quat rotation_at(const IslandView& island, std::uint32_t end) const;
     double hand_size() const;
 
     // Made for each call: it points into this.
     TriadArrays arrays();
-    std::span<const TriadBody> moving() const { return std::span(bodies_).first(moving_); }
 
     const TriadKernels* kernels_;
-    std::uint64_t revision_ = 0;  // of the graph that `resume` may go on with; 0: none
-    std::size_t moving_ = 0;      // of the bodies, the first
-    std::vector<TriadBody> bodies_;
+    std::uint64_t revision_ = 0;               // of the graph that `resume` may go on with; 0: none
+    std::vector<std::uint32_t> body_indices_;  // by slot: into the graph's bodies
+    std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
-    std::vector<TriadVector> arms_;
+    std::vector<Anchor> anchors_;
+    std::vector<TriadVector> points_;    // by end: times the sign; the sign
+    std::vector<TriadVector> impulses_;  // by triad: sums of lambdas
+
+    // What `arrays` is made of.
+    std::vector<FourBodies> bodies_;
+    std::vector<FourEnds> body_ends_;
+    std::vector<WideSymmetric> stiffness_;
+    std::vector<TriadVector> ends_;
     std::vector<TriadVector> values_;
     std::vector<TriadVector> lambdas_;
-    std::vector<double> masses_;
-    std::vector<Rows3> sides_;
+    std::vector<std::uint8_t> hands_;
     std::vector<Rows3> blocks_;
-    std::vector<TriadPivots> pivots_;
+    std::vector<Rows3> inverses_;
     std::vector<TriadVector> unknowns_;
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // by slot
     std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
-    std::vector<Rows3> stiffness_;        // by slot
     double longest_move_ = 0.0;
     double longest_turn_ = 0.0;
+    bool is_evaluated_ = false;  // at the present poses
     bool is_stiff_ = false;
     bool has_hand_ = false;
     bool has_turn_ = false;

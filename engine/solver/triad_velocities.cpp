@@ -14,13 +14,13 @@ void solve_triad_velocities(const IslandView& island, const VelocitySettings& se
         block.couple_ws_nms.setZero();
         block.joint.lock_impulse = 0.0;
     }
-    triads.evaluate(island);
+    triads.evaluate_moved(island);
     triads.factorise(settings.softness, 1.0);
     triads.evaluate_velocities(island);
     double previous = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= settings.refinements; ++i) {
         triads.solve();
-        triads.apply_impulses(island);
+        triads.apply_impulses();
         triads.evaluate_velocities(island);
         const double worst = triads.worst_value();
         if (worst < settings.tolerance_mps || worst > 0.5 * previous) {

@@ -12,8 +12,8 @@
 namespace handhold {
 namespace {
 
-SolverBody player_body(const BuildConstraintsIo& io, Entity player, const HeadTuning& tuning) {
-    SolverBody out;
+void write_player(const BuildConstraintsIo& io, Entity player, const HeadTuning& tuning,
+                  SolverBody& out) {
     out.role = BodyRole::player;
     out.pose_ws = io.origin.at(player).pose_ws;
     out.velocity_mps = io.player_velocity.at(player).linear_mps;
@@ -21,41 +21,40 @@ SolverBody player_body(const BuildConstraintsIo& io, Entity player, const HeadTu
     out.restitution = tuning.restitution;
     out.friction = tuning.friction;
     out.collider_offset_bs = head_center_ps(io.head.at(player), tuning);
-    return out;
 }
 
-SolverBody rigid_body(const BuildConstraintsIo& io, Entity entity, const PhaseTuning& tuning) {
-    SolverBody out;
-    const RigidBody& body = io.body.at(entity);
+void write_rigid(const BuildConstraintsIo& io, Entity entity, const RigidBody& body,
+                 const PhaseTuning& tuning, SolverBody& out) {
+    const BodyVelocity& velocity = io.body_velocity.at(entity);
     out.pose_ws = io.body_pose.at(entity).pose_ws;
-    out.velocity_mps = io.body_velocity.at(entity).linear_mps;
+    out.velocity_mps = velocity.linear_mps;
+    out.spin_radps = velocity.angular_radps;
     out.restitution = body.restitution;
     out.friction = body.friction;
-    out.spin_radps = io.body_velocity.at(entity).angular_radps;
     if (body.kind == BodyKind::free) {
         out.role = body.mass_kg >= tuning.heavy_body_kg ? BodyRole::heavy : BodyRole::free;
         out.mass_kg = body.mass_kg;
         out.inertia_kgm2 = body.inertia_kgm2;
     }
-    return out;
 }
 
-void add_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
+void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
     FrameGraph& frame = io.frame;
-    frame.graph.bodies.clear();
+    frame.graph.bodies.resize(frame.entities.size());
     frame.phase.assign(frame.entities.size(), {});
     frame.body_of_row.resize(io.body.size());
     for (std::uint32_t i = 0; i < frame.entities.size(); ++i) {
         const Entity entity = frame.entities[i];
         const std::size_t row = io.body.find_row(entity);
-        const bool is_rigid = row != Column<RigidBody>::k_npos;
-        if (is_rigid) {
-            frame.body_of_row[row] = i;
-        }
-        SolverBody& body =
-            frame.graph.bodies.emplace_back(is_rigid ? rigid_body(io, entity, tuning.phases)
-                                                     : player_body(io, entity, tuning.head));
+        SolverBody& body = frame.graph.bodies[i];
+        body = {};
         body.id = frame.proxies[i].id;
+        if (row == Column<RigidBody>::k_npos) {
+            write_player(io, entity, tuning.head, body);
+            continue;
+        }
+        frame.body_of_row[row] = i;
+        write_rigid(io, entity, io.body.rows()[row], tuning.phases, body);
     }
 }
 
@@ -225,36 +224,64 @@ JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
     return rows;
 }
 
-void add_joints(const BuildConstraintsIo& io) {
+// The block of a joint; false where it ties nothing that moves, or what is gone.
+bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
     ConstraintGraph& graph = io.frame.graph;
     const auto body_index = [&](Entity entity) {
-        const std::size_t row = io.body.find_row(entity);
-        return row != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_row[row]}
-                                                : graph.bodies.size();
+        const std::size_t body = io.body.find_row(entity);
+        return body != Column<RigidBody>::k_npos ? std::size_t{io.frame.body_of_row[body]}
+                                                 : graph.bodies.size();
     };
     const auto is_movable = [&](std::size_t index) {
         return graph.bodies[index].role != BodyRole::fixed;
     };
+    const Joint& joint = io.joint.rows()[row];
+    const Entity entity = io.joint.owners()[row];
+    const std::size_t b = body_index(joint.b);
+    const std::size_t a = is_null(joint.a) ? world_body(io.frame) : body_index(joint.a);
+    if (a >= graph.bodies.size() || b >= graph.bodies.size() || !(is_movable(a) || is_movable(b))) {
+        return false;
+    }
+    block.kind = row_kind(joint.kind);
+    block.key = io.persistent_id.at(entity).value;
+    block.source = static_cast<std::uint32_t>(row);
+    block.a = static_cast<std::uint32_t>(a);
+    block.b = static_cast<std::uint32_t>(b);
+    block.point_a_bs = joint.frame_a_bs.position;
+    block.point_b_bs = joint.frame_b_bs.position;
+    block.rotation_a_bs = joint.frame_a_bs.rotation;
+    block.rotation_b_bs = joint.frame_b_bs.rotation;
+    block.joint = joint_rows(joint, io.joint_state.at(entity), io.dt_s);
+    block.impulse_ws_ns.setZero();
+    block.couple_ws_nms.setZero();
+    return true;
+}
+
+// Over the blocks of the frame before, in the order that they were sorted into: as long as nothing
+// is tied anew they are sorted again, and need not be moved. False where these are not the joints
+// that there are.
+bool rewrite_joints(const BuildConstraintsIo& io) {
+    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
+    std::erase_if(blocks, [](const RowBlock& block) { return !is_joint(block); });
+    if (blocks.size() != io.joint.size()) {
+        return false;
+    }
+    // Each has another row: so it is all rows where none is beyond the last.
+    return std::ranges::all_of(blocks, [&](RowBlock& block) {
+        return block.source < io.joint.size() && write_joint(io, block.source, block);
+    });
+}
+
+void write_joints(const BuildConstraintsIo& io) {
+    if (rewrite_joints(io)) {
+        return;
+    }
+    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
+    blocks.clear();
     for (std::size_t row = 0; row < io.joint.size(); ++row) {
-        const Joint& joint = io.joint.rows()[row];
-        const Entity entity = io.joint.owners()[row];
-        const std::size_t b = body_index(joint.b);
-        const std::size_t a = is_null(joint.a) ? world_body(io.frame) : body_index(joint.a);
-        if (a >= graph.bodies.size() || b >= graph.bodies.size() ||
-            !(is_movable(a) || is_movable(b))) {
-            continue;
+        if (!write_joint(io, row, blocks.emplace_back())) {
+            blocks.pop_back();
         }
-        RowBlock& block = graph.blocks.emplace_back();
-        block.kind = row_kind(joint.kind);
-        block.key = io.persistent_id.at(entity).value;
-        block.source = static_cast<std::uint32_t>(row);
-        block.a = static_cast<std::uint32_t>(a);
-        block.b = static_cast<std::uint32_t>(b);
-        block.point_a_bs = joint.frame_a_bs.position;
-        block.point_b_bs = joint.frame_b_bs.position;
-        block.rotation_a_bs = joint.frame_a_bs.rotation;
-        block.rotation_b_bs = joint.frame_b_bs.rotation;
-        block.joint = joint_rows(joint, io.joint_state.at(entity), io.dt_s);
     }
 }
 
@@ -281,10 +308,9 @@ void spread_held(const BuildConstraintsIo& io) {
 }  // namespace
 
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning) {
-    io.frame.graph.blocks.clear();
-    add_bodies(io, tuning);
+    write_bodies(io, tuning);
+    write_joints(io);
     add_hands(io, tuning.phases);
-    add_joints(io);
     spread_held(io);
     replace_contact_rows(io.frame.contacts, io.frame.graph);
 }

@@ -4,6 +4,7 @@
 
 namespace handhold {
 void predict_bodies(const PredictBodiesIo& io) {
+    FreeRotations rotations(io.dt_s);
     for (std::size_t row = 0; row < io.body.size(); ++row) {
         const RigidBody& body = io.body.rows()[row];
         if (body.kind != BodyKind::free) {
@@ -14,10 +15,9 @@ void predict_bodies(const PredictBodiesIo& io) {
         BodyVelocity& velocity = io.body_velocity.at(entity);
         io.body_start.at(entity).pose_ws = pose_ws;
         pose_ws.position += velocity.linear_mps * io.dt_s;
-        if (!velocity.angular_radps.isZero(0.0)) {
-            advance_rotation(body.inertia_kgm2, io.dt_s, pose_ws.rotation, velocity.angular_radps);
-        }
+        rotations.add(body.inertia_kgm2, pose_ws.rotation, velocity.angular_radps);
     }
+    rotations.finish();
     for (std::size_t row = 0; row < io.origin.size(); ++row) {
         const Entity player = io.origin.owners()[row];
         Pose& pose_ws = io.origin.rows()[row].pose_ws;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/core/parallel.hpp"
+#include "engine/solver/collider_pose.hpp"
 #include "engine/solver/velocities.hpp"
 
 namespace handhold {
@@ -85,13 +86,17 @@ void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec
     ledger.angular_kgm2ps[receiver] += angular;
 }
 
+bool is_object(const SolverBody& body) {
+    return body.role != BodyRole::player && body.inverse_mass > 0.0;
+}
+
 // One side of a row's impulse, by who takes it.
 void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse,
                   const Vec3& couple, MomentumLedger& ledger) {
     const Vec3 angular = point_ws.cross(impulse) + couple;
     if (body.role != BodyRole::player) {
-        const bool moves = body.inverse_mass > 0.0;
-        add_to(ledger, moves ? MomentumLedger::objects : MomentumLedger::statics, impulse, angular);
+        add_to(ledger, is_object(body) ? MomentumLedger::objects : MomentumLedger::statics, impulse,
+               angular);
         return;
     }
     // The play space cannot turn and may be heavier than its player: what does not become his own
@@ -106,6 +111,9 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
     for (const RowBlock& block : graph.blocks) {
         const SolverBody& a = graph.bodies[block.a];
         const SolverBody& b = graph.bodies[block.b];
+        if (is_object(a) && is_object(b)) {
+            continue;  // what one gets the other gives
+        }
         // Both sides at one point, as the rows have it: a's point for contacts, else b's.
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
@@ -284,8 +292,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
         const HeadTracking* const head = io.head.find(frame.entities[i]);
         valid->known = head == nullptr || head->state != TrackingState::never;
         if (frame.overlaps_with[i] == i) {
-            valid->pose_ws = {transform_point(body.pose_ws, body.collider_offset_bs),
-                              body.pose_ws.rotation};
+            valid->pose_ws = collider_pose(body);
             continue;
         }
         // Stuck: keep the way back, and let it ride along where what the body is stuck in moves.

@@ -73,33 +73,35 @@ Mat3 expected_inverse(const Pair& pair, std::size_t side) {
                      positive_stiffness(pair.force_ws, pair.arms_ws[side], sign));
 }
 
-std::vector<TriadBody> inverses_of(const TriadKernels& kernels, const Pair& pair) {
-    std::vector<TriadBody> bodies(2);
-    std::vector<TriadVector> arms(2);
+// The pair's bodies in lanes 0 and 1.
+FourBodies inverses_of(const TriadKernels& kernels, const Pair& pair) {
+    TriadPlan plan;
+    plan.build(std::vector<RowNode>{{{0, 1}, 3}}, std::vector<std::uint8_t>{1, 1});
+    std::vector<FourBodies> bodies(1);
+    std::vector<FourEnds> ends(1);
     for (std::size_t side = 0; side < 2; ++side) {
         const SolverBody& body = pair.bodies[side];
-        bodies[side].may_turn = true;
-        bodies[side].inverse_inertia_bs = to_four(body.inverse_inertia_bs);
         const Mat3 axes = body.pose_ws.rotation.toRotationMatrix();
-        for (int column = 0; column < 3; ++column) {
-            bodies[side].axes.row[column] = to_four(Vec3(axes.col(column)));
-        }
-        arms[side].v = to_four(Vec3((side == 0 ? 1.0 : -1.0) * pair.arms_ws[side]));
+        set_lane(side, body.inverse_inertia_bs, bodies[0].inverse_inertia_bs);
+        set_lane(side, Vec3(axes.col(0)), bodies[0].axes.x);
+        set_lane(side, Vec3(axes.col(1)), bodies[0].axes.y);
+        set_lane(side, Vec3(axes.col(2)), bodies[0].axes.z);
+        set_lane(side, Vec3((side == 0 ? 1.0 : -1.0) * pair.arms_ws[side]), ends[0].arm);
     }
-    std::vector<Triad> triads(1);
-    triads[0].bodies[1] = 1;
-    std::vector<TriadVector> lambdas(1, {to_four(pair.force_ws)});
-    std::vector<Rows3> stiffness(2);
+    std::vector<TriadVector> lambdas = {{to_four(pair.force_ws)}, {}};
+    std::vector<WideSymmetric> stiffness(1);
+    std::vector<Rows3> blocks(plan.block_count() + 1);
     TriadArrays arrays;
     arrays.bodies = bodies;
-    arrays.moving = bodies.size();
-    arrays.triads = triads;
-    arrays.arms = arms;
-    arrays.lambdas = lambdas;
+    arrays.body_ends = ends;
     arrays.stiffness = stiffness;
+    arrays.lambdas = lambdas;
+    arrays.blocks = blocks;
+    arrays.plan = &plan;
+    arrays.is_stiff = true;
     kernels.gather_stiffness(arrays);
-    kernels.write_stiff_inertia(arrays);
-    return bodies;
+    kernels.multiply_out(arrays);
+    return bodies[0];
 }
 
 TEST(GeometricStiffness, OfTheKernelsIsThatOfRowsOneByOne) {
@@ -107,12 +109,13 @@ TEST(GeometricStiffness, OfTheKernelsIsThatOfRowsOneByOne) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Pair pair(i, random);
         for (const TriadKernels* kernels : {&triad_kernels(), &portable_triad_kernels()}) {
-            const std::vector<TriadBody> bodies = inverses_of(*kernels, pair);
+            const FourBodies bodies = inverses_of(*kernels, pair);
             for (std::size_t side = 0; side < 2; ++side) {
+                const WideSymmetric& w = bodies.inverse_inertia;
                 Mat3 inverse;
-                for (int row = 0; row < 3; ++row) {
-                    inverse.row(row) = to_vec3(bodies[side].inverse_inertia.row[row]).transpose();
-                }
+                inverse << w.xx[side], w.xy[side], w.xz[side],  //
+                    w.xy[side], w.yy[side], w.yz[side],         //
+                    w.xz[side], w.yz[side], w.zz[side];
                 const Mat3 expected = expected_inverse(pair, side);
                 ASSERT_LE((inverse - expected).norm(), 1e-9 * expected.norm())
                     << "case " << i << ", side " << side;

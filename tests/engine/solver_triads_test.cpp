@@ -249,7 +249,7 @@ void solve_a_step(TriadSystem& system, const IslandView& island) {
     system.store_poses(island);
     system.evaluate_velocities(island);
     system.solve();
-    system.apply_impulses(island);
+    system.apply_impulses();
     system.store_velocities(island);
 }
 

@@ -299,6 +299,70 @@ TEST(BuildConstraints, NothingOfTheLastFrameStays) {
     EXPECT_FALSE(scene.phase(k_rock).held);
 }
 
+// A frame over the graph of the frame before, and over none.
+void expect_as_built_anew(Building& scene) {
+    Building anew = scene;
+    anew.frame.graph = {};
+    scene.run();
+    anew.run();
+    const std::vector<RowBlock>& blocks = scene.frame.graph.blocks;
+    ASSERT_EQ(blocks.size(), anew.frame.graph.blocks.size());
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        SCOPED_TRACE(i);
+        const RowBlock& expected = anew.frame.graph.blocks[i];
+        EXPECT_EQ(blocks[i].kind, expected.kind);
+        EXPECT_EQ(blocks[i].key, expected.key);
+        EXPECT_EQ(blocks[i].source, expected.source);
+        EXPECT_EQ(blocks[i].a, expected.a);
+        EXPECT_EQ(blocks[i].b, expected.b);
+        EXPECT_EQ(blocks[i].point_a_bs, expected.point_a_bs);
+        EXPECT_EQ(blocks[i].point_b_bs, expected.point_b_bs);
+        EXPECT_EQ(blocks[i].joint.friction_impulse, expected.joint.friction_impulse);
+        EXPECT_EQ(blocks[i].impulse_ws_ns, Vec3(Vec3::Zero()));
+    }
+}
+
+TEST(BuildConstraints, JointsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
+    Random random(8);
+    Building scene;
+    for (std::uint32_t i = 4; i < 8; ++i) {
+        scene.add_body(entity(i), {BodyKind::free, 2.0, Vec3(0.1, 0.2, 0.3), 0.5});
+    }
+    const auto tie = [&](std::uint32_t slot, Entity a, Entity b) {
+        scene.persistent_id.add(entity(slot), {id_of(entity(slot))});
+        Joint& joint = scene.joint.add(entity(slot));
+        joint.a = a;
+        joint.b = b;
+        joint.frame_a_bs = random.pose();
+        scene.joint_state.add(entity(slot));
+    };
+    tie(10, entity(4), entity(5));
+    tie(11, entity(6), entity(4));
+    tie(12, k_no_entity, entity(7));
+    expect_as_built_anew(scene);
+    ASSERT_EQ(scene.frame.graph.blocks.size(), 3U);
+    for (RowBlock& block : scene.frame.graph.blocks) {
+        block.impulse_ws_ns = Vec3(1.0, 2.0, 3.0);
+    }
+    scene.joint.at(entity(11)).friction = 4.0;
+    expect_as_built_anew(scene);
+    scene.grip(k_right, GripKind::held, entity(7), random);
+    expect_as_built_anew(scene);
+    EXPECT_EQ(scene.frame.graph.blocks.size(), 4U);
+    // One goes and one comes: as many as before, in other rows.
+    scene.grab.at(k_right) = {};
+    scene.joint.remove(entity(10));
+    tie(13, entity(5), entity(6));
+    expect_as_built_anew(scene);
+    // One that ties what is gone has no rows.
+    scene.joint.at(entity(13)).b = entity(20);
+    expect_as_built_anew(scene);
+    EXPECT_EQ(scene.frame.graph.blocks.size(), 2U);
+    scene.joint.remove(entity(11));
+    expect_as_built_anew(scene);
+    EXPECT_EQ(scene.frame.graph.blocks.size(), 1U);
+}
+
 TEST(BuildConstraints, OrderOfHandsAndBodiesDoesNotMatter) {
     Building forth;
     Building back({k_right, k_left});

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#else
+#include <cmath>
+#endif
+
+#include "engine/math/four.hpp"
+
+// Four vectors, rotations or matrices side by side: lane i of every number belongs to the i-th of
+// them. What is done to one is done to all four, with no number moved from lane to lane. Sums have
+// four.hpp's order, so that the bits do not depend on the processor.
+namespace handhold {
+
+struct Wide3 {
+    Four x, y, z;
+};
+struct Wide4 {
+    Four x, y, z, w;
+};
+// Symmetric 3x3 matrices.
+struct WideSymmetric {
+    Four xx, yy, zz, xy, xz, yz;
+};
+
+// Number by number: of the whole GCC makes copies in memory, in pieces of other sizes.
+HH_INLINE void assign(const Wide3& from, Wide3& to) {
+    to.x = from.x;
+    to.y = from.y;
+    to.z = from.z;
+}
+HH_INLINE void assign(const Wide4& from, Wide4& to) {
+    to.x = from.x;
+    to.y = from.y;
+    to.z = from.z;
+    to.w = from.w;
+}
+HH_INLINE void assign(const WideSymmetric& from, WideSymmetric& to) {
+    to.xx = from.xx;
+    to.yy = from.yy;
+    to.zz = from.zz;
+    to.xy = from.xy;
+    to.xz = from.xz;
+    to.yz = from.yz;
+}
+
+// One lane's.
+HH_INLINE void set_lane(std::size_t lane, const Vec3& v, Wide3& out) {
+    out.x[lane] = v.x();
+    out.y[lane] = v.y();
+    out.z[lane] = v.z();
+}
+HH_INLINE void set_lane(std::size_t lane, const Quat& q, Wide4& out) {
+    out.x[lane] = q.x();
+    out.y[lane] = q.y();
+    out.z[lane] = q.z();
+    out.w[lane] = q.w();
+}
+HH_INLINE Vec3 vec3_in_lane(std::size_t lane, const Wide3& v) {
+    return {v.x[lane], v.y[lane], v.z[lane]};
+}
+HH_INLINE Quat quat_in_lane(std::size_t lane, const Wide4& q) {
+    return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
+}
+
+HH_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HH_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HH_INLINE Wide3 operator*(const Four& factor, const Wide3& v) {
+    return {factor * v.x, factor * v.y, factor * v.z};
+}
+HH_INLINE Four dot(const Wide3& a, const Wide3& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+HH_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HH_INLINE Wide3 multiply(const WideSymmetric& m, const Wide3& v) {
+    return {(m.xx * v.x + m.xy * v.y) + m.xz * v.z, (m.xy * v.x + m.yy * v.y) + m.yz * v.z,
+            (m.xz * v.x + m.yz * v.y) + m.zz * v.z};
+}
+
+// As std::max: of a number and NaN, `a`.
+HH_INLINE Four larger(const Four& a, const Four& b) { return b > a ? b : a; }
+HH_INLINE double largest(const Four& v) {
+    const double low = v[1] > v[0] ? v[1] : v[0];
+    const double high = v[3] > v[2] ? v[3] : v[2];
+    return high > low ? high : low;
+}
+
+// Lane by lane: -1, which is all bits, where something is true.
+using FourBits = std::int64_t __attribute__((vector_size(32), aligned(32)));
+
+// By the instruction, not by std::sqrt, which would look at every number's sign for errno.
+HH_INLINE Four square_root(const Four& v) {
+#ifdef __SSE2__
+    const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]});
+    const __m128d high = _mm_sqrt_pd(__m128d{v[2], v[3]});
+    return Four{low[0], low[1], high[0], high[1]};
+#else
+    return Four{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+
+// --- Between four vectors one by one and side by side ------------------------------------------
+
+HH_INLINE Wide4 to_wide4(const Four& a, const Four& b, const Four& c, const Four& d) {
+    const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);  // a0 b0 a2 b2
+    const Four ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Four cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5),
+            __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5),
+            __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7),
+            __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)};
+}
+HH_INLINE Wide3 to_wide3(const Four& a, const Four& b, const Four& c, const Four& d) {
+    const Wide4 all = to_wide4(a, b, c, d);
+    return {all.x, all.y, all.z};
+}
+
+// The four of them: x, y, z, w of lane 0, of lane 1 ..
+HH_INLINE Wide4 to_rows(const Wide4& v) { return to_wide4(v.x, v.y, v.z, v.w); }
+// With 0 in the fourth place.
+HH_INLINE Wide4 to_rows(const Wide3& v) { return to_wide4(v.x, v.y, v.z, zero_four()); }
+
+}  // namespace handhold
