@@ -431,6 +431,7 @@ void visit_fields(const PalmOffset& c, V&& visit) {
     visit("target_wrist_bs", c.target_wrist_bs);
     visit("target_surroundings", c.target_surroundings);
     visit("target_lift_m", c.target_lift_m);
+    visit("target_triangle", c.target_triangle);
 }
 template <typename V>
 void visit_fields(const PalmPose& c, V&& visit) {

@@ -30,7 +30,7 @@ struct GripSurface {
     // it looks for another. 0: they had room.
     double look_in_m = 0.0;
     // While it looks, a few surfaces in each frame: those it has tried, by their triangles, and
-    // what the best of them costs, which is this one.
+    // what the best of them cost where it was tried, which is this one.
     static constexpr std::size_t k_most_tries = 14;
     std::array<std::uint32_t, k_most_tries> tried = {};
     std::uint32_t tried_count = 0;  // 0: it does not look
@@ -53,6 +53,7 @@ struct PalmOffset {
     Pose target_wrist_bs;
     std::uint64_t target_surroundings = 0;
     double target_lift_m = 0.0;
+    std::uint32_t target_triangle = GripSurface::k_none;
 };
 
 // The wrist as it is shown, at the end of the frame. Arms reach for it. Written by constrain_palms.
@@ -76,7 +77,7 @@ struct ThumbSearch {
     bool is_near = false;         // it is over early where it is not sunk next to from_step
     std::uint32_t from_step = 0;  // below ThumbTuning::opposition_steps; the nearest come first
     std::uint32_t tried = 0;
-    double cost_m = 0.0;         // of the cheapest so far, which is the thumb's target
+    double cost_m = 0.0;         // of the cheapest so far where it was tried: the thumb's target
     bool wants_mending = false;  // that is sunk
 };
 

@@ -45,12 +45,14 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         offset.lift_m = 0.0;
     }
     if (offset.target_surroundings == hand.signature && offset.target_lift_m == offset.lift_m &&
+        offset.target_triangle == surface.triangle &&
         hand_way_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
         return;
     }
     offset.target_surroundings = hand.signature;
     offset.target_wrist_bs = hand.wrist_bs;
     offset.target_lift_m = offset.lift_m;
+    offset.target_triangle = surface.triangle;
     const Pose target =
         inverse(hand.wrist_bs) * hold_wrist(hand, surface, offset.lift_m, tuning.palm);
     offset.target_m = target.position;

@@ -49,13 +49,15 @@ class ThumbPoser {
                 pose.target[f] = *posed;
             }
             pose.thumb_solved = false;
+            pose.thumb_search = {};
+            pose.retry[f].queued = 0;
             return;
         }
         if (pose.thumb_solved && pose.thumb_arrived &&
             same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        if (take_posed(hand, thumb, pose, f) || waits_for_fingers(f, pose)) {
+        if (take_posed(hand, thumb, pose, f) || waits_for_fingers(hand, f, pose)) {
             return;
         }
         const ThumbFit best = fit_thumb(hand, thumb, f, pose);
@@ -104,23 +106,24 @@ class ThumbPoser {
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
         pose.thumb_arrived = true;
-        pose.thumb_search.runs = false;
+        pose.thumb_search = {};
+        pose.retry[f].queued = 0;
         return true;
     }
 
     // At first fingers are closed, a few in each frame, and then the thumb; but where they have no
     // end, since the hand is fast, it has its turn beside them.
-    static bool waits_for_fingers(std::size_t thumb, FingerPose& pose) {
+    static bool waits_for_fingers(const HandSurroundings& hand, std::size_t thumb,
+                                  FingerPose& pose) {
         constexpr std::uint32_t k_most_frames = 4;
-        bool is_first = pose.thumb_solved || pose.retry[thumb].queued >= k_most_frames;
-        if (!is_first) {
-            is_first = true;
-            for (std::size_t f = 0; f < k_finger_count; ++f) {
-                is_first = is_first && (f == thumb || pose.retry[f].queued == 0);
-            }
+        bool is_queue = false;
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            is_queue = is_queue || (f != thumb && pose.retry[f].queued > 0);
         }
-        pose.retry[thumb].queued = is_first ? 0 : pose.retry[thumb].queued + 1;
-        return !is_first;
+        std::uint32_t& queued = pose.retry[thumb].queued;
+        const bool waits = is_queue && !pose.thumb_solved && queued < k_most_frames;
+        queued = waits ? queued + 1 : 0;
+        return waits;
     }
 
     // As a thumb of a sliding hand should be: else another opposition may do better.
@@ -135,6 +138,7 @@ class ThumbPoser {
             if (lifts_at_once(tuning_.palm, io_.dt_s)) {
                 pose.solved = false;
                 pose.thumb_solved = false;
+                pose.thumb_search = {};
             }
         }
     }

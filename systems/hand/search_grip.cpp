@@ -247,8 +247,10 @@ class PalmHolder {
 
     // Time counts as a way too: a hand at rest looks again.
     double still_to_go_m(double left_m, const GripSurface& last) const {
-        constexpr double k_least_m = 5e-4;
-        return left_m - std::max(hand_way_m(last.wrist_bs, hand_.wrist_bs), k_least_m);
+        constexpr double k_time_mps = 0.045;
+        constexpr double k_at_once_m = 5e-4;
+        const double least_m = std::isinf(dt_s_) ? k_at_once_m : k_time_mps * dt_s_;
+        return left_m - std::max(hand_way_m(last.wrist_bs, hand_.wrist_bs), least_m);
     }
 
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
@@ -281,7 +283,8 @@ class PalmHolder {
         return held.sunk_m <= k_roomy_m;
     }
 
-    bool is_near_last(const PlacedMesh& placed, const Found& found, const GripSurface& last) const {
+    static bool is_near_last(const PlacedMesh& placed, const Found& found,
+                             const GripSurface& last) {
         const SurfaceGraph& graph = placed.mesh->search;
         return is_beside(found.point, graph.normals[found.triangle],
                          inverse_transform_point(placed.pose, last.point_bs),
@@ -308,6 +311,7 @@ class PalmHolder {
         if (near && last.tried_count > 0) {
             best.surface = held_at(placed, palm, *near).surface;
             best.surface.cost_m = last.cost_m;
+            best.surface.has_room_m = last.has_room_m;
             for (; count < last.tried_count; ++count) {
                 tried[count] = found_at(placed, palm, last.tried[count]);
             }
@@ -321,7 +325,7 @@ class PalmHolder {
             }
         }
         bool has_looked_around = false;
-        bool is_over = false;
+        bool is_over = count >= tried.size();
         for (; left > 0 && !is_over; --left) {
             if (count > 0 && !has_looked_around) {
                 look_around(*placed.mesh, palm, searcher);
@@ -331,6 +335,12 @@ class PalmHolder {
             if (!way || (count > 0 && way->cost_m >= best.surface.cost_m)) {
                 is_over = true;
                 break;
+            }
+            if (count > 0 && is_back(placed, palm, *way) &&
+                !may_try_backs(placed, palm, tried.front())) {
+                tried[count++] = *way;
+                is_over = count == tried.size();
+                continue;
             }
             const Judged next = judge(placed, palm, *way);
             if (count == 0 || next.has_room || next.surface.cost_m < best.surface.cost_m) {
@@ -349,6 +359,14 @@ class PalmHolder {
             best.surface.tried[i] = tried[i].triangle;
         }
         return best.surface;
+    }
+
+    static bool is_back(const PlacedMesh& placed, const Palm& palm, const Found& found) {
+        return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
+    }
+    // Fingers have room in a hollow solid too: for their sake alone no palm goes there.
+    bool may_try_backs(const PlacedMesh& placed, const Palm& palm, const Found& first) const {
+        return is_back(placed, palm, first) || held_at(placed, palm, first).sunk_m > k_roomy_m;
     }
 
     struct Judged {

@@ -70,6 +70,7 @@ class HandCloser {
         if (!pose.solved || pose.solved_body != hand.body) {
             pose.seed_triangle.fill(GripSurface::k_none);
             pose.thumb_solved = false;
+            pose.thumb_search = {};
         }
         if (pose.solved_surroundings != hand.signature) {
             look_again(pose);
@@ -156,11 +157,11 @@ class HandCloser {
             change_if_better(hand, wrist_bs, neediest, pose);
         }
         double depth_m = 0.0;
-        for (std::size_t f = 0; f < k_finger_count; ++f) {
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (is_fitted[f]) {
                 depth_m = std::max(depth_m, take_fit(place, f, pose));
             }
-            pose.arrived = pose.arrived && pose.retry[f].queued == 0;
+            pose.arrived = pose.arrived && waits(hand, f, pose) == 0;
         }
         return depth_m;
     }
@@ -201,6 +202,7 @@ class HandCloser {
         return is_closed;
     }
 
+    // Frames that a finger waits for its turn; a thumb has its own.
     static std::uint32_t waits(const HandSurroundings& hand, std::size_t f,
                                const FingerPose& pose) {
         const bool is_finger =

@@ -151,9 +151,12 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
         hand.search(k_dt_s);
         EXPECT_EQ(room.sunk_m(hand) <= k_fingers_have_room_m, tries > 1);  // the second has room
         for (int frame = 0; frame < 60; ++frame) {
+            hand.constrain(test::k_at_once_s);
             hand.search(k_dt_s);
         }
         const GripSurface found = hand.surface.at(k_right);
+        hand.constrain(test::k_at_once_s);
+        EXPECT_LT((hand.shown_bs().position - found.held_bs.position).norm(), 1e-9);
         EXPECT_EQ(found.tried_count, 0U);
         EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
         EXPECT_LT((found.held_bs.position - at_once.surface.at(k_right).held_bs.position).norm(),

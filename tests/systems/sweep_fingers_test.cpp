@@ -137,6 +137,26 @@ TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
     EXPECT_EQ(hand.pose().shown[2].curl_rad, hand.pose().target[2].curl_rad);
 }
 
+// A hand that opens while its thumb is on its way through its oppositions begins anew where it
+// grips next.
+TEST_F(SweepFingers, ThumbsSearchEndsWithTheGrip) {
+    FittedHand hand(beam, on_beam);
+    for (int frame = 0; frame < 8 && hand.pose().thumb_search.tried == 0; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    ASSERT_TRUE(hand.pose().thumb_search.runs);
+    const auto meshes = hand.hands.front().meshes;
+    hand.hands.front().meshes.clear();
+    hand.frame(k_dt_s);
+    EXPECT_FALSE(hand.pose().thumb_search.runs);
+    EXPECT_EQ(hand.pose().thumb_search.tried, 0U);
+    hand.hands.front().meshes = meshes;
+    for (int frame = 0; frame < 60; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    EXPECT_LT(deepest_m(hand), 1.5e-3);
+}
+
 // Faster than fits can be kept: all are to be closed anew in every frame.
 TEST_F(SweepFingers, EveryFingerOfAFastHandHasItsTurn) {
     FittedHand hand(beam, on_beam);
