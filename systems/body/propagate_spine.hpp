@@ -20,7 +20,7 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // What legs touch; without it nothing.
+    // What legs touch: all three, or none and they touch nothing.
     const CollisionWorld* collision = nullptr;            // in
     const Column<HeadTracking>* head = nullptr;           // in: before all surfaces
     const Column<PersistentId>* persistent_id = nullptr;  // in: nobody's legs touch his own head
