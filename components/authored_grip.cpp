@@ -79,7 +79,7 @@ double posed_depth_m(const HingeChain& chain,
     double depth_m = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
         const SunkCapsule sunk = scratch.patch.find_sunk(
-            {to_disc(capsules[i].ends[0]), to_disc(capsules[i].ends[1])}, capsules[i].radius_m);
+            {to_disc(capsules[i].ends[0]), to_disc(capsules[i].ends[1])}, capsules[i].radius_m, i);
         depth_m = std::max(depth_m, sunk.depth_m);
         // What is beyond the place where a surface goes through the middle counts as sunk, too.
         if (sunk.crossed_at) {

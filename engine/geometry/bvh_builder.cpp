@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_small_leaf = 2;      // never divided
-constexpr std::uint32_t k_large_leaf = 8;      // always divided beyond this
-constexpr double k_node_cost = 0.5;            // in triangles looked at
+constexpr std::uint32_t k_leaf = 4;            // always divided beyond this, and never below
 constexpr std::uint32_t k_planned_depth = 30;  // halved beyond this: the stack of a query ends
 constexpr double k_padding = 0x1p-22;          // of the reach: four times what a float rounds off
+
+// What it takes to look at so many triangles: four cost what one does.
+std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1) / k_leaf; }
 
 }  // namespace
 
@@ -101,7 +103,7 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
     for (std::size_t bin = k_bins - 1; bin > 0; --bin) {
         upper.join(boxes[bin]);
         upper_count += counts[bin];
-        upper_cost[bin] = upper_count > 0 ? upper.half_area() * upper_count : 0.0;
+        upper_cost[bin] = upper_count > 0 ? upper.half_area() * fours_of(upper_count) : 0.0;
     }
     Split best;
     Box lower = Box::none();
@@ -113,7 +115,7 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
         if (lower_count == 0 || lower_count == all) {
             continue;
         }
-        const double cost = lower.half_area() * lower_count + upper_cost[bin];
+        const double cost = lower.half_area() * fours_of(lower_count) + upper_cost[bin];
         if (!best.found || cost < best.cost) {
             best = {axis, bin, cost, true};
         }
@@ -121,8 +123,7 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
     return best;
 }
 
-BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& box,
-                                         const Box& middles) const {
+BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) const {
     Split best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(middles.high[axis] > middles.low[axis])) {
@@ -133,7 +134,6 @@ BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& box,
             best = split;
         }
     }
-    best.cost = k_node_cost + best.cost / box.half_area();
     return best;
 }
 
@@ -147,14 +147,16 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
         });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
-    // All in one place, or the tree is growing into a list: halves, by place and number.
+    // Two leaves, one of them full; or all in one place, or the tree is growing into a list:
+    // halves, by place and number.
     std::size_t widest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (middles.high[axis] - middles.low[axis] > middles.high[widest] - middles.low[widest]) {
             widest = axis;
         }
     }
-    const std::uint32_t half = work.first + (work.last - work.first) / 2;
+    const std::uint32_t count = work.last - work.first;
+    const std::uint32_t half = work.first + (count <= 2 * k_leaf ? k_leaf : count / 2);
     std::nth_element(first, items_.begin() + half, last, [&](const Item& a, const Item& b) {
         const float middle_a = a.box.middle(widest);
         const float middle_b = b.box.middle(widest);
@@ -170,25 +172,67 @@ void BvhBuilder::make_leaf(const Work& work) {
     bvh_.nodes_[work.node].count = work.last - work.first;
 }
 
-// Corners in the order in which the leaves need them.
-void BvhBuilder::copy_corners() {
-    constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> copied(positions_.size(), k_not_copied);
-    bvh_.slots_.reserve(items_.size());
-    bvh_.numbers_.reserve(items_.size());
-    for (const Item& item : items_) {
-        std::array<std::uint32_t, 3> slot = {};
-        for (std::size_t i = 0; i < 3; ++i) {
-            std::uint32_t& place = copied[triangles_[item.triangle][i]];
-            if (place == k_not_copied) {
-                place = static_cast<std::uint32_t>(bvh_.positions_.size());
-                bvh_.positions_.push_back(positions_[triangles_[item.triangle][i]]);
-            }
-            slot[i] = place;
+// Each leaf's triangles are made four: what is beyond its count repeats its last one.
+void BvhBuilder::fill_leaves() {
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t i = 0; i < bvh_.nodes_.size(); ++i) {
+        if (bvh_.nodes_[i].count > 0) {
+            leaves.push_back(i);
         }
-        bvh_.slots_.push_back(slot);
-        bvh_.numbers_.push_back(item.triangle);
     }
+    std::sort(leaves.begin(), leaves.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return bvh_.nodes_[a].first < bvh_.nodes_[b].first;
+    });
+    bvh_.slots_.reserve(k_leaf * leaves.size());
+    bvh_.numbers_.reserve(k_leaf * leaves.size());
+    bvh_.fours_.reserve(leaves.size());
+    for (const std::uint32_t leaf : leaves) {
+        TriangleBvh::Node& node = bvh_.nodes_[leaf];
+        const std::uint32_t first_item = node.first;
+        node.first = static_cast<std::uint32_t>(bvh_.slots_.size());
+        for (std::uint32_t i = 0; i < k_leaf; ++i) {
+            const Item& item = items_[first_item + std::min(i, node.count - 1)];
+            bvh_.slots_.push_back(copy_corners(item.triangle));
+            bvh_.numbers_.push_back(item.triangle);
+        }
+        add_four(node.first);
+    }
+}
+
+// Corners in the order in which the leaves need them.
+std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
+    constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
+    copied_.resize(positions_.size(), k_not_copied);
+    std::array<std::uint32_t, 3> slot = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::uint32_t& place = copied_[triangles_[triangle][i]];
+        if (place == k_not_copied) {
+            place = static_cast<std::uint32_t>(bvh_.positions_.size());
+            bvh_.positions_.push_back(positions_[triangles_[triangle][i]]);
+        }
+        slot[i] = place;
+    }
+    return slot;
+}
+
+void BvhBuilder::add_four(std::uint32_t first_slot) {
+    constexpr double k_no_area_m2 = 1e-12;  // a float would not know its normal
+    FourTriangles four;
+    for (std::uint32_t i = 0; i < k_leaf; ++i) {
+        const Corners corners = bvh_.corners_at(first_slot + i);
+        const auto put = [i](std::array<FourFloats, 3>& to, const Vec3& from) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                to[axis][i] = static_cast<float>(from[static_cast<Eigen::Index>(axis)]);
+            }
+        };
+        for (std::size_t c = 0; c < 3; ++c) {
+            put(four.corner[c], corners[c] - bvh_.origin_);
+        }
+        const Vec3 area = area_vector(corners);
+        const double length = area.norm();
+        put(four.normal, length > k_no_area_m2 ? Vec3(area / length) : Vec3::Zero());
+    }
+    bvh_.fours_.push_back(four);
 }
 
 void BvhBuilder::build() {
@@ -214,12 +258,11 @@ void BvhBuilder::build() {
         }
         bvh_.nodes_[work.node].low = box.low;
         bvh_.nodes_[work.node].high = box.high;
-        const Split split = count > k_small_leaf ? best_split(work, box, middles) : Split{};
-        const bool worth_it = split.found && split.cost < static_cast<double>(count);
-        if (count <= k_small_leaf || (count <= k_large_leaf && !worth_it)) {
+        if (count <= k_leaf) {
             make_leaf(work);
             continue;
         }
+        const Split split = count > 2 * k_leaf ? best_split(work, middles) : Split{};
         const std::uint32_t middle = part(work, split, middles);
         const auto child = static_cast<std::uint32_t>(bvh_.nodes_.size());
         bvh_.nodes_[work.node].first = child;
@@ -227,7 +270,8 @@ void BvhBuilder::build() {
         open.push_back({child + 1, middle, work.last, work.depth + 1});
         open.push_back({child, work.first, middle, work.depth + 1});
     }
-    copy_corners();
+    bvh_.triangle_count_ = items_.size();
+    fill_leaves();
     bvh_.nodes_.shrink_to_fit();
     bvh_.positions_.shrink_to_fit();
 }

@@ -39,24 +39,27 @@ class BvhBuilder {
     struct Split {
         std::size_t axis = 0;
         std::uint32_t bin = 0;  // the first of the upper side
-        double cost = 0.0;      // in triangles looked at
+        double cost = 0.0;      // in leaves looked at, times half the area of all
         bool found = false;
     };
     static constexpr std::size_t k_bins = 16;
 
     void gather();
     static std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis);
-    Split best_split(const Work& work, const Box& box, const Box& middles) const;
+    Split best_split(const Work& work, const Box& middles) const;
     Split best_split_along(std::size_t axis, const Work& work, const Box& middles) const;
     std::uint32_t part(const Work& work, const Split& split, const Box& middles);
     void make_leaf(const Work& work);
-    void copy_corners();
+    void fill_leaves();
+    std::array<std::uint32_t, 3> copy_corners(std::uint32_t triangle);
+    void add_four(std::uint32_t first_slot);
 
     TriangleBvh& bvh_;
     std::span<const Vec3> positions_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
     float padding_ = 0.0F;
     std::vector<Item> items_;
+    std::vector<std::uint32_t> copied_;  // by position: where in the tree it is
 };
 
 }  // namespace handhold

@@ -282,7 +282,7 @@ SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes
     reach.half_width_m = capsule.radius_m;
     ChainPatch patch;
     patch.gather(reach, meshes);
-    return patch.find_sunk({Vec2::Zero(), Vec2(length_m, 0.0)}, capsule.radius_m);
+    return patch.find_sunk({Vec2::Zero(), Vec2(length_m, 0.0)}, capsule.radius_m, 0);
 }
 
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,

@@ -10,177 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr std::size_t k_usual_triangles = 2048;  // more than one chain meets but on dense meshes
-
-double distance_between(double low_a, double high_a, double low_b, double high_b) {
-    return std::max({low_a - high_b, low_b - high_a, 0.0});
-}
-
-// A capsule's middle, and directions along it and beside it.
-class Middle {
-  public:
-    explicit Middle(const std::array<Vec2, 2>& ends)
-        : from_(ends[0]), length_m_((ends[1] - ends[0]).norm()) {
-        if (length_m_ > 0.0) {
-            along_ = (ends[1] - ends[0]) / length_m_;
-        }
-    }
-
-    double length_m() const { return length_m_; }
-
-    // No more than the triangle's distance in the plane, squared: that of a box around it, turned
-    // as the middle is.
-    double least_squared(const Corners& corners) const {
-        std::array<double, 3> along = {};
-        std::array<double, 3> beside = {};
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double x = corners[i].x() - from_.x();
-            const double y = corners[i].y() - from_.y();
-            along[i] = x * along_.x() + y * along_.y();
-            beside[i] = y * along_.x() - x * along_.y();
-        }
-        const double ahead_m = distance_between(least(along), most(along), 0.0, length_m_);
-        const double beside_m = distance_between(least(beside), most(beside), 0.0, 0.0);
-        return ahead_m * ahead_m + beside_m * beside_m;
-    }
-
-  private:
-    static double least(const std::array<double, 3>& of) {
-        return std::min(of[0], std::min(of[1], of[2]));
-    }
-    static double most(const std::array<double, 3>& of) {
-        return std::max(of[0], std::max(of[1], of[2]));
-    }
-
-    Vec2 from_;
-    Vec2 along_ = Vec2::UnitX();
-    double length_m_;
-};
-
-// As wide as what every processor of the kind compares at once; math/four.hpp's are compared one by
-// one where there is no AVX.
-using Two = double __attribute__((vector_size(16)));
-
-Two lower(const Two& a, const Two& b) { return a < b ? a : b; }
-Two higher(const Two& a, const Two& b) { return a > b ? a : b; }
-
-bool any_above(const Two& values, const Two& limits) {
-    using TwoLongs = std::int64_t __attribute__((vector_size(16)));
-    const TwoLongs above = values > limits;
-    return (above[0] | above[1]) != 0;
-}
-
-// A point in disc space.
-struct Placed {
-    Two xy;
-    double across;
-};
-// A box in the plane.
-struct Extent {
-    Two low;
-    Two high;
-};
-bool is_apart(const Extent& a, const Extent& b) {
-    return any_above(a.low, b.high) || any_above(b.low, a.high);
-}
-Extent extent_of(const ReachBox& box) {
-    return {Two{box.low.x(), box.low.y()}, Two{box.high.x(), box.high.y()}};
-}
-Vec3 to_vec3(const Placed& point) { return {point.xy[0], point.xy[1], point.across}; }
-
-// The reach in a mesh's frame.
-class ReachSlab {
-  public:
-    ReachSlab(const ChainReach& reach, const Pose& base)
-        : base_(base.position),
-          x_axis_(base.rotation * -Vec3::UnitZ()),
-          y_axis_(base.rotation * -Vec3::UnitY()),
-          across_(base.rotation * -Vec3::UnitX()),
-          box_count_(reach.box_count),
-          half_width_m_(reach.half_width_m),
-          radius_m2_(reach.radius_m * reach.radius_m) {
-        for (int i = 0; i < 3; ++i) {
-            flat_[i] = Two{x_axis_[i], y_axis_[i]};
-        }
-        const Vec2 corner = Vec2::Constant(reach.radius_m);
-        ReachBox boxes = {corner, -corner};
-        for (std::uint32_t i = 0; i < box_count_; ++i) {
-            boxes.low = boxes.low.cwiseMin(reach.boxes[i].low);
-            boxes.high = boxes.high.cwiseMax(reach.boxes[i].high);
-            links_[i] = extent_of(reach.boxes[i]);
-        }
-        whole_ = box_count_ == 0
-                     ? ReachBox{-corner, corner}
-                     : ReachBox{boxes.low.cwiseMax(-corner), boxes.high.cwiseMin(corner)};
-        all_ = extent_of(whole_);
-    }
-
-    // About `origin`.
-    TurnedBox box_about(const Vec3& origin) const {
-        const Vec3 base = base_ - origin;
-        const Vec2 middle = 0.5 * (whole_.low + whole_.high);
-        const Vec2 half = 0.5 * (whole_.high - whole_.low);
-        return {{x_axis_, y_axis_, across_},
-                {x_axis_.dot(base) + middle.x(), y_axis_.dot(base) + middle.y(), across_.dot(base)},
-                {half.x(), half.y(), half_width_m_}};
-    }
-
-    Placed placed(const Vec3& point) const { return turned(Vec3(point - base_)); }
-    Placed turned(const Vec3& direction) const {
-        return {flat_[0] * direction.x() + (flat_[1] * direction.y() + flat_[2] * direction.z()),
-                across_.dot(direction)};
-    }
-
-    bool is_beside(double low, double high) const {
-        return low > half_width_m_ || high < -half_width_m_;
-    }
-    // True where what is in the box may be in reach.
-    bool may_reach(const Extent& box) const {
-        if (is_apart(box, all_)) {
-            return false;
-        }
-        const Two out = higher(higher(box.low, -box.high), Two{0.0, 0.0});
-        if (out[0] * out[0] + out[1] * out[1] > radius_m2_) {
-            return false;
-        }
-        for (std::uint32_t i = 0; i < box_count_; ++i) {
-            if (!is_apart(box, links_[i])) {
-                return true;
-            }
-        }
-        return box_count_ == 0;
-    }
-
-  private:
-    Vec3 base_;
-    Vec3 x_axis_;
-    Vec3 y_axis_;
-    Vec3 across_;
-    Two flat_[3];  // by coordinate: of x and y  NOLINT(*-c-arrays): not of a vector's type
-    std::uint32_t box_count_;
-    double half_width_m_;
-    double radius_m2_;
-    std::array<Extent, k_most_disc_links> links_ = {};
-    ReachBox whole_;  // around all that is in reach
-    Extent all_ = {};
-};
-
-// What is farther out needs no place of its own, and a float would not know it well.
-FlatBounds flat_bounds(const Extent& box, double most_m) {
-    const Two most = Two{most_m, most_m};
-    const Two low = lower(higher(box.low, -most), most);
-    const Two high = lower(higher(box.high, -most), most);
-    return {FourFloats{static_cast<float>(low[0]), static_cast<float>(low[1]),
-                       static_cast<float>(-high[0]), static_cast<float>(-high[1])}};
-}
-
-// What bounds that are no farther from a box than this are not beyond.
-FourFloats limits_around(const Vec2& low, const Vec2& high, double distance_m) {
-    constexpr double k_rounding_m = 1e-6;  // of floats below 4 m; fingers are decimetres
-    const double m = distance_m + k_rounding_m;
-    return FourFloats{static_cast<float>(high.x() + m), static_cast<float>(high.y() + m),
-                      static_cast<float>(m - low.x()), static_cast<float>(m - low.y())};
-}
+constexpr std::size_t k_usual_fours = 1024;  // more than one chain meets but on dense meshes
 
 }  // namespace
 
@@ -188,32 +18,40 @@ FourFloats limits_around(const Vec2& low, const Vec2& high, double distance_m) {
 // they are looked at.
 class ChainPatch::SunkSearch {
   public:
-    SunkSearch(const std::array<Vec2, 2>& middle_ds, double radius_m)
-        : middle_(middle_ds),
-          ends_(middle_ds),
-          segment_({Vec3(middle_ds[0].x(), middle_ds[0].y(), 0.0),
+    SunkSearch(const std::array<Vec2, 2>& middle_ds, double radius_m, double spare_m)
+        : segment_({Vec3(middle_ds[0].x(), middle_ds[0].y(), 0.0),
                     Vec3(middle_ds[1].x(), middle_ds[1].y(), 0.0)}),
+          length_m_((middle_ds[1] - middle_ds[0]).norm()),
           radius_m_(radius_m),
-          nearest_m_(radius_m) {}
+          nearest_m_(radius_m),
+          spare_m_(spare_m) {
+        const Vec2 along =
+            length_m_ > 0.0 ? Vec2((middle_ds[1] - middle_ds[0]) / length_m_) : Vec2::UnitX();
+        for (std::size_t i = 0; i < 2; ++i) {
+            const auto axis = static_cast<Eigen::Index>(i);
+            begin_[i] = four_times(middle_ds[0][axis]);
+            end_[i] = four_times(middle_ds[1][axis]);
+            along_[i] = four_times(along[axis]);
+        }
+        length_ = four_times(length_m_);
+        limit();
+    }
 
-    FourFloats limits() const {
-        return limits_around(ends_[0].cwiseMin(ends_[1]), ends_[0].cwiseMax(ends_[1]), nearest_m_);
-    }
-    // The middle is on one side of the triangle's plane, and too far from it.
-    bool is_off(const Vec2& normal, double offset) const {
-        constexpr double k_rounding_m = 1e-12;
-        const double most_m = nearest_m_ + k_rounding_m;
-        const double begin_m = normal.x() * ends_[0].x() + normal.y() * ends_[0].y() - offset;
-        const double end_m = normal.x() * ends_[1].x() + normal.y() * ends_[1].y() - offset;
-        return std::min(begin_m, end_m) > most_m || std::max(begin_m, end_m) < -most_m;
-    }
-    void note(std::uint32_t triangle, const Corners& corners, double across_m) {
-        const double least = middle_.least_squared(corners) + across_m * across_m;
-        if (least <= nearest_m_ * nearest_m_) {
-            noted_[count_++] = {least, triangle};
+    // Those of four triangles that may come nearer than what was found; the first one's number.
+    void note(const FourReached& four, const FourInts& is_asked, std::uint32_t number) {
+        FourInts is_near = is_asked & may_be_near(four);
+        if (!any_of(is_near)) {
+            return;
+        }
+        const FourFloats least = least_squared(four);
+        is_near &= ~is_off(four) & (least <= most_squared_);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            noted_[count_] = {least[i], number + i};
+            count_ += is_near[i] != 0 ? 1U : 0U;
         }
     }
-    bool is_full() const { return count_ == noted_.size(); }
+    // No room for four more.
+    bool is_full() const { return count_ + 4 > noted_.size(); }
 
     // Of those noted the one that may be nearest, if it still matters.
     std::optional<std::uint32_t> next() {
@@ -226,17 +64,17 @@ class ChainPatch::SunkSearch {
         }
         const Noted first = noted_[best];
         noted_[best] = noted_[--count_];
-        if (first.least > nearest_m_ * nearest_m_) {
-            count_ = 0;
-            return std::nullopt;
-        }
-        return first.triangle;
+        return first.number;
     }
-    void look_at(const Corners& corners, const Vec3& normal) {
-        const SegmentTriangle found = nearest_between(segment_, corners, normal);
-        nearest_m_ = std::min(nearest_m_, found.distance_m);
-        if (found.distance_m == 0.0 && middle_.length_m() > 0.0) {
-            const double share = (found.on_segment - segment_[0]).norm() / middle_.length_m();
+    void look_at(const Triangle& triangle) {
+        const SegmentTriangle found = nearest_between(segment_, triangle.corners, triangle.normal);
+        if (found.distance_m < nearest_m_) {
+            nearest_m_ = found.distance_m;
+            limit();
+            drop_far();
+        }
+        if (found.distance_m == 0.0 && length_m_ > 0.0) {
+            const double share = (found.on_segment - segment_[0]).norm() / length_m_;
             crossed_at_ = std::min(crossed_at_.value_or(1.0), share);
         }
     }
@@ -245,117 +83,252 @@ class ChainPatch::SunkSearch {
 
   private:
     struct Noted {
-        double least;  // no more than its distance, squared
-        std::uint32_t triangle;
+        float least;  // no more than its distance, squared
+        std::uint32_t number;
     };
-    Middle middle_;
-    std::array<Vec2, 2> ends_;
+
+    // What holds the triangles tells of most that they are too far.
+    FourInts may_be_near(const FourReached& four) const {
+        const FourInts is_far = (four.low[0] > high_[0]) | (four.low[1] > high_[1]) |
+                                (four.high[0] < low_[0]) | (four.high[1] < low_[1]) |
+                                (four.low[2] > most_m_) | (four.high[2] < -most_m_);
+        return ~is_far;
+    }
+    // So does the side of their planes on which the middle is.
+    FourInts is_off(const FourReached& four) const {
+        const FourFloats begin = four.line[0] * begin_[0] + four.line[1] * begin_[1] - four.line[2];
+        const FourFloats end = four.line[0] * end_[0] + four.line[1] * end_[1] - four.line[2];
+        return (lower(begin, end) > most_m_) | (higher(begin, end) < -most_m_);
+    }
+
+    // No more than the triangles' distances, squared: those of boxes around them, turned as the
+    // middle is.
+    FourFloats least_squared(const FourReached& four) const {
+        std::array<FourFloats, 3> along;
+        std::array<FourFloats, 3> beside;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const FourFloats x = four.corner[i][0] - begin_[0];
+            const FourFloats y = four.corner[i][1] - begin_[1];
+            along[i] = x * along_[0] + y * along_[1];
+            beside[i] = y * along_[0] - x * along_[1];
+        }
+        const FourFloats zero = {};
+        const auto out_of = [&](const std::array<FourFloats, 3>& of,
+                                const FourFloats& most) -> FourFloats {
+            const FourFloats low = lower(lower(of[0], of[1]), of[2]);
+            const FourFloats high = higher(higher(of[0], of[1]), of[2]);
+            return higher(higher(low - most, -high), zero);
+        };
+        const FourFloats ahead = out_of(along, length_);
+        const FourFloats aside = out_of(beside, zero);
+        const FourFloats across = higher(higher(four.low[2], -four.high[2]), zero);
+        return ahead * ahead + aside * aside + across * across;
+    }
+
+    // What is farther than what was found is of no use any more.
+    void limit() {
+        constexpr double k_rounding = 1e-5;
+        const double most_m = nearest_m_ * (1.0 + k_rounding) + 2.0 * spare_m_;
+        most_m_ = four_times(most_m);
+        most_squared_ = four_times(most_m * most_m);
+        for (std::size_t i = 0; i < 2; ++i) {
+            low_[i] = lower(begin_[i], end_[i]) - most_m_;
+            high_[i] = higher(begin_[i], end_[i]) + most_m_;
+        }
+    }
+    void drop_far() {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            noted_[kept] = noted_[i];
+            kept += noted_[i].least <= most_squared_[0] ? 1U : 0U;
+        }
+        count_ = kept;
+    }
+
     std::array<Vec3, 2> segment_;
+    double length_m_;
     double radius_m_;
     double nearest_m_;
+    double spare_m_;
     std::optional<double> crossed_at_;
+    // The middle in the plane, each number four times, and how far around it matters.
+    std::array<FourFloats, 2> begin_;
+    std::array<FourFloats, 2> end_;
+    std::array<FourFloats, 2> along_;
+    std::array<FourFloats, 2> low_;
+    std::array<FourFloats, 2> high_;
+    FourFloats length_ = {};
+    FourFloats most_m_ = {};
+    FourFloats most_squared_ = {};
     std::array<Noted, 64> noted_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
 };
 
+ChainPatch::Frame::Frame(const GripMesh& mesh, const Pose& base, std::size_t first)
+    : mesh_(&mesh),
+      first_(first),
+      base_(base.position),
+      x_axis_(base.rotation * -Vec3::UnitZ()),
+      y_axis_(base.rotation * -Vec3::UnitY()),
+      across_(base.rotation * -Vec3::UnitX()) {}
+
+Vec3 ChainPatch::Frame::turned(const Vec3& direction) const {
+    return {
+        x_axis_.x() * direction.x() + (x_axis_.y() * direction.y() + x_axis_.z() * direction.z()),
+        y_axis_.x() * direction.x() + (y_axis_.y() * direction.y() + y_axis_.z() * direction.z()),
+        across_.dot(direction)};
+}
+
+ChainPatch::Triangle ChainPatch::Frame::triangle(std::uint32_t slot) const {
+    const std::uint32_t number = mesh_->contact_bvh.number_at(slot);
+    const Corners corners = mesh_->contact_bvh.corners_at(slot);
+    const Corners corners_ds = {turned(corners[0] - base_), turned(corners[1] - base_),
+                                turned(corners[2] - base_)};
+    return {corners_ds, turned(mesh_->contact.normals[number]), number};
+}
+
 void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> meshes) {
-    bounds_.clear();
-    across_.clear();
-    lines_.clear();
+    fours_.clear();
+    is_near_.clear();
+    first_slot_.clear();
     triangles_.clear();
-    bounds_.reserve(k_usual_triangles);
-    across_.reserve(k_usual_triangles);
-    lines_.reserve(k_usual_triangles);
-    triangles_.reserve(k_usual_triangles);
+    frames_.clear();
+    fours_.reserve(k_usual_fours);
+    is_near_.reserve(k_usual_fours);
+    first_slot_.reserve(k_usual_fours);
+    placed_.reserve(k_usual_fours);
+    triangles_.reserve(2 * k_usual_fours);
+    for (std::vector<Boxed>& boxed : boxed_) {
+        boxed.clear();
+        boxed.reserve(k_usual_fours);
+    }
     of_first_mesh_ = 0;
+    spare_m_ = 0.0;
     radius_m_ = reach.radius_m;
+    box_count_ = std::max(reach.box_count, 1U);
     for (const PlacedMesh& placed : meshes) {
         gather_mesh(reach, placed);
         if (&placed == meshes.data()) {
-            of_first_mesh_ = triangles_.size();
+            of_first_mesh_ = fours_.size();
         }
     }
+    placed_.assign(fours_.size(), {k_not_placed, k_not_placed, k_not_placed, k_not_placed});
 }
 
 void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) {
-    const SurfaceGraph& surface = placed.mesh->contact;
+    constexpr double k_rounding_m = 1e-6;  // of what is asked, in floats below 4 m
+    constexpr std::array<FourInts, 5> k_first = {FourInts{0, 0, 0, 0}, FourInts{-1, 0, 0, 0},
+                                                 FourInts{-1, -1, 0, 0}, FourInts{-1, -1, -1, 0},
+                                                 FourInts{-1, -1, -1, -1}};
     const TriangleBvh& bvh = placed.mesh->contact_bvh;
-    const ReachSlab slab(reach, inverse(placed.pose) * reach.base);
-    const auto take = [&](std::uint32_t number, const Vec3& a, const Vec3& b, const Vec3& c) {
-        const Placed a_ds = slab.placed(a);
-        const Placed b_ds = slab.placed(b);
-        const Placed c_ds = slab.placed(c);
-        const double low = std::min(a_ds.across, std::min(b_ds.across, c_ds.across));
-        const double high = std::max(a_ds.across, std::max(b_ds.across, c_ds.across));
-        const Extent box = {lower(lower(a_ds.xy, b_ds.xy), c_ds.xy),
-                            higher(higher(a_ds.xy, b_ds.xy), c_ds.xy)};
-        if (slab.is_beside(low, high) || !slab.may_reach(box)) {
-            return;
+    const Pose base = inverse(placed.pose) * reach.base;
+    frames_.emplace_back(*placed.mesh, base, fours_.size());
+    const ReachSlab slab(reach, base, bvh);
+    spare_m_ = std::max(spare_m_, slab.spare_m() + k_rounding_m);
+    const auto take = [&](std::uint32_t first_slot, std::uint32_t count,
+                          const FourTriangles& triangles) {
+        FourNear is_near;
+        const FourReached reached = slab.bounds_of(triangles, is_near);
+        FourInts is_near_any = {};
+        for (std::size_t box = 0; box < box_count_; ++box) {
+            is_near[box] &= k_first[count];
+            is_near_any |= is_near[box];
+            if (any_of(is_near[box])) {
+                boxed_[box].push_back({is_near[box], static_cast<std::uint32_t>(fours_.size())});
+            }
         }
-        const Placed normal = slab.turned(surface.normals[number]);
-        bounds_.push_back(flat_bounds(box, 2.0 * radius_m_));
-        across_.push_back({low, high});
-        lines_.push_back(
-            {{normal.xy[0], normal.xy[1]},
-             normal.xy[0] * a_ds.xy[0] + normal.xy[1] * a_ds.xy[1] + normal.across * a_ds.across});
-        triangles_.push_back(
-            {{to_vec3(a_ds), to_vec3(b_ds), to_vec3(c_ds)}, to_vec3(normal), number});
+        if (any_of(is_near_any)) {
+            fours_.push_back(reached);
+            is_near_.push_back(is_near_any);
+            first_slot_.push_back(first_slot);
+        }
     };
-    bvh.visit_near_box(slab.box_about(bvh.origin()), take);
+    bvh.visit_near_box(slab.box(), take);
+}
+
+std::size_t ChainPatch::size() const {
+    std::size_t count = 0;
+    for (const FourInts& is_near : is_near_) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            count += is_near[i] != 0 ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+const ChainPatch::Triangle& ChainPatch::exact(std::uint32_t place) {
+    const std::size_t four = place / 4;
+    std::uint32_t& placed = placed_[four][place % 4];
+    if (placed == k_not_placed) {
+        placed = static_cast<std::uint32_t>(triangles_.size());
+        const auto beyond = std::find_if(frames_.begin() + 1, frames_.end(),
+                                         [&](const Frame& frame) { return frame.first() > four; });
+        triangles_.push_back((beyond - 1)->triangle(first_slot_[four] + place % 4));
+    }
+    return triangles_[placed];
 }
 
 std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
-                            std::vector<DiscSegment>& segments) const {
+                            std::vector<DiscSegment>& segments) {
     const std::size_t before = segments.size();
     std::size_t of_first_mesh = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        if (across_[t].low >= offset_m || across_[t].high < offset_m) {
+    const FourFloats most = four_times(offset_m + spare_m_);
+    const FourFloats least = four_times(offset_m - spare_m_);
+    for (std::size_t f = 0; f < fours_.size(); ++f) {
+        const FourInts may_be_cut =
+            is_near_[f] & (fours_[f].low[2] < most) & (fours_[f].high[2] > least);
+        if (!any_of(may_be_cut)) {
             continue;
         }
-        const Corners& corners = triangles_[t].corners;
-        const std::array<bool, 3> over = {corners[0].z() >= offset_m, corners[1].z() >= offset_m,
-                                          corners[2].z() >= offset_m};
-        // Of the three corners one is alone on its side: both cut edges begin there.
-        const std::size_t alone = over[0] == over[1] ? 2 : (over[0] == over[2] ? 1 : 0);
-        std::array<Vec2, 2> ends;
-        for (std::size_t i = 0; i < 2; ++i) {
-            const Vec3& from = corners[alone];
-            const Vec3& to = corners[(alone + 1 + i) % 3];
-            const double share = (offset_m - from.z()) / (to.z() - from.z());
-            ends[i] = (from + share * (to - from)).head<2>();
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            if (may_be_cut[i] != 0) {
+                const auto place = static_cast<std::uint32_t>(4 * f) + i;
+                cut_triangle(exact(place), offset_m, plane, segments);
+            }
         }
-        add_segment({ends[0], ends[1], plane, triangles_[t].number}, radius_m_, segments);
-        if (t < of_first_mesh_) {
+        if (f < of_first_mesh_) {
             of_first_mesh = segments.size() - before;
         }
     }
     return of_first_mesh;
 }
 
-SunkCapsule ChainPatch::find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m) const {
-    SunkSearch search(middle_ds, radius_m);
-    FourFloats limits = search.limits();
-    for (std::size_t t = 0; t < bounds_.size(); ++t) {
-        if (any_beyond(bounds_[t].value, limits) ||
-            search.is_off(lines_[t].normal, lines_[t].offset)) {
-            continue;
-        }
-        const double across_m = distance_between(across_[t].low, across_[t].high, 0.0, 0.0);
-        search.note(static_cast<std::uint32_t>(t), triangles_[t].corners, across_m);
-        if (search.is_full()) {
-            settle(search);
-            limits = search.limits();
-        }
+void ChainPatch::cut_triangle(const Triangle& triangle, double offset_m, std::uint32_t plane,
+                              std::vector<DiscSegment>& segments) const {
+    const Corners& corners = triangle.corners;
+    const std::array<bool, 3> over = {corners[0].z() >= offset_m, corners[1].z() >= offset_m,
+                                      corners[2].z() >= offset_m};
+    if (over[0] == over[1] && over[0] == over[2]) {
+        return;
     }
-    settle(search);
-    return search.found();
+    // Of the three corners one is alone on its side: both cut edges begin there.
+    const std::size_t alone = over[0] == over[1] ? 2 : (over[0] == over[2] ? 1 : 0);
+    std::array<Vec2, 2> ends;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vec3& from = corners[alone];
+        const Vec3& to = corners[(alone + 1 + i) % 3];
+        const double share = (offset_m - from.z()) / (to.z() - from.z());
+        ends[i] = (from + share * (to - from)).head<2>();
+    }
+    add_segment({ends[0], ends[1], plane, triangle.number}, radius_m_, segments);
 }
 
-// The nearest first, as far as that is known: it leaves out most of the others.
-void ChainPatch::settle(SunkSearch& search) const {
-    while (const auto next = search.next()) {
-        search.look_at(triangles_[*next].corners, triangles_[*next].normal);
+SunkCapsule ChainPatch::find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m,
+                                  std::size_t box) {
+    SunkSearch search(middle_ds, radius_m, spare_m_);
+    const auto look_at_noted = [&]() {
+        while (const auto next = search.next()) {
+            search.look_at(exact(*next));
+        }
+    };
+    for (const Boxed& boxed : boxed_[std::min(box, box_count_ - 1)]) {
+        search.note(fours_[boxed.four], boxed.is_near, 4 * boxed.four);
+        if (search.is_full()) {
+            look_at_noted();
+        }
     }
+    look_at_noted();
+    return search.found();
 }
 
 }  // namespace handhold

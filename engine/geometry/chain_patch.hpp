@@ -11,6 +11,7 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/grip_mesh.hpp"
+#include "engine/geometry/reach_slab.hpp"
 #include "engine/math/four_floats.hpp"
 #include "engine/math/math.hpp"
 
@@ -32,24 +33,9 @@ struct SunkCapsule {
                                        // through its middle
 };
 
-// An upright box in disc space.
-struct ReachBox {
-    Vec2 low = Vec2::Constant(-std::numeric_limits<double>::infinity());
-    Vec2 high = Vec2::Constant(std::numeric_limits<double>::infinity());
-};
-
-// Where a chain's links can be: a disc with a thickness, and of that what is in a box of one of
-// the links.
-struct ChainReach {
-    Pose base;                // the first hinge: links along -Z at angle 0, turning towards -Y
-    double radius_m = 0;      // about the hinge, in the plane
-    double half_width_m = 0;  // across the plane
-    std::array<ReachBox, k_most_disc_links> boxes = {};  // in the plane
-    std::uint32_t box_count = 0;                         // 0: all of the disc
-};
-
 // Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.
-// Keeps its memory between gatherings.
+// Keeps its memory between gatherings. What floats tell from what is asked is never looked at more
+// closely; of the rest each triangle is once, when it is first asked for.
 class ChainPatch {
   public:
     // Every triangle of the meshes' contact detail with a point in reach, and few more.
@@ -58,12 +44,13 @@ class ChainPatch {
     // What the plane `offset_m` across cuts out of the triangles within the reach, as `plane` in
     // the segments, which are added to; the first mesh's come before the others'. Precondition: the
     // plane is within the half width. Returns how many are the first mesh's.
-    std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments) const;
+    std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments);
 
-    // Of a capsule whose middle lies in the plane, within what was gathered for.
-    SunkCapsule find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m) const;
+    // Of a capsule whose middle lies in the plane, within box `box` of the reach that was gathered
+    // for; where that has no boxes, anywhere in it.
+    SunkCapsule find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m, std::size_t box);
 
-    std::size_t size() const { return triangles_.size(); }
+    std::size_t size() const;  // triangles
 
   private:
     struct Triangle {
@@ -72,27 +59,50 @@ class ChainPatch {
         std::uint32_t number = 0;
     };
 
-    struct Across {
-        double low = 0.0;
-        double high = 0.0;
-    };
-    // Where the plane of a triangle meets the chain's own: normal . point = offset.
-    struct Line {
-        Vec2 normal;
-        double offset = 0.0;
+    // From one mesh into disc space, in doubles.
+    class Frame {
+      public:
+        Frame(const GripMesh& mesh, const Pose& base, std::size_t first);
+        Triangle triangle(std::uint32_t slot) const;
+        std::size_t first() const { return first_; }  // of the fours that are this mesh's
+
+      private:
+        Vec3 turned(const Vec3& direction) const;
+
+        const GripMesh* mesh_;
+        std::size_t first_;
+        Vec3 base_;
+        Vec3 x_axis_;
+        Vec3 y_axis_;
+        Vec3 across_;
     };
 
     class SunkSearch;
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
-    void settle(SunkSearch& search) const;
+    const Triangle& exact(std::uint32_t place);  // four times the four, and its lane
+    void cut_triangle(const Triangle& triangle, double offset_m, std::uint32_t plane,
+                      std::vector<DiscSegment>& segments) const;
 
-    // By triangle; what is asked most lies together.
-    std::vector<FlatBounds> bounds_;
-    std::vector<Across> across_;
-    std::vector<Line> lines_;
-    std::vector<Triangle> triangles_;
-    std::size_t of_first_mesh_ = 0;
+    // Of four triangles, those in one box.
+    struct Boxed {
+        FourInts is_near = {};
+        std::uint32_t four = 0;
+    };
+
+    static constexpr std::uint32_t k_not_placed = ~0U;
+
+    // By four, in the order of the meshes and their trees.
+    std::vector<FourReached> fours_;
+    std::vector<FourInts> is_near_;  // in any box
+    std::vector<std::uint32_t> first_slot_;
+    std::vector<std::array<std::uint32_t, 4>> placed_;  // which of triangles_, or k_not_placed
+    std::array<std::vector<Boxed>, k_most_disc_links> boxed_;
+    std::size_t box_count_ = 1;
+    std::vector<Triangle> triangles_;  // those that were asked for
+    std::vector<Frame> frames_;        // by mesh
+    std::size_t of_first_mesh_ = 0;    // fours
+    double spare_m_ = 0.0;             // more than floats round off
     double radius_m_ = 0.0;
 };
 

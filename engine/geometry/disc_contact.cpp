@@ -249,14 +249,17 @@ class Closing {
                 thickest_m_[link] = std::max(thickest_m_[link], chain_.radius_m[plane][link]);
             }
         }
-        scratch_.bounds.clear();
-        scratch_.bounds.reserve(segments_.size());
-        for (const DiscSegment& segment : segments_) {
-            const Vec2 low = segment.a_ds.cwiseMin(segment.b_ds);
-            const Vec2 high = segment.a_ds.cwiseMax(segment.b_ds);
-            scratch_.bounds.push_back(
-                {FourFloats{static_cast<float>(low.x()), static_cast<float>(low.y()),
-                            static_cast<float>(-high.x()), static_cast<float>(-high.y())}});
+        scratch_.bounds.resize((segments_.size() + 3) / 4);
+        for (std::size_t i = 0; i < 4 * scratch_.bounds.size(); ++i) {
+            const DiscSegment& segment = segments_[std::min(i, segments_.size() - 1)];
+            DiscScratch::FourBounds& bounds = scratch_.bounds[i / 4];
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const auto along = static_cast<Eigen::Index>(axis);
+                const auto a = static_cast<float>(segment.a_ds[along]);
+                const auto b = static_cast<float>(segment.b_ds[along]);
+                bounds.low[axis][i % 4] = std::min(a, b);
+                bounds.high[axis][i % 4] = std::max(a, b);
+            }
         }
     }
 
@@ -340,19 +343,40 @@ class Closing {
             }
             const double m = thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_rounding_m;
             const DiscBox& box = ways.box[link];
-            const FourFloats limits = {
-                static_cast<float>(box.high.x() + m), static_cast<float>(box.high.y() + m),
-                static_cast<float>(m - box.low.x()), static_cast<float>(m - box.low.y())};
-            for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-                const std::uint32_t bit = 1U << link;
-                if (any_beyond(scratch_.bounds[i].value, limits) ||
-                    (scratch_.paired[i] & bit) != 0 ||
-                    chain_.radius_m[segments_[i].plane][link] < 0.0 || !may_touch(ways, link, i)) {
-                    continue;
+            const Limits limits = {{four_times(box.low.x() - m), four_times(box.low.y() - m)},
+                                   {four_times(box.high.x() + m), four_times(box.high.y() + m)}};
+            for (std::size_t four = 0; four < scratch_.bounds.size(); ++four) {
+                const FourInts is_near = limits.may_meet(scratch_.bounds[four]);
+                if (any_of(is_near)) {
+                    add_near_of(ways, link, four, is_near, at, is_later);
                 }
-                scratch_.paired[i] |= bit;
-                pairs_.push_back({at, 0.0, static_cast<std::uint32_t>(link), i, false, is_later});
             }
+        }
+    }
+
+    // What is beyond them on a side is not near.
+    struct Limits {
+        std::array<FourFloats, 2> low;
+        std::array<FourFloats, 2> high;
+
+        FourInts may_meet(const DiscScratch::FourBounds& bounds) const {
+            return ~((bounds.low[0] > high[0]) | (bounds.low[1] > high[1]) |
+                     (bounds.high[0] < low[0]) | (bounds.high[1] < low[1]));
+        }
+    };
+
+    void add_near_of(const Ways& ways, std::size_t link, std::size_t four, const FourInts& is_near,
+                     double at, bool is_later) {
+        const std::uint32_t bit = 1U << link;
+        const std::size_t end = std::min(4 * four + 4, segments_.size());
+        for (std::size_t s = 4 * four; s < end; ++s) {
+            const auto i = static_cast<std::uint32_t>(s);
+            if (is_near[i % 4] == 0 || (scratch_.paired[i] & bit) != 0 ||
+                chain_.radius_m[segments_[i].plane][link] < 0.0 || !may_touch(ways, link, i)) {
+                continue;
+            }
+            scratch_.paired[i] |= bit;
+            pairs_.push_back({at, 0.0, static_cast<std::uint32_t>(link), i, false, is_later});
         }
     }
 

@@ -65,9 +65,14 @@ struct DiscScratch {
         bool leaving = false;  // overlapped when its turn came, and comes apart: ignored until then
         bool seen = false;
     };
+    // Around four segments, by axis.
+    struct FourBounds {
+        std::array<FourFloats, 2> low = {};
+        std::array<FourFloats, 2> high = {};
+    };
     std::vector<Pair> pairs;            // that came near
     std::vector<std::uint32_t> paired;  // by segment, a bit for each link: is in `pairs`
-    std::vector<FlatBounds> bounds;     // around the segments
+    std::vector<FourBounds> bounds;     // four segments each, the last repeated
 };
 
 // Closes the chain from `sweep.from` on. The first link that touches stops its hinge and those

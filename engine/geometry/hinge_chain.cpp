@@ -84,13 +84,13 @@ DiscChain flat_chain(const HingeChain& chain, double plane_offset) {
     return flat;
 }
 
-ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
-                       const ChainPatch& patch, const DepthQuestion& question) {
+ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
+                       const DepthQuestion& question) {
     ChainDepth deepest;
     const auto points_ds = chain_points_ds(chain, angle_rad);
     for (std::size_t i = question.first; i < chain.link_count; ++i) {
-        const SunkCapsule sunk =
-            patch.find_sunk({points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + question.more_m);
+        const SunkCapsule sunk = patch.find_sunk({points_ds[i], points_ds[i + 1]},
+                                                 chain.radius_m[i] + question.more_m, i);
         double depth_m = sunk.depth_m;
         if (sunk.crossed_at) {
             depth_m += (1.0 - *sunk.crossed_at) * chain.length_m[i];

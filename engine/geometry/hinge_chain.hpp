@@ -68,8 +68,8 @@ struct DepthQuestion {
     double enough_m = std::numeric_limits<double>::infinity();  // as deep as this, how deep is of
                                                                 // no interest
 };
-ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad,
-                       const ChainPatch& patch, const DepthQuestion& question = {});
+ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
+                       const DepthQuestion& question = {});
 // What a thicker chain says of the chain itself, of links before `end`.
 ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 

@@ -56,6 +56,58 @@ double bounded_inverse(double x) {
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
 
+// How near triangles and boxes can be to a point at most, squared; in floats.
+class LeastDistance {
+  public:
+    // `point` about the tree's origin; no corner is beyond `reach_m`.
+    LeastDistance(const Vec3& point, double reach_m) {
+        constexpr double k_rounding = 0x1p-20;  // more than ten roundings
+        for (std::size_t i = 0; i < 3; ++i) {
+            point_[i] = four_times(point[static_cast<Eigen::Index>(i)]);
+            flat_[i] = point_[i][0];
+        }
+        spare_ = four_times(k_rounding * (reach_m + point.norm()));
+    }
+
+    float squared(const std::array<float, 3>& low, const std::array<float, 3>& high) const {
+        const FourFloats zero = {};
+        const FourFloats below = FourFloats{low[0], low[1], low[2], 0.0F} - flat_;
+        const FourFloats above = flat_ - FourFloats{high[0], high[1], high[2], 0.0F};
+        const FourFloats gap = higher(higher(below, above) - spare_, zero);
+        const FourFloats square = gap * gap;
+        return square[0] + square[1] + square[2];
+    }
+
+    // Above a triangle's plane, and from there, in the plane, to a box around the triangle.
+    FourFloats squared(const FourTriangles& four) const {
+        const FourFloats zero = {};
+        std::array<FourFloats, 3> low;
+        std::array<FourFloats, 3> high;
+        FourFloats height = zero;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const FourFloats a = four.corner[0][i] - point_[i];
+            const FourFloats b = four.corner[1][i] - point_[i];
+            const FourFloats c = four.corner[2][i] - point_[i];
+            low[i] = lower(lower(a, b), c);
+            high[i] = higher(higher(a, b), c);
+            height += four.normal[i] * a;
+        }
+        const FourFloats clear = higher(higher(height, -height) - spare_, zero);
+        FourFloats sum = clear * clear;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const FourFloats foot = height * four.normal[i];
+            const FourFloats gap = higher(higher(low[i] - foot, foot - high[i]) - spare_, zero);
+            sum += gap * gap;
+        }
+        return sum;
+    }
+
+  private:
+    std::array<FourFloats, 3> point_ = {};  // each coordinate four times
+    FourFloats flat_ = {};                  // the three, and 0
+    FourFloats spare_ = {};
+};
+
 // No more than the triangle's distance from the point, squared, but for rounding: that of a box
 // around it.
 double box_squared(const Vec3& point, const Corners& corners) {
@@ -63,7 +115,7 @@ double box_squared(const Vec3& point, const Corners& corners) {
     const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
     return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
 }
-constexpr double k_bound_slack = 1.0 + 1e-12;
+constexpr double k_bound_slack = 1.0 + 1e-5;  // floats round off less
 
 }  // namespace
 
@@ -74,12 +126,21 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
 
 std::size_t TriangleBvh::memory_bytes() const {
     return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Vec3) +
-           slots_.capacity() * sizeof(slots_[0]) + numbers_.capacity() * sizeof(numbers_[0]);
+           slots_.capacity() * sizeof(slots_[0]) + numbers_.capacity() * sizeof(numbers_[0]) +
+           fours_.capacity() * sizeof(fours_[0]);
+}
+
+double TriangleBvh::reach_m() const {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < 3 && !nodes_.empty(); ++i) {
+        most = std::max({most, nodes_[0].high[i], -nodes_[0].low[i]});
+    }
+    return static_cast<double>(most);
 }
 
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
                                double squared_radius) const {
-    const Corners triangle = corners(slot);
+    const Corners triangle = corners_at(slot);
     for (const Vec3& corner : triangle) {
         if ((corner - center).squaredNorm() <= squared_radius) {
             return true;
@@ -137,7 +198,7 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
             continue;
         }
         for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            const double fraction = meet_fraction(ray, corners(slot));
+            const double fraction = meet_fraction(ray, corners_at(slot));
             if (fraction >= 0.0 &&
                 (fraction < best || (fraction == best && numbers_[slot] < best_number))) {
                 best = fraction;
@@ -157,41 +218,50 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
         return std::nullopt;
     }
     const Vec3 local = point - origin_;
+    const LeastDistance least(local, reach_m());
     double best = max_distance_m * max_distance_m;
     TriangleHit hit;
     bool found = false;
+    const auto limit = [&]() -> float { return static_cast<float>(best * k_bound_slack); };
+    float most = limit();
     struct Open {
         std::uint32_t node;
-        double squared_distance;
+        float least;
+    };
+    const auto open_node = [&](std::uint32_t node) -> Open {
+        return {node, least.squared(nodes_[node].low, nodes_[node].high)};
     };
     std::array<Open, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
     std::size_t depth = 0;
-    stack[depth++] = {0, squared_distance(nodes_[0], local)};
+    stack[depth++] = open_node(0);
     while (depth > 0) {
         const Open open = stack[--depth];
-        if (!(open.squared_distance <= best)) {
+        if (open.least > most) {
             continue;
         }
         const Node& node = nodes_[open.node];
         if (node.count == 0) {
-            Open near = {node.first, squared_distance(nodes_[node.first], local)};
-            Open far = {node.first + 1, squared_distance(nodes_[node.first + 1], local)};
-            if (far.squared_distance < near.squared_distance) {
+            Open near = open_node(node.first);
+            Open far = open_node(node.first + 1);
+            if (far.least < near.least) {
                 std::swap(near, far);
             }
             stack[depth++] = far;
             stack[depth++] = near;
             continue;
         }
-        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            const Corners triangle = corners(slot);
-            if (box_squared(point, triangle) > best * k_bound_slack) {
+        const FourFloats squared_least = least.squared(fours_[node.first / 4]);
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            if (squared_least[i] > most) {
                 continue;
             }
+            const std::uint32_t slot = node.first + i;
+            const Corners triangle = corners_at(slot);
             const Vec3 on_triangle = closest_on_triangle(point, triangle);
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;
+                most = limit();
                 hit = {numbers_[slot], on_triangle, 0.0};
                 found = true;
             }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/geometry/turned_box.hpp"
+#include "engine/math/four_floats.hpp"
 #include "engine/math/math.hpp"
 
 // Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:
@@ -22,6 +23,12 @@ struct TriangleHit {
     std::uint32_t triangle = 0;  // as numbered at construction
     Vec3 point = Vec3::Zero();   // on the triangle
     double distance_m = 0.0;     // from the ray's start, or from the query point
+};
+
+// Four triangles side by side, in floats: for what only has to tell far from near.
+struct FourTriangles {
+    std::array<std::array<FourFloats, 3>, 3> corner = {};  // by corner and coordinate
+    std::array<FourFloats, 3> normal = {};  // by coordinate: unit, or zero where there is none
 };
 
 // Refers to nothing outside of itself, copies what it needs. No query allocates; all may run on any
@@ -46,19 +53,28 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // visit(triangle, a, b, c) for each triangle of the leaves that may meet the box, which is
-    // about origin(); with its corners. More triangles than would be needed, but the cheapest way
-    // to them; always in the tree's order.
+    // visit(first_slot, count, four) for each leaf that may meet the box, which is about origin(),
+    // as the corners of `four` are: its one to four triangles, the last repeated. More triangles
+    // than would be needed, but the cheapest way to them; always in the tree's order.
     template <typename Visit>
     void visit_near_box(const TurnedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
+    // No coordinate of a corner about the origin is beyond.
+    double reach_m() const;
+
+    // A triangle of a visited leaf.
+    std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }
+    std::array<Vec3, 3> corners_at(std::uint32_t slot) const {
+        const auto& [a, b, c] = slots_[slot];
+        return {positions_[a], positions_[b], positions_[c]};
+    }
     // False where surely no triangle is as near as radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
         return !nodes_.empty() &&
                squared_distance(nodes_.front(), point - origin_) <= radius_m * radius_m;
     }
 
-    std::size_t triangle_count() const { return numbers_.size(); }  // that can be found
+    std::size_t triangle_count() const { return triangle_count_; }  // that can be found
     std::size_t memory_bytes() const;
 
   private:
@@ -97,25 +113,16 @@ class TriangleBvh {
         }
         return sum;
     }
-    std::array<Vec3, 3> corners(std::uint32_t slot) const {
-        const auto& [a, b, c] = slots_[slot];
-        return {positions_[a], positions_[b], positions_[c]};
-    }
-    // Of coordinates about the origin.
-    double reach_m() const {
-        float most = 0.0F;
-        for (std::size_t i = 0; i < 3; ++i) {
-            most = std::max({most, nodes_[0].high[i], -nodes_[0].low[i]});
-        }
-        return static_cast<double>(most);
-    }
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
     std::vector<Node> nodes_;  // the root first
     std::vector<Vec3> positions_;
-    std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles in leaf order
-    std::vector<std::uint32_t> numbers_;               // of the triangles in leaf order
+    // In leaf order. Each leaf has four slots; those beyond its count repeat its last one.
+    std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles
+    std::vector<std::uint32_t> numbers_;               // of the triangles
+    std::vector<FourTriangles> fours_;                 // of each leaf
+    std::size_t triangle_count_ = 0;
 };
 
 template <typename Visit>
@@ -142,10 +149,7 @@ void TriangleBvh::visit_near_box(const TurnedBox& box, Visit&& visit) const {
             }
             continue;
         }
-        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            const auto& [a, b, c] = slots_[slot];
-            visit(numbers_[slot], positions_[a], positions_[b], positions_[c]);
-        }
+        visit(node.first, node.count, fours_[node.first / 4]);
     }
 }
 

@@ -10,12 +10,23 @@ namespace handhold {
 // has to tell far from near, with room to spare for what floats round off.
 using FourFloats = float __attribute__((vector_size(16)));
 
+// What comparisons of them give: each 0 or -1.
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+
+inline FourFloats four_times(double value) {
+    const auto rounded = static_cast<float>(value);
+    return FourFloats{rounded, rounded, rounded, rounded};
+}
+inline FourFloats lower(const FourFloats& a, const FourFloats& b) { return a < b ? a : b; }
+inline FourFloats higher(const FourFloats& a, const FourFloats& b) { return a > b ? a : b; }
+
+inline bool any_of(const FourInts& is_so) {
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(is_so);
+    return (halves[0] | halves[1]) != 0;
+}
 // True where any of four numbers is beyond its limit.
 inline bool any_beyond(const FourFloats& values, const FourFloats& limits) {
-    using FourInts = std::int32_t __attribute__((vector_size(16)));
-    const FourInts beyond = values > limits;
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(beyond);
-    return (halves[0] | halves[1]) != 0;
+    return any_of(values > limits);
 }
 
 // Around a box in a plane: its lowest x and y, its highest x and y less than zero. It is

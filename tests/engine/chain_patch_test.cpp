@@ -126,9 +126,9 @@ TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
         boxed.gather(reach, placed);
         of_all += all.size();
         of_boxes += boxed.size();
-        for (const std::array<Vec2, 2>& middle : middles) {
-            const SunkCapsule expected = all.find_sunk(middle, radius_m);
-            const SunkCapsule found = boxed.find_sunk(middle, radius_m);
+        for (std::size_t box = 0; box < middles.size(); ++box) {
+            const SunkCapsule expected = all.find_sunk(middles[box], radius_m, box);
+            const SunkCapsule found = boxed.find_sunk(middles[box], radius_m, box);
             EXPECT_EQ(found.depth_m, expected.depth_m);
             EXPECT_EQ(found.crossed_at, expected.crossed_at);
         }
