@@ -419,6 +419,7 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("tried_count", c.tried_count);
     visit("cost_m", c.cost_m);
     visit("has_room_m", c.has_room_m);
+    visit("was_judged", c.was_judged);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -452,6 +453,8 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("thumb_arrived", c.thumb_arrived);
     visit("thumb_search", c.thumb_search);
     visit("retry", c.retry);
+    visit("finger_tried", c.finger_tried);
+    visit("thumb_waits", c.thumb_waits);
     visit("pose_refused", c.pose_refused);
 }
 template <typename V>

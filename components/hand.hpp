@@ -37,6 +37,7 @@ struct GripSurface {
     double cost_m = 0.0;
     // Where the fingers had room: how far the hand still goes until that is asked again.
     double has_room_m = 0.0;
+    bool was_judged = false;  // in this frame: not in the next one too, and no digit closes anew
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
@@ -100,6 +101,10 @@ struct FingerPose {
     bool thumb_arrived = false;
     ThumbSearch thumb_search;
     std::array<FingerRetry, k_finger_count> retry;
+    // A hand closes one digit anew in a frame: the fingers leave the next one to a thumb that
+    // waits.
+    bool finger_tried = false;
+    bool thumb_waits = false;
     // Authored poses that would be sunk with the palm in its grip: counted already.
     std::array<bool, k_finger_count> pose_refused = {};
 };

@@ -79,8 +79,10 @@ class ChainFitter {
         scratch_.disc.pairs.reserve(k_usual_segments);
         scratch_.disc.paired.reserve(k_usual_segments);
         scratch_.disc.bounds.reserve(k_usual_segments);
-        scratch_.patch.gather(
-            {chain_.base, reach_m(chain_), half_width_m(chain_, settings_.plane_offset)}, meshes_);
+        ChainReach reach = chain_reach(chain_, lowest(chain_.open_rad, chain_.relaxed_rad),
+                                       highest(chain_.closed_rad, chain_.relaxed_rad));
+        reach.half_width_m = half_width_m(chain_, settings_.plane_offset);
+        scratch_.patch.gather(reach, meshes_);
         scratch_.cuts.clear();
         for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
             const std::size_t first = scratch_.cuts.size();

@@ -59,54 +59,16 @@ class ChainRefitter {
 
     // And what it can come to until it is closed, or relaxed.
     void gather_all(std::span<const PlacedMesh> meshes) {
-        ChainAngles least_rad = fit_.angle_rad;
-        ChainAngles most_rad = chain_.closed_rad;
-        for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            least_rad[i] = std::min(least_rad[i], chain_.relaxed_rad[i]);
-            most_rad[i] = std::max(most_rad[i], chain_.relaxed_rad[i]);
-        }
-        gather_between(least_rad, most_rad, meshes);
+        gather_between(lowest(fit_.angle_rad, chain_.relaxed_rad),
+                       highest(chain_.closed_rad, chain_.relaxed_rad), meshes);
     }
 
     // With each hinge anywhere between two angles.
     void gather_between(const ChainAngles& least_rad, const ChainAngles& most_rad,
                         std::span<const PlacedMesh> meshes) {
-        ChainReach reach = {chain_.base, reach_m(chain_),
-                            half_width_m(chain_, settings_.plane_offset)};
-        ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
-        std::array<double, 2> turn_rad = {};
-        for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            turn_rad[0] += least_rad[i];
-            turn_rad[1] += most_rad[i];
-            const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
-            const ReachBox next = {hinge.low + chain_.length_m[i] * link.low,
-                                   hinge.high + chain_.length_m[i] * link.high};
-            const double margin_m = chain_.radius_m[i] + refit_.still_gap_m;
-            reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - margin_m;
-            reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + margin_m;
-            hinge = next;
-        }
-        reach.box_count = chain_.link_count;
+        ChainReach reach = chain_reach(chain_, least_rad, most_rad, refit_.still_gap_m);
+        reach.half_width_m = half_width_m(chain_, settings_.plane_offset);
         scratch_.patch.gather(reach, meshes);
-    }
-
-    // Around the unit circle's points from one angle to another.
-    static ReachBox arc_box(double from_rad, double to_rad) {
-        constexpr double k_piece_rad = 0.5;
-        const int pieces = 2 + static_cast<int>((to_rad - from_rad) / k_piece_rad);
-        const double piece_rad = (to_rad - from_rad) / pieces;
-        ReachBox box = {Vec2::Constant(1.0), Vec2::Constant(-1.0)};
-        for (int i = 0; i <= pieces; ++i) {
-            double sine = 0.0;
-            double cosine = 1.0;
-            sin_cos(from_rad + i * piece_rad, sine, cosine);
-            box.low = box.low.cwiseMin(Vec2(cosine, sine));
-            box.high = box.high.cwiseMax(Vec2(cosine, sine));
-        }
-        const double bulge = piece_rad * piece_rad / 8.0;  // no arc is farther from its chord
-        box.low.array() -= bulge;
-        box.high.array() += bulge;
-        return box;
     }
 
     ChainDepth depth_of(const ChainAngles& angle_rad, double more_m) const {

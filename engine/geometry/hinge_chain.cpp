@@ -10,6 +10,25 @@ Vec3 from_disc(const Pose& base, const Vec2& point_ds) {
     return base.position + base.rotation * Vec3(0.0, -point_ds.y(), -point_ds.x());
 }
 
+// Around the unit circle's points from one angle to another.
+ReachBox arc_box(double from_rad, double to_rad) {
+    constexpr double k_piece_rad = 0.5;
+    const int pieces = 2 + static_cast<int>((to_rad - from_rad) / k_piece_rad);
+    const double piece_rad = (to_rad - from_rad) / pieces;
+    ReachBox box = {Vec2::Constant(1.0), Vec2::Constant(-1.0)};
+    for (int i = 0; i <= pieces; ++i) {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(from_rad + i * piece_rad, sine, cosine);
+        box.low = box.low.cwiseMin(Vec2(cosine, sine));
+        box.high = box.high.cwiseMax(Vec2(cosine, sine));
+    }
+    const double bulge = piece_rad * piece_rad / 8.0;  // no arc is farther from its chord
+    box.low.array() -= bulge;
+    box.high.array() += bulge;
+    return box;
+}
+
 }  // namespace
 
 std::array<Capsule, k_most_disc_links> chain_capsules(const HingeChain& chain,
@@ -66,6 +85,42 @@ double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t 
 
 double half_width_m(const HingeChain& chain, double plane_offset) {
     return std::max(thickest_m(chain), plane_offset_m(chain, plane_offset, 1));
+}
+
+ChainReach chain_reach(const HingeChain& chain, const ChainAngles& least_rad,
+                       const ChainAngles& most_rad, double more_m) {
+    ChainReach reach = {chain.base, reach_m(chain), thickest_m(chain)};
+    ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
+    std::array<double, 2> turn_rad = {};
+    for (std::size_t i = 0; i < chain.link_count; ++i) {
+        turn_rad[0] += least_rad[i];
+        turn_rad[1] += most_rad[i];
+        const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
+        const ReachBox next = {hinge.low + chain.length_m[i] * link.low,
+                               hinge.high + chain.length_m[i] * link.high};
+        const double margin_m = chain.radius_m[i] + more_m;
+        reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - margin_m;
+        reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + margin_m;
+        hinge = next;
+    }
+    reach.box_count = chain.link_count;
+    return reach;
+}
+
+ChainAngles lowest(const ChainAngles& a, const ChainAngles& b) {
+    ChainAngles low = a;
+    for (std::size_t i = 0; i < low.size(); ++i) {
+        low[i] = std::min(a[i], b[i]);
+    }
+    return low;
+}
+
+ChainAngles highest(const ChainAngles& a, const ChainAngles& b) {
+    ChainAngles high = a;
+    for (std::size_t i = 0; i < high.size(); ++i) {
+        high[i] = std::max(a[i], b[i]);
+    }
+    return high;
 }
 
 DiscChain flat_chain(const HingeChain& chain, double plane_offset) {

@@ -47,6 +47,14 @@ double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t 
 // Of all that the chain and its planes can meet.
 double half_width_m(const HingeChain& chain, double plane_offset);
 
+// Where the chain can be with each hinge anywhere between two angles, and `more_m` thicker: a box
+// for each link. As wide as its thickest link.
+ChainReach chain_reach(const HingeChain& chain, const ChainAngles& least_rad,
+                       const ChainAngles& most_rad, double more_m = 0.0);
+// By hinge.
+ChainAngles lowest(const ChainAngles& a, const ChainAngles& b);
+ChainAngles highest(const ChainAngles& a, const ChainAngles& b);
+
 // As its planes cut it; closes from fully open to fully closed.
 DiscChain flat_chain(const HingeChain& chain, double plane_offset);
 

@@ -43,6 +43,7 @@ class ThumbPoser {
         const HandSurroundings& hand = io_.hands[place];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
+        pose.thumb_waits = false;
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
             rest(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
             if (const auto posed = posed_in(hand, thumb)) {
@@ -207,7 +208,10 @@ class ThumbPoser {
             retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
         }
-        return may_retry(retry) ? change_if_better(hand, thumb, f, kept, pose) : kept;
+        const bool is_turn =
+            std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
+        pose.thumb_waits = may_retry(retry) && !is_turn;
+        return may_retry(retry) && is_turn ? change_if_better(hand, thumb, f, kept, pose) : kept;
     }
 
     // One opposition at a time: a hand that slides never pays for more in one frame.

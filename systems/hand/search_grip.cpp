@@ -219,6 +219,10 @@ class PalmHolder {
         searcher.add_seed(before);
         searcher.run(k_patience);
         const bool is_known = before < mesh.search.triangles.size();
+        if (is_known && last.was_judged && !std::isinf(dt_s_) &&
+            rest(placed, palm, searcher, last, surface)) {
+            return;
+        }
         if (is_known && last.tried_count == 0 &&
             (stay(placed, palm, searcher, last, surface) ||
              keep_room(placed, palm, searcher, last, surface))) {
@@ -251,6 +255,24 @@ class PalmHolder {
         constexpr double k_at_once_m = 5e-4;
         const double least_m = std::isinf(dt_s_) ? k_at_once_m : k_time_mps * dt_s_;
         return left_m - std::max(hand_way_m(last.wrist_bs, hand_.wrist_bs), least_m);
+    }
+
+    // No surface is judged in two frames in a row: digits have their turn. False where it is gone.
+    bool rest(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+              const GripSurface& last, GripSurface& surface) const {
+        constexpr double k_next_m = 1e-9;
+        const auto near = near_last(placed, searcher, last);
+        if (near) {
+            surface = held_at(placed, palm, *near).surface;
+            surface.cost_m = last.cost_m;
+            surface.tried = last.tried;
+            surface.tried_count = last.tried_count;
+            surface.has_room_m = std::max(still_to_go_m(last.has_room_m, last), 0.0);
+            surface.look_in_m = last.look_in_m > 0.0
+                                    ? std::max(still_to_go_m(last.look_in_m, last), k_next_m)
+                                    : 0.0;
+        }
+        return near.has_value();
     }
 
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
@@ -321,6 +343,7 @@ class PalmHolder {
             --left;
             const auto cheapest = searcher.cheapest_beside({});
             if (best.has_room && cheapest && is_near_last(placed, *cheapest, best.surface)) {
+                best.surface.was_judged = true;
                 return best.surface;
             }
         }
@@ -352,6 +375,7 @@ class PalmHolder {
         if (count == 0) {
             return {};
         }
+        best.surface.was_judged = true;
         const bool is_cheapest = count == 1 && best.has_room && !near;
         best.surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
         best.surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(count);
@@ -480,6 +504,7 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
                                 (surface.look_in_m > 0.0 && surface.look_in_m < k_look_again_m);
         if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&
             !is_to_look && hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
+            surface.was_judged = false;
             continue;
         }
         PalmHolder(hand, io.dt_s, tuning, search, io.scratch).run(surface);

@@ -58,6 +58,7 @@ class HandCloser {
         const GripSurface& surface = io_.surface.at(hand.hand);
         const PalmOffset& offset = io_.offset.at(hand.hand);
         FingerPose& pose = io_.fingers.at(hand.hand);
+        pose.finger_tried = false;
         if (surface.triangle == GripSurface::k_none) {
             rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
             pose_unverified(hand, pose);
@@ -153,7 +154,10 @@ class HandCloser {
                 retry.tries = 0;
             }
         }
-        if (neediest != k_finger_count && closings > 0) {
+        const bool is_turn =
+            std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.thumb_waits);
+        pose.finger_tried = neediest != k_finger_count && closings > 0 && is_turn;
+        if (pose.finger_tried) {
             change_if_better(hand, wrist_bs, neediest, pose);
         }
         double depth_m = 0.0;
