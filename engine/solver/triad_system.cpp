@@ -304,6 +304,14 @@ void TriadSystem::evaluate_velocities(const IslandView& island) {
 
 double TriadSystem::worst_value() { return std::sqrt(kernels_->worst_square(arrays())); }
 
+double TriadSystem::worst_hand_value() const {
+    double worst = 0.0;
+    for (std::size_t i = 0; has_hand_ && i < hands_.size(); ++i) {
+        worst = hands_[i] != 0 ? std::max(worst, dot3(values_[i].v, values_[i].v)) : worst;
+    }
+    return std::sqrt(worst);
+}
+
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
     stiffness_.resize(bodies_.size());

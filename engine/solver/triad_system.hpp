@@ -39,6 +39,7 @@ class TriadSystem {
     // The same of the velocities, m/s, against what drives the hands; at the arms of `evaluate`.
     void evaluate_velocities(const IslandView& island);
     double worst_value();
+    double worst_hand_value() const;  // of the hands' alone
 
     void clear_stiffness() { is_stiff_ = false; }
     // From the last multipliers and the present arms.
