@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/flush_denormals.hpp"
 #include "engine/solver/geometric_stiffness.hpp"
 
 namespace handhold {
@@ -396,6 +397,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
                              SolveScratch& scratch) {
     // Positions may bring any contact near: not one may be left out.
     constexpr double k_touch_m = std::numeric_limits<double>::infinity();
+    const FlushDenormals flush;
     return scratch.triads.load(island, k_touch_m)
                ? iterate(settings, TriadSteps(island, scratch.triads))
                : iterate(settings, RowSteps(island, scratch));
