@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t k_strands = 4;
 constexpr std::uint32_t k_separators = k_strands - 1;
 // Shorter strands do not pay for their separators.
-constexpr std::uint32_t k_shortest_strand = 8;
+constexpr std::uint32_t k_shortest_strand = 4;
 
 // The other side of the same node.
 std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }

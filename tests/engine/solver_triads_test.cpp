@@ -92,7 +92,7 @@ SolverScene random_island(Random& random) {
 // is held still, or a hundred times as heavy.
 SolverScene random_rope(Random& random) {
     SolverScene scene;
-    const std::uint32_t links = 36 + random_index(115, random);
+    const std::uint32_t links = 20 + random_index(130, random);
     scene.graph.bodies = {test::fixed_body(1, test::random_pose(random))};
     const auto tie = [&](RowKind kind, std::uint32_t a, std::uint32_t b) {
         RowBlock block = test::random_block(kind, a, b, random);
