@@ -65,18 +65,17 @@ void TriadPlan::take_steps() {
 }
 
 void TriadPlan::find_places() {
-    places_.assign(turns_.size(), k_no_slot);
-    std::uint32_t place = 0;
+    slots_.clear();
     for (const Lanes& row : strands_.bodies()) {
-        for (const std::uint32_t slot : row) {
-            if (slot != k_no_slot) {
-                places_[slot] = place;
-            }
-            ++place;
-        }
+        slots_.insert(slots_.end(), row.begin(), row.end());
     }
-    for (const std::uint32_t slot : strands_.rest_slots()) {
-        places_[slot] = place++;
+    const std::span<const std::uint32_t> rest = strands_.rest_slots();
+    slots_.insert(slots_.end(), rest.begin(), rest.end());
+    places_.assign(turns_.size(), k_no_slot);
+    for (std::uint32_t place = 0; place < slots_.size(); ++place) {
+        if (slots_[place] != k_no_slot) {
+            places_[slots_[place]] = place;
+        }
     }
 }
 

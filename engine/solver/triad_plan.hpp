@@ -50,9 +50,8 @@ class TriadPlan {
     std::span<const std::uint32_t> rest() const { return strands_.rest(); }
     // Where the body of a slot stands: 4 * its four + its lane. Rows of strands come first.
     std::span<const std::uint32_t> places() const { return places_; }
-    std::size_t place_count() const {
-        return k_lanes * strands_.row_count() + strands_.rest_slots().size();
-    }
+    // By place: the slot; k_no_slot where a strand has no body.
+    std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t four_count() const { return strands_.row_count() + groups_.size(); }
     // The given nodes' ends (2 * node + side), of four bodies each, as they are packed: two for
     // each row of a strand, that of the node before and that of the one after, then `ends()`.
@@ -136,6 +135,7 @@ class TriadPlan {
     std::vector<Braid> braids_;
     std::vector<Hold> holds_;
     std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t> slots_;
     std::vector<Lanes> packed_ends_;
     std::vector<Group> groups_;
     std::vector<Lanes> ends_;

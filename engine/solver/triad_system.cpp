@@ -80,9 +80,11 @@ void TriadSystem::read_bodies(const IslandView& island) {
 void TriadSystem::pack_bodies(const IslandView& island) {
     const TriadPlan& plan = plans_.current();
     bodies_.resize(plan.four_count());  // of other islands: all that counts is written
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const std::uint32_t place = places()[slot];
-        pack(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place));
+    for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
+        const std::uint32_t slot = plan.slots()[place];
+        if (slot != k_no_slot) {
+            pack(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place));
+        }
     }
     for (const Anchor& anchor : anchors_) {
         if (anchor.place != k_no_slot) {
@@ -90,15 +92,18 @@ void TriadSystem::pack_bodies(const IslandView& island) {
                  four_of(anchor.place));
         }
     }
-    for (std::size_t place = plan.place_count(); place < k_lanes * bodies_.size(); ++place) {
+    for (std::size_t place = plan.slots().size(); place < k_lanes * bodies_.size(); ++place) {
         pack({}, place % k_lanes, bodies_[place / k_lanes]);
     }
 }
 
 void TriadSystem::pack_velocities(const IslandView& island) {
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const std::uint32_t place = places()[slot];
-        pack_velocity(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place));
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        if (slots[place] != k_no_slot) {
+            pack_velocity(island.bodies[body_indices_[slots[place]]], place % k_lanes,
+                          four_of(place));
+        }
     }
     for (const Anchor& anchor : anchors_) {
         if (anchor.place != k_no_slot) {
@@ -183,9 +188,10 @@ bool TriadSystem::is_as_loaded(const IslandView& island) const {
     if (!std::ranges::equal(body_indices_, island.island_bodies)) {
         return false;
     }
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const std::uint32_t place = places()[slot];
-        if (!is_as_packed(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place))) {
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        if (slots[place] != k_no_slot && !is_as_packed(island.bodies[body_indices_[slots[place]]],
+                                                       place % k_lanes, four_of(place))) {
             return false;
         }
     }
@@ -274,22 +280,24 @@ TriadArrays TriadSystem::arrays() {
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const FourBodies& bodies = four_of(places()[slot]);
-        const std::size_t lane = places()[slot] % k_lanes;
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        const FourBodies& bodies = four_of(place);
+        const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            island.bodies[body_indices_[slot]].pose_ws = {vec3_in_lane(lane, bodies.position),
-                                                          quat_in_lane(lane, bodies.rotation)};
+            island.bodies[body_indices_[slots[place]]].pose_ws = {
+                vec3_in_lane(lane, bodies.position), quat_in_lane(lane, bodies.rotation)};
         }
     }
 }
 
 void TriadSystem::store_velocities(const IslandView& island) const {
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const FourBodies& bodies = four_of(places()[slot]);
-        const std::size_t lane = places()[slot] % k_lanes;
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        const FourBodies& bodies = four_of(place);
+        const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            SolverBody& body = island.bodies[body_indices_[slot]];
+            SolverBody& body = island.bodies[body_indices_[slots[place]]];
             body.velocity_mps = vec3_in_lane(lane, bodies.velocity);
             body.spin_radps = vec3_in_lane(lane, bodies.spin);
         }
@@ -317,7 +325,8 @@ void TriadSystem::store_velocities(const IslandView& island) const {
 Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const {
     const std::uint32_t slot = nodes_[end / 2].slots[end % 2];
     if (slot != k_no_slot) {
-        return quat_in_lane(places()[slot] % k_lanes, four_of(places()[slot]).rotation);
+        const std::uint32_t place = plans_.current().places()[slot];
+        return quat_in_lane(place % k_lanes, four_of(place).rotation);
     }
     const RowBlock& block = island.blocks[triads_[end / 2].block];
     return island.bodies[end % 2 == 0 ? block.a : block.b].pose_ws.rotation;

@@ -86,7 +86,6 @@ class TriadSystem {
     const FourBodies& four_of(std::uint32_t place) const {
         return bodies_[place / TriadPlan::k_lanes];
     }
-    std::span<const std::uint32_t> places() const { return plans_.current().places(); }
     bool is_as_loaded(const IslandView& island) const;
     Quat rotation_at(const IslandView& island, std::uint32_t end) const;
     double hand_size() const;
