@@ -21,6 +21,7 @@ struct RowNode {
     std::uint32_t slots[2] = {k_no_slot, k_no_slot};  // of the bodies that move; a's, b's
     std::uint32_t width = 0;                          // rows
     bool is_soft = false;  // all of them have so large an alpha that it can serve as their pivot
+    bool is_link = false;  // a point held on a point by nothing soft: may lie in a strand
     bool operator==(const RowNode&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/flush_denormals.hpp"
 #include "engine/solver/geometric_stiffness.hpp"
 
 namespace handhold {
@@ -23,6 +24,9 @@ constexpr double k_largest_turn_rad = 1.0;  // of a step
 constexpr double k_largest_joint_move = 10.0;
 constexpr double k_free_move_m = 0.1;     // no move is too far up to this
 constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of scaling further
+// Of the tolerance: the view goes where hands are, and shows what they lack. What a step leaves of
+// it the same factor takes away.
+constexpr double k_hand_share = 0.1;
 
 // --- Any rows ----------------------------------------------------------------------------------
 
@@ -87,6 +91,17 @@ double worst_of(std::span<const Row> rows) {
     return worst;
 }
 
+// The same of hands alone.
+double worst_hand_of(std::span<const Row> rows) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
+        if (rows[i].group == RowGroup::hand) {
+            worst = std::max(worst, worst_of(rows.subspan(i, rows[i].width)));
+        }
+    }
+    return worst;
+}
+
 // Returns the longest step, metres.
 double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
     double longest_move = 0.0;
@@ -135,6 +150,7 @@ class RowSteps {
         }
     }
     double worst_m() const { return worst_of(scratch_.rows); }
+    double worst_hand_m() const { return worst_hand_of(scratch_.rows); }
     double overlap_m() const { return worst_overlap_of(scratch_.rows); }
     bool has_contact() const { return handhold::has_contact(scratch_.rows); }
     bool is_unsettled() const { return scratch_.system.is_unsettled(); }
@@ -246,6 +262,7 @@ class TriadSteps {
     void evaluate(bool /*was_whole*/) { system_.evaluate(island_); }
     static void renew() {}
     double worst_m() { return system_.worst_value(); }
+    double worst_hand_m() const { return system_.worst_hand_value(); }
     static double overlap_m() { return 0.0; }
     static bool has_contact() { return false; }
     static bool is_unsettled() { return false; }
@@ -341,19 +358,22 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
     double previous_overlap = previous;
     double least = previous;
     StepResult step{previous, false};
+    bool polishes = false;  // the step to come, or just taken, is for hands alone
     for (;;) {
         steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
-        if (result.converged || result.iterations == settings.max_iterations ||
+        polishes = result.converged && !polishes && step.whole && steps.keeps_factor() &&
+                   steps.worst_hand_m() > k_hand_share * settings.tolerance_m;
+        if ((result.converged && !polishes) || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m) {
             steps.finish();
             return result;
         }
         const double overlap = steps.overlap_m();
-        const bool repeats =
-            step.whole && steps.keeps_factor() &&
-            is_good_step(result.residual_m, previous, steps.has_cheap_factor(), settings);
+        const bool repeats = polishes || (step.whole && steps.keeps_factor() &&
+                                          is_good_step(result.residual_m, previous,
+                                                       steps.has_cheap_factor(), settings));
         if (!repeats) {
             steps.renew();
         }
@@ -377,6 +397,7 @@ NewtonResult solve_positions(const IslandView& island, const NewtonSettings& set
                              SolveScratch& scratch) {
     // Positions may bring any contact near: not one may be left out.
     constexpr double k_touch_m = std::numeric_limits<double>::infinity();
+    const FlushDenormals flush;
     return scratch.triads.load(island, k_touch_m)
                ? iterate(settings, TriadSteps(island, scratch.triads))
                : iterate(settings, RowSteps(island, scratch));

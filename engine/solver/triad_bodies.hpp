@@ -11,6 +11,8 @@ namespace handhold::triads {
 
 // --- Poses and ends ----------------------------------------------------------------------------
 
+HH_INLINE Wide3 zero_three() { return {zero_four(), zero_four(), zero_four()}; }
+
 HH_INLINE void write_ends(const Wide3& parts, const TriadPlan::Lanes& lanes,
                           const TriadArrays& arrays) {
     const Wide4 rows = to_rows(parts);
@@ -26,36 +28,46 @@ HH_INLINE void add_up_ends(const TriadArrays& arrays) {
     }
 }
 
+HH_INLINE void write_axes(FourBodies& bodies) {
+    const WideAxes axes = axes_of(bodies.rotation);
+    assign(axes.x, bodies.axes.x);
+    assign(axes.y, bodies.axes.y);
+    assign(axes.z, bodies.axes.z);
+}
+// An end's part in its triad's value; its arm on the way.
+HH_INLINE Wide3 part_of(const FourBodies& bodies, FourEnds& end) {
+    const Wide3 arm = rotate(bodies.axes, end.point_bs);
+    assign(arm, end.arm);
+    return end.sign * bodies.position + arm;
+}
+
 HH_INLINE void evaluate(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        FourBodies& bodies = arrays.bodies[i];
-        const WideAxes axes = axes_of(bodies.rotation);
-        assign(axes.x, bodies.axes.x);
-        assign(axes.y, bodies.axes.y);
-        assign(axes.z, bodies.axes.z);
-        for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
-            FourEnds& ends = arrays.body_ends[j];
-            const Wide3 arm = rotate(axes, ends.point_bs);
-            assign(arm, ends.arm);
-            write_ends(ends.sign * bodies.position + arm, arrays.plan->ends()[j], arrays);
+        FourBodies& bodies = arrays.bodies[groups[i].four];
+        write_axes(bodies);
+        for (std::uint32_t j = 0; j < groups[i].width; ++j) {
+            FourEnds& ends = arrays.body_ends[groups[i].packed + j];
+            write_ends(part_of(bodies, ends), arrays.plan->ends()[groups[i].ends + j], arrays);
         }
     }
     add_up_ends(arrays);
 }
 
 template <bool HasTurn>
+HH_INLINE Wide3 speed_of(const FourBodies& bodies, const FourEnds& end) {
+    const Wide3 speed = end.sign * bodies.velocity + cross(bodies.spin, end.arm);
+    return HasTurn ? speed + end.lever * bodies.spin : speed;
+}
+
+template <bool HasTurn>
 HH_INLINE void evaluate_velocities(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        const FourBodies& bodies = arrays.bodies[i];
-        for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
-            const FourEnds& ends = arrays.body_ends[j];
-            Wide3 speed = ends.sign * bodies.velocity + cross(bodies.spin, ends.arm);
-            if (HasTurn) {
-                speed = speed + ends.lever * bodies.spin;
-            }
-            write_ends(speed, arrays.plan->ends()[j], arrays);
+        const FourBodies& bodies = arrays.bodies[groups[i].four];
+        for (std::uint32_t j = 0; j < groups[i].width; ++j) {
+            write_ends(speed_of<HasTurn>(bodies, arrays.body_ends[groups[i].packed + j]),
+                       arrays.plan->ends()[groups[i].ends + j], arrays);
         }
     }
     add_up_ends(arrays);
@@ -95,11 +107,11 @@ HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
             (axes.x.y * x.z + axes.y.y * y.z) + axes.z.y * z.z};
 }
 
-HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m) {
+HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Four& times) {
     const Four xx = m.yy * m.zz - m.yz * m.yz;
     const Four xy = m.xz * m.yz - m.xy * m.zz;
     const Four xz = m.xy * m.yz - m.xz * m.yy;
-    const Four factor = 1.0 / ((m.xx * xx + m.xy * xy) + m.xz * xz);
+    const Four factor = times / ((m.xx * xx + m.xy * xy) + m.xz * xz);
     return {factor * xx,
             factor * (m.xx * m.zz - m.xz * m.xz),
             factor * (m.xx * m.yy - m.xy * m.xy),
@@ -108,16 +120,17 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m) {
             factor * (m.xy * m.xz - m.xx * m.yz)};
 }
 
+// Inertia is taken times the product of its inverses, which one division at the end makes good.
 HH_INLINE WideSymmetric stiff_inverse(const FourBodies& bodies, const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
     const FourBits may_turn = ((in.x + in.y) + in.z) > 0.0;
-    const Four one = zero_four() + 1.0;
-    const Wide3 inertia_bs{may_turn ? 1.0 / in.x : one, may_turn ? 1.0 / in.y : one,
-                           may_turn ? 1.0 / in.z : one};
-    const WideSymmetric plain = to_world(bodies.axes, inertia_bs);
-    const WideSymmetric inverse =
-        inverse_of({plain.xx + stiffness.xx, plain.yy + stiffness.yy, plain.zz + stiffness.zz,
-                    plain.xy + stiffness.xy, plain.xz + stiffness.xz, plain.yz + stiffness.yz});
+    const Four yz = in.y * in.z;
+    const Four scale = in.x * yz;
+    const WideSymmetric m = to_world(bodies.axes, {yz, in.x * in.z, in.x * in.y});
+    const WideSymmetric inverse = inverse_of(
+        {m.xx + scale * stiffness.xx, m.yy + scale * stiffness.yy, m.zz + scale * stiffness.zz,
+         m.xy + scale * stiffness.xy, m.xz + scale * stiffness.xz, m.yz + scale * stiffness.yz},
+        scale);
     const Four zero = zero_four();
     return {may_turn ? inverse.xx : zero, may_turn ? inverse.yy : zero,
             may_turn ? inverse.zz : zero, may_turn ? inverse.xy : zero,
@@ -152,9 +165,14 @@ HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric
     const Wide3 bent = force - ratio * arm;
     const Wide3 axis{is_straight ? force.x : bent.x, is_straight ? force.y : bent.y,
                      is_straight ? force.z : bent.z};
-    const Four of_axis =
-        is_straight ? -product / force_square : 0.5 * (product + along) / dot(bent, bent);
-    const Four of_normal = (pulls & ~is_straight) ? along / normal_square : zero;
+    // One division for two: what does not count is divided by 1.
+    const FourBits has_normal = pulls & ~is_straight;
+    const Four one = zero + 1.0;
+    const Four axis_size = is_straight ? force_square : dot(bent, bent);
+    const Four normal_size = has_normal ? normal_square : one;
+    const Four by = 1.0 / (axis_size * normal_size);
+    const Four of_axis = (is_straight ? -product : 0.5 * (product + along)) * (normal_size * by);
+    const Four of_normal = has_normal ? along * (axis_size * by) : zero;
     const Four of_all = (counts & is_straight) ? product : zero;
     add_outer(axis, counts ? of_axis : zero, out);
     add_outer(normal, counts ? of_normal : zero, out);
@@ -173,10 +191,11 @@ HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
     const Four zero = zero_four();
     for (std::size_t i = 0; i < groups.size(); ++i) {
         WideSymmetric sum{zero, zero, zero, zero, zero, zero};
-        for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
-            add_stiffness(lambdas_of(arrays.plan->ends()[j], arrays), arrays.body_ends[j].arm, sum);
+        for (std::uint32_t j = 0; j < groups[i].width; ++j) {
+            add_stiffness(lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays),
+                          arrays.body_ends[groups[i].packed + j].arm, sum);
         }
-        assign(sum, arrays.stiffness[i]);
+        assign(sum, arrays.stiffness[groups[i].four]);
     }
 }
 
@@ -227,7 +246,7 @@ template <bool HasTurn>
 HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Group& group,
                                  const TriadArrays& arrays) {
     const TriadPlan::Pair* pair = arrays.plan->pairs().data() + group.pairs;
-    const FourEnds* const ends = arrays.body_ends.data() + group.ends;
+    const FourEnds* const ends = arrays.body_ends.data() + group.packed;
     for (std::uint32_t i = 0; i < group.width; ++i) {
         Wide3 side[3];
         write_side<HasTurn>(bodies.inverse_inertia, ends[i], side);
@@ -248,6 +267,15 @@ HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Grou
     }
 }
 
+HH_INLINE void write_inertia(std::size_t four, const TriadArrays& arrays) {
+    FourBodies& bodies = arrays.bodies[four];
+    if (arrays.is_stiff) {
+        assign(stiff_inverse(bodies, arrays.stiffness[four]), bodies.inverse_inertia);
+    } else {
+        assign(to_world(bodies.axes, bodies.inverse_inertia_bs), bodies.inverse_inertia);
+    }
+}
+
 HH_INLINE void multiply_out(const TriadArrays& arrays) {
     for (const std::uint32_t zero : arrays.plan->zeros()) {
         Rows3& block = arrays.blocks[zero];
@@ -257,9 +285,8 @@ HH_INLINE void multiply_out(const TriadArrays& arrays) {
     }
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        FourBodies& bodies = arrays.bodies[i];
-        bodies.inverse_inertia = arrays.is_stiff ? stiff_inverse(bodies, arrays.stiffness[i])
-                                                 : to_world(bodies.axes, bodies.inverse_inertia_bs);
+        FourBodies& bodies = arrays.bodies[groups[i].four];
+        write_inertia(groups[i].four, arrays);
         if (arrays.has_turn) {
             multiply_out_four<true>(bodies, groups[i], arrays);
         } else {
@@ -270,32 +297,51 @@ HH_INLINE void multiply_out(const TriadArrays& arrays) {
 
 // --- Moves -------------------------------------------------------------------------------------
 
+struct WideWrench {
+    Wide3 impulse, couple;
+};
+
+HH_INLINE void add_end(const FourEnds& end, const Wide3& lambda, bool has_turn, WideWrench& out) {
+    out.impulse = out.impulse + end.sign * lambda;
+    out.couple = out.couple + cross(end.arm, lambda);
+    if (has_turn) {
+        out.couple = out.couple + end.lever * lambda;
+    }
+}
+
+struct WideReach {
+    Four move = zero_four();
+    Four turn = zero_four();
+};
+
+HH_INLINE void take_moves(const WideWrench& wrench, FourBodies& bodies, WideReach& reach) {
+    const Wide3 move = bodies.inverse_mass * wrench.impulse;
+    const Wide3 turn = multiply(bodies.inverse_inertia, wrench.couple);
+    assign(move, bodies.move);
+    assign(turn, bodies.turn);
+    reach.move = larger(reach.move, dot(move, move));
+    reach.turn = larger(reach.turn, dot(turn, turn));
+}
+
 // W J^T lambda.
 HH_INLINE TriadReach gather_moves(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
-    Four longest_move = zero_four();
-    Four longest_turn = zero_four();
+    WideReach reach;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        FourBodies& bodies = arrays.bodies[i];
-        Wide3 impulse{zero_four(), zero_four(), zero_four()};
-        Wide3 couple = impulse;
-        for (std::uint32_t j = groups[i].ends; j < groups[i].ends + groups[i].width; ++j) {
-            const FourEnds& end = arrays.body_ends[j];
-            const Wide3 lambda = lambdas_of(arrays.plan->ends()[j], arrays);
-            impulse = impulse + end.sign * lambda;
-            couple = couple + cross(end.arm, lambda);
-            if (arrays.has_turn) {
-                couple = couple + end.lever * lambda;
-            }
+        WideWrench wrench{zero_three(), zero_three()};
+        for (std::uint32_t j = 0; j < groups[i].width; ++j) {
+            add_end(arrays.body_ends[groups[i].packed + j],
+                    lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays), arrays.has_turn,
+                    wrench);
         }
-        const Wide3 move = bodies.inverse_mass * impulse;
-        const Wide3 turn = multiply(bodies.inverse_inertia, couple);
-        assign(move, bodies.move);
-        assign(turn, bodies.turn);
-        longest_move = larger(longest_move, dot(move, move));
-        longest_turn = larger(longest_turn, dot(turn, turn));
+        take_moves(wrench, arrays.bodies[groups[i].four], reach);
     }
-    return {largest(longest_move), largest(longest_turn)};
+    return {largest(reach.move), largest(reach.turn)};
+}
+
+HH_INLINE TriadReach longer(const TriadReach& a, const TriadReach& b) {
+    return {a.move_square > b.move_square ? a.move_square : b.move_square,
+            a.turn_square > b.turn_square ? a.turn_square : b.turn_square};
 }
 
 // Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one. What does not turn

@@ -161,12 +161,16 @@ HH_INLINE void invert_step(std::size_t place, const Alpha& alpha, const TriadArr
     invert(block, diagonal, arrays.inverses[place]);
 }
 
-HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+// Blocks are compared with the diagonal before others take their share of it.
+HH_INLINE void note_diagonals(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
-    // Blocks are compared with the diagonal before others take their share of it.
     for (std::size_t i = 0; i < steps.size(); ++i) {
         arrays.unknowns[i].v = diagonal_of(arrays.blocks[steps[i].own]);
     }
+}
+
+HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
     const Alpha alpha{zero_four() + hand_alpha, joint_alpha};
     for (std::size_t i = 0; i < steps.size(); ++i) {
         // An inverse takes long and waits for nothing but its own block: the next one's goes on
@@ -181,11 +185,14 @@ HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double jo
     }
 }
 
-HH_INLINE void substitute(const TriadArrays& arrays) {
-    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
+HH_INLINE void negate_values(const TriadArrays& arrays) {
     for (std::size_t i = 0; i < arrays.values.size(); ++i) {
         arrays.lambdas[i].v = -arrays.values[i].v;
     }
+}
+
+HH_INLINE void substitute(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
     // Blocks and later nodes lie in the order of the steps: each step's own block, then its others.
     const Rows3* block = arrays.blocks.data();
     const std::uint32_t* later = arrays.plan->later().data();

@@ -3,25 +3,57 @@
 #include "engine/math/processor.hpp"
 #include "engine/solver/triad_bodies.hpp"
 #include "engine/solver/triad_factor.hpp"
+#include "engine/solver/triad_strands.hpp"
 
 namespace handhold {
 namespace {
 
+HH_INLINE void evaluate_triads(const TriadArrays& arrays) {
+    triads::evaluate_strands(arrays);
+    triads::evaluate(arrays);
+}
+HH_INLINE void evaluate_triad_velocities(const TriadArrays& arrays) {
+    triads::evaluate_strand_velocities(arrays);
+    triads::evaluate_velocities(arrays);
+}
+HH_INLINE double worst_triad_square(const TriadArrays& arrays) {
+    const double of_strands = triads::worst_strand_square(arrays);
+    const double of_rest = triads::worst_square(arrays);
+    return of_strands > of_rest ? of_strands : of_rest;
+}
+HH_INLINE void gather_triad_stiffness(const TriadArrays& arrays) {
+    triads::gather_strand_stiffness(arrays);
+    triads::gather_stiffness(arrays);
+}
+HH_INLINE void multiply_out_triads(const TriadArrays& arrays, double joint_alpha) {
+    triads::multiply_out(arrays);
+    triads::eliminate_strands(arrays, joint_alpha);
+}
+HH_INLINE void factorise_triads(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+    triads::note_diagonals(arrays);
+    triads::take_off_strands(arrays);
+    triads::factorise(arrays, hand_alpha, joint_alpha);
+}
 HH_INLINE TriadReach solve_triads(const TriadArrays& arrays) {
+    triads::negate_values(arrays);
+    triads::substitute_into_strands(arrays);
     triads::substitute(arrays);
-    return triads::gather_moves(arrays);
+    triads::substitute_back_into_strands(arrays);
+    return triads::longer(triads::gather_moves(arrays), triads::gather_strand_moves(arrays));
 }
 
 #ifdef __x86_64__
-HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { triads::evaluate(arrays); }
+HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { evaluate_triads(arrays); }
 HH_AVX2 void evaluate_velocities_avx2(const TriadArrays& arrays) {
-    triads::evaluate_velocities(arrays);
+    evaluate_triad_velocities(arrays);
 }
-HH_AVX2 double worst_square_avx2(const TriadArrays& arrays) { return triads::worst_square(arrays); }
-HH_AVX2 void gather_stiffness_avx2(const TriadArrays& arrays) { triads::gather_stiffness(arrays); }
-HH_AVX2 void multiply_out_avx2(const TriadArrays& arrays) { triads::multiply_out(arrays); }
+HH_AVX2 double worst_square_avx2(const TriadArrays& arrays) { return worst_triad_square(arrays); }
+HH_AVX2 void gather_stiffness_avx2(const TriadArrays& arrays) { gather_triad_stiffness(arrays); }
+HH_AVX2 void multiply_out_avx2(const TriadArrays& arrays, double joint_alpha) {
+    multiply_out_triads(arrays, joint_alpha);
+}
 HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
-    triads::factorise(arrays, hand_alpha, joint_alpha);
+    factorise_triads(arrays, hand_alpha, joint_alpha);
 }
 HH_AVX2 TriadReach solve_avx2(const TriadArrays& arrays) { return solve_triads(arrays); }
 HH_AVX2 void apply_avx2(const TriadArrays& arrays, double scale) { triads::apply(arrays, scale); }
@@ -33,15 +65,15 @@ constexpr TriadKernels k_avx2{
     apply_velocities_avx2};
 #endif
 
-void evaluate_portable(const TriadArrays& arrays) { triads::evaluate(arrays); }
-void evaluate_velocities_portable(const TriadArrays& arrays) {
-    triads::evaluate_velocities(arrays);
+void evaluate_portable(const TriadArrays& arrays) { evaluate_triads(arrays); }
+void evaluate_velocities_portable(const TriadArrays& arrays) { evaluate_triad_velocities(arrays); }
+double worst_square_portable(const TriadArrays& arrays) { return worst_triad_square(arrays); }
+void gather_stiffness_portable(const TriadArrays& arrays) { gather_triad_stiffness(arrays); }
+void multiply_out_portable(const TriadArrays& arrays, double joint_alpha) {
+    multiply_out_triads(arrays, joint_alpha);
 }
-double worst_square_portable(const TriadArrays& arrays) { return triads::worst_square(arrays); }
-void gather_stiffness_portable(const TriadArrays& arrays) { triads::gather_stiffness(arrays); }
-void multiply_out_portable(const TriadArrays& arrays) { triads::multiply_out(arrays); }
 void factorise_portable(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
-    triads::factorise(arrays, hand_alpha, joint_alpha);
+    factorise_triads(arrays, hand_alpha, joint_alpha);
 }
 TriadReach solve_portable(const TriadArrays& arrays) { return solve_triads(arrays); }
 void apply_portable(const TriadArrays& arrays, double scale) { triads::apply(arrays, scale); }

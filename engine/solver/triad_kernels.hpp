@@ -11,6 +11,8 @@
 // allocates. Metres, seconds, kilograms, radians; the world's axes where nothing else is said.
 //
 // A triad is three rows, one a world axis: a point held on a point, or a rotation on a rotation.
+// Those of strands are in four lanes; where nothing else is said, triads are those of the plan's
+// rest.
 // Its ends, 2 * triad for a's and 2 * triad + 1 for b's, are what bodies see of it. Everything that
 // belongs to a body is done for four bodies at once, everything between triads block by block.
 namespace handhold {
@@ -40,6 +42,31 @@ struct FourEnds {
     Wide3 arm;
 };
 
+// A 3x3 matrix in each lane, by rows.
+struct WideSquare {
+    Wide3 x, y, z;
+};
+
+// Of one step of a braid, a link in each lane.
+struct FourLinks {
+    Wide3 value;    // as TriadArrays::values
+    Wide3 unknown;  // scratch of the solve
+    Wide3 impulse;  // sum of lambdas
+    // The step's row of the factor.
+    WideSymmetric inverse;  // of its own block; or its pivots
+    WideSquare next;        // the inverse times the block with the next link, or with `after`
+    WideSquare before;      // and times that with `before`
+    bool has_pivots = false;
+};
+
+// What is left of four strands once their links are eliminated.
+struct FourStrands {
+    WideSymmetric before;  // is taken off the block of `before`
+    WideSymmetric after;
+    WideSquare between;  // rows of `after`, columns of `before`
+    Four inverse_sum;    // of 9 / the sum of each link's diagonal
+};
+
 // In a struct, for a template's argument would forget the alignment.
 struct TriadVector {
     Four v = {};
@@ -48,9 +75,12 @@ struct TriadVector {
 // Where a plan speaks of a spare end or block, there is one: it is written and means nothing.
 // The spare triad's multiplier is 0.
 struct TriadArrays {
-    std::span<FourBodies> bodies;        // by group of the plan
-    std::span<FourEnds> body_ends;       // as the plan's ends
-    std::span<WideSymmetric> stiffness;  // by group
+    std::span<FourBodies> bodies;        // by the plan's places
+    std::span<FourEnds> body_ends;       // as the plan's packed ends
+    std::span<WideSymmetric> stiffness;  // as bodies
+    std::span<FourLinks> links;          // by the plan's braid steps
+    std::span<Wide3> multipliers;        // lambdas of braids: see TriadPlan::Braid::bound
+    std::span<FourStrands> strands;      // by braid
     std::span<TriadVector> ends;         // by end: its part in the triad's value
     std::span<TriadVector> values;   // by triad: metres, angles at k_angle_m; or metres a second
     std::span<TriadVector> lambdas;  // by triad, of the last solve: on a, b's is the opposite
@@ -81,8 +111,9 @@ struct TriadKernels {
     // Geometric stiffness at the arms and multipliers of the last solve: positive_stiffness,
     // summed.
     void (*gather_stiffness)(const TriadArrays& arrays);
-    // Inertia at the axes, and J W J^T in the plan's blocks.
-    void (*multiply_out)(const TriadArrays& arrays);
+    // Inertia at the axes, J W J^T in the plan's blocks, and the factor of strands, whose links
+    // have a share of the diagonal as alpha.
+    void (*multiply_out)(const TriadArrays& arrays, double joint_alpha);
     // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.
     void (*factorise)(const TriadArrays& arrays, double hand_alpha, double joint_alpha);
     // lambda of the values, and the bodies' moves and turns.

@@ -18,9 +18,26 @@ std::uint32_t block_at(const EliminationPlan::Panel& panel, std::uint32_t value)
 
 }  // namespace
 
+bool TriadPlan::fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const {
+    return std::ranges::equal(nodes, nodes_) && std::ranges::equal(turns, turns_);
+}
+
 void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
-    plan_.build(nodes, turns);
+    nodes_.assign(nodes.begin(), nodes.end());
+    turns_.assign(turns.begin(), turns.end());
+    strands_.build(nodes, turns);
+    plan_.build(strands_.rest_nodes(), strands_.rest_turns());
     HH_CHECK(plan_.hubs().empty(), "hubs have no triads", plan_.hubs().size());
+    take_steps();
+    find_places();
+    find_groups();
+    find_braids();
+    find_pairs();
+    find_zeros();
+    pack_ends();
+}
+
+void TriadPlan::take_steps() {
     const std::span<const EliminationPlan::Panel> panels = plan_.panels();
     steps_.clear();
     later_.clear();
@@ -45,31 +62,48 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
             {panel.node, block_at(panel, panel.begin), begin, end, updates, is_independent});
     }
     block_count_ = plan_.value_count() / k_block_size;
-    find_groups(nodes, turns.size());
-    find_pairs(nodes);
-    find_zeros();
+}
+
+void TriadPlan::find_places() {
+    slots_.clear();
+    for (const Lanes& row : strands_.bodies()) {
+        slots_.insert(slots_.end(), row.begin(), row.end());
+    }
+    const std::span<const std::uint32_t> rest = strands_.rest_slots();
+    slots_.insert(slots_.end(), rest.begin(), rest.end());
+    places_.assign(turns_.size(), k_no_slot);
+    for (std::uint32_t place = 0; place < slots_.size(); ++place) {
+        if (slots_[place] != k_no_slot) {
+            places_[slots_[place]] = place;
+        }
+    }
 }
 
 // Nodes that go first come first: a product's block lies in the panel of the earlier of its two.
-void TriadPlan::find_groups(std::span<const RowNode> nodes, std::size_t bodies) {
-    constexpr std::size_t k_lanes = std::tuple_size_v<Lanes>;
-    std::vector<std::uint32_t> counts(bodies, 0);
-    place_in_body_.assign(2 * nodes.size(), 0);
+void TriadPlan::find_groups() {
+    const std::span<const std::uint32_t> slots = strands_.rest_slots();
+    std::vector<std::uint32_t> counts(strands_.rest_turns().size(), 0);
+    place_in_body_.assign(spare_end(), 0);
     for (const Step& step : steps_) {
         for (std::uint32_t side = 0; side < 2; ++side) {
-            const std::uint32_t slot = nodes[step.node].slots[side];
+            const std::uint32_t slot = slot_of(2 * step.node + side);
             if (slot != k_no_slot) {
                 place_in_body_[2 * step.node + side] = counts[slot]++;
             }
         }
     }
     groups_.clear();
+    auto four = static_cast<std::uint32_t>(strands_.row_count());
+    const std::uint32_t packed = 2 * four;
     std::uint32_t ends = 0;
     std::uint32_t pairs = 0;
-    for (std::size_t body = 0; body < bodies; body += k_lanes) {
-        const std::size_t lanes = std::min(k_lanes, bodies - body);
-        const std::uint32_t width = std::ranges::max(std::span(counts).subspan(body, lanes));
-        groups_.push_back({width, ends, pairs});
+    for (std::size_t body = 0; body < slots.size(); body += k_lanes) {
+        std::uint32_t width = 0;
+        for (const std::uint32_t slot :
+             slots.subspan(body, std::min(k_lanes, slots.size() - body))) {
+            width = std::max(width, counts[slot]);
+        }
+        groups_.push_back({width, four++, packed + ends, ends, pairs});
         ends += width;
         pairs += width * (width + 1) / 2;
     }
@@ -78,24 +112,68 @@ void TriadPlan::find_groups(std::span<const RowNode> nodes, std::size_t bodies) 
     ends_.assign(ends, spare);
     spare.fill(spare_block());
     pairs_.assign(pairs, {spare});
+    const auto first = static_cast<std::uint32_t>(strands_.row_count());
     for (std::uint32_t end = 0; end < spare_end(); ++end) {
-        const std::uint32_t slot = nodes[end / 2].slots[end % 2];
-        if (slot != k_no_slot) {
-            ends_[groups_[slot / k_lanes].ends + place_in_body_[end]][slot % k_lanes] = end;
+        const std::uint32_t slot = slot_of(end);
+        if (slot < places_.size()) {
+            const std::uint32_t place = places_[slot];
+            const Group& group = groups_[place / k_lanes - first];
+            ends_[group.ends + place_in_body_[end]][place % k_lanes] = end;
         }
     }
 }
 
-void TriadPlan::find_pairs(std::span<const RowNode> nodes) {
+void TriadPlan::find_braids() {
+    braids_.clear();
+    holds_.clear();
+    Lanes spare;
+    spare.fill(spare_block());
+    const auto or_spare = [this](Lanes ends) {
+        std::ranges::replace(ends, k_no_slot, spare_end());
+        return ends;
+    };
+    for (const StrandPlan::Braid& from : strands_.braids()) {
+        const auto bound = static_cast<std::uint32_t>(from.links + 2 * braids_.size());
+        braids_.push_back({from.length, from.row, from.links, bound, or_spare(from.before),
+                           or_spare(from.after), spare, spare, spare});
+        for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+            if (strands_.bodies()[from.row][lane] == k_no_slot) {
+                holds_.push_back({strands_.links()[from.links][lane],
+                                  static_cast<std::uint32_t>(k_lanes) * from.row + lane});
+            }
+        }
+    }
+}
+
+void TriadPlan::find_pairs() {
+    const auto first = static_cast<std::uint32_t>(strands_.row_count());
     for (const EliminationPlan::Coupling& coupling : plan_.couplings()) {
+        const std::uint32_t slot = slot_of(coupling.panel_end);
+        if (slot >= places_.size()) {
+            find_strand_blocks(coupling, slot - static_cast<std::uint32_t>(places_.size()));
+            continue;
+        }
         const std::uint32_t row = place_in_body_[coupling.panel_end];
         const std::uint32_t column = place_in_body_[coupling.later_end];
-        const std::uint32_t slot = nodes[coupling.panel_end / 2].slots[coupling.panel_end % 2];
-        const Group& group = groups_[slot / 4];
+        const Group& group = groups_[places_[slot] / k_lanes - first];
         // Rows before this one have one pair less each.
         const std::uint32_t before = row * group.width - row * (row + 1) / 2;
-        pairs_[group.pairs + before + column].blocks[slot % 4] =
+        pairs_[group.pairs + before + column].blocks[places_[slot] % k_lanes] =
             block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
+    }
+}
+
+void TriadPlan::find_strand_blocks(const EliminationPlan::Coupling& coupling,
+                                   std::uint32_t strand) {
+    Braid& braid = braids_[strand / k_lanes];
+    const std::size_t lane = strand % k_lanes;
+    const std::uint32_t block = block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
+    const bool before_first = coupling.panel_end == braid.before[lane];
+    if (coupling.panel_end != coupling.later_end) {
+        braid.block_between[lane] = block;
+        braid.before_first[lane] = before_first;
+    } else {
+        (before_first ? braid.block_before : braid.block_after)[lane] = block;
     }
 }
 
@@ -104,6 +182,14 @@ void TriadPlan::find_zeros() {
     for (const Pair& pair : pairs_) {
         for (const std::uint32_t block : pair.blocks) {
             ++sums[block];
+        }
+    }
+    for (const Braid& braid : braids_) {
+        for (const Lanes* const blocks :
+             {&braid.block_before, &braid.block_after, &braid.block_between}) {
+            for (const std::uint32_t block : *blocks) {
+                sums[block] += 2;  // never alone
+            }
         }
     }
     sums[spare_block()] = 1;
@@ -123,6 +209,29 @@ void TriadPlan::find_zeros() {
         if (is_written[block] == 0) {
             zeros_.push_back(block);
         }
+    }
+}
+
+void TriadPlan::pack_ends() {
+    Lanes none;
+    none.fill(k_no_slot);
+    packed_ends_.assign(2 * strands_.row_count() + ends_.size(), none);
+    const auto given = [this](std::uint32_t end) {
+        return end == spare_end() ? k_no_slot : 2 * rest()[end / 2] + end % 2;
+    };
+    for (const Braid& braid : braids_) {
+        Lanes* const ends = packed_ends_.data() + std::size_t{2} * braid.row;
+        std::ranges::transform(braid.before, ends[0].begin(), given);
+        for (std::size_t k = 0; k < braid.length; ++k) {
+            ends[2 * k + 1] = links(braid)[k];
+            std::ranges::transform(ends[2 * k + 1], ends[2 * k + 2].begin(),
+                                   [](std::uint32_t end) { return end ^ 1U; });
+        }
+        std::ranges::transform(braid.after, ends[std::size_t{2} * braid.length + 1].begin(), given);
+    }
+    Lanes* ends = packed_ends_.data() + 2 * strands_.row_count();
+    for (const Lanes& of_rest : ends_) {
+        std::ranges::transform(of_rest, (ends++)->begin(), given);
     }
 }
 

@@ -6,20 +6,23 @@
 #include <vector>
 
 #include "engine/solver/elimination_plan.hpp"
+#include "engine/solver/strand_plan.hpp"
 
 namespace handhold {
 
-// The symbolic half of a sparse LDL^T whose blocks are all three by three: an EliminationPlan's
-// order for nodes three rows wide, and blocks numbered one after the other; and where four bodies
-// at a time find the ends of their rows and the blocks that they add to.
+// The symbolic half of a sparse LDL^T whose blocks are all three by three: the strands of long
+// runs, which go first; of the rest an EliminationPlan's order for nodes three rows wide, and
+// blocks numbered one after the other; and where four bodies at a time find the ends of their rows
+// and the blocks that they add to.
+//
+// Nodes, ends (2 * node + side), steps and blocks are the rest's, numbered by their places in
+// `rest()`, but where the given nodes are spoken of.
 class TriadPlan {
   public:
     // `nodes` each three rows wide, no body with more than k_hub_nodes of them.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
     // True where it was built from the same.
-    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const {
-        return plan_.fits(nodes, turns);
-    }
+    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const;
 
     // A node is eliminated: its own block, and the blocks of the later nodes that it meets, which
     // follow it.
@@ -41,13 +44,59 @@ class TriadPlan {
     std::size_t block_count() const { return block_count_; }
 
     // One number a lane; a lane has a body, the one of slot 4 * group + lane.
-    using Lanes = std::array<std::uint32_t, 4>;
-    // Four bodies. Each has up to `width` ends (2 * node + side), those of the nodes that go first
-    // before the others; what a lane lacks is `spare_end`.
+    using Lanes = StrandPlan::Lanes;
+    static constexpr std::size_t k_lanes = std::tuple_size_v<Lanes>;
+    // The given node of each of the rest's.
+    std::span<const std::uint32_t> rest() const { return strands_.rest(); }
+    // Where the body of a slot stands: 4 * its four + its lane. Rows of strands come first.
+    std::span<const std::uint32_t> places() const { return places_; }
+    // By place: the slot; k_no_slot where a strand has no body.
+    std::span<const std::uint32_t> slots() const { return slots_; }
+    std::size_t four_count() const { return strands_.row_count() + groups_.size(); }
+    // The given nodes' ends (2 * node + side), of four bodies each, as they are packed: two for
+    // each row of a strand, that of the node before and that of the one after, then `ends()`.
+    // k_no_slot where a lane has none.
+    std::span<const Lanes> packed_ends() const { return packed_ends_; }
+
+    // Four strands. A row has four bodies.
+    struct Braid {
+        std::uint32_t length = 0;  // links of each: one less than rows
+        std::uint32_t row = 0;     // the first: of fours of bodies
+        std::uint32_t step = 0;    // the first of its length steps, in which four links go
+        std::uint32_t bound = 0;   // the first of length + 2 of its fours of multipliers: those
+                                   // of `before`, of each step and of `after`
+        Lanes before{};            // the end at the first body, or `spare_end`
+        Lanes after{};             // and at the last one
+        // What is left of a strand is added there, or to `spare_block`.
+        Lanes block_before{};
+        Lanes block_after{};
+        Lanes block_between{};
+        std::array<bool, 4> before_first{};  // rows of `block_between` are those of `before`
+    };
+    std::span<const Braid> braids() const { return braids_; }
+    // The given nodes of a braid's steps: 2 * node + the side at the row before.
+    std::span<const Lanes> links(const Braid& braid) const {
+        return strands_.links().subspan(braid.step, braid.length);
+    }
+    std::size_t braid_steps() const { return strands_.links().size(); }
+    // Ends of given nodes that nothing moves at the beginning of a strand, and the place of the
+    // body that stands for it there.
+    struct Hold {
+        std::uint32_t end = 0;
+        std::uint32_t place = 0;
+    };
+    std::span<const Hold> holds() const { return holds_; }
+    // The place of a given node in `rest()`; k_no_slot for a strand's.
+    std::span<const std::uint32_t> rest_places() const { return strands_.places(); }
+
+    // Four bodies of the rest. Each has up to `width` ends (2 * node + side), those of the nodes
+    // that go first before the others; what a lane lacks is `spare_end`.
     struct Group {
         std::uint32_t width = 0;
-        std::uint32_t ends = 0;   // into `ends`, `width` of them
-        std::uint32_t pairs = 0;  // into `pairs`, as Step::updates: products of two of its ends
+        std::uint32_t four = 0;    // which four bodies
+        std::uint32_t packed = 0;  // into `packed_ends`
+        std::uint32_t ends = 0;    // into `ends`, `width` of them
+        std::uint32_t pairs = 0;   // into `pairs`, as Step::updates: products of two of its ends
     };
     // Where they go, or `spare_block`.
     struct Pair {
@@ -64,14 +113,30 @@ class TriadPlan {
     std::uint32_t spare_block() const { return static_cast<std::uint32_t>(block_count_); }
 
   private:
-    void find_groups(std::span<const RowNode> nodes, std::size_t bodies);
-    void find_pairs(std::span<const RowNode> nodes);
+    void take_steps();
+    void find_places();
+    void find_groups();
+    void find_pairs();
+    void find_braids();
+    void find_strand_blocks(const EliminationPlan::Coupling& coupling, std::uint32_t strand);
     void find_zeros();
+    void pack_ends();
+    std::uint32_t slot_of(std::uint32_t end) const {
+        return strands_.rest_nodes()[end / 2].slots[end % 2];
+    }
 
-    EliminationPlan plan_;
+    std::vector<RowNode> nodes_;  // as given
+    std::vector<std::uint8_t> turns_;
+    StrandPlan strands_;
+    EliminationPlan plan_;  // of the rest
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
+    std::vector<Braid> braids_;
+    std::vector<Hold> holds_;
+    std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t> slots_;
+    std::vector<Lanes> packed_ends_;
     std::vector<Group> groups_;
     std::vector<Lanes> ends_;
     std::vector<Pair> pairs_;

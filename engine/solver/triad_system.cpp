@@ -27,7 +27,7 @@ bool holds_rotation(RowKind kind) {
     return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
 }
 
-constexpr std::size_t k_lanes = 4;
+constexpr std::size_t k_lanes = TriadPlan::k_lanes;
 
 bool may_turn(const SolverBody& body) {
     return body.inverse_mass > 0.0 && !body.inverse_inertia_bs.isZero(0.0);
@@ -54,25 +54,63 @@ bool is_as_packed(const SolverBody& from, std::size_t lane, const FourBodies& bo
             from.inverse_inertia_bs == vec3_in_lane(lane, body.inverse_inertia_bs));
 }
 
+// Still, where an end is that nothing moves by forces.
+SolverBody body_at(const SolverBody& body, const Vec3& point_bs) {
+    const Vec3 arm = body.pose_ws.rotation * point_bs;
+    SolverBody at;
+    at.pose_ws.position = transform_point(body.pose_ws, point_bs);
+    at.velocity_mps = body.velocity_mps + body.spin_radps.cross(arm);
+    return at;
+}
+
 double sign_of(std::uint32_t end) { return end % 2 == 0 ? 1.0 : -1.0; }
 
 }  // namespace
 
-void TriadSystem::load_bodies(const IslandView& island) {
+void TriadSystem::read_bodies(const IslandView& island) {
     const std::size_t count = island.island_bodies.size();
     body_indices_.assign(island.island_bodies.begin(), island.island_bodies.end());
-    bodies_.resize((count + k_lanes - 1) /
-                   k_lanes);  // of other islands: all that counts is written
     may_turn_.resize(count);
     for (std::size_t slot = 0; slot < count; ++slot) {
-        const SolverBody& body = island.bodies[body_indices_[slot]];
-        pack(body, slot % k_lanes, bodies_[slot / k_lanes]);
-        may_turn_[slot] = may_turn(body) ? 1 : 0;
-    }
-    for (std::size_t slot = count; slot < k_lanes * bodies_.size(); ++slot) {
-        pack({}, slot % k_lanes, bodies_[slot / k_lanes]);
+        may_turn_[slot] = may_turn(island.bodies[body_indices_[slot]]) ? 1 : 0;
     }
     uses_.assign(count, 0);
+}
+
+void TriadSystem::pack_bodies(const IslandView& island) {
+    const TriadPlan& plan = plans_.current();
+    bodies_.resize(plan.four_count());  // of other islands: all that counts is written
+    for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
+        const std::uint32_t slot = plan.slots()[place];
+        if (slot != k_no_slot) {
+            pack(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place));
+        }
+    }
+    for (const Anchor& anchor : anchors_) {
+        if (anchor.place != k_no_slot) {
+            pack(body_at(island.bodies[anchor.body], anchor.point_bs), anchor.place % k_lanes,
+                 four_of(anchor.place));
+        }
+    }
+    for (std::size_t place = plan.slots().size(); place < k_lanes * bodies_.size(); ++place) {
+        pack({}, place % k_lanes, bodies_[place / k_lanes]);
+    }
+}
+
+void TriadSystem::pack_velocities(const IslandView& island) {
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        if (slots[place] != k_no_slot) {
+            pack_velocity(island.bodies[body_indices_[slots[place]]], place % k_lanes,
+                          four_of(place));
+        }
+    }
+    for (const Anchor& anchor : anchors_) {
+        if (anchor.place != k_no_slot) {
+            pack_velocity(body_at(island.bodies[anchor.body], anchor.point_bs),
+                          anchor.place % k_lanes, four_of(anchor.place));
+        }
+    }
 }
 
 // False where more meet in one body than are served.
@@ -83,12 +121,11 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns)
     if (triad_count_ > triads_.size()) {
         resize(2 * triad_count_);
     }
-    triads_[triad] = {index, turns};
-    hands_[triad] = is_hand ? 1 : 0;
+    triads_[triad] = {index, turns, is_hand};
     has_hand_ = has_hand_ || is_hand;
     has_turn_ = has_turn_ || turns;
     RowNode& node = nodes_[triad];
-    node = {{k_no_slot, k_no_slot}, 3};
+    node = {{k_no_slot, k_no_slot}, 3, false, !turns && !is_hand};
     bool fits = true;
     for (std::uint32_t side = 0; side < 2; ++side) {
         const std::uint32_t body_index = side == 0 ? block.a : block.b;
@@ -101,7 +138,7 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns)
             node.slots[side] = body.slot;
             fits = fits && ++uses_[body.slot] <= k_hub_nodes;
         } else {
-            anchors_.push_back({end, body_index, point_bs});
+            anchors_.push_back({end, body_index, point_bs, k_no_slot, k_no_slot});
         }
     }
     return fits;
@@ -110,14 +147,13 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns)
 // Room for so many triads, and the spare ones.
 void TriadSystem::resize(std::size_t triads) {
     triads_.resize(triads);
-    hands_.resize(triads);
     nodes_.resize(triads);
     points_.resize(2 * triads + 1);
 }
 
 bool TriadSystem::load(const IslandView& island, double touch_m) {
     revision_ = 0;
-    load_bodies(island);
+    read_bodies(island);
     anchors_.clear();
     triad_count_ = 0;
     is_evaluated_ = has_hand_ = has_turn_ = is_stiff_ = false;
@@ -141,6 +177,7 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
     }
     resize(triad_count_);
     plan_nodes();
+    pack_bodies(island);
     if (!has_contact && island.filter != BlockFilter::without_hands) {
         revision_ = island.revision;
     }
@@ -151,9 +188,10 @@ bool TriadSystem::is_as_loaded(const IslandView& island) const {
     if (!std::ranges::equal(body_indices_, island.island_bodies)) {
         return false;
     }
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        if (!is_as_packed(island.bodies[body_indices_[slot]], slot % k_lanes,
-                          bodies_[slot / k_lanes])) {
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        if (slots[place] != k_no_slot && !is_as_packed(island.bodies[body_indices_[slots[place]]],
+                                                       place % k_lanes, four_of(place))) {
             return false;
         }
     }
@@ -167,80 +205,119 @@ bool TriadSystem::resume(const IslandView& island) {
         island.filter == BlockFilter::without_hands || !is_as_loaded(island)) {
         return false;
     }
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        pack_velocity(island.bodies[body_indices_[slot]], slot % k_lanes, bodies_[slot / k_lanes]);
-    }
+    pack_velocities(island);
     is_stiff_ = false;
-    std::ranges::fill(impulses_, TriadVector{});
+    clear_impulses();
     return true;
 }
 
 void TriadSystem::plan_nodes() {
     const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
-    const std::size_t count = triads_.size();
+    const std::span<const std::uint32_t> rest = plan.rest();
+    hands_.resize(rest.size());
+    std::ranges::transform(rest, hands_.begin(), [this](std::uint32_t triad) {
+        return static_cast<std::uint8_t>(triads_[triad].is_hand ? 1 : 0);
+    });
+    const std::size_t count = rest.size();
     ends_.resize(2 * count + 1);
-    points_.back() = {};
     values_.resize(count);
     lambdas_.resize(count + 1);
     lambdas_.back() = {};
-    impulses_.assign(count, {});
+    impulses_.resize(count);
     blocks_.resize(plan.block_count() + 1);
     inverses_.resize(count);
     unknowns_.resize(count);
+    links_.resize(plan.braid_steps());
+    strands_.resize(plan.braids().size());
+    multipliers_.resize(plan.braid_steps() + 2 * plan.braids().size());
+    clear_impulses();
+    place_anchors();
     load_ends();
 }
 
+void TriadSystem::clear_impulses() {
+    std::ranges::fill(impulses_, TriadVector{});
+    for (FourLinks& links : links_) {
+        assign({zero_four(), zero_four(), zero_four()}, links.impulse);
+    }
+}
+
+void TriadSystem::place_anchors() {
+    const TriadPlan& plan = plans_.current();
+    for (Anchor& anchor : anchors_) {
+        const std::uint32_t rest = plan.rest_places()[anchor.end / 2];
+        if (rest != k_no_slot) {
+            anchor.rest_end = 2 * rest + anchor.end % 2;
+            continue;
+        }
+        anchor.place = std::ranges::find(plan.holds(), anchor.end, &TriadPlan::Hold::end)->place;
+        points_[anchor.end].v = Four{0.0, 0.0, 0.0, sign_of(anchor.end)};
+    }
+}
+
 void TriadSystem::load_ends() {
-    const std::span<const TriadPlan::Lanes> ends = plans_.current().ends();
+    const std::span<const TriadPlan::Lanes> ends = plans_.current().packed_ends();
     body_ends_.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
         FourEnds& four = body_ends_[i];
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::uint32_t end = ends[i][lane];
-            const Four& point = points_[end].v;
+            const Four point = end == k_no_slot ? zero_four() : points_[end].v;
             four.point_bs.x[lane] = point[0];
             four.point_bs.y[lane] = point[1];
             four.point_bs.z[lane] = point[2];
             four.sign[lane] = point[3];
-            const bool turns = has_turn_ && end / 2 < triads_.size() && triads_[end / 2].turns;
+            const bool turns = has_turn_ && end != k_no_slot && triads_[end / 2].turns;
             four.lever[lane] = turns ? k_angle_m * sign_of(end) : 0.0;
         }
     }
 }
 
 TriadArrays TriadSystem::arrays() {
-    return {bodies_,           body_ends_, stiffness_, ends_,     values_,
-            lambdas_,          hands_,     blocks_,    inverses_, unknowns_,
-            &plans_.current(), has_turn_,  is_stiff_};
+    return {bodies_,   body_ends_,        stiffness_, links_,   multipliers_, strands_,
+            ends_,     values_,           lambdas_,   hands_,   blocks_,      inverses_,
+            unknowns_, &plans_.current(), has_turn_,  is_stiff_};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const FourBodies& bodies = bodies_[slot / k_lanes];
-        const std::size_t lane = slot % k_lanes;
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        const FourBodies& bodies = four_of(place);
+        const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            island.bodies[body_indices_[slot]].pose_ws = {vec3_in_lane(lane, bodies.position),
-                                                          quat_in_lane(lane, bodies.rotation)};
+            island.bodies[body_indices_[slots[place]]].pose_ws = {
+                vec3_in_lane(lane, bodies.position), quat_in_lane(lane, bodies.rotation)};
         }
     }
 }
 
 void TriadSystem::store_velocities(const IslandView& island) const {
-    for (std::size_t slot = 0; slot < body_indices_.size(); ++slot) {
-        const FourBodies& bodies = bodies_[slot / k_lanes];
-        const std::size_t lane = slot % k_lanes;
+    const std::span<const std::uint32_t> slots = plans_.current().slots();
+    for (std::uint32_t place = 0; place < slots.size(); ++place) {
+        const FourBodies& bodies = four_of(place);
+        const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            SolverBody& body = island.bodies[body_indices_[slot]];
+            SolverBody& body = island.bodies[body_indices_[slots[place]]];
             body.velocity_mps = vec3_in_lane(lane, bodies.velocity);
             body.spin_radps = vec3_in_lane(lane, bodies.spin);
         }
     }
-    for (std::size_t i = 0; i < triads_.size(); ++i) {
-        RowBlock& block = island.blocks[triads_[i].block];
-        if (triads_[i].turns) {
+    const TriadPlan& plan = plans_.current();
+    for (std::size_t i = 0; i < impulses_.size(); ++i) {
+        const Triad& triad = triads_[plan.rest()[i]];
+        RowBlock& block = island.blocks[triad.block];
+        if (triad.turns) {
             block.couple_ws_nms = k_angle_m * to_vec3(impulses_[i].v);
         } else {
             block.impulse_ws_ns = to_vec3(impulses_[i].v);
+        }
+    }
+    for (const TriadPlan::Braid& braid : plan.braids()) {
+        for (std::size_t k = 0; k < braid.length; ++k) {
+            for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+                RowBlock& block = island.blocks[triads_[plan.links(braid)[k][lane] / 2].block];
+                block.impulse_ws_ns = vec3_in_lane(lane, links_[braid.step + k].impulse);
+            }
         }
     }
 }
@@ -248,7 +325,8 @@ void TriadSystem::store_velocities(const IslandView& island) const {
 Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const {
     const std::uint32_t slot = nodes_[end / 2].slots[end % 2];
     if (slot != k_no_slot) {
-        return quat_in_lane(slot % k_lanes, bodies_[slot / k_lanes].rotation);
+        const std::uint32_t place = plans_.current().places()[slot];
+        return quat_in_lane(place % k_lanes, four_of(place).rotation);
     }
     const RowBlock& block = island.blocks[triads_[end / 2].block];
     return island.bodies[end % 2 == 0 ? block.a : block.b].pose_ws.rotation;
@@ -257,19 +335,23 @@ Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const
 void TriadSystem::evaluate(const IslandView& island) {
     is_evaluated_ = true;
     for (const Anchor& anchor : anchors_) {
+        if (anchor.rest_end == k_no_slot) {
+            continue;
+        }
         const Vec3 point_ws = transform_point(island.bodies[anchor.body].pose_ws, anchor.point_bs);
-        ends_[anchor.end].v = to_four(Vec3(sign_of(anchor.end) * point_ws));
+        ends_[anchor.rest_end].v = to_four(Vec3(sign_of(anchor.end) * point_ws));
     }
     kernels_->evaluate(arrays());
     if (!has_turn_) {
         return;
     }
-    for (std::uint32_t i = 0; i < triads_.size(); ++i) {
-        if (triads_[i].turns) {
-            values_[i].v =
-                to_four(Vec3(k_angle_m * rotation_error(rotation_at(island, 2 * i),
-                                                        rotation_at(island, 2 * i + 1),
-                                                        island.blocks[triads_[i].block])));
+    const std::span<const std::uint32_t> rest = plans_.current().rest();
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        const std::uint32_t end = 2 * rest[i];
+        if (triads_[rest[i]].turns) {
+            values_[i].v = to_four(Vec3(
+                k_angle_m * rotation_error(rotation_at(island, end), rotation_at(island, end + 1),
+                                           island.blocks[triads_[rest[i]].block])));
         }
     }
 }
@@ -282,27 +364,39 @@ void TriadSystem::evaluate_moved(const IslandView& island) {
 
 void TriadSystem::evaluate_velocities(const IslandView& island) {
     for (const Anchor& anchor : anchors_) {
+        if (anchor.rest_end == k_no_slot) {
+            continue;
+        }
         const SolverBody& body = island.bodies[anchor.body];
         const Vec3 arm = body.pose_ws.rotation * anchor.point_bs;
         const Vec3 speed = triads_[anchor.end / 2].turns
                                ? Vec3(k_angle_m * body.spin_radps)
                                : Vec3(body.velocity_mps + body.spin_radps.cross(arm));
-        ends_[anchor.end].v = to_four(Vec3(sign_of(anchor.end) * speed));
+        ends_[anchor.rest_end].v = to_four(Vec3(sign_of(anchor.end) * speed));
     }
     kernels_->evaluate_velocities(arrays());
     if (!has_hand_) {
         return;
     }
-    for (std::size_t i = 0; i < triads_.size(); ++i) {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
         if (hands_[i] != 0) {
-            const RowBlock& block = island.blocks[triads_[i].block];
-            values_[i].v += triads_[i].turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
-                                             : to_four(block.drive_velocity_ws_mps);
+            const Triad& triad = triads_[plans_.current().rest()[i]];
+            const RowBlock& block = island.blocks[triad.block];
+            values_[i].v += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
+                                        : to_four(block.drive_velocity_ws_mps);
         }
     }
 }
 
 double TriadSystem::worst_value() { return std::sqrt(kernels_->worst_square(arrays())); }
+
+double TriadSystem::worst_hand_value() const {
+    double worst = 0.0;
+    for (std::size_t i = 0; has_hand_ && i < hands_.size(); ++i) {
+        worst = hands_[i] != 0 ? std::max(worst, dot3(values_[i].v, values_[i].v)) : worst;
+    }
+    return std::sqrt(worst);
+}
 
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
@@ -322,11 +416,18 @@ double TriadSystem::hand_size() const {
             count += 3.0;
         }
     }
+    for (const TriadPlan::Braid& braid : plans_.current().braids()) {
+        count += 3.0 * k_lanes * braid.length;
+    }
+    for (const FourStrands& strands : strands_) {
+        const Four& sum = strands.inverse_sum;
+        inverse_sum += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
     return inverse_sum > 0.0 ? count / inverse_sum : 0.0;
 }
 
 void TriadSystem::factorise(const Softness& softness, double factor) {
-    kernels_->multiply_out(arrays());
+    kernels_->multiply_out(arrays(), factor * softness.joint);
     const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
     kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
 }
@@ -345,8 +446,17 @@ double TriadSystem::apply_moves(double scale) {
 
 void TriadSystem::apply_impulses() {
     kernels_->apply_velocities(arrays());
-    for (std::size_t i = 0; i < triads_.size(); ++i) {
+    for (std::size_t i = 0; i < impulses_.size(); ++i) {
         impulses_[i].v += lambdas_[i].v;
+    }
+    for (const TriadPlan::Braid& braid : plans_.current().braids()) {
+        for (std::size_t k = 0; k < braid.length; ++k) {
+            Wide3& impulse = links_[braid.step + k].impulse;
+            const Wide3& lambda = multipliers_[braid.bound + k + 1];
+            impulse.x += lambda.x;
+            impulse.y += lambda.y;
+            impulse.z += lambda.z;
+        }
     }
 }
 

@@ -39,6 +39,7 @@ class TriadSystem {
     // The same of the velocities, m/s, against what drives the hands; at the arms of `evaluate`.
     void evaluate_velocities(const IslandView& island);
     double worst_value();
+    double worst_hand_value() const;  // of the hands' alone
 
     void clear_stiffness() { is_stiff_ = false; }
     // From the last multipliers and the present arms.
@@ -60,19 +61,31 @@ class TriadSystem {
     struct Triad {
         std::uint32_t block = 0;  // into the graph's blocks
         bool turns = false;       // rotation on rotation
+        bool is_hand = false;
     };
-    // An end at a body that nothing moves: it has no place among the four.
+    // An end at a body that nothing moves. Where a strand begins with it, a still body at its point
+    // stands for it among the four; else it has no place there.
     struct Anchor {
-        std::uint32_t end = 0;
+        std::uint32_t end = 0;   // 2 * triad + side
         std::uint32_t body = 0;  // into the graph's bodies
         Vec3 point_bs;
+        std::uint32_t rest_end = k_no_slot;
+        std::uint32_t place = k_no_slot;
     };
 
-    void load_bodies(const IslandView& island);
+    void read_bodies(const IslandView& island);
+    void pack_bodies(const IslandView& island);
+    void pack_velocities(const IslandView& island);
     bool add(const IslandView& island, std::uint32_t index, bool turns);
     void resize(std::size_t triads);
     void plan_nodes();
+    void place_anchors();
+    void clear_impulses();
     void load_ends();
+    FourBodies& four_of(std::uint32_t place) { return bodies_[place / TriadPlan::k_lanes]; }
+    const FourBodies& four_of(std::uint32_t place) const {
+        return bodies_[place / TriadPlan::k_lanes];
+    }
     bool is_as_loaded(const IslandView& island) const;
     Quat rotation_at(const IslandView& island, std::uint32_t end) const;
     double hand_size() const;
@@ -87,12 +100,15 @@ class TriadSystem {
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
     std::vector<TriadVector> points_;    // by end: times the sign; the sign
-    std::vector<TriadVector> impulses_;  // by triad: sums of lambdas
+    std::vector<TriadVector> impulses_;  // by triad of the rest: sums of lambdas
 
     // What `arrays` is made of.
     std::vector<FourBodies> bodies_;
     std::vector<FourEnds> body_ends_;
     std::vector<WideSymmetric> stiffness_;
+    std::vector<FourLinks> links_;
+    std::vector<Wide3> multipliers_;
+    std::vector<FourStrands> strands_;
     std::vector<TriadVector> ends_;
     std::vector<TriadVector> values_;
     std::vector<TriadVector> lambdas_;

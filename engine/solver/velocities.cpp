@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/flush_denormals.hpp"
 #include "engine/solver/triad_velocities.hpp"
 
 namespace handhold {
@@ -310,6 +311,7 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
 
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch) {
+    const FlushDenormals flush;
     if (scratch.triads.resume(island) || scratch.triads.load(island, settings.touch_m)) {
         solve_triad_velocities(island, settings, scratch.triads);
         return {};

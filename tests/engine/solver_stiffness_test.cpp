@@ -100,7 +100,7 @@ FourBodies inverses_of(const TriadKernels& kernels, const Pair& pair) {
     arrays.plan = &plan;
     arrays.is_stiff = true;
     kernels.gather_stiffness(arrays);
-    kernels.multiply_out(arrays);
+    kernels.multiply_out(arrays, 0.0);
     return bodies[0];
 }
 

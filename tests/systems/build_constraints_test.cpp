@@ -299,6 +299,19 @@ TEST(BuildConstraints, NothingOfTheLastFrameStays) {
     EXPECT_FALSE(scene.phase(k_rock).held);
 }
 
+void expect_same(const JointRows& rows, const JointRows& expected) {
+    EXPECT_EQ(rows.limited, expected.limited);
+    EXPECT_EQ(rows.lower, expected.lower);
+    EXPECT_EQ(rows.upper, expected.upper);
+    EXPECT_EQ(rows.previous, expected.previous);
+    EXPECT_EQ(rows.friction_impulse, expected.friction_impulse);
+    EXPECT_EQ(rows.drive_to, expected.drive_to);
+    EXPECT_EQ(rows.drive_s, expected.drive_s);
+    EXPECT_EQ(rows.drive_impulse, expected.drive_impulse);
+    EXPECT_EQ(rows.lock_limit_impulse, expected.lock_limit_impulse);
+    EXPECT_EQ(rows.lock_impulse, expected.lock_impulse);
+}
+
 // A frame over the graph of the frame before, and over none.
 void expect_as_built_anew(Building& scene) {
     Building anew = scene;
@@ -317,8 +330,11 @@ void expect_as_built_anew(Building& scene) {
         EXPECT_EQ(blocks[i].b, expected.b);
         EXPECT_EQ(blocks[i].point_a_bs, expected.point_a_bs);
         EXPECT_EQ(blocks[i].point_b_bs, expected.point_b_bs);
-        EXPECT_EQ(blocks[i].joint.friction_impulse, expected.joint.friction_impulse);
+        EXPECT_EQ(blocks[i].rotation_a_bs.coeffs(), expected.rotation_a_bs.coeffs());
+        EXPECT_EQ(blocks[i].rotation_b_bs.coeffs(), expected.rotation_b_bs.coeffs());
+        expect_same(blocks[i].joint, expected.joint);
         EXPECT_EQ(blocks[i].impulse_ws_ns, Vec3(Vec3::Zero()));
+        EXPECT_EQ(blocks[i].couple_ws_nms, Vec3(Vec3::Zero()));
     }
 }
 
@@ -343,8 +359,26 @@ TEST(BuildConstraints, JointsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
     ASSERT_EQ(scene.frame.graph.blocks.size(), 3U);
     for (RowBlock& block : scene.frame.graph.blocks) {
         block.impulse_ws_ns = Vec3(1.0, 2.0, 3.0);
+        block.couple_ws_nms = Vec3(4.0, 5.0, 6.0);
+        block.joint.lock_impulse = 7.0;
     }
-    scene.joint.at(entity(11)).friction = 4.0;
+    Joint& changed = scene.joint.at(entity(11));
+    changed.friction = 4.0;
+    changed.frame_a_bs = random.pose();
+    changed.frame_b_bs = random.pose();
+    changed.limited = true;
+    changed.lower = -0.5;
+    changed.upper = 0.25;
+    changed.detent_spacing = 0.1;
+    changed.detent_strength = 2.0;
+    scene.joint_state.at(entity(11)) = {0.3, 0.2, false};
+    expect_as_built_anew(scene);
+    changed.latch.at = 0.125;
+    changed.latch.strength = 3.0;
+    scene.joint_state.at(entity(11)).latched = true;
+    expect_as_built_anew(scene);
+    changed.limited = false;
+    scene.joint_state.at(entity(11)).latched = false;
     expect_as_built_anew(scene);
     scene.grip(k_right, GripKind::held, entity(7), random);
     expect_as_built_anew(scene);
