@@ -28,7 +28,8 @@ constexpr std::array<Bend, 8> k_bends = {{{0.0, 0.0},
 // At the best of the bends, where that is less than `least_m`.
 double least_sunk_m(const HandSurroundings& hand, const HingeChain& chain, double least_m,
                     ChainPatch& patch) {
-    patch.gather(chain_reach(chain, chain.open_rad, chain.closed_rad), hand.meshes);
+    patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, chain.closed_rad)),
+                 hand.meshes);
     for (const Bend& bend : k_bends) {
         ChainAngles angle_rad = {};
         for (std::size_t i = 0; i < chain.link_count; ++i) {

@@ -37,7 +37,9 @@ struct GripSurface {
     double cost_m = 0.0;
     // Where the fingers had room: how far the hand still goes until that is asked again.
     double has_room_m = 0.0;
-    bool was_judged = false;  // in this frame: not in the next one too, and no digit closes anew
+    // Room for palm and fingers was looked for in this frame: what is dear has turns. Next frame it
+    // is not, while the surface is there, and in this one nothing that is sunk is tried anew.
+    bool was_judged = false;
 };
 
 // How far the hand as shown is from the hand as tracked, and where it is bound for: in hand space
@@ -101,8 +103,8 @@ struct FingerPose {
     bool thumb_arrived = false;
     ThumbSearch thumb_search;
     std::array<FingerRetry, k_finger_count> retry;
-    // A hand closes one digit anew in a frame: the fingers leave the next one to a thumb that
-    // waits.
+    // A hand tries anew one sunk digit in a frame, beside those that are closed for the first time:
+    // the fingers leave the next turn to a thumb that waits.
     bool finger_tried = false;
     bool thumb_waits = false;
     // Authored poses that would be sunk with the palm in its grip: counted already.

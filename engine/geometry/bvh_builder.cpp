@@ -216,7 +216,8 @@ std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
 }
 
 void BvhBuilder::add_four(std::uint32_t first_slot) {
-    constexpr double k_no_area_m2 = 1e-12;  // a float would not know its normal
+    constexpr double k_least_area = 1e-8;  // of the longest edge, squared: below it the normal of
+                                           // the corners is off by more than floats are
     FourTriangles four;
     for (std::uint32_t i = 0; i < k_leaf; ++i) {
         const Corners corners = bvh_.corners_at(first_slot + i);
@@ -230,7 +231,10 @@ void BvhBuilder::add_four(std::uint32_t first_slot) {
         }
         const Vec3 area = area_vector(corners);
         const double length = area.norm();
-        put(four.normal, length > k_no_area_m2 ? Vec3(area / length) : Vec3::Zero());
+        const double longest2 = std::max({(corners[1] - corners[0]).squaredNorm(),
+                                          (corners[2] - corners[1]).squaredNorm(),
+                                          (corners[0] - corners[2]).squaredNorm()});
+        put(four.normal, length > k_least_area * longest2 ? Vec3(area / length) : Vec3::Zero());
     }
     bvh_.fours_.push_back(four);
 }

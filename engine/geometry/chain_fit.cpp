@@ -78,7 +78,7 @@ class ChainFitter {
         scratch_.segments.reserve(k_usual_segments);
         scratch_.disc.pairs.reserve(k_usual_segments);
         scratch_.disc.paired.reserve(k_usual_segments);
-        scratch_.disc.bounds.reserve(k_usual_segments);
+        scratch_.disc.bounds.reserve(k_usual_segments / 4);
         ChainReach reach = chain_reach(chain_, lowest(chain_.open_rad, chain_.relaxed_rad),
                                        highest(chain_.closed_rad, chain_.relaxed_rad));
         reach.half_width_m = half_width_m(chain_, settings_.plane_offset);

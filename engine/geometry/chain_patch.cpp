@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/geometry/disc_trace.hpp"
 #include "engine/geometry/segment_triangle.hpp"

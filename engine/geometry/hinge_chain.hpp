@@ -47,8 +47,9 @@ double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t 
 // Of all that the chain and its planes can meet.
 double half_width_m(const HingeChain& chain, double plane_offset);
 
-// Where the chain can be with each hinge anywhere between two angles, and `more_m` thicker: a box
-// for each link. As wide as its thickest link.
+// Where the chain can be with each hinge anywhere between two angles: a box for each link, `more_m`
+// wider than it. As far across as its thickest link. Precondition: no angle of least_rad is above
+// that of most_rad.
 ChainReach chain_reach(const HingeChain& chain, const ChainAngles& least_rad,
                        const ChainAngles& most_rad, double more_m = 0.0);
 // By hinge.

@@ -29,10 +29,4 @@ inline bool any_beyond(const FourFloats& values, const FourFloats& limits) {
     return any_of(values > limits);
 }
 
-// Around a box in a plane: its lowest x and y, its highest x and y less than zero. It is
-// `any_beyond` the limits of another one where the two are apart.
-struct FlatBounds {
-    FourFloats value = {};
-};
-
 }  // namespace handhold

@@ -364,6 +364,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
         polishes = result.converged && !polishes && step.whole && steps.keeps_factor() &&
+                   result.iterations + 1 < settings.max_iterations &&
                    steps.worst_hand_m() > k_hand_share * settings.tolerance_m;
         if ((result.converged && !polishes) || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m) {

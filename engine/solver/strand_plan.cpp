@@ -109,8 +109,8 @@ void StrandPlan::follow(std::span<const RowNode> nodes, std::uint32_t from) {
     }
 }
 
-// The outer two strands go from the run's ends inward, the inner ones away from the separator in
-// the middle of the outer ones.
+// All four go inward: the outer two from the run's ends, the inner ones from the outer separators
+// to the middle one.
 void StrandPlan::cut(std::span<const RowNode> nodes) {
     const auto size = static_cast<std::uint32_t>(run_.size());
     if (size < k_strands * k_shortest_strand + k_separators) {

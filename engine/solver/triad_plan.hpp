@@ -43,7 +43,7 @@ class TriadPlan {
     std::span<const std::uint32_t> updates() const { return updates_; }
     std::size_t block_count() const { return block_count_; }
 
-    // One number a lane; a lane has a body, the one of slot 4 * group + lane.
+    // One number a lane; a lane has a body, the one at place 4 * four + lane.
     using Lanes = StrandPlan::Lanes;
     static constexpr std::size_t k_lanes = std::tuple_size_v<Lanes>;
     // The given node of each of the rest's.

@@ -43,7 +43,7 @@ class ThumbPoser {
         const HandSurroundings& hand = io_.hands[place];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
-        pose.thumb_waits = false;
+        const bool waited = std::exchange(pose.thumb_waits, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
             rest(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
             if (const auto posed = posed_in(hand, thumb)) {
@@ -61,7 +61,7 @@ class ThumbPoser {
         if (take_posed(hand, thumb, pose, f) || waits_for_fingers(hand, f, pose)) {
             return;
         }
-        const ThumbFit best = fit_thumb(hand, thumb, f, pose);
+        const ThumbFit best = fit_thumb(hand, thumb, f, waited, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         if (best.fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = best.fit.contact_triangle;
@@ -186,7 +186,7 @@ class ThumbPoser {
     // As long as it touches there and is not sunk, a thumb keeps its opposition; and where another
     // was looked for in vain, for a while.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       FingerPose& pose) {
+                       bool waited, FingerPose& pose) {
         FingerRetry& retry = pose.retry[f];
         const bool is_new =
             !pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs);
@@ -210,7 +210,8 @@ class ThumbPoser {
         }
         const bool is_turn =
             std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
-        pose.thumb_waits = may_retry(retry) && !is_turn;
+        // A judged surface takes the turn of both: whose it was stays.
+        pose.thumb_waits = may_retry(retry) && !is_turn && (pose.finger_tried || waited);
         return may_retry(retry) && is_turn ? change_if_better(hand, thumb, f, kept, pose) : kept;
     }
 

@@ -257,13 +257,18 @@ class PalmHolder {
         return left_m - std::max(hand_way_m(last.wrist_bs, hand_.wrist_bs), least_m);
     }
 
-    // No surface is judged in two frames in a row: digits have their turn. False where it is gone.
+    // No surface is judged in two frames in a row: digits have their turn. False where it is gone,
+    // or its room is.
     bool rest(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
               const GripSurface& last, GripSurface& surface) const {
         constexpr double k_next_m = 1e-9;
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            surface = held_at(placed, palm, *near).surface;
+            const Held held = held_at(placed, palm, *near);
+            if (last.has_room_m > 0.0 && held.sunk_m > k_roomy_m) {
+                return false;
+            }
+            surface = held.surface;
             surface.cost_m = last.cost_m;
             surface.tried = last.tried;
             surface.tried_count = last.tried_count;
@@ -329,6 +334,7 @@ class PalmHolder {
         std::size_t count = 0;
         std::size_t left = most_tries();
         Judged best;
+        bool was_judged = false;
         const auto near = near_last(placed, searcher, last);
         if (near && last.tried_count > 0) {
             best.surface = held_at(placed, palm, *near).surface;
@@ -339,6 +345,7 @@ class PalmHolder {
             }
         } else if (near) {
             best = judge(placed, palm, *near);
+            was_judged = true;
             tried[count++] = *near;
             --left;
             const auto cheapest = searcher.cheapest_beside({});
@@ -366,6 +373,7 @@ class PalmHolder {
                 continue;
             }
             const Judged next = judge(placed, palm, *way);
+            was_judged = true;
             if (count == 0 || next.has_room || next.surface.cost_m < best.surface.cost_m) {
                 best = next;
             }
@@ -375,7 +383,7 @@ class PalmHolder {
         if (count == 0) {
             return {};
         }
-        best.surface.was_judged = true;
+        best.surface.was_judged = was_judged;
         const bool is_cheapest = count == 1 && best.has_room && !near;
         best.surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
         best.surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(count);

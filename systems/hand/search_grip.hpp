@@ -28,10 +28,10 @@ struct SearchGripIo {
 // limits: best first over the surface's neighbours, from where the palm's ray ends, from the
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
 // PalmTuning::tilt_cost_m_per_rad apart. Where that leaves no room for the palm, or for a finger
-// however it bends, others are tried, PalmTuning::tries_per_frame in each frame; the first with
-// room is taken, or the one where cost and what stays sunk are least. Hands with nothing within
-// PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17.
-// Under a palm in an authored grip nothing is searched for: it has the nearest triangle.
+// however it bends, others are tried, PalmTuning::tries_per_frame in every second frame; the first
+// with room is taken, or the one where cost and what stays sunk are least. Hands with nothing
+// within PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17. Under a palm in an
+// authored grip nothing is searched for: it has the nearest triangle.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::least_sync);
 

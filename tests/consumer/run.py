@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
-# Beside the standard library, whose headers have neither folder nor ending; compilers for x86 bring emmintrin.h.
-LIBRARIES = re.compile(r"Eigen/\w+|[a-z_]+|nlohmann/json_fwd\.hpp|emmintrin\.h")
+# Beside the standard library, whose headers have neither folder nor ending; compilers for x86 bring emmintrin.h and xmmintrin.h.
+LIBRARIES = re.compile(r"Eigen/\w+|[a-z_]+|nlohmann/json_fwd\.hpp|[ex]mmintrin\.h")
 
 
 def lost_includes(root: Path) -> list[str]:

@@ -76,6 +76,14 @@ TEST_F(LabScenes, WhatTwoHandsCannotBothHaveIsSharedAlike) {
     EXPECT_LE(claim(solve("two_players"), "push_back_error_mm"), 1e-3);
 }
 
+// A leaving hand may move a head by 0.01 mm; the solver leaves some of it.
+TEST_F(LabScenes, HeadsOfClimbersGoTheWayOfTheirHands) {
+    const Json json = solve("climb", 900);
+    EXPECT_LE(claim(json, "head_path_one_hand_mm"), 1e-3);
+    EXPECT_LE(claim(json, "head_path_two_hands_mm"), 1e-3);
+    EXPECT_LE(claim(json, "head_jump_mm"), 0.01);
+}
+
 TEST_F(LabScenes, TwoHandsOnAFreeBarLeaveNothingToShare) {
     const Json json = solve("two_hands");
     EXPECT_LE(claim(json, "first_hand_error_mm"), 1e-3);

@@ -28,6 +28,7 @@ constexpr std::array k_scenes = {
     NamedScene{"two_hands", &make_two_hands},
     NamedScene{"two_players", &make_two_players},
     NamedScene{"contradict", &make_contradict},
+    NamedScene{"climb", &make_climb},
     NamedScene{"teleport", &make_teleport},
     NamedScene{"jam", &make_jam},
     NamedScene{"ship_kinematic", &make_ship_kinematic},

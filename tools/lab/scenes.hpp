@@ -17,6 +17,7 @@ LabScene make_door(const SceneOptions& options);
 LabScene make_two_hands(const SceneOptions& options);
 LabScene make_two_players(const SceneOptions& options);
 LabScene make_contradict(const SceneOptions& options);
+LabScene make_climb(const SceneOptions& options);
 
 LabScene make_shove(const SceneOptions& options);
 LabScene make_shove_mesh(const SceneOptions& options);

@@ -115,4 +115,66 @@ LabScene make_contradict(const SceneOptions& /*options*/) {
     return scene;
 }
 
+namespace {
+
+// Of a hand that pulls its player along a rail, trembling.
+Vec3 climbing_hand(double t_s) {
+    const double tremor_m = 1e-3 * std::sin(2.0 * k_pi * 10.0 * t_s);
+    return {to_and_fro(t_s, 0.4, k_hand_speed_mps), tremor_m, 0.0};
+}
+
+// Of the second one, which never keeps its distance.
+Vec3 stray(double t_s) { return {0.002 * std::sin(2.0 * k_pi * 3.0 * t_s), 0.0, 0.0}; }
+
+}  // namespace
+
+// Two players pull themselves along one rail in the same way: one by the right hand, the other by
+// both, of which the left one leaves. His head goes half the way that his left hand
+// strays, and stays where that had it at the instant in which it leaves.
+LabScene make_climb(const SceneOptions& /*options*/) {
+    LabScene scene;
+    const int rail = add_box(scene, "rail", 0.0, Vec3(10.0, 0.02, 0.02), Vec3::Zero());
+    scene.bodies[static_cast<std::size_t>(rail)].kind = BodyKind::fixed;
+    const Vec3 aside(5.0, 0.0, 0.0);
+    scene.players = {LabPlayer{}, LabPlayer{aside}};
+    constexpr double k_leaves_s = 2.5;
+    const auto add = [&](int player, HandSide side, double release_s) {
+        const bool is_left = side == HandSide::left;
+        LabHold hold;
+        hold.player = player;
+        hold.side = side;
+        hold.body = rail;
+        hold.point_only = true;
+        hold.release_s = release_s;
+        hold.hand_ps = [is_left](double t_s) {
+            const Vec3 place(is_left ? -0.2 : 0.2, 0.0, 0.0);
+            return Pose{place + climbing_hand(t_s) + (is_left ? stray(t_s) : Vec3::Zero()),
+                        Quat::Identity()};
+        };
+        scene.add_hold(hold);
+    };
+    add(0, HandSide::right, k_never_s);
+    add(1, HandSide::right, k_never_s);
+    add(1, HandSide::left, k_leaves_s);
+    scene.needs_player = true;
+    // How far the head is from where a hand that never slips would have it.
+    scene.watch = [aside, left_by = Vec3(Vec3::Zero()), held = true](const FrameRecord& frame,
+                                                                     Figures& figures) mutable {
+        const Vec3 way = climbing_hand(frame.t_s) - climbing_hand(0.0);
+        const Vec3 one = frame.poses[1].position + way;
+        const Vec3 two = frame.poses[2].position - aside + way;
+        const bool holds = frame.held[2] != 0;
+        if (held) {
+            left_by = -0.5 * stray(frame.t_s);
+        }
+        if (held && !holds) {
+            figures.take_worst("head_jump_mm", 1e3 * (two - left_by).norm());
+        }
+        held = holds;
+        figures.take_worst("head_path_one_hand_mm", 1e3 * one.norm());
+        figures.take_worst("head_path_two_hands_mm", 1e3 * (two - left_by).norm());
+    };
+    return scene;
+}
+
 }  // namespace handhold::lab
