@@ -9,6 +9,7 @@
 
 #include "broken_meshes.hpp"
 #include "engine/geometry/hinge_chain.hpp"
+#include "engine/geometry/segment_triangle.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold::chain_patch_test {
@@ -134,6 +135,57 @@ TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
         }
     }
     EXPECT_LT(of_boxes, of_all / 2);
+}
+
+// A ring somewhere in a mesh that is as wide as a hall, its floor of a few huge triangles.
+Mesh ring_in_a_hall(const Vec3& at, double half_m) {
+    Mesh mesh = test::make_torus(0.08, 0.03, 60, 32);
+    for (Vec3& position : mesh.positions) {
+        position += at;
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const double x : {-half_m, half_m}) {
+        for (const double z : {-half_m, half_m}) {
+            mesh.positions.emplace_back(x, at.y() - 0.031, z);
+        }
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first + 1, first + 3, first + 2});
+    return mesh;
+}
+
+// What floats leave out is far wherever the mesh is. Expected: nearest_between, over all triangles.
+TEST(ChainPatch, FindsTheDeepestFarFromTheMeshsMiddleToo) {
+    Random random(1510);
+    for (const double half_m : {0.2, 5.0, 100.0}) {
+        const Vec3 at(0.9 * half_m, 0.3 * half_m, -0.8 * half_m);
+        const GripMesh mesh = full_mesh(ring_in_a_hall(at, half_m));
+        const std::vector<PlacedMesh> placed = {{&mesh, {}}};
+        int sunk = 0;
+        for (int i = 0; i < 200; ++i) {
+            ChainReach reach = random_reach(random);
+            reach.base.position += at;
+            ChainPatch patch;
+            patch.gather(reach, placed);
+            const std::array<Vec2, 2> middle = {random.vector(0.4 * reach.radius_m).head<2>(),
+                                                random.vector(0.4 * reach.radius_m).head<2>()};
+            const auto to_mesh = [&](const Vec2& point) {
+                return transform_point(reach.base, {0.0, -point.y(), -point.x()});
+            };
+            double nearest_m = reach.half_width_m;
+            for (const auto& [a, b, c] : mesh.contact.triangles) {
+                const Corners corners = {mesh.contact.positions[a], mesh.contact.positions[b],
+                                         mesh.contact.positions[c]};
+                nearest_m = std::min(
+                    nearest_m,
+                    nearest_between({to_mesh(middle[0]), to_mesh(middle[1])}, corners).distance_m);
+            }
+            const SunkCapsule found = patch.find_sunk(middle, reach.half_width_m, 0);
+            ASSERT_NEAR(found.nearest_m, nearest_m, 1e-9) << half_m << ", " << i;
+            sunk += found.depth_m > 0.0 ? 1 : 0;
+        }
+        EXPECT_GT(sunk, 50) << half_m;
+    }
 }
 
 // Floats that hold the box: a mesh's tree rounds its own outwards too.

@@ -99,10 +99,10 @@ TEST_F(LabScenes, JamIsSharedByBothWallsAndStill) {
     EXPECT_LE(claim(json, "still_mps"), 1e-6);
 }
 
-// The goal, 1e-5 mm, is below what a solve is asked for: it ends at 1e-4 mm.
-TEST_F(LabScenes, HandsOnShipsLagByNoMoreThanTheSolversTolerance) {
+// A tenth of what a solve is asked for: what it leaves of a hand is taken away once more.
+TEST_F(LabScenes, HandsOnShipsLagByATenthOfTheSolversTolerance) {
     for (const char* scene : {"ship_kinematic", "ship_dynamic"}) {
-        EXPECT_LE(claim(solve(scene), "ship_lag_mm"), 1e-4) << scene;
+        EXPECT_LE(claim(solve(scene, 900), "ship_lag_mm"), 1e-5) << scene;
     }
 }
 
