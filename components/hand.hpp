@@ -38,7 +38,8 @@ struct GripSurface {
     // Where the fingers had room: how far the hand still goes until that is asked again.
     double has_room_m = 0.0;
     // Room for palm and fingers was looked for in this frame: what is dear has turns. Next frame it
-    // is not, while the surface is there, and in this one nothing that is sunk is tried anew.
+    // is not, while the surface and its room are there, and in this one nothing that is sunk is
+    // tried anew.
     bool was_judged = false;
 };
 
@@ -105,8 +106,8 @@ struct FingerPose {
     std::array<FingerRetry, k_finger_count> retry;
     // A hand tries anew one sunk digit in a frame, beside those that are closed for the first time:
     // the fingers leave the next turn to a thumb that waits.
-    bool finger_tried = false;
-    bool thumb_waits = false;
+    bool finger_tried = false;  // in this frame; by sweep_fingers
+    bool thumb_waits = false;   // since the last one; by pose_thumb
     // Authored poses that would be sunk with the palm in its grip: counted already.
     std::array<bool, k_finger_count> pose_refused = {};
 };

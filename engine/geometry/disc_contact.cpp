@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "engine/core/check.hpp"
+#include "engine/geometry/closing_chain.hpp"
+#include "engine/geometry/disc_gap.hpp"
 
 namespace handhold {
 namespace {
@@ -20,154 +22,6 @@ constexpr double k_surely_apart_m = 3e-5;  // from here on the closed form does:
 constexpr int k_most_rounds = 20000;       // a guard: a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
-
-using Points = std::array<Vec2, k_most_disc_links + 1>;
-
-// The hinges, and the last link's end.
-struct ChainMotion {
-    Points point;
-    Points velocity_m;  // for the whole closing
-};
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Where the links are while those before `first_free` keep their angles.
-class ClosingChain {
-  public:
-    ClosingChain(const DiscChain& chain, double at) : chain_(chain) {
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
-            angle_rad_[i] = angle_at(i, at);
-        }
-        look_ahead();
-    }
-
-    double angle_at(std::size_t hinge, double at) const {
-        return chain_.open_rad[hinge] + at * (chain_.closed_rad[hinge] - chain_.open_rad[hinge]);
-    }
-
-    ChainMotion motion_at(double at) const {
-        ChainMotion motion;
-        for (std::size_t i = 0; i <= first_free_; ++i) {
-            motion.point[i] = kept_point_[i];
-            motion.velocity_m[i] = Vec2::Zero();
-        }
-        double angle = kept_angle_rad_;
-        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
-            angle += angle_at(i, at);
-            const Vec2 way = chain_.length_m[i] * direction(angle);
-            motion.point[i + 1] = motion.point[i] + way;
-            motion.velocity_m[i + 1] =
-                motion.velocity_m[i] + turn_rad_[i] * Vec2(-way.y(), way.x());
-        }
-        return motion;
-    }
-
-    // No point `i` of the motion is accelerated more, metres for the whole closing, squared.
-    double acceleration_m(std::size_t point) const { return acceleration_m_[point]; }
-
-    // Hinges up to and with `last` keep the angles they have at `at`.
-    void freeze(std::size_t last, double at) {
-        for (std::size_t i = first_free_; i <= last; ++i) {
-            angle_rad_[i] = angle_at(i, at);
-        }
-        first_free_ = last + 1;
-        look_ahead();
-    }
-
-    std::size_t first_free() const { return first_free_; }
-    const std::array<double, k_most_disc_links>& angle_rad() const { return angle_rad_; }
-
-  private:
-    static Vec2 direction(double angle) {
-        double sine = 0.0;
-        double cosine = 1.0;
-        sin_cos(angle, sine, cosine);
-        return {cosine, sine};
-    }
-
-    // What stays the same until the next hinge is frozen.
-    void look_ahead() {
-        kept_angle_rad_ = 0.0;
-        kept_point_[0] = Vec2::Zero();
-        for (std::size_t i = 0; i < first_free_; ++i) {
-            kept_angle_rad_ += angle_rad_[i];
-            kept_point_[i + 1] = kept_point_[i] + chain_.length_m[i] * direction(kept_angle_rad_);
-        }
-        acceleration_m_.fill(0.0);
-        double turn_rad = 0.0;
-        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
-            turn_rad += chain_.closed_rad[i] - chain_.open_rad[i];
-            turn_rad_[i] = turn_rad;
-            acceleration_m_[i + 1] = acceleration_m_[i] + turn_rad * turn_rad * chain_.length_m[i];
-        }
-    }
-
-    const DiscChain& chain_;
-    std::array<double, k_most_disc_links> angle_rad_ = {};
-    std::size_t first_free_ = 0;
-    double kept_angle_rad_ = 0.0;  // of the last link that is kept
-    Points kept_point_;
-    std::array<double, k_most_disc_links> turn_rad_ = {};  // of each link, for the whole closing
-    std::array<double, k_most_disc_links + 1> acceleration_m_ = {};
-};
-
-// Where two segments are nearest to each other, in closed form.
-struct Gap {
-    double distance_m = 0.0;
-    Vec2 on_segment = Vec2::Zero();
-    Vec2 away = Vec2::Zero();  // unit, from the segment to the link; zero where they cross
-};
-
-class NearestPair {
-  public:
-    Gap run(const Vec2& begin, const Vec2& end, const DiscSegment& segment) {
-        const Vec2 link = end - begin;
-        const Vec2 along = segment.b_ds - segment.a_ds;
-        const Vec2 from_a = begin - segment.a_ds;
-        const double begin_side = cross(along, from_a);
-        const double end_side = begin_side + cross(along, link);
-        const double a_side = -cross(link, from_a);
-        const double b_side = a_side + cross(link, along);
-        if ((begin_side > 0.0) != (end_side > 0.0) && (a_side > 0.0) != (b_side > 0.0)) {
-            return {};
-        }
-        const double link2 = link.squaredNorm();
-        const double along2 = along.squaredNorm();
-        take_on_segment(begin, segment.a_ds, along, along2);
-        take_on_segment(end, segment.a_ds, along, along2);
-        take_on_link(segment.a_ds, begin, link, link2);
-        take_on_link(segment.b_ds, begin, link, link2);
-        const double distance_m = std::sqrt(squared_);
-        return {distance_m, on_segment_,
-                distance_m > 0.0 ? Vec2((on_link_ - on_segment_) / distance_m) : Vec2::Zero()};
-    }
-
-  private:
-    static Vec2 foot(const Vec2& point, const Vec2& from, const Vec2& along, double squared) {
-        return squared > 0.0
-                   ? Vec2(from + std::clamp((point - from).dot(along) / squared, 0.0, 1.0) * along)
-                   : from;
-    }
-    void take(const Vec2& on_link, const Vec2& on_segment) {
-        const double squared = (on_link - on_segment).squaredNorm();
-        if (squared < squared_) {
-            squared_ = squared;
-            on_link_ = on_link;
-            on_segment_ = on_segment;
-        }
-    }
-    void take_on_segment(const Vec2& link_end, const Vec2& from, const Vec2& along,
-                         double squared) {
-        take(link_end, foot(link_end, from, along, squared));
-    }
-    void take_on_link(const Vec2& corner, const Vec2& from, const Vec2& along, double squared) {
-        take(foot(corner, from, along, squared), corner);
-    }
-
-    double squared_ = std::numeric_limits<double>::infinity();
-    Vec2 on_link_ = Vec2::Zero();
-    Vec2 on_segment_ = Vec2::Zero();
-};
 
 // A box around points.
 struct DiscBox {
@@ -267,15 +121,15 @@ class Closing {
         return chain_.radius_m[segments_[pair.segment].plane][pair.link];
     }
 
-    Gap gap_of(const Pair& pair, const ChainMotion& motion) const {
-        return NearestPair().run(motion.point[pair.link], motion.point[pair.link + 1],
-                                 segments_[pair.segment]);
+    DiscGap gap_of(const Pair& pair, const ChainMotion& motion) const {
+        return DiscGapFinder().run(motion.point[pair.link], motion.point[pair.link + 1],
+                                   segments_[pair.segment]);
     }
 
     // Until then a line between the two stays clear of both: the segment is behind it, and each of
     // the link's ends needs so long to come to it.
-    double next_touch(const Pair& pair, const Gap& gap, double free_m, const ChainMotion& motion,
-                      double at) const {
+    double next_touch(const Pair& pair, const DiscGap& gap, double free_m,
+                      const ChainMotion& motion, double at) const {
         double step = std::numeric_limits<double>::infinity();
         for (std::size_t end = pair.link; end <= pair.link + 1; ++end) {
             const double beyond_m =
@@ -437,7 +291,7 @@ class Closing {
     }
 
     // What is near is told by Box2D, what is not by the closed form.
-    double separation_m(const Pair& pair, const Gap& gap, const ChainMotion& motion) {
+    double separation_m(const Pair& pair, const DiscGap& gap, const ChainMotion& motion) {
         const double free_m = gap.distance_m - radius_m(pair);
         if (free_m > k_surely_apart_m) {
             return free_m;
@@ -458,7 +312,7 @@ class Closing {
     bool touches(Pair& pair, const ChainMotion& motion, double at) {
         const double before_m = pair.separation_m;
         const bool was_seen = pair.seen;
-        const Gap gap = gap_of(pair, motion);
+        const DiscGap gap = gap_of(pair, motion);
         pair.separation_m = separation_m(pair, gap, motion);
         pair.seen = true;
         if (pair.leaving) {

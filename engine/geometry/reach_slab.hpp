@@ -33,7 +33,8 @@ struct ChainReach {
 struct FourReached {
     std::array<FourFloats, 3> low = {};
     std::array<FourFloats, 3> high = {};
-    // Where a triangle's plane meets the chain's own: line[0] x + line[1] y = line[2].
+    // Where a triangle's plane meets the chain's own: line[0] x + line[1] y = line[2]. All 0 where
+    // its normal is not known.
     std::array<FourFloats, 3> line = {};
     std::array<std::array<FourFloats, 2>, 3> corner = {};  // in the plane
 };

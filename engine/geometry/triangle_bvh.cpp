@@ -56,7 +56,7 @@ double bounded_inverse(double x) {
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
 
-// How near triangles and boxes can be to a point at most, squared; in floats.
+// No more than the distances of boxes and triangles from a point, squared; in floats.
 class LeastDistance {
   public:
     // `point` about the tree's origin; no corner is beyond `reach_m`.

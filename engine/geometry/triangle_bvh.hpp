@@ -62,7 +62,8 @@ class TriangleBvh {
     // No coordinate of a corner about the origin is beyond.
     double reach_m() const;
 
-    // A triangle of a visited leaf.
+    // A triangle of a visited leaf: its number at construction, and its corners in doubles.
+    // Precondition: slot < 4 * leaves.
     std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }
     std::array<Vec3, 3> corners_at(std::uint32_t slot) const {
         const auto& [a, b, c] = slots_[slot];

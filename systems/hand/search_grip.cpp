@@ -12,162 +12,20 @@
 #include "components/finger_chain.hpp"
 #include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
+#include "components/surface_search.hpp"
 #include "engine/collision/closest_point.hpp"
-#include "engine/geometry/triangle_set.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_most_search_pops = 300;
 constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
 constexpr double k_look_again_m = 0.016;  // a hand goes so far before it looks for room again
 
-// Of two places on a surface: hardly another one.
-bool is_beside(const Vec3& point, const Vec3& normal, const Vec3& other, const Vec3& other_normal) {
-    constexpr double k_near_m = 0.025;
-    constexpr double k_alike = 0.7;
-    return (point - other).squaredNorm() < k_near_m * k_near_m &&
-           normal.dot(other_normal) > k_alike;
-}
-
-struct Palm {
-    Vec3 center;
-    Vec3 up;  // unit: towards the back of the hand
-};
-
-Palm palm_in(const Pose& frame, const HandSurroundings& hand) {
+PalmPlace palm_in(const Pose& frame, const HandSurroundings& hand) {
     const Pose wrist = inverse(frame) * hand.wrist_bs;
     return {transform_point(wrist, hand.rig->palm_center_hs),
             wrist.rotation * -hand.rig->palm_normal_hs};
 }
-
-struct Candidate {
-    double cost_m = std::numeric_limits<double>::infinity();
-    Vec3 point = Vec3::Zero();
-};
-
-// What it takes to hold the palm to one triangle, in closed form: along the triangle's normal into
-// the range of heights, then about the palm's own centre, which keeps its height, into the range of
-// angles.
-Candidate cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const Palm& palm,
-                  const PalmTuning& tuning) {
-    const auto& [a, b, c] = graph.triangles[triangle];
-    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
-    const bool turned_away = graph.normals[triangle].dot(palm.up) < 0.0;
-    const Vec3 normal = turned_away ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
-    const double height_m = (palm.center - corners[0]).dot(normal);
-    const Vec3 point = closest_on_triangle(palm.center - height_m * normal, corners);
-    const Vec3 moved = point + std::clamp(height_m, tuning.min_height_m,
-                                          std::max(tuning.min_height_m, tuning.max_height_m)) *
-                                   normal;
-    const double angle_rad = arc_tangent2(palm.up.cross(normal).norm(), palm.up.dot(normal));
-    return {(moved - palm.center).norm() +
-                tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
-                (turned_away ? tuning.back_cost_m : 0.0),
-            point};
-}
-
-class GripSearcher {
-  public:
-    GripSearcher(const SurfaceGraph& graph, const Palm& palm, const PalmTuning& tuning,
-                 GripSearchScratch& scratch)
-        : graph_(graph),
-          palm_(palm),
-          tuning_(tuning),
-          open_(scratch.open),
-          seen_(scratch.seen),
-          found_(scratch.found) {
-        open_.clear();
-        open_.reserve(3 * k_most_search_pops + 16);
-        found_.clear();
-        found_.reserve(k_most_search_pops);
-    }
-
-    void add_seed(std::uint32_t triangle) {
-        if (triangle < graph_.triangles.size()) {
-            push(triangle);
-        }
-    }
-
-    using Found = GripSearchScratch::Found;
-    // Goes on until `patience` pops in a row found nothing cheaper; may be called again.
-    void run(std::uint32_t patience) {
-        std::uint32_t idle = 0;
-        while (pops_ < k_most_search_pops && idle < patience && !open_.empty()) {
-            ++pops_;
-            std::pop_heap(open_.begin(), open_.end(), later);
-            const GripSearchScratch::Node node = open_.back();
-            open_.pop_back();
-            ++idle;
-            if (found_.empty() || node.cost_m < best_m_) {
-                best_m_ = node.cost_m;
-                idle = 0;
-            }
-            found_.push_back({node.triangle, node.point, node.cost_m});
-            for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
-                if (next != k_no_triangle) {
-                    push(next);
-                }
-            }
-        }
-    }
-
-    // The cheapest of those found that is not near any of `tried` and alike; none where there is
-    // none.
-    std::optional<Found> cheapest_beside(std::span<const Found> tried) const {
-        std::optional<Found> best;
-        for (const Found& found : found_) {
-            const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Found& other) {
-                return is_beside(found.point, graph_.normals[found.triangle], other.point,
-                                 graph_.normals[other.triangle]);
-            });
-            if (is_new && (!best || found.cost_m < best->cost_m)) {
-                best = found;
-            }
-        }
-        return best;
-    }
-
-    // The cheapest of those found that is near `other` and alike.
-    std::optional<Found> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const {
-        std::optional<Found> best;
-        for (const Found& found : found_) {
-            if (is_beside(found.point, graph_.normals[found.triangle], other,
-                          graph_.normals[other_triangle]) &&
-                (!best || found.cost_m < best->cost_m)) {
-                best = found;
-            }
-        }
-        return best;
-    }
-
-  private:
-    static bool later(const GripSearchScratch::Node& a, const GripSearchScratch::Node& b) {
-        return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.order > b.order;
-    }
-
-    void push(std::uint32_t triangle) {
-        if (!seen_.insert(triangle)) {
-            return;
-        }
-        const Candidate candidate = cost_of(graph_, triangle, palm_, tuning_);
-        if ((candidate.point - palm_.center).squaredNorm() > tuning_.reach_m * tuning_.reach_m) {
-            return;
-        }
-        open_.push_back({candidate.cost_m, triangle, pushed_++, candidate.point});
-        std::push_heap(open_.begin(), open_.end(), later);
-    }
-
-    const SurfaceGraph& graph_;
-    const Palm& palm_;
-    const PalmTuning& tuning_;
-    std::vector<GripSearchScratch::Node>& open_;
-    TriangleSet<2048> seen_;
-    std::uint32_t pushed_ = 0;
-    std::vector<Found>& found_;
-    double best_m_ = 0.0;
-    std::uint32_t pops_ = 0;
-};
 
 // The mean of the surface around the point, by area, of what is wound so that it looks towards
 // `outward`; unit.
@@ -199,7 +57,7 @@ class PalmHolder {
     void run(GripSurface& surface) {
         const PlacedMesh& placed = hand_.meshes.front();
         const GripMesh& mesh = *placed.mesh;
-        const Palm palm = palm_in(placed.pose, hand_);
+        const PalmPlace palm = palm_in(placed.pose, hand_);
         const auto hit = mesh.search_bvh.cast_ray(
             palm.center + tuning_.hand.ray_back_m * palm.up,
             palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
@@ -213,7 +71,7 @@ class PalmHolder {
             }
             return;
         }
-        GripSearcher searcher(mesh.search, palm, tuning_.palm, scratch_);
+        SurfaceSearch searcher(mesh.search, palm, tuning_.palm, scratch_);
         searcher.add_seed(hit ? hit->triangle : GripSurface::k_none);
         searcher.add_seed(near ? near->triangle : GripSurface::k_none);
         searcher.add_seed(before);
@@ -235,8 +93,8 @@ class PalmHolder {
     void run_authored(GripSurface& surface) {
         const PlacedMesh& placed = hand_.meshes.front();
         const Pose wrist = inverse(placed.pose) * hand_.authored->wrist_bs;
-        const Palm palm = {transform_point(wrist, hand_.rig->palm_center_hs),
-                           wrist.rotation * -hand_.rig->palm_normal_hs};
+        const PalmPlace palm = {transform_point(wrist, hand_.rig->palm_center_hs),
+                                wrist.rotation * -hand_.rig->palm_normal_hs};
         const auto near = placed.mesh->search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
         surface = {};
         if (near) {
@@ -247,7 +105,7 @@ class PalmHolder {
     }
 
   private:
-    using Found = GripSearcher::Found;
+    using Found = SurfaceSearch::Found;
 
     // Time counts as a way too: a hand at rest looks again.
     double still_to_go_m(double left_m, const GripSurface& last) const {
@@ -259,7 +117,7 @@ class PalmHolder {
 
     // No surface is judged in two frames in a row: digits have their turn. False where it is gone,
     // or its room is.
-    bool rest(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+    bool rest(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
               const GripSurface& last, GripSurface& surface) const {
         constexpr double k_next_m = 1e-9;
         const auto near = near_last(placed, searcher, last);
@@ -282,7 +140,7 @@ class PalmHolder {
 
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
     // looked stays with what it found for a while. False where it is to look now.
-    bool stay(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+    bool stay(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
               const GripSurface& last, GripSurface& surface) const {
         const double left_m = still_to_go_m(last.look_in_m, last);
         if (left_m <= 0.0) {
@@ -297,7 +155,7 @@ class PalmHolder {
     }
 
     // What had room for fingers mostly has it a little farther on. False where it is to be asked.
-    bool keep_room(const PlacedMesh& placed, const Palm& palm, const GripSearcher& searcher,
+    bool keep_room(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
                    const GripSurface& last, GripSurface& surface) const {
         const double left_m = still_to_go_m(last.has_room_m, last);
         const auto cheapest = searcher.cheapest_beside({});
@@ -317,7 +175,7 @@ class PalmHolder {
                          inverse_transform_point(placed.pose, last.point_bs),
                          graph.normals[last.triangle]);
     }
-    static std::optional<Found> near_last(const PlacedMesh& placed, const GripSearcher& searcher,
+    static std::optional<Found> near_last(const PlacedMesh& placed, const SurfaceSearch& searcher,
                                           const GripSurface& last) {
         return last.triangle == GripSurface::k_none
                    ? std::nullopt
@@ -325,87 +183,113 @@ class PalmHolder {
                                             last.triangle);
     }
 
-    // The cheapest surface, if it leaves room for palm and fingers. Else the first that does, of
-    // those that are found by looking farther; else the one where cost and what stays sunk are
-    // least. A few in each frame: goes on from where `last` came to, or begins with where that is.
-    GripSurface try_surfaces(const PlacedMesh& placed, const Palm& palm, GripSearcher& searcher,
-                             const GripSurface& last) const {
-        std::array<Found, GripSurface::k_most_tries> tried;
-        std::size_t count = 0;
-        std::size_t left = most_tries();
-        Judged best;
-        bool was_judged = false;
-        const auto near = near_last(placed, searcher, last);
-        if (near && last.tried_count > 0) {
-            best.surface = held_at(placed, palm, *near).surface;
-            best.surface.cost_m = last.cost_m;
-            best.surface.has_room_m = last.has_room_m;
-            for (; count < last.tried_count; ++count) {
-                tried[count] = found_at(placed, palm, last.tried[count]);
-            }
-        } else if (near) {
-            best = judge(placed, palm, *near);
-            was_judged = true;
-            tried[count++] = *near;
-            --left;
-            const auto cheapest = searcher.cheapest_beside({});
-            if (best.has_room && cheapest && is_near_last(placed, *cheapest, best.surface)) {
-                best.surface.was_judged = true;
-                return best.surface;
-            }
-        }
-        bool has_looked_around = false;
-        bool is_over = count >= tried.size();
-        for (; left > 0 && !is_over; --left) {
-            if (count > 0 && !has_looked_around) {
-                look_around(*placed.mesh, palm, searcher);
-                has_looked_around = true;
-            }
-            const auto way = searcher.cheapest_beside({tried.data(), count});
-            if (!way || (count > 0 && way->cost_m >= best.surface.cost_m)) {
-                is_over = true;
-                break;
-            }
-            if (count > 0 && is_back(placed, palm, *way) &&
-                !may_try_backs(placed, palm, tried.front())) {
-                tried[count++] = *way;
-                is_over = count == tried.size();
-                continue;
-            }
-            const Judged next = judge(placed, palm, *way);
-            was_judged = true;
-            if (count == 0 || next.has_room || next.surface.cost_m < best.surface.cost_m) {
-                best = next;
-            }
-            tried[count++] = *way;
-            is_over = next.has_room || count == tried.size();
-        }
-        if (count == 0) {
-            return {};
-        }
-        best.surface.was_judged = was_judged;
-        const bool is_cheapest = count == 1 && best.has_room && !near;
-        best.surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
-        best.surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(count);
-        for (std::size_t i = 0; i < best.surface.tried_count; ++i) {
-            best.surface.tried[i] = tried[i].triangle;
-        }
-        return best.surface;
-    }
-
-    static bool is_back(const PlacedMesh& placed, const Palm& palm, const Found& found) {
-        return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
-    }
-    // Fingers have room in a hollow solid too: for their sake alone no palm goes there.
-    bool may_try_backs(const PlacedMesh& placed, const Palm& palm, const Found& first) const {
-        return is_back(placed, palm, first) || held_at(placed, palm, first).sunk_m > k_roomy_m;
-    }
-
     struct Judged {
         GripSurface surface;
         bool has_room = false;
     };
-    Judged judge(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
+    // Surfaces that were tried for one hand, and the best of them.
+    struct Tries {
+        std::array<Found, GripSurface::k_most_tries> tried;
+        std::size_t count = 0;
+        Judged best;
+        bool was_judged = false;  // in this frame
+
+        bool is_full() const { return count == tried.size(); }
+        void add(const Found& found) { tried[count++] = found; }
+    };
+
+    // The cheapest surface, if it leaves room for palm and fingers. Else the first that does, of
+    // those that are found by looking farther; else the one where cost and what stays sunk are
+    // least. A few in each frame: goes on from where `last` came to, or begins with where that is.
+    GripSurface try_surfaces(const PlacedMesh& placed, const PalmPlace& palm,
+                             SurfaceSearch& searcher, const GripSurface& last) const {
+        Tries tries;
+        std::size_t left = most_tries();
+        const auto near = near_last(placed, searcher, last);
+        if (near && last.tried_count > 0) {
+            recall(placed, palm, *near, last, tries);
+        } else if (near) {
+            judge_next(placed, palm, *near, tries);
+            --left;
+        }
+        bool stays = false;
+        if (tries.best.has_room) {
+            const auto cheapest = searcher.cheapest_beside({});
+            stays = cheapest && is_near_last(placed, *cheapest, tries.best.surface);
+        }
+        const bool is_over = stays || try_others(placed, palm, searcher, left, tries);
+        if (tries.count == 0) {
+            return {};
+        }
+        GripSurface surface = tries.best.surface;
+        surface.was_judged = tries.was_judged;
+        const bool is_cheapest = stays || (tries.count == 1 && tries.best.has_room && !near);
+        surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
+        surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(tries.count);
+        for (std::size_t i = 0; i < surface.tried_count; ++i) {
+            surface.tried[i] = tries.tried[i].triangle;
+        }
+        return surface;
+    }
+
+    // What was tried in the frames before, where the hand is now; the best of it is near `last`.
+    void recall(const PlacedMesh& placed, const PalmPlace& palm, const Found& near,
+                const GripSurface& last, Tries& tries) const {
+        tries.best.surface = held_at(placed, palm, near).surface;
+        tries.best.surface.cost_m = last.cost_m;
+        tries.best.surface.has_room_m = last.has_room_m;
+        for (std::size_t i = 0; i < last.tried_count; ++i) {
+            tries.add(found_at(placed, palm, last.tried[i]));
+        }
+    }
+
+    // The cheapest of those that are left, `left` of them. True where there is none to try any
+    // more.
+    bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
+                    std::size_t left, Tries& tries) const {
+        bool has_looked_around = false;
+        bool is_over = tries.is_full();
+        for (; left > 0 && !is_over; --left) {
+            if (tries.count > 0 && !has_looked_around) {
+                look_around(*placed.mesh, palm, searcher);
+                has_looked_around = true;
+            }
+            const auto way = searcher.cheapest_beside({tries.tried.data(), tries.count});
+            if (!way || (tries.count > 0 && way->cost_m >= tries.best.surface.cost_m)) {
+                return true;
+            }
+            const bool is_left_out = tries.count > 0 && is_back(placed, palm, *way) &&
+                                     !may_try_backs(placed, palm, tries.tried.front());
+            if (is_left_out) {
+                tries.add(*way);
+            }
+            const bool has_room = !is_left_out && judge_next(placed, palm, *way, tries);
+            is_over = has_room || tries.is_full();
+        }
+        return is_over;
+    }
+
+    // Keeps the better. True where the next one has room.
+    bool judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
+                    Tries& tries) const {
+        const Judged next = judge(placed, palm, way);
+        if (tries.count == 0 || next.has_room || next.surface.cost_m < tries.best.surface.cost_m) {
+            tries.best = next;
+        }
+        tries.add(way);
+        tries.was_judged = true;
+        return next.has_room;
+    }
+
+    static bool is_back(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) {
+        return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
+    }
+    // Fingers have room in a hollow solid too: for their sake alone no palm goes there.
+    bool may_try_backs(const PlacedMesh& placed, const PalmPlace& palm, const Found& first) const {
+        return is_back(placed, palm, first) || held_at(placed, palm, first).sunk_m > k_roomy_m;
+    }
+
+    Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
         const Held held = held_at(placed, palm, found);
         const double fingers_m = fingers_sunk_m(hand_, held.surface.held_bs, scratch_.patch);
         Judged judged = {held.surface,
@@ -426,11 +310,11 @@ class PalmHolder {
     }
 
     // What the palm would be held to there now. The triangle may be of an older mesh.
-    Found found_at(const PlacedMesh& placed, const Palm& palm, std::uint32_t triangle) const {
+    Found found_at(const PlacedMesh& placed, const PalmPlace& palm, std::uint32_t triangle) const {
         const SurfaceGraph& graph = placed.mesh->search;
         const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
         triangle = static_cast<std::uint32_t>(known);
-        const Candidate candidate = cost_of(graph, triangle, palm, tuning_.palm);
+        const SurfaceCandidate candidate = cost_of(graph, triangle, palm, tuning_.palm);
         return {triangle, candidate.point, candidate.cost_m};
     }
 
@@ -438,7 +322,7 @@ class PalmHolder {
         GripSurface surface;
         double sunk_m = 0.0;  // how deep the palm is that is held to it
     };
-    Held held_at(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
+    Held held_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
         Held held = {surface_at(placed, palm, found), 0.0};
         const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm);
         held.surface.held_bs = fit.wrist_bs;
@@ -448,7 +332,7 @@ class PalmHolder {
     }
 
     // From the nearest triangles to places around the palm, as long as there is anything to see.
-    void look_around(const GripMesh& mesh, const Palm& palm, GripSearcher& searcher) const {
+    void look_around(const GripMesh& mesh, const PalmPlace& palm, SurfaceSearch& searcher) const {
         const double apart_m = 0.5 * tuning_.palm.reach_m;
         for (int axis = 0; axis < 3; ++axis) {
             for (const double side : {-1.0, 1.0}) {
@@ -457,10 +341,11 @@ class PalmHolder {
                 searcher.add_seed(near ? near->triangle : GripSurface::k_none);
             }
         }
-        searcher.run(k_most_search_pops);
+        searcher.run(SurfaceSearch::k_most_pops);
     }
 
-    GripSurface surface_at(const PlacedMesh& placed, const Palm& palm, const Found& found) const {
+    GripSurface surface_at(const PlacedMesh& placed, const PalmPlace& palm,
+                           const Found& found) const {
         const GripMesh& mesh = *placed.mesh;
         const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.palm.reach_m);
         const Vec3 point = on_contact ? on_contact->point : found.point;

@@ -8,14 +8,15 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/math/flush_denormals.hpp"
 #include "engine/solver/triad_system.hpp"
 #include "solver_scene.hpp"
+#include "triad_steps.hpp"
 
 namespace handhold::solver_triads_test {
 namespace {
 
 using test::Random;
+using test::solve_a_step;
 using test::SolverScene;
 
 constexpr double k_touch_m = std::numeric_limits<double>::infinity();
@@ -306,24 +307,6 @@ TEST(Triads, GiveRopesInStrandsVelocitiesAndImpulsesAsRowsOneByOneDo) {
 // --- The same bits on every processor
 // -------------------------------------------------------------
 
-void solve_a_step(TriadSystem& system, const IslandView& island) {
-    ASSERT_TRUE(system.load(island, k_touch_m));
-    for (int step = 0; step < 2; ++step) {
-        system.evaluate(island);
-        if (step > 0) {
-            system.gather_stiffness();
-        }
-        system.factorise({}, 1.0);
-        system.solve();
-        system.apply_moves(0.9);
-    }
-    system.store_poses(island);
-    system.evaluate_velocities(island);
-    system.solve();
-    system.apply_impulses();
-    system.store_velocities(island);
-}
-
 std::vector<std::uint64_t> bits_of(const SolverScene& scene) {
     std::vector<std::uint64_t> bits;
     const auto add = [&bits](const auto& numbers) {
@@ -438,57 +421,6 @@ TEST(Triads, DoNotGoOnWithAnotherIsland) {
     }
     EXPECT_FALSE(scene.scratch.triads.resume(scene.view(scene.graph.islands[0])));
     EXPECT_TRUE(scene.scratch.triads.resume(scene.view(scene.graph.islands[1])));
-}
-
-// --- Numbers that fade
-// -----------------------------------------------------------------------------------------------
-
-// Laid out straight; its last link moves across, the others less and less.
-SolverScene rope_pulled_across() {
-    constexpr std::uint32_t k_links = 600;
-    SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1)};
-    for (std::uint32_t i = 1; i <= k_links; ++i) {
-        const Vec3 middle(0.1 * i - 0.05, 0.0, 0.0);
-        scene.graph.bodies.push_back(
-            test::free_body(i + 1, 1.0, Vec3(3e-4, 1e-3, 1e-3), {middle, Quat::Identity()}));
-        const Vec3 point_a(i == 1 ? 0.0 : 0.05, 0.0, 0.0);
-        scene.graph.blocks.push_back(
-            test::row_block(RowKind::ball, i - 1, i, point_a, Vec3(-0.05, 0.0, 0.0)));
-    }
-    scene.graph.bodies.back().velocity_mps = Vec3(0.0, 1.0, 0.0);
-    sort_blocks(scene.graph);
-    build_islands(scene.graph);
-    return scene;
-}
-
-std::ptrdiff_t denormal_velocities(const SolverScene& scene) {
-    return std::ranges::count_if(scene.graph.bodies, [](const SolverBody& body) {
-        return std::fpclassify(body.velocity_mps.y()) == FP_SUBNORMAL;
-    });
-}
-
-TEST(Triads, FadeToNothingNotToDenormals) {
-    SolverScene scene = rope_pulled_across();
-    solve_a_step(scene.scratch.triads, scene.view(scene.graph.islands.front()));
-    EXPECT_GT(denormal_velocities(scene), 0);  // what the solver has to take care of
-    scene = rope_pulled_across();
-    scene.solve_velocities();
-    EXPECT_EQ(denormal_velocities(scene), 0);
-    EXPECT_NE(scene.body(300).velocity_mps.y(), 0.0);
-}
-
-TEST(Triads, FlushDenormalsForTheSolveAlone) {
-#ifndef __SSE2__
-    GTEST_SKIP() << "nothing is flushed on this processor";
-#endif
-    const volatile double tiny = 1e-300;
-    const volatile double less = 1e-15;
-    {
-        const FlushDenormals flush;
-        EXPECT_EQ(tiny * less, 0.0);
-    }
-    EXPECT_NE(tiny * less, 0.0);
 }
 
 // --- What is served

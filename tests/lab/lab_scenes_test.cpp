@@ -76,7 +76,7 @@ TEST_F(LabScenes, WhatTwoHandsCannotBothHaveIsSharedAlike) {
     EXPECT_LE(claim(solve("two_players"), "push_back_error_mm"), 1e-3);
 }
 
-// A leaving hand may move a head by 0.01 mm; the solver leaves some of it.
+// A hand that leaves may move the head by 0.01 mm in that frame. Expected: the closed form.
 TEST_F(LabScenes, HeadsOfClimbersGoTheWayOfTheirHands) {
     const Json json = solve("climb", 900);
     EXPECT_LE(claim(json, "head_path_one_hand_mm"), 1e-3);

@@ -64,7 +64,7 @@ TEST(HandTurns, SlidingHandDoesOneDearThingAFrame) {
             all.thumbs += dear.thumbs;
         }
     }
-    EXPECT_GT(all.surfaces, 10);  // and all have their turn
+    EXPECT_GT(all.surfaces, 10);  // and each kind has its turn
     EXPECT_GT(all.fingers, 10);
     EXPECT_GT(all.thumbs, 10);
 }

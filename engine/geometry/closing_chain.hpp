@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "engine/geometry/disc_contact.hpp"
+#include "engine/math/math.hpp"
+
+// How a chain moves while it closes: disc_contact's alone. Inline, since it is asked in its inner
+// loop.
+namespace handhold {
+
+// The hinges, and the last link's end, in disc space.
+struct ChainMotion {
+    std::array<Vec2, k_most_disc_links + 1> point;
+    std::array<Vec2, k_most_disc_links + 1> velocity_m;  // for the whole closing
+};
+
+// Where the links are while those before `first_free` keep their angles.
+class ClosingChain {
+  public:
+    ClosingChain(const DiscChain& chain, double at) : chain_(chain) {
+        for (std::size_t i = 0; i < chain.link_count; ++i) {
+            angle_rad_[i] = angle_at(i, at);
+        }
+        look_ahead();
+    }
+
+    double angle_at(std::size_t hinge, double at) const {
+        return chain_.open_rad[hinge] + at * (chain_.closed_rad[hinge] - chain_.open_rad[hinge]);
+    }
+
+    ChainMotion motion_at(double at) const {
+        ChainMotion motion;
+        for (std::size_t i = 0; i <= first_free_; ++i) {
+            motion.point[i] = kept_point_[i];
+            motion.velocity_m[i] = Vec2::Zero();
+        }
+        double angle = kept_angle_rad_;
+        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+            angle += angle_at(i, at);
+            const Vec2 way = chain_.length_m[i] * direction(angle);
+            motion.point[i + 1] = motion.point[i] + way;
+            motion.velocity_m[i + 1] =
+                motion.velocity_m[i] + turn_rad_[i] * Vec2(-way.y(), way.x());
+        }
+        return motion;
+    }
+
+    // No point `i` of the motion is accelerated more, metres for the whole closing, squared.
+    double acceleration_m(std::size_t point) const { return acceleration_m_[point]; }
+
+    // Hinges up to and with `last` keep the angles they have at `at`.
+    void freeze(std::size_t last, double at) {
+        for (std::size_t i = first_free_; i <= last; ++i) {
+            angle_rad_[i] = angle_at(i, at);
+        }
+        first_free_ = last + 1;
+        look_ahead();
+    }
+
+    std::size_t first_free() const { return first_free_; }
+    const std::array<double, k_most_disc_links>& angle_rad() const { return angle_rad_; }
+
+  private:
+    static Vec2 direction(double angle) {
+        double sine = 0.0;
+        double cosine = 1.0;
+        sin_cos(angle, sine, cosine);
+        return {cosine, sine};
+    }
+
+    // What stays the same until the next hinge is frozen.
+    void look_ahead() {
+        kept_angle_rad_ = 0.0;
+        kept_point_[0] = Vec2::Zero();
+        for (std::size_t i = 0; i < first_free_; ++i) {
+            kept_angle_rad_ += angle_rad_[i];
+            kept_point_[i + 1] = kept_point_[i] + chain_.length_m[i] * direction(kept_angle_rad_);
+        }
+        acceleration_m_.fill(0.0);
+        double turn_rad = 0.0;
+        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+            turn_rad += chain_.closed_rad[i] - chain_.open_rad[i];
+            turn_rad_[i] = turn_rad;
+            acceleration_m_[i + 1] = acceleration_m_[i] + turn_rad * turn_rad * chain_.length_m[i];
+        }
+    }
+
+    const DiscChain& chain_;
+    std::array<double, k_most_disc_links> angle_rad_ = {};
+    std::size_t first_free_ = 0;
+    double kept_angle_rad_ = 0.0;  // of the last link that is kept
+    std::array<Vec2, k_most_disc_links + 1> kept_point_;
+    std::array<double, k_most_disc_links> turn_rad_ = {};  // of each link, for the whole closing
+    std::array<double, k_most_disc_links + 1> acceleration_m_ = {};
+};
+
+}  // namespace handhold

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include "engine/math/flush_denormals.hpp"
+#include "solver_scene.hpp"
+#include "triad_steps.hpp"
+
+// What pulls at one end of a long rope fades on its way.
+namespace handhold::solver_denormals_test {
+namespace {
+
+using test::SolverScene;
+
+// Laid out straight; its last link moves across, the others less and less.
+SolverScene rope_pulled_across() {
+    constexpr std::uint32_t k_links = 600;
+    SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1)};
+    for (std::uint32_t i = 1; i <= k_links; ++i) {
+        const Vec3 middle(0.1 * i - 0.05, 0.0, 0.0);
+        scene.graph.bodies.push_back(
+            test::free_body(i + 1, 1.0, Vec3(3e-4, 1e-3, 1e-3), {middle, Quat::Identity()}));
+        const Vec3 point_a(i == 1 ? 0.0 : 0.05, 0.0, 0.0);
+        scene.graph.blocks.push_back(
+            test::row_block(RowKind::ball, i - 1, i, point_a, Vec3(-0.05, 0.0, 0.0)));
+    }
+    scene.graph.bodies.back().velocity_mps = Vec3(0.0, 1.0, 0.0);
+    sort_blocks(scene.graph);
+    build_islands(scene.graph);
+    return scene;
+}
+
+std::ptrdiff_t denormal_velocities(const SolverScene& scene) {
+    return std::ranges::count_if(scene.graph.bodies, [](const SolverBody& body) {
+        return std::fpclassify(body.velocity_mps.y()) == FP_SUBNORMAL;
+    });
+}
+
+TEST(Denormals, OfARopePulledAcrossAreNothing) {
+    SolverScene scene = rope_pulled_across();
+    test::solve_a_step(scene.scratch.triads, scene.view(scene.graph.islands.front()));
+    EXPECT_GT(denormal_velocities(scene), 0);  // what the solver has to take care of
+    scene = rope_pulled_across();
+    scene.solve_velocities();
+    EXPECT_EQ(denormal_velocities(scene), 0);
+    EXPECT_NE(scene.body(300).velocity_mps.y(), 0.0);
+}
+
+TEST(Denormals, AreFlushedWhileTheGuardLives) {
+#ifndef __SSE2__
+    GTEST_SKIP() << "nothing is flushed on this processor";
+#endif
+    const volatile double tiny = 1e-300;
+    const volatile double less = 1e-15;
+    {
+        const FlushDenormals flush;
+        EXPECT_EQ(tiny * less, 0.0);
+    }
+    EXPECT_NE(tiny * less, 0.0);
+}
+
+}  // namespace
+}  // namespace handhold::solver_denormals_test
