@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "engine/collision/closest_point.hpp"
 
@@ -10,6 +12,7 @@ namespace handhold {
 namespace {
 
 constexpr int k_most_pushes = 6;
+constexpr double k_least_arm_m = 1e-3;   // turning is never quite free
 constexpr double k_sunk_m = 5e-5;        // what is sunk less is not pushed out
 constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
 
@@ -50,20 +53,66 @@ Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, do
     return wrist;
 }
 
+// What a palm must keep open; below 0 it is not. A small move opens it by
+// along . way + turn . rotation vector about the palm's centre.
+struct PalmGap {
+    Vec3 along = Vec3::Zero();
+    Vec3 turn = Vec3::Zero();
+    double gap_m = 0.0;
+};
+
+class PalmGaps {
+  public:
+    void clear() { count_ = 0; }
+    // What there is no room for is left out.
+    void add(const PalmGap& gap) {
+        if (count_ < gaps_.size()) {
+            gaps_[count_++] = gap;
+        }
+    }
+    std::span<const PalmGap> all() const { return {gaps_.data(), count_}; }
+
+    static constexpr std::size_t k_most = 128;
+
+  private:
+    std::array<PalmGap, k_most> gaps_;  // NOLINT(*-member-init): filled as it grows
+    std::size_t count_ = 0;
+};
+
+// The limits on height and tilt, lift_m higher than else.
+void add_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& wrist,
+                double lift_m, const PalmTuning& tuning, PalmGaps& gaps) {
+    const Vec3& normal = surface.normal_bs;
+    const Vec3 center = transform_point(wrist, hand.rig->palm_center_hs);
+    const double height_m = (center - surface.point_bs).dot(normal) - lift_m;
+    const double most_m = std::max(tuning.min_height_m, tuning.max_height_m);
+    gaps.add({normal, Vec3::Zero(), height_m - tuning.min_height_m});
+    gaps.add({-normal, Vec3::Zero(), most_m - height_m});
+    const Vec3 up = wrist.rotation * -hand.rig->palm_normal_hs;
+    const Vec3 across = up.cross(normal);
+    if (across.norm() > 1e-9) {
+        const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
+        gaps.add({Vec3::Zero(), tuning.turn_arm_m * across.normalized(),
+                  tuning.turn_arm_m * (tuning.max_angle_rad - angle_rad)});
+    }
+}
+
 // Looks at the palm as spheres along its capsules; which side of a surface is out follows from its
 // winding, and from which side the palm is held to.
-class SunkPalm {
+class PalmSpheres {
   public:
-    SunkPalm(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
+    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
     }
 
-    // How the deepest of the palm's spheres gets out; zero where none is sunk.
-    Vec3 way_out(const Pose& wrist) {
-        Vec3 deepest = Vec3::Zero();
+    // The gaps between the spheres of a hand at `wrist` and what is nearest to each, where that is
+    // near; returns how deep the deepest is sunk.
+    double look(const Pose& wrist, PalmGaps& gaps) {
+        double deepest_m = 0.0;
         std::size_t place = 0;
+        const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
         for (const PalmCapsule& capsule : hand_.rig->palm) {
             constexpr int k_spheres = 3;
             for (int i = 0; i < k_spheres; ++i) {
@@ -71,13 +120,17 @@ class SunkPalm {
                 const Vec3 center =
                     transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
                 for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++place) {
-                    const Vec3 way = way_out_of(hand_.meshes[m], m == 0 ? side_ : 1.0,
-                                                {center, capsule.radius_m}, place);
-                    deepest = way.squaredNorm() > deepest.squaredNorm() ? way : deepest;
+                    auto gap = gap_under(hand_.meshes[m], m == 0 ? side_ : 1.0,
+                                         {center, capsule.radius_m}, place);
+                    if (gap) {
+                        gap->turn = (center - middle).cross(gap->along);
+                        gaps.add(*gap);
+                        deepest_m = std::max(deepest_m, -gap->gap_m);
+                    }
                 }
             }
         }
-        return deepest;
+        return deepest_m;
     }
 
   private:
@@ -94,50 +147,54 @@ class SunkPalm {
         bool has_point = false;
     };
 
-    Vec3 way_out_of(const PlacedMesh& placed, double side, const Sphere& sphere_bs,
-                    std::size_t place) {
-        const Vec3 center = inverse_transform_point(placed.pose, sphere_bs.center);
+    // Its turn is not known here.
+    std::optional<PalmGap> gap_under(const PlacedMesh& placed, double side, const Sphere& sphere_bs,
+                                     std::size_t place) {
+        const Sphere sphere = {inverse_transform_point(placed.pose, sphere_bs.center),
+                               sphere_bs.radius_m};
         Seen overflow;
         Seen& seen = place < seen_.size() ? seen_[place] : overflow;
-        if ((center - seen.center).squaredNorm() < seen.clear_m * seen.clear_m) {
-            return Vec3::Zero();
+        if ((sphere.center - seen.center).squaredNorm() < seen.clear_m * seen.clear_m) {
+            return gap_over(placed, sphere, seen.point);
         }
-        double look_m = std::max(sphere_bs.radius_m, k_far_inside_m);
+        double look_m = std::max(sphere.radius_m, k_far_inside_m);
         if (seen.has_point) {
             constexpr double k_noise_m = 1e-9;
-            look_m = std::min(look_m, (center - seen.point).norm() + k_noise_m);
+            look_m = std::min(look_m, (sphere.center - seen.point).norm() + k_noise_m);
         }
-        const auto near = placed.mesh->contact_bvh.closest_point(center, look_m);
-        seen = {center, near ? near->point : Vec3::Zero(), 0.0, near.has_value()};
+        const auto near = placed.mesh->contact_bvh.closest_point(sphere.center, look_m);
+        seen = {sphere.center, near ? near->point : Vec3::Zero(), 0.0, near.has_value()};
         if (!near) {
-            return Vec3::Zero();
+            return std::nullopt;
         }
-        Vec3 way = way_out_of(placed, side, *near, {center, sphere_bs.radius_m});
-        if (way.isZero(0.0)) {
-            seen.clear_m = near->distance_m - sphere_bs.radius_m;
-        }
-        return way;
+        const PalmGap gap = gap_at(placed, side, *near, sphere);
+        seen.clear_m = std::max(0.0, gap.gap_m);
+        return gap;
+    }
+
+    // `sphere` in the mesh's frame, and outside of it.
+    static PalmGap gap_over(const PlacedMesh& placed, const Sphere& sphere, const Vec3& point) {
+        const Vec3 from_surface = sphere.center - point;
+        const double distance_m = from_surface.norm();
+        return {placed.pose.rotation * Vec3(from_surface / distance_m), Vec3::Zero(),
+                distance_m - sphere.radius_m};
     }
 
     // `sphere` in the mesh's frame.
-    static Vec3 way_out_of(const PlacedMesh& placed, double side, const TriangleHit& near,
-                           const Sphere& sphere) {
+    static PalmGap gap_at(const PlacedMesh& placed, double side, const TriangleHit& near,
+                          const Sphere& sphere) {
         const Vec3 outward = side * placed.mesh->contact.normals[near.triangle];
-        const Vec3 from_surface = sphere.center - near.point;
-        const double height_m = outward.dot(from_surface);
+        const double height_m = outward.dot(sphere.center - near.point);
         // Beyond an edge a sphere is high over neither side, but not inside either.
         constexpr double k_surely_below = 0.5;
-        const bool is_inside = height_m < -k_surely_below * near.distance_m;
-        const double depth_m =
-            is_inside ? sphere.radius_m + near.distance_m : sphere.radius_m - near.distance_m;
-        if (depth_m <= 0.0) {
-            return Vec3::Zero();
-        }
         constexpr double k_on_surface_m = 1e-9;
-        const Vec3 away = near.distance_m > k_on_surface_m
-                              ? Vec3((is_inside ? -1.0 : 1.0) / near.distance_m * from_surface)
-                              : outward;
-        return depth_m * (placed.pose.rotation * away);
+        const bool is_inside = height_m < -k_surely_below * near.distance_m;
+        if (near.distance_m <= k_on_surface_m) {
+            return {placed.pose.rotation * outward, Vec3::Zero(), -sphere.radius_m};
+        }
+        const Vec3 away = (is_inside ? -1.0 : 1.0) / near.distance_m * (sphere.center - near.point);
+        return {placed.pose.rotation * away, Vec3::Zero(),
+                (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
     static constexpr std::size_t k_most_seen = 64;  // the others are looked at every time
@@ -147,19 +204,72 @@ class SunkPalm {
     std::array<Seen, k_most_seen> seen_;
 };
 
+struct PalmMove {
+    Vec3 way_m = Vec3::Zero();
+    Vec3 turn_rad = Vec3::Zero();  // rotation vector, about the palm's centre
+};
+
+// The least move, from where the palm was first, that opens all gaps, which were seen with the palm
+// moved by `moved`, as far as they are straight. Least is the square of its way and of its turn, a
+// radian counted as arm_m. By projected Gauss-Seidel; where no move opens all, a compromise.
+PalmMove least_move(std::span<const PalmGap> gaps, const PalmMove& moved, double arm_m) {
+    constexpr int k_rounds = 24;
+    constexpr double k_settled_m = 1e-8;
+    struct Push {
+        double wanted_m;  // that a move is to open the gap by, from where the palm was first
+        double share;     // of what it lacks, that is pushed
+        double size = 0.0;
+    };
+    const double turning = 1.0 / (arm_m * arm_m);
+    std::array<Push, PalmGaps::k_most> pushes;  // NOLINT(*-member-init): filled as far as used
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+        const auto& [along, turn, gap_m] = gaps[i];
+        pushes[i] = {along.dot(moved.way_m) + turn.dot(moved.turn_rad) - gap_m,
+                     1.0 / (along.squaredNorm() + turning * turn.squaredNorm())};
+    }
+    PalmMove move;
+    double change_m = 1.0;
+    for (int round = 0; round < k_rounds && change_m > k_settled_m; ++round) {
+        change_m = 0.0;
+        for (std::size_t i = 0; i < gaps.size(); ++i) {
+            const PalmGap& gap = gaps[i];
+            Push& push = pushes[i];
+            const double lacks_m =
+                push.wanted_m - gap.along.dot(move.way_m) - gap.turn.dot(move.turn_rad);
+            const double size = std::max(0.0, push.size + push.share * lacks_m);
+            const double more_m = size - push.size;
+            move.way_m += more_m * gap.along;
+            move.turn_rad += more_m * turning * gap.turn;
+            push.size = size;
+            change_m = std::max(change_m, std::abs(more_m));
+        }
+    }
+    return move;
+}
+
 }  // namespace
 
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                  const PalmTuning& tuning) {
-    SunkPalm palm(hand, surface);
-    Pose wrist = hold_to_limits(hand, surface, lift_m, tuning);
-    Vec3 way = palm.way_out(wrist);
-    PalmFit best = {wrist, way.norm()};
-    for (int i = 0; i < k_most_pushes && way.norm() > k_sunk_m; ++i) {
-        wrist.position += way;
-        way = palm.way_out(wrist);
-        if (way.norm() < best.sunk_m) {
-            best = {wrist, way.norm()};
+    const Pose held = hold_to_limits(hand, surface, lift_m, tuning);
+    const Vec3& center_hs = hand.rig->palm_center_hs;
+    const Vec3 center = transform_point(held, center_hs);
+    PalmSpheres palm(hand, surface);
+    PalmGaps gaps;
+    const double arm_m = std::max(k_least_arm_m, tuning.turn_arm_m);
+    double sunk_m = palm.look(held, gaps);
+    PalmFit best = {held, sunk_m};
+    PalmMove moved;
+    Pose wrist = held;
+    for (int i = 0; i < k_most_pushes && sunk_m > k_sunk_m; ++i) {
+        add_limits(hand, surface, wrist, lift_m, tuning, gaps);  // last, so that they hold
+        moved = least_move(gaps.all(), moved, arm_m);
+        wrist.rotation = (rotation_from_vector(moved.turn_rad) * held.rotation).normalized();
+        wrist.position = center + moved.way_m - wrist.rotation * center_hs;
+        gaps.clear();
+        sunk_m = palm.look(wrist, gaps);
+        if (sunk_m < best.sunk_m) {
+            best = {wrist, sunk_m};
         }
     }
     return best;

@@ -14,7 +14,8 @@ struct PalmFit {
 
 // The least move of the tracked wrist that holds the palm over `surface`, lift_m higher than else:
 // along the surface's normal into the range of heights, tilted into the range of angles about the
-// palm's own centre, then pushed off whatever the palm's capsules are sunk in, the deepest first.
+// palm's own centre; then, where the palm's capsules are sunk in something, moved and turned about
+// that centre, PalmTuning::turn_arm_m apart, until they and the limits are clear.
 // Precondition: the hand has meshes, and the surface is of the first one.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                  const PalmTuning& tuning);

@@ -41,6 +41,7 @@ struct PalmTuning {
     double max_height_m = 0.015;
     double max_angle_rad = 0.44;
     double tilt_cost_m_per_rad = 0.08;
+    double turn_arm_m = 0.025;
     double back_cost_m = 0.02;
     double reach_m = 0.12;
     std::int32_t tries_per_frame = 1;
@@ -185,6 +186,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "and tilted against the surface by at most this");
     see("palm.tilt_cost_m_per_rad", t.palm.tilt_cost_m_per_rad, "m/rad", 0.0, 10.0,
         "what tilting the palm counts against moving it when a surface is chosen");
+    see("palm.turn_arm_m", t.palm.turn_arm_m, "m", 1e-3, 10.0,
+        "what turning it by a radian counts against moving it where it is pushed out of what it is "
+        "sunk in");
     see("palm.back_cost_m", t.palm.back_cost_m, "m", 0.0, 1.0,
         "what a surface whose outside is turned away from the palm counts more");
     see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "components/authored_grip.hpp"
 #include "components/finger_chain.hpp"
 #include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
@@ -192,15 +193,17 @@ class PalmHolder {
         std::array<Found, GripSurface::k_most_tries> tried;
         std::size_t count = 0;
         Judged best;
+        bool has_best = false;
         bool was_judged = false;  // in this frame
 
         bool is_full() const { return count == tried.size(); }
         void add(const Found& found) { tried[count++] = found; }
     };
 
-    // The cheapest surface, if it leaves room for palm and fingers. Else the first that does, of
-    // those that are found by looking farther; else the one where cost and what stays sunk are
-    // least. A few in each frame: goes on from where `last` came to, or begins with where that is.
+    // The surface where what it takes to hold the palm there is least, pushes out of what it is
+    // sunk in included; where palm or fingers have no room, so is what stays sunk. In the order of
+    // their costs in closed form, which are rarely more, until those are. A few in each frame: goes
+    // on from where `last` came to, or begins with where that is.
     GripSurface try_surfaces(const PlacedMesh& placed, const PalmPlace& palm,
                              SurfaceSearch& searcher, const GripSurface& last) const {
         Tries tries;
@@ -209,6 +212,7 @@ class PalmHolder {
         if (near && last.tried_count > 0) {
             recall(placed, palm, *near, last, tries);
         } else if (near) {
+            tries.add(*near);
             judge_next(placed, palm, *near, tries);
             --left;
         }
@@ -218,7 +222,7 @@ class PalmHolder {
             stays = cheapest && is_near_last(placed, *cheapest, tries.best.surface);
         }
         const bool is_over = stays || try_others(placed, palm, searcher, left, tries);
-        if (tries.count == 0) {
+        if (!tries.has_best) {
             return {};
         }
         GripSurface surface = tries.best.surface;
@@ -238,6 +242,7 @@ class PalmHolder {
         tries.best.surface = held_at(placed, palm, near).surface;
         tries.best.surface.cost_m = last.cost_m;
         tries.best.surface.has_room_m = last.has_room_m;
+        tries.has_best = true;
         for (std::size_t i = 0; i < last.tried_count; ++i) {
             tries.add(found_at(placed, palm, last.tried[i]));
         }
@@ -248,45 +253,64 @@ class PalmHolder {
     bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
                     std::size_t left, Tries& tries) const {
         bool has_looked_around = false;
-        bool is_over = tries.is_full();
-        for (; left > 0 && !is_over; --left) {
-            if (tries.count > 0 && !has_looked_around) {
+        while (left > 0 && !tries.is_full()) {
+            const bool is_near = tries.best.has_room && tries.best.surface.cost_m < k_near_enough_m;
+            if (tries.count > 0 && !has_looked_around && !is_near) {
                 look_around(*placed.mesh, palm, searcher);
                 has_looked_around = true;
             }
             const auto way = searcher.cheapest_beside({tries.tried.data(), tries.count});
-            if (!way || (tries.count > 0 && way->cost_m >= tries.best.surface.cost_m)) {
+            if (!way || (tries.has_best && way->cost_m >= tries.best.surface.cost_m)) {
                 return true;
             }
-            const bool is_left_out = tries.count > 0 && is_back(placed, palm, *way) &&
-                                     !may_try_backs(placed, palm, tries.tried.front());
-            if (is_left_out) {
-                tries.add(*way);
+            tries.add(*way);
+            if (!is_left_out(placed, palm, *way, tries.tried.front())) {
+                judge_next(placed, palm, *way, tries);
+                --left;
             }
-            const bool has_room = !is_left_out && judge_next(placed, palm, *way, tries);
-            is_over = has_room || tries.is_full();
         }
-        return is_over;
+        return tries.is_full();
     }
 
-    // Keeps the better. True where the next one has room.
-    bool judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
+    // Backs, but where the palm may have gone through what it came to first: fingers have room
+    // behind walls as well, but no palm goes there for it.
+    bool is_left_out(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                     const Found& first) const {
+        return found.triangle != first.triangle && is_back(placed, palm, found) &&
+               (is_inside(placed, found) || !may_try_backs(placed, palm, first));
+    }
+
+    // Keeps the better.
+    void judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
                     Tries& tries) const {
         const Judged next = judge(placed, palm, way);
-        if (tries.count == 0 || next.has_room || next.surface.cost_m < tries.best.surface.cost_m) {
+        if (!tries.has_best || next.surface.cost_m < tries.best.surface.cost_m) {
             tries.best = next;
         }
-        tries.add(way);
+        tries.has_best = true;
         tries.was_judged = true;
-        return next.has_room;
     }
 
     static bool is_back(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) {
         return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
     }
-    // Fingers have room in a hollow solid too: for their sake alone no palm goes there.
+    // The palm may have gone through.
     bool may_try_backs(const PlacedMesh& placed, const PalmPlace& palm, const Found& first) const {
-        return is_back(placed, palm, first) || held_at(placed, palm, first).sunk_m > k_roomy_m;
+        if (is_back(placed, palm, first)) {
+            return true;
+        }
+        const Held held = held_at(placed, palm, first);
+        return held.sunk_m > k_roomy_m || held.sync_m > k_far_m;
+    }
+
+    // A palm there would be in something solid: what is over it is seen from inside.
+    static bool is_inside(const PlacedMesh& placed, const Found& found) {
+        constexpr double k_off_m = 1e-3;
+        constexpr double k_far_m = 1.0;
+        const Vec3 out = -placed.mesh->search.normals[found.triangle];
+        const auto hit = placed.mesh->search_bvh.cast_ray(found.point + k_off_m * out,
+                                                          found.point + k_far_m * out);
+        return hit && placed.mesh->search.normals[hit->triangle].dot(out) > 0.0;
     }
 
     Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
@@ -294,7 +318,11 @@ class PalmHolder {
         const double fingers_m = fingers_sunk_m(hand_, held.surface.held_bs, scratch_.patch);
         Judged judged = {held.surface,
                          held.sunk_m <= k_roomy_m && fingers_m <= k_fingers_have_room_m};
-        judged.surface.cost_m = found.cost_m;
+        judged.surface.cost_m = held.sync_m;
+        if (is_back(placed, palm, found)) {
+            judged.surface.cost_m +=
+                tuning_.palm.back_cost_m + (is_inside(placed, found) ? k_inside_cost_m : 0.0);
+        }
         if (judged.has_room) {
             judged.surface.has_room_m = k_look_again_m;
         } else {
@@ -321,6 +349,7 @@ class PalmHolder {
     struct Held {
         GripSurface surface;
         double sunk_m = 0.0;  // how deep the palm is that is held to it
+        double sync_m = 0.0;  // how far it is moved for that, turning counted as a way
     };
     Held held_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
         Held held = {surface_at(placed, palm, found), 0.0};
@@ -328,6 +357,8 @@ class PalmHolder {
         held.surface.held_bs = fit.wrist_bs;
         held.surface.is_held = true;
         held.sunk_m = fit.sunk_m;
+        const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
+        held.sync_m = sync.palm_m + tuning_.palm.tilt_cost_m_per_rad * sync.turn_rad;
         return held;
     }
 
@@ -365,8 +396,11 @@ class PalmHolder {
     }
 
     static constexpr double k_roomy_m = 1e-3;
+    static constexpr double k_far_m = 0.05;  // a palm that is moved farther may have gone through
+    static constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
+    static constexpr double k_inside_cost_m = 0.05;
     static constexpr double k_sunk_cost = 8.0;    // of a metre that a palm stays sunk
-    static constexpr double k_finger_cost = 4.0;  // and a finger
+    static constexpr double k_finger_cost = 6.0;  // and a finger
 
     const HandSurroundings& hand_;
     double dt_s_;

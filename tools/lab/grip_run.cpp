@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "components/authored_grip.hpp"
 #include "components/finger_chain.hpp"
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
@@ -78,6 +79,7 @@ class OneHand {
     }
 
     const GripSurface& surface() const { return surface_.rows().front(); }
+    const Pose& tracked_wrist() const { return surroundings_.front().wrist_bs; }
     const Pose& wrist() const { return palm_.rows().front().pose_ws; }
     const FingerPose& fingers() const { return fingers_.rows().front(); }
     const PalmOffset& offset() const { return offset_.rows().front(); }
@@ -214,8 +216,9 @@ void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, Pos
     posed.gripped = hand.surface().triangle != GripSurface::k_none;
     posed.reason = posed.gripped ? "" : "no_surface";
     posed.wrist = hand.wrist();
-    posed.sync_m = hand.offset().shown_m.norm();
-    posed.sync_rad = hand.offset().shown_turn_rad.norm();
+    const GripSync sync = grip_sync(hand.tracked_wrist(), hand.wrist(), rig.palm_center_hs);
+    posed.sync_m = sync.palm_m;
+    posed.sync_rad = sync.turn_rad;
     if (posed.gripped) {
         posed.point = hand.surface().point_bs;
         posed.normal = hand.surface().normal_bs;
