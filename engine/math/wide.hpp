@@ -60,8 +60,24 @@ HH_INLINE void set_lane(std::size_t lane, const Quat& q, Wide4& out) {
     out.z[lane] = q.z();
     out.w[lane] = q.w();
 }
-HH_INLINE Vec3 vec3_in_lane(std::size_t lane, const Wide3& v) {
-    return {v.x[lane], v.y[lane], v.z[lane]};
+// Number by number, too: of a whole Vec3 or Quat Eigen takes two at a time, and where they were
+// just written one by one the processor waits for both to reach the cache.
+HH_INLINE void get_lane(std::size_t lane, const Wide3& v, Vec3& out) {
+    out.x() = v.x[lane];
+    out.y() = v.y[lane];
+    out.z() = v.z[lane];
+}
+HH_INLINE void get_lane(std::size_t lane, const Wide4& q, Quat& out) {
+    out.x() = q.x[lane];
+    out.y() = q.y[lane];
+    out.z() = q.z[lane];
+    out.w() = q.w[lane];
+}
+HH_INLINE bool is_lane(std::size_t lane, const Wide3& v, const Vec3& of) {
+    return v.x[lane] == of.x() && v.y[lane] == of.y() && v.z[lane] == of.z();
+}
+HH_INLINE bool is_lane(std::size_t lane, const Wide4& q, const Quat& of) {
+    return q.x[lane] == of.x() && q.y[lane] == of.y() && q.z[lane] == of.z() && q.w[lane] == of.w();
 }
 HH_INLINE Quat quat_in_lane(std::size_t lane, const Wide4& q) {
     return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};

@@ -1,15 +1,13 @@
 #include "engine/solver/free_rotation.hpp"
 
+#include <span>
+
 #include "engine/math/wide_rotation.hpp"
 
 namespace handhold {
 namespace {
 
-struct FourTumbling {
-    Wide3 inertia;
-    Wide4 rotation;
-    Wide3 spin;
-};
+using FourTumbling = FreeRotations::FourTumbling;
 
 // One of a body's three axes: its moment, and what the momentum and the rotation's vector have
 // along it.
@@ -39,13 +37,17 @@ HH_INLINE FourBits sort_two(PrincipalAxis& a, PrincipalAxis& b, Four& hand) {
     return exchange(b.inertia < a.inertia, a, b, hand);
 }
 
-// Turns the bodies about one of their own axes; the momentum stays in the world, so it turns back
-// in the body. `following` and `remaining` come after it in the order of a right hand.
-HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, PrincipalAxis& about,
+struct FourSines {
+    Four sine, cosine;
+};
+
+// Turns the bodies about one of their own axes, by the sines of half the angle; the momentum stays
+// in the world, so it turns back in the body. `following` and `remaining` come after it in the
+// order of a right hand.
+HH_INLINE void turn_about_axis(const FourSines& half, const Four& hand, PrincipalAxis& about,
                                PrincipalAxis& following, PrincipalAxis& remaining, Four& w) {
-    Four s;
-    Four c;
-    sin_cos(0.5 * angle_rad, s, c);
+    const Four& s = half.sine;
+    const Four& c = half.cosine;
     const Four before = w;
     w = before * c - about.vector * s;
     about.vector = about.vector * c + before * s;
@@ -59,18 +61,11 @@ HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, Principa
     following.momentum = momentum * cosine + remaining.momentum * sine;
     remaining.momentum = remaining.momentum * cosine - momentum * sine;
 }
-
-// What the moments have more or less than the middle one, for bodies two of whose moments are
-// equal: one axis only, and exact.
-HH_INLINE void turn_tops(double dt_s, const Four& of_least, const Four& of_most, SortedAxes& axes,
-                         Four& w) {
-    const FourBits is_most = of_most != 0.0;
-    Four hand = axes.hand;
-    exchange(is_most, axes.axis[0], axes.axis[2], hand);
-    const Four rate = is_most ? of_most : of_least;
-    turn_about_axis(dt_s * rate * axes.axis[0].momentum, hand, axes.axis[0], axes.axis[1],
-                    axes.axis[2], w);
-    exchange(is_most, axes.axis[0], axes.axis[2], hand);
+HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, PrincipalAxis& about,
+                               PrincipalAxis& following, PrincipalAxis& remaining, Four& w) {
+    FourSines half;
+    sin_cos(0.5 * angle_rad, half.sine, half.cosine);
+    turn_about_axis(half, hand, about, following, remaining, w);
 }
 
 HH_INLINE Four steps_for(const Four& spin_radps, double dt_s) {
@@ -100,8 +95,20 @@ HH_INLINE void turn_others(double dt_s, const Four& spin_radps, const Four& of_l
     }
 }
 
-template <bool AreTops>
-HH_INLINE void advance_four(double dt_s, FourTumbling& bodies) {
+// A four on its way through the stages below.
+struct FourTurning {
+    Wide3 momentum_ws;
+    SortedAxes axes;
+    FourBits exchanged[3];   // of the axes, in turn
+    Four of_least, of_most;  // 1 / moment: what the outer axes have more or less than the middle
+    Wide3 turn;              // the part all three moments share: about the momentum, in the world
+    Four turn_rad;           // its length
+    Four top_rad;            // tops: of the turn about their own axis
+    FourSines half_turn, half_top;
+};
+
+// Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
+HH_INLINE void begin_turn(double dt_s, const FourTumbling& bodies, FourTurning& out) {
     const WideAxes before = axes_of(bodies.rotation);
     const Wide3 spin_bs = rotate_back(before, bodies.spin);
     const Wide3& inertia = bodies.inertia;
@@ -111,50 +118,99 @@ HH_INLINE void advance_four(double dt_s, FourTumbling& bodies) {
                      {inertia.y, momentum_bs.y, bodies.rotation.y},
                      {inertia.z, momentum_bs.z, bodies.rotation.z}},
                     zero_four() + 1.0};
-    const FourBits first = sort_two(axes.axis[0], axes.axis[1], axes.hand);
-    const FourBits second = sort_two(axes.axis[1], axes.axis[2], axes.hand);
-    const FourBits third = sort_two(axes.axis[0], axes.axis[1], axes.hand);
-    // Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
+    out.exchanged[0] = sort_two(axes.axis[0], axes.axis[1], axes.hand);
+    out.exchanged[1] = sort_two(axes.axis[1], axes.axis[2], axes.hand);
+    out.exchanged[2] = sort_two(axes.axis[0], axes.axis[1], axes.hand);
     const Four shared = 1.0 / axes.axis[1].inertia;
-    const Four of_least = 1.0 / axes.axis[0].inertia - shared;
-    const Four of_most = 1.0 / axes.axis[2].inertia - shared;
+    out.of_least = 1.0 / axes.axis[0].inertia - shared;
+    out.of_most = 1.0 / axes.axis[2].inertia - shared;
+    const Wide3 turn = (dt_s * shared) * momentum_ws;
+    out.turn_rad = square_root(dot(turn, turn));
+    const FourBits is_most = out.of_most != 0.0;
+    out.top_rad = dt_s * (is_most ? out.of_most : out.of_least) *
+                  (is_most ? axes.axis[2].momentum : axes.axis[0].momentum);
+    assign(turn, out.turn);
+    assign(momentum_ws, out.momentum_ws);
+    out.axes = axes;
+}
+
+// Bodies two of whose moments are equal turn about one axis of their own only, and exactly.
+HH_INLINE void turn_tops(const FourTurning& turning, SortedAxes& axes, Four& w) {
+    const FourBits is_most = turning.of_most != 0.0;
+    Four hand = axes.hand;
+    exchange(is_most, axes.axis[0], axes.axis[2], hand);
+    turn_about_axis(turning.half_top, hand, axes.axis[0], axes.axis[1], axes.axis[2], w);
+    exchange(is_most, axes.axis[0], axes.axis[2], hand);
+}
+
+template <bool AreTops>
+HH_INLINE void turn_four(double dt_s, const FourTurning& turning, FourTumbling& bodies) {
+    SortedAxes axes = turning.axes;
     Four w = bodies.rotation.w;
     if (AreTops) {
-        turn_tops(dt_s, of_least, of_most, axes, w);
+        turn_tops(turning, axes, w);
     } else {
-        turn_others(dt_s, square_root(dot(bodies.spin, bodies.spin)), of_least, of_most, axes, w);
+        turn_others(dt_s, square_root(dot(bodies.spin, bodies.spin)), turning.of_least,
+                    turning.of_most, axes, w);
     }
     Four hand = axes.hand;
-    exchange(third, axes.axis[0], axes.axis[1], hand);
-    exchange(second, axes.axis[1], axes.axis[2], hand);
-    exchange(first, axes.axis[0], axes.axis[1], hand);
-    // The shared part: about the momentum, in the world.
+    exchange(turning.exchanged[2], axes.axis[0], axes.axis[1], hand);
+    exchange(turning.exchanged[1], axes.axis[1], axes.axis[2], hand);
+    exchange(turning.exchanged[0], axes.axis[0], axes.axis[1], hand);
     constexpr double k_still_rad = 1e-12;
-    const Wide3 turn = (dt_s * shared) * momentum_ws;
-    const Four angle = square_root(dot(turn, turn));
-    Four s;
-    Four c;
-    sin_cos(0.5 * angle, s, c);
-    const Four share = angle < k_still_rad ? zero_four() + 0.5 : s / angle;
-    assign(
-        turned(share * turn, c, {axes.axis[0].vector, axes.axis[1].vector, axes.axis[2].vector, w}),
-        bodies.rotation);
-    // From the momentum in the world, which is what it was: no rounding adds up.
+    const Four share = turning.turn_rad < k_still_rad ? zero_four() + 0.5
+                                                      : turning.half_turn.sine / turning.turn_rad;
+    assign(turned(share * turning.turn, turning.half_turn.cosine,
+                  {axes.axis[0].vector, axes.axis[1].vector, axes.axis[2].vector, w}),
+           bodies.rotation);
+}
+
+// From the momentum in the world, which is what it was: no rounding adds up.
+HH_INLINE void write_spin(const FourTurning& turning, FourTumbling& bodies) {
+    const Wide3& inertia = bodies.inertia;
     const WideAxes after = axes_of(bodies.rotation);
-    const Wide3 back = rotate_back(after, momentum_ws);
+    const Wide3 back = rotate_back(after, turning.momentum_ws);
     assign(rotate(after, {back.x / inertia.x, back.y / inertia.y, back.z / inertia.z}),
            bodies.spin);
 }
 
-void advance_tops_portable(double dt_s, FourTumbling& bodies) { advance_four<true>(dt_s, bodies); }
-void advance_any_portable(double dt_s, FourTumbling& bodies) { advance_four<false>(dt_s, bodies); }
+// Stage by stage: a four's numbers wait for each other in long chains, and while one waits the
+// processor looks ahead to the next only where that is near.
+template <bool AreTops>
+HH_INLINE void advance_fours(double dt_s, std::span<FourTumbling> fours) {
+    FourTurning turnings[FreeRotations::k_fours];
+    for (std::size_t i = 0; i < fours.size(); ++i) {
+        begin_turn(dt_s, fours[i], turnings[i]);
+    }
+    for (std::size_t i = 0; i < fours.size(); ++i) {
+        FourTurning& turning = turnings[i];
+        sin_cos(0.5 * turning.turn_rad, turning.half_turn.sine, turning.half_turn.cosine);
+    }
+    for (std::size_t i = 0; AreTops && i < fours.size(); ++i) {
+        FourTurning& turning = turnings[i];
+        sin_cos(0.5 * turning.top_rad, turning.half_top.sine, turning.half_top.cosine);
+    }
+    for (std::size_t i = 0; i < fours.size(); ++i) {
+        turn_four<AreTops>(dt_s, turnings[i], fours[i]);
+    }
+    for (std::size_t i = 0; i < fours.size(); ++i) {
+        write_spin(turnings[i], fours[i]);
+    }
+}
+
+void advance_tops_portable(double dt_s, std::span<FourTumbling> fours) {
+    advance_fours<true>(dt_s, fours);
+}
+void advance_any_portable(double dt_s, std::span<FourTumbling> fours) {
+    advance_fours<false>(dt_s, fours);
+}
 
 #ifdef __x86_64__
-HH_AVX2 void advance_tops_avx2(double dt_s, FourTumbling& bodies) {
-    advance_four<true>(dt_s, bodies);
+HH_AVX2 void advance_tops_avx2(double dt_s, std::span<FourTumbling> fours) {
+    advance_fours<true>(dt_s, fours);
 }
-HH_AVX2 void advance_any_avx2(double dt_s, FourTumbling& bodies) {
-    advance_four<false>(dt_s, bodies);
+HH_AVX2 void advance_any_avx2(double dt_s, std::span<FourTumbling> fours) {
+    advance_fours<false>(dt_s, fours);
 }
 #else
 constexpr auto advance_tops_avx2 = advance_tops_portable;
@@ -176,8 +232,9 @@ void FreeRotations::add(const Vec3& inertia_kgm2, Quat& rotation, Vec3& spin_rad
     }
     const Kind kind = is_top(inertia_kgm2) ? Kind::top : Kind::any;
     Batch& batch = batches_[static_cast<std::size_t>(kind)];
-    batch.bodies[batch.count++] = {&inertia_kgm2, &rotation, &spin_radps};
-    if (batch.count == batch.bodies.size()) {
+    write(batch.count, inertia_kgm2, rotation, spin_radps, batch);
+    batch.out[batch.count++] = {&rotation, &spin_radps};
+    if (batch.count == k_batch) {
         advance(kind);
     }
 }
@@ -187,30 +244,34 @@ void FreeRotations::finish() {
     advance(Kind::any);
 }
 
+void FreeRotations::write(std::size_t place, const Vec3& inertia_kgm2, const Quat& rotation,
+                          const Vec3& spin_radps, Batch& batch) {
+    FourTumbling& four = batch.fours[place / k_lanes];
+    set_lane(place % k_lanes, inertia_kgm2, four.inertia);
+    set_lane(place % k_lanes, rotation, four.rotation);
+    set_lane(place % k_lanes, spin_radps, four.spin);
+}
+
 void FreeRotations::advance(Kind kind) {
     Batch& batch = batches_[static_cast<std::size_t>(kind)];
     if (batch.count == 0) {
         return;
     }
-    for (std::size_t i = batch.count; i < batch.bodies.size(); ++i) {
-        batch.bodies[i] = batch.bodies[0];
-    }
-    FourTumbling four;
-    for (std::size_t lane = 0; lane < batch.bodies.size(); ++lane) {
-        const Body& body = batch.bodies[lane];
-        set_lane(lane, *body.inertia_kgm2, four.inertia);
-        set_lane(lane, *body.rotation, four.rotation);
-        set_lane(lane, *body.spin_radps, four.spin);
+    // What has no body in the last four is a sphere at rest.
+    const std::size_t fours = (batch.count + k_lanes - 1) / k_lanes;
+    for (std::size_t place = batch.count; place < fours * k_lanes; ++place) {
+        write(place, Vec3::Ones(), Quat::Identity(), Vec3::Zero(), batch);
     }
     const bool has_avx2 = vectors_ == Vectors::avx2;
     if (kind == Kind::top) {
-        (has_avx2 ? advance_tops_avx2 : advance_tops_portable)(dt_s_, four);
+        (has_avx2 ? advance_tops_avx2 : advance_tops_portable)(dt_s_, {batch.fours.data(), fours});
     } else {
-        (has_avx2 ? advance_any_avx2 : advance_any_portable)(dt_s_, four);
+        (has_avx2 ? advance_any_avx2 : advance_any_portable)(dt_s_, {batch.fours.data(), fours});
     }
-    for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        *batch.bodies[lane].rotation = quat_in_lane(lane, four.rotation);
-        *batch.bodies[lane].spin_radps = vec3_in_lane(lane, four.spin);
+    for (std::size_t place = 0; place < batch.count; ++place) {
+        const FourTumbling& four = batch.fours[place / k_lanes];
+        get_lane(place % k_lanes, four.rotation, *batch.out[place].rotation);
+        get_lane(place % k_lanes, four.spin, *batch.out[place].spin_radps);
     }
     batch.count = 0;
 }

@@ -5,6 +5,7 @@
 
 #include "engine/math/math.hpp"
 #include "engine/math/processor.hpp"
+#include "engine/math/wide.hpp"
 
 namespace handhold {
 
@@ -24,17 +25,31 @@ class FreeRotations {
     void add(const Vec3& inertia_kgm2, Quat& rotation, Vec3& spin_radps);
     void finish();
 
+    // Bodies are turned so many fours at once: what was written number by number has reached the
+    // cache before it is read four at a time.
+    static constexpr std::size_t k_fours = 8;
+    // Lane i is the i-th of four bodies.
+    struct FourTumbling {
+        Wide3 inertia;
+        Wide4 rotation;
+        Wide3 spin;
+    };
+
   private:
-    struct Body {
-        const Vec3* inertia_kgm2 = nullptr;
+    static constexpr std::size_t k_lanes = 4;
+    static constexpr std::size_t k_batch = k_fours * k_lanes;
+    struct Out {
         Quat* rotation = nullptr;
         Vec3* spin_radps = nullptr;
     };
     struct Batch {
-        std::array<Body, 4> bodies;
+        std::array<FourTumbling, k_fours> fours;
+        std::array<Out, k_batch> out;
         std::size_t count = 0;
     };
     enum class Kind : std::size_t { top, any };  // two equal moments, or three different ones
+    static void write(std::size_t place, const Vec3& inertia_kgm2, const Quat& rotation,
+                      const Vec3& spin_radps, Batch& batch);
     void advance(Kind kind);
 
     double dt_s_;

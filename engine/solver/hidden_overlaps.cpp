@@ -23,10 +23,13 @@ bool is_long(const ColliderProxy& a, const ColliderProxy& b, double sweep_m) {
 // Colliders that may have been swept are where they are. True where any of them can move: those
 // are marked.
 bool hold_still(const MovingContacts& moving, double sweep_m, HiddenOverlaps& hidden) {
-    hidden.proxies.assign(moving.proxies.begin(), moving.proxies.end());
+    hidden.proxies.clear();
     hidden.is_suspect.assign(moving.graph.bodies.size(), 0);
     bool any = false;
     const auto hold = [&](std::uint32_t body) {
+        if (hidden.proxies.empty()) {
+            hidden.proxies.assign(moving.proxies.begin(), moving.proxies.end());
+        }
         hidden.proxies[body].from_ws = hidden.proxies[body].to_ws;
         if (moving.graph.bodies[body].role != BodyRole::fixed) {
             hidden.is_suspect[body] = 1;

@@ -55,13 +55,45 @@ void place_members(ConstraintGraph& graph) {
         const std::uint32_t index = graph.island_of_root[graph.parent[i]];
         if (is_movable(graph.bodies[i]) && index != k_none) {
             Island& island = graph.islands[index];
-            graph.bodies[i].slot = island.bodies_end - island.bodies_begin;
             graph.island_bodies[island.bodies_end++] = i;
         }
     }
     for (std::uint32_t i = 0; i < graph.blocks.size(); ++i) {
         Island& island = graph.islands[graph.island_of_root[graph.root_of_block[i]]];
         graph.island_blocks[island.blocks_end++] = i;
+    }
+}
+
+// True where bodies and blocks are tied as they were when the islands were built.
+bool is_tied_as_before(const ConstraintGraph& graph) {
+    const auto is_same_body = [](const SolverBody& body, std::uint8_t was_movable) {
+        return is_movable(body) == (was_movable != 0);
+    };
+    const auto is_same_block = [](const RowBlock& block, const std::array<std::uint32_t, 2>& tie) {
+        return block.a == tie[0] && block.b == tie[1];
+    };
+    return std::ranges::equal(graph.bodies, graph.are_movable, is_same_body) &&
+           std::ranges::equal(graph.blocks, graph.ties, is_same_block);
+}
+
+void note_ties(ConstraintGraph& graph) {
+    graph.are_movable.clear();
+    for (const SolverBody& body : graph.bodies) {
+        graph.are_movable.push_back(is_movable(body) ? 1 : 0);
+    }
+    graph.ties.clear();
+    for (const RowBlock& block : graph.blocks) {
+        graph.ties.push_back({block.a, block.b});
+    }
+}
+
+// Bodies are written anew in every frame.
+void number_slots(ConstraintGraph& graph) {
+    for (const Island& island : graph.islands) {
+        std::uint32_t slot = 0;
+        for (const std::uint32_t body : graph.bodies_of(island)) {
+            graph.bodies[body].slot = slot++;
+        }
     }
 }
 
@@ -102,6 +134,12 @@ void sort_blocks(ConstraintGraph& graph) {
 }
 
 void build_islands(ConstraintGraph& graph) {
+    ++graph.revision;
+    if (is_tied_as_before(graph)) {
+        number_slots(graph);
+        return;
+    }
+    note_ties(graph);
     unite_blocks(graph);
     graph.islands.clear();
     graph.island_of_root.assign(graph.bodies.size(), k_none);
@@ -124,7 +162,7 @@ void build_islands(ConstraintGraph& graph) {
         ++graph.islands[graph.island_of_root[root]].blocks_end;
     }
     place_members(graph);
-    ++graph.revision;
+    number_slots(graph);
 }
 
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,10 @@ struct ConstraintGraph {
         return std::span(island_blocks)
             .subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
     }
+
+    // What the islands were built from: they stay as long as it does.
+    std::vector<std::uint8_t> are_movable;           // by body
+    std::vector<std::array<std::uint32_t, 2>> ties;  // by block: its bodies
 
     // Scratch of sort_blocks and build_islands.
     struct BlockPlace {
@@ -69,6 +75,7 @@ struct IslandErrors {
     double hands_m = 0.0;
     double joints_m = 0.0;
     double contacts_m = 0.0;
+    std::optional<JointError> joints;  // the joints' own, not a bound, where a solve has told it
 
     double without_hands_m() const { return std::max(joints_m, contacts_m); }
     double worst_m() const { return std::max(hands_m, without_hands_m()); }

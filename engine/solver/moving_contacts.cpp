@@ -1,6 +1,7 @@
 #include "engine/solver/moving_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <tuple>
 
@@ -17,28 +18,29 @@ constexpr double k_same_normal = 0.99;
 
 // True where a collider went farther than contacts stay good for.
 bool went_far(const Pose& from, const Pose& to) {
-    const double way = (to.position - from.position).norm();
-    if (way > k_moved_m) {
+    const double square = (to.position - from.position).squaredNorm();
+    if (square > k_moved_m * k_moved_m) {
         return true;
     }
+    const double way = std::sqrt(square);
     const double turn = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
     return way + turn * 0.5 > k_moved_m;
 }
 
-// Moves the proxies after the solver's bodies; true where any collider went farther than contacts
-// stay good for.
+// Moves the colliders after the solver's bodies; true where any went farther than contacts stay
+// good for. What has no collider touches nothing, wherever its proxy is.
 bool move_proxies(const MovingContacts& moving) {
     bool moved = false;
     for (std::size_t i = 0; i < moving.graph.bodies.size(); ++i) {
         const SolverBody& body = moving.graph.bodies[i];
-        if (body.role == BodyRole::fixed) {
+        if (body.role == BodyRole::fixed || moving.proxies[i].shape == k_no_shape) {
             continue;
         }
         ColliderProxy& proxy = moving.proxies[i];
         const Pose now = collider_pose(body);
         if (went_far(proxy.to_ws, now)) {
             proxy.to_ws = now;
-            moved = moved || proxy.shape != k_no_shape;
+            moved = true;
         }
     }
     return moved;

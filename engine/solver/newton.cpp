@@ -27,6 +27,8 @@ constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of s
 // Of the tolerance: the view goes where hands are, and shows what they lack. What a step leaves of
 // it the same factor takes away.
 constexpr double k_hand_share = 0.1;
+// Of the tolerance: what a step moves by less is at rest.
+constexpr double k_still_share = 1e-3;
 
 // --- Any rows ----------------------------------------------------------------------------------
 
@@ -181,7 +183,10 @@ class RowSteps {
     double longest_move() const { return handhold::longest_move(scratch_); }
     double longest_turn() const { return longest_turn_; }
     double apply_moves(double scale) { return handhold::apply_moves(island_, scale, scratch_); }
+    static void narrow(double /*still_m*/) {}
+    static void widen() {}
     static bool has_cheap_factor() { return false; }
+    static std::optional<JointError> worst_joints() { return std::nullopt; }
     void finish() {}
 
   private:
@@ -282,7 +287,10 @@ class TriadSteps {
     double longest_move() const { return system_.longest_move(); }
     double longest_turn() const { return system_.longest_turn(); }
     double apply_moves(double scale) { return system_.apply_moves(scale); }
+    void narrow(double still_m) { system_.narrow(still_m); }
+    void widen() { system_.widen(); }
     static bool has_cheap_factor() { return true; }
+    std::optional<JointError> worst_joints() const { return system_.worst_joints(); }
     void finish() { system_.store_poses(island_); }
 
   private:
@@ -332,6 +340,16 @@ StepResult take_step(const Softness& softness, double worst_m, Steps& steps) {
     return {steps.apply_moves(scale), scale == 1.0};
 }
 
+// What a step hardly moved the next ones do not look at, as long as they take the error down.
+template <typename Steps>
+void choose_rows(bool halves, const NewtonSettings& settings, Steps& steps) {
+    if (halves) {
+        steps.narrow(k_still_share * settings.tolerance_m);
+    } else {
+        steps.widen();
+    }
+}
+
 // A step with the factor of the one before: as good where the poses hardly moved since.
 template <typename Steps>
 StepResult repeat_step(Steps& steps) {
@@ -369,6 +387,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
         if ((result.converged && !polishes) || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m) {
             steps.finish();
+            result.joints = steps.worst_joints();
             return result;
         }
         const double overlap = steps.overlap_m();
@@ -381,6 +400,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
         if (result.iterations > 0 && !repeats) {
             adapt(result.residual_m, least, overlap, previous_overlap, settings.softness.contact,
                   softness);
+            choose_rows(step.whole && result.residual_m < 0.5 * previous, settings, steps);
             steps.stiffen(result.residual_m > settings.stiffness_from_m);
         }
         step = repeats ? repeat_step(steps) : take_step(softness, result.residual_m, steps);

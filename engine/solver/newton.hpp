@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/solver/island_system.hpp"
 
 // Damped Newton on the positions of one island.
@@ -15,8 +17,9 @@ struct NewtonSettings {
 
 struct NewtonResult {
     int iterations = 0;
-    double residual_m = 0.0;  // worst point, angle (at its lever) or overlap at the end
-    bool converged = false;   // residual below the tolerance
+    double residual_m = 0.0;           // worst point, angle (at its lever) or overlap at the end
+    bool converged = false;            // residual below the tolerance
+    std::optional<JointError> joints;  // worst of them at the end, where all rows always hold
     bool unsettled =
         false;  // a step left rows out that may overlap: its changes of the active set ran out
 };

@@ -356,11 +356,14 @@ HH_INLINE void turn_by(const Wide3& turn, Wide4& rotation) {
     rotation.w = turns ? after.w : rotation.w;
 }
 
-HH_INLINE void apply(const TriadArrays& arrays, double scale) {
+HH_INLINE void move_by(double scale, FourBodies& bodies) {
     const Four by = zero_four() + scale;
-    for (FourBodies& bodies : arrays.bodies) {
-        assign(bodies.position + by * bodies.move, bodies.position);
-        turn_by(by * bodies.turn, bodies.rotation);
+    assign(bodies.position + by * bodies.move, bodies.position);
+    turn_by(by * bodies.turn, bodies.rotation);
+}
+HH_INLINE void apply(const TriadArrays& arrays, double scale) {
+    for (const TriadPlan::Group& group : arrays.plan->groups()) {
+        move_by(scale, arrays.bodies[group.four]);
     }
 }
 

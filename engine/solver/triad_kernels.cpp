@@ -41,6 +41,10 @@ HH_INLINE TriadReach solve_triads(const TriadArrays& arrays) {
     triads::substitute_back_into_strands(arrays);
     return triads::longer(triads::gather_moves(arrays), triads::gather_strand_moves(arrays));
 }
+HH_INLINE void apply_triads(const TriadArrays& arrays, double scale) {
+    triads::apply_strands(arrays, scale);
+    triads::apply(arrays, scale);
+}
 
 #ifdef __x86_64__
 HH_AVX2 void evaluate_avx2(const TriadArrays& arrays) { evaluate_triads(arrays); }
@@ -56,7 +60,7 @@ HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double hand_alpha, double
     factorise_triads(arrays, hand_alpha, joint_alpha);
 }
 HH_AVX2 TriadReach solve_avx2(const TriadArrays& arrays) { return solve_triads(arrays); }
-HH_AVX2 void apply_avx2(const TriadArrays& arrays, double scale) { triads::apply(arrays, scale); }
+HH_AVX2 void apply_avx2(const TriadArrays& arrays, double scale) { apply_triads(arrays, scale); }
 HH_AVX2 void apply_velocities_avx2(const TriadArrays& arrays) { triads::apply_velocities(arrays); }
 
 constexpr TriadKernels k_avx2{
@@ -76,7 +80,7 @@ void factorise_portable(const TriadArrays& arrays, double hand_alpha, double joi
     factorise_triads(arrays, hand_alpha, joint_alpha);
 }
 TriadReach solve_portable(const TriadArrays& arrays) { return solve_triads(arrays); }
-void apply_portable(const TriadArrays& arrays, double scale) { triads::apply(arrays, scale); }
+void apply_portable(const TriadArrays& arrays, double scale) { apply_triads(arrays, scale); }
 void apply_velocities_portable(const TriadArrays& arrays) { triads::apply_velocities(arrays); }
 
 constexpr TriadKernels k_portable{evaluate_portable,        evaluate_velocities_portable,

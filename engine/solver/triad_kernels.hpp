@@ -55,7 +55,7 @@ struct FourLinks {
     // The step's row of the factor.
     WideSymmetric inverse;  // of its own block; or its pivots
     WideSquare next;        // the inverse times the block with the next link, or with `after`
-    WideSquare before;      // and times that with `before`
+    WideSquare before;      // and times that with `before`, up to FourStrands::faded_step
     bool has_pivots = false;
 };
 
@@ -63,13 +63,21 @@ struct FourLinks {
 struct FourStrands {
     WideSymmetric before;  // is taken off the block of `before`
     WideSymmetric after;
-    WideSquare between;  // rows of `after`, columns of `before`
-    Four inverse_sum;    // of 9 / the sum of each link's diagonal
+    WideSquare between;          // rows of `after`, columns of `before`
+    Four inverse_sum;            // of 9 / the sum of each link's diagonal
+    std::size_t faded_step = 0;  // the first step from which on nothing is tied to `before`
 };
 
 // In a struct, for a template's argument would forget the alignment.
 struct TriadVector {
     Four v = {};
+};
+
+// The rows of a braid that a step may move, in all four lanes; whatever lies beyond is held where
+// it is, as if nothing could move it.
+struct RowWindow {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  // > begin; one more than the braid's length where the last row is in it
 };
 
 // Where a plan speaks of a spare end or block, there is one: it is written and means nothing.
@@ -89,6 +97,7 @@ struct TriadArrays {
     std::span<Rows3> inverses;            // by step of the plan: of its own block
     // Scratch by step: the diagonals while it is factorised, what is not yet solved for afterwards.
     std::span<TriadVector> unknowns;
+    std::span<const RowWindow> windows;  // by braid
     const TriadPlan* plan = nullptr;
     bool has_turn = false;  // some triad holds a rotation
     bool is_stiff = false;  // inertia has the stiffness added
@@ -102,7 +111,8 @@ struct TriadReach {
 
 struct TriadKernels {
     // Axes, arms, ends and positional errors at the bodies' poses; rotations' errors are not its
-    // matter. What is at the ends of those that nothing moves is there already.
+    // matter. What is at the ends of those that nothing moves is there already, and so is all that
+    // belongs to rows beyond the windows. Velocities know no windows.
     void (*evaluate)(const TriadArrays& arrays);
     // What each triad's velocity lacks but for the hands' own.
     void (*evaluate_velocities)(const TriadArrays& arrays);

@@ -2,7 +2,7 @@
 
 // Sources: block LDL^T as in triad_factor.hpp; nested dissection after George (1973).
 #include "engine/solver/triad_bodies.hpp"
-#include "engine/solver/triad_factor.hpp"
+#include "engine/solver/triad_lane_blocks.hpp"
 
 // The triad kernels for strands: four of them side by side in a register's lanes, so that nothing
 // moves between lanes but at their ends. Included by triad_kernels.cpp alone: all is inlined into
@@ -21,20 +21,49 @@ HH_INLINE BraidArrays part_of(const TriadPlan::Braid& braid, const TriadArrays& 
             arrays.links.data() + braid.step, arrays.multipliers.data() + braid.bound};
 }
 
+// The steps whose links meet a row of a window, and the rows themselves.
+struct BraidPart {
+    std::size_t begin, end;            // rows
+    std::size_t first_step, end_step;  // step k lies between the rows k and k + 1
+    bool has_before, has_after;        // whether the braid's first and last row are among them
+};
+HH_INLINE BraidPart part_in(const RowWindow& window, const TriadPlan::Braid& braid) {
+    const bool has_before = window.begin == 0;
+    const bool has_after = window.end > braid.length;
+    return {window.begin,
+            window.end,
+            has_before ? std::size_t{0} : window.begin - std::size_t{1},
+            has_after ? std::size_t{braid.length} : std::size_t{window.end},
+            has_before,
+            has_after};
+}
+
 // --- Values ------------------------------------------------------------------------------------
 
-HH_INLINE void evaluate_strands(const TriadArrays& arrays) {
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
-        const BraidArrays of = part_of(braid, arrays);
+HH_INLINE void evaluate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
+                              const TriadArrays& arrays) {
+    const BraidArrays of = part_of(braid, arrays);
+    if (part.has_before) {
         write_axes(of.bodies[0]);
         write_ends(part_of(of.bodies[0], of.ends[0]), braid.before, arrays);
-        Wide3 first = part_of(of.bodies[0], of.ends[1]);
-        for (std::size_t row = 1; row <= braid.length; ++row) {
+    }
+    Wide3 first = part_of(of.bodies[part.first_step], of.ends[2 * part.first_step + 1]);
+    for (std::size_t step = part.first_step; step < part.end_step; ++step) {
+        const std::size_t row = step + 1;
+        if (row < part.end) {
             write_axes(of.bodies[row]);
-            assign(first + part_of(of.bodies[row], of.ends[2 * row]), of.links[row - 1].value);
-            first = part_of(of.bodies[row], of.ends[2 * row + 1]);
         }
+        assign(first + part_of(of.bodies[row], of.ends[2 * row]), of.links[step].value);
+        first = part_of(of.bodies[row], of.ends[2 * row + 1]);
+    }
+    if (part.has_after) {
         write_ends(first, braid.after, arrays);
+    }
+}
+HH_INLINE void evaluate_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        evaluate_braid(braids[i], part_in(arrays.windows[i], braids[i]), arrays);
     }
 }
 
@@ -67,119 +96,17 @@ HH_INLINE double worst_strand_square(const TriadArrays& arrays) {
 
 HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
     const Four zero = zero_four();
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const TriadPlan::Braid& braid = braids[i];
         const BraidArrays of = part_of(braid, arrays);
-        for (std::size_t row = 0; row <= braid.length; ++row) {
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             WideSymmetric sum{zero, zero, zero, zero, zero, zero};
             add_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
             add_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
             assign(sum, arrays.stiffness[braid.row + row]);
         }
     }
-}
-
-// --- Inverses: as triad_factor.hpp's, in each lane ---------------------------------------------
-
-HH_INLINE bool all_of(const FourBits& bits) {
-    return ((bits[0] & bits[1]) & (bits[2] & bits[3])) != 0;
-}
-
-HH_INLINE Four inverse_pivot(const Four& pivot, const Four& least) {
-    const FourBits counts = (pivot > least) | (pivot < -least);
-    return counts ? 1.0 / pivot : zero_four();
-}
-
-// The inverse pivots on the diagonal, l10, l20 and l21 beside it.
-HH_INLINE void decompose(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
-    const Wide3 least = (zero_four() + k_smallest_pivot) * diagonal;
-    out.xx = inverse_pivot(m.xx, least.x);
-    out.xy = m.xy * out.xx;
-    out.xz = m.xz * out.xx;
-    out.yy = inverse_pivot(m.yy - out.xy * m.xy, least.y);
-    const Four rest = m.yz - out.xz * m.xy;
-    out.yz = rest * out.yy;
-    out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, least.z);
-}
-
-// True where it has pivots in the inverse's place: in all lanes, if one of them needs them.
-HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
-    const Four xx = m.yy * m.zz - m.yz * m.yz;
-    const Four xy = m.xz * m.yz - m.xy * m.zz;
-    const Four xz = m.xy * m.yz - m.xz * m.yy;
-    const Four determinant = (m.xx * xx + m.xy * xy) + m.xz * xz;
-    const Four least = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
-    if (!all_of(determinant > least)) {
-        decompose(m, diagonal, out);
-        return true;
-    }
-    const Four factor = 1.0 / determinant;
-    out.xx = factor * xx;
-    out.xy = factor * xy;
-    out.xz = factor * xz;
-    out.yy = factor * (m.xx * m.zz - m.xz * m.xz);
-    out.yz = factor * (m.xy * m.xz - m.xx * m.yz);
-    out.zz = factor * (m.xx * m.yy - m.xy * m.xy);
-    return false;
-}
-
-HH_INLINE Wide3 divide(const WideSymmetric& pivots, const Wide3& v) {
-    const Four y1 = v.y - v.x * pivots.xy;
-    const Four y2 = (v.z - v.x * pivots.xz) - y1 * pivots.yz;
-    const Four x2 = y2 * pivots.zz;
-    const Four x1 = y1 * pivots.yy - x2 * pivots.yz;
-    return {(v.x * pivots.xx - x2 * pivots.xz) - x1 * pivots.xy, x1, x2};
-}
-HH_INLINE Wide3 apply_inverse(const FourLinks& links, const Wide3& v) {
-    return links.has_pivots ? divide(links.inverse, v) : multiply(links.inverse, v);
-}
-
-HH_INLINE void apply_inverse(const FourLinks& links, const WideSquare& m, WideSquare& out) {
-    const WideSymmetric& w = links.inverse;
-    if (links.has_pivots) {
-        const Wide3 y1 = m.y - w.xy * m.x;
-        const Wide3 y2 = (m.z - w.xz * m.x) - w.yz * y1;
-        const Wide3 x2 = w.zz * y2;
-        const Wide3 x1 = w.yy * y1 - w.yz * x2;
-        assign((w.xx * m.x - w.xz * x2) - w.xy * x1, out.x);
-        assign(x1, out.y);
-        assign(x2, out.z);
-        return;
-    }
-    assign((w.xx * m.x + w.xy * m.y) + w.xz * m.z, out.x);
-    assign((w.xy * m.x + w.yy * m.y) + w.yz * m.z, out.y);
-    assign((w.xz * m.x + w.yz * m.y) + w.zz * m.z, out.z);
-}
-
-// --- Products ----------------------------------------------------------------------------------
-
-HH_INLINE WideSymmetric operator-(const WideSymmetric& a, const WideSymmetric& b) {
-    return {a.xx - b.xx, a.yy - b.yy, a.zz - b.zz, a.xy - b.xy, a.xz - b.xz, a.yz - b.yz};
-}
-HH_INLINE WideSymmetric operator+(const WideSymmetric& a, const WideSymmetric& b) {
-    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
-}
-HH_INLINE Wide3 combine(const WideSquare& m, const Wide3& v) {
-    return (v.x * m.x + v.y * m.y) + v.z * m.z;
-}
-HH_INLINE Wide3 multiply(const WideSquare& m, const Wide3& v) {
-    return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
-}
-HH_INLINE WideSquare transposed(const WideSquare& m) {
-    return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
-}
-// a^T b
-HH_INLINE WideSquare product(const WideSquare& a, const WideSquare& b) {
-    return {(a.x.x * b.x + a.y.x * b.y) + a.z.x * b.z, (a.x.y * b.x + a.y.y * b.y) + a.z.y * b.z,
-            (a.x.z * b.x + a.y.z * b.y) + a.z.z * b.z};
-}
-// The same where it is symmetric.
-HH_INLINE WideSymmetric symmetric_product(const WideSquare& a, const WideSquare& b) {
-    return {(a.x.x * b.x.x + a.y.x * b.y.x) + a.z.x * b.z.x,
-            (a.x.y * b.x.y + a.y.y * b.y.y) + a.z.y * b.z.y,
-            (a.x.z * b.x.z + a.y.z * b.y.z) + a.z.z * b.z.z,
-            (a.x.x * b.x.y + a.y.x * b.y.y) + a.z.x * b.z.y,
-            (a.x.x * b.x.z + a.y.x * b.y.z) + a.z.x * b.z.z,
-            (a.x.y * b.x.z + a.y.y * b.y.z) + a.z.y * b.z.z};
 }
 
 // --- J W J^T and the factor --------------------------------------------------------------------
@@ -189,6 +116,12 @@ struct WideCoupling {
     WideSymmetric before, after;
     WideSquare between;  // rows of the node before
 };
+HH_INLINE WideCoupling no_coupling() {
+    const Four zero = zero_four();
+    return {{zero, zero, zero, zero, zero, zero},
+            {zero, zero, zero, zero, zero, zero},
+            {zero_three(), zero_three(), zero_three()}};
+}
 template <bool HasTurn>
 HH_INLINE WideSymmetric own_product(const Wide3* side, const FourEnds& end, const Four& mass) {
     const Wide3 x = times_end<HasTurn>(side[0], end);
@@ -231,58 +164,116 @@ HH_INLINE void add(const WideSymmetric& m, const TriadPlan::Lanes& blocks,
     add_row({m.xz, m.yz, m.zz}, blocks, 2, arrays);
 }
 
+// Where the elimination of a braid stands.
+struct BraidElimination {
+    WideCoupling row;   // of the bodies behind the last link
+    WideSquare before;  // of the link at hand with `before`
+    WideSymmetric taken, taken_before;
+    Wide3 diagonal;  // of the last link, before anything was taken off
+    Four inverse_sum;
+};
+
+// `of_first` is what the link's first bodies add to its block; the row is that of its second ones.
+template <bool Carries>
+HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, FourLinks& links,
+                              BraidElimination& at) {
+    const WideSymmetric own = of_first + at.row.before;
+    const Wide3 diagonal{own.xx, own.yy, own.zz};
+    at.inverse_sum += 9.0 / ((own.xx + own.yy) + own.zz);
+    WideSymmetric rest = own - at.taken;
+    rest.xx += joint_alpha * diagonal.x;
+    rest.yy += joint_alpha * diagonal.y;
+    rest.zz += joint_alpha * diagonal.z;
+    links.has_pivots = invert(rest, diagonal, links.inverse);
+    apply_inverse(links, at.row.between, links.next);
+    at.taken = symmetric_product(at.row.between, links.next);
+    if (Carries) {
+        apply_inverse(links, at.before, links.before);
+        at.taken_before = at.taken_before + symmetric_product(at.before, links.before);
+        const WideSquare carried = product(at.row.between, links.before);
+        at.before = {zero_three() - carried.x, zero_three() - carried.y, zero_three() - carried.z};
+    }
+    assign(diagonal, at.diagonal);
+}
+
+// True where what ties the link at hand to `before` is nothing in all lanes, next to its own block:
+// it fades by a constant factor a link.
+HH_INLINE bool has_faded(const BraidElimination& at) {
+    constexpr double k_nothing = 1e-30;
+    const Four square = (dot(at.before.x, at.before.x) + dot(at.before.y, at.before.y)) +
+                        dot(at.before.z, at.before.z);
+    return all_of(square <= (k_nothing * k_nothing) * dot(at.diagonal, at.diagonal));
+}
+
 // Each link goes as soon as both its bodies have been: in the shadow of its inverse, which takes
-// long, lies the next row's product.
+// long, lies the next row's product. Returns the first step that is not tied to `before`.
 template <bool HasTurn>
-HH_INLINE void eliminate_braid(const TriadPlan::Braid& braid, double joint_alpha,
-                               const TriadArrays& arrays, FourStrands& left) {
+HH_INLINE std::size_t eliminate_links(const BraidPart& part, const BraidArrays& of,
+                                      double joint_alpha, BraidElimination& at) {
+    constexpr std::size_t k_look = 8;  // how often it is asked whether anything is left
+    const std::size_t end = part.has_after ? part.end_step : part.end_step - 1;
+    std::size_t k = part.first_step;
+    bool carries = part.has_before;
+    for (; carries && k < end; ++k) {
+        const WideSymmetric of_first = at.row.after;
+        at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
+        eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
+        carries = k % k_look != 0 || !has_faded(at);
+    }
+    const std::size_t faded = k;
+    if (!carries) {
+        at.before = {zero_three(), zero_three(), zero_three()};
+    }
+    for (; k < end; ++k) {
+        const WideSymmetric of_first = at.row.after;
+        at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
+        eliminate_link<false>(of_first, joint_alpha, of.links[k], at);
+    }
+    if (k < part.end_step) {  // between the last bodies and some that are held
+        const WideSymmetric of_first = at.row.after;
+        at.row = no_coupling();
+        eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
+    }
+    return carries ? part.end_step : faded;
+}
+
+template <bool HasTurn>
+HH_INLINE void eliminate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
+                               double joint_alpha, const TriadArrays& arrays, FourStrands& left) {
     const BraidArrays of = part_of(braid, arrays);
     const Four zero = zero_four();
     // Of all first: what one row's takes its time for, others do not wait for.
-    for (std::size_t row = braid.row; row <= braid.row + std::size_t{braid.length}; ++row) {
-        write_inertia(row, arrays);
+    for (std::size_t row = part.begin; row < part.end; ++row) {
+        write_inertia(braid.row + row, arrays);
     }
-    WideCoupling row = couple<HasTurn>(of.bodies[0], of.ends[0], of.ends[1]);
-    add(row.before, braid.block_before, arrays);
-    WideSquare before = transposed(row.between);  // of the link at hand with `before`
-    WideSymmetric taken{zero, zero, zero, zero, zero, zero};
-    WideSymmetric taken_before = taken;
-    Four inverse_sum = zero;
-    for (std::size_t k = 0; k < braid.length; ++k) {
-        const WideSymmetric of_first = row.after;
-        row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
-        const WideSymmetric own = of_first + row.before;
-        const Wide3 diagonal{own.xx, own.yy, own.zz};
-        inverse_sum += 9.0 / ((own.xx + own.yy) + own.zz);
-        WideSymmetric rest = own - taken;
-        rest.xx += joint_alpha * diagonal.x;
-        rest.yy += joint_alpha * diagonal.y;
-        rest.zz += joint_alpha * diagonal.z;
-        FourLinks& links = of.links[k];
-        links.has_pivots = invert(rest, diagonal, links.inverse);
-        apply_inverse(links, row.between, links.next);
-        apply_inverse(links, before, links.before);
-        taken = symmetric_product(row.between, links.next);
-        taken_before = taken_before + symmetric_product(before, links.before);
-        const WideSquare carried = product(row.between, links.before);
-        before = {zero_three() - carried.x, zero_three() - carried.y, zero_three() - carried.z};
+    BraidElimination at;
+    at.row = no_coupling();
+    if (part.has_before) {
+        at.row = couple<HasTurn>(of.bodies[0], of.ends[0], of.ends[1]);
+        add(at.row.before, braid.block_before, arrays);
     }
-    add(row.after, braid.block_after, arrays);
-    assign(taken_before, left.before);
-    assign(taken, left.after);
-    assign(before.x, left.between.x);
-    assign(before.y, left.between.y);
-    assign(before.z, left.between.z);
-    left.inverse_sum = inverse_sum;
+    at.before = transposed(at.row.between);
+    at.taken = {zero, zero, zero, zero, zero, zero};
+    at.taken_before = at.taken;
+    at.inverse_sum = zero;
+    left.faded_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
+    add(at.row.after, braid.block_after, arrays);
+    assign(at.taken_before, left.before);
+    assign(at.taken, left.after);
+    assign(at.before.x, left.between.x);
+    assign(at.before.y, left.between.y);
+    assign(at.before.z, left.between.z);
+    left.inverse_sum = at.inverse_sum;
 }
 
 HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) {
     const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
     for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidPart part = part_in(arrays.windows[i], braids[i]);
         if (arrays.has_turn) {
-            eliminate_braid<true>(braids[i], joint_alpha, arrays, arrays.strands[i]);
+            eliminate_braid<true>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
         } else {
-            eliminate_braid<false>(braids[i], joint_alpha, arrays, arrays.strands[i]);
+            eliminate_braid<false>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
         }
     }
 }
@@ -329,42 +320,63 @@ HH_INLINE void take_off_lambdas(const Wide3& v, const TriadPlan::Lanes& ends,
     arrays.lambdas[ends[3] / 2].v -= rows.w;
 }
 
+HH_INLINE Wide3 substitute_into(FourLinks& links, const Wide3& of_next) {
+    const Wide3 own = (zero_three() - links.value) - of_next;
+    assign(apply_inverse(links, own), links.unknown);
+    return own;
+}
 HH_INLINE void substitute_into_strands(const TriadArrays& arrays) {
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
-        FourLinks* const links = arrays.links.data() + braid.step;
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidPart part = part_in(arrays.windows[i], braids[i]);
+        FourLinks* const links = arrays.links.data() + braids[i].step;
         Wide3 of_next = zero_three();
         Wide3 of_before = zero_three();
-        for (std::size_t k = 0; k < braid.length; ++k) {
-            const Wide3 own = (zero_three() - links[k].value) - of_next;
+        std::size_t k = part.first_step;
+        for (; k < arrays.strands[i].faded_step; ++k) {
+            const Wide3 own = substitute_into(links[k], of_next);
             of_next = combine(links[k].next, own);
             of_before = of_before + combine(links[k].before, own);
-            assign(apply_inverse(links[k], own), links[k].unknown);
         }
-        take_off_lambdas(of_before, braid.before, arrays);
-        take_off_lambdas(of_next, braid.after, arrays);
+        for (; k < part.end_step; ++k) {
+            of_next = combine(links[k].next, substitute_into(links[k], of_next));
+        }
+        take_off_lambdas(of_before, braids[i].before, arrays);
+        take_off_lambdas(of_next, braids[i].after, arrays);
     }
 }
 
 HH_INLINE void substitute_back_into_strands(const TriadArrays& arrays) {
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const TriadPlan::Braid& braid = braids[i];
+        const BraidPart part = part_in(arrays.windows[i], braid);
         const BraidArrays of = part_of(braid, arrays);
         const Wide3 before = lambdas_of(braid.before, arrays);
         Wide3 own = lambdas_of(braid.after, arrays);
         assign(before, of.multipliers[0]);
         assign(own, of.multipliers[braid.length + 1]);
-        for (std::size_t k = braid.length; k-- > 0;) {
-            const FourLinks& links = of.links[k];
+        const std::size_t faded = arrays.strands[i].faded_step;
+        std::size_t k = part.end_step;
+        for (; k > faded; --k) {
+            const FourLinks& links = of.links[k - 1];
+            own = links.unknown - multiply(links.next, own);
+            assign(own, of.multipliers[k]);
+        }
+        for (; k > part.first_step; --k) {
+            const FourLinks& links = of.links[k - 1];
             own = (links.unknown - multiply(links.before, before)) - multiply(links.next, own);
-            assign(own, of.multipliers[k + 1]);
+            assign(own, of.multipliers[k]);
         }
     }
 }
 
 HH_INLINE TriadReach gather_strand_moves(const TriadArrays& arrays) {
     WideReach reach;
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
-        const BraidArrays of = part_of(braid, arrays);
-        for (std::size_t row = 0; row <= braid.length; ++row) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidArrays of = part_of(braids[i], arrays);
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             WideWrench wrench{zero_three(), zero_three()};
             add_end(of.ends[2 * row], of.multipliers[row], arrays.has_turn, wrench);
             add_end(of.ends[2 * row + 1], of.multipliers[row + 1], arrays.has_turn, wrench);
@@ -372,6 +384,16 @@ HH_INLINE TriadReach gather_strand_moves(const TriadArrays& arrays) {
         }
     }
     return {largest(reach.move), largest(reach.turn)};
+}
+
+HH_INLINE void apply_strands(const TriadArrays& arrays, double scale) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidArrays of = part_of(braids[i], arrays);
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
+            move_by(scale, of.bodies[row]);
+        }
+    }
 }
 
 }  // namespace handhold::triads

@@ -48,10 +48,9 @@ void pack(const SolverBody& from, std::size_t lane, FourBodies& to) {
 // True where it has the mass and the pose that it was packed with, or stored with.
 bool is_as_packed(const SolverBody& from, std::size_t lane, const FourBodies& body) {
     return from.inverse_mass == body.inverse_mass[lane] &&
-           from.pose_ws.position == vec3_in_lane(lane, body.position) &&
-           from.pose_ws.rotation.coeffs() == quat_in_lane(lane, body.rotation).coeffs() &&
-           (!may_turn(from) ||
-            from.inverse_inertia_bs == vec3_in_lane(lane, body.inverse_inertia_bs));
+           is_lane(lane, body.position, from.pose_ws.position) &&
+           is_lane(lane, body.rotation, from.pose_ws.rotation) &&
+           (is_lane(lane, body.inverse_inertia_bs, from.inverse_inertia_bs) || !may_turn(from));
 }
 
 // Still, where an end is that nothing moves by forces.
@@ -207,6 +206,7 @@ bool TriadSystem::resume(const IslandView& island) {
     }
     pack_velocities(island);
     is_stiff_ = false;
+    widen();
     clear_impulses();
     return true;
 }
@@ -230,6 +230,7 @@ void TriadSystem::plan_nodes() {
     links_.resize(plan.braid_steps());
     strands_.resize(plan.braids().size());
     multipliers_.resize(plan.braid_steps() + 2 * plan.braids().size());
+    widen();
     clear_impulses();
     place_anchors();
     load_ends();
@@ -274,9 +275,9 @@ void TriadSystem::load_ends() {
 }
 
 TriadArrays TriadSystem::arrays() {
-    return {bodies_,   body_ends_,        stiffness_, links_,   multipliers_, strands_,
-            ends_,     values_,           lambdas_,   hands_,   blocks_,      inverses_,
-            unknowns_, &plans_.current(), has_turn_,  is_stiff_};
+    return {bodies_,   body_ends_, stiffness_,        links_,    multipliers_, strands_,
+            ends_,     values_,    lambdas_,          hands_,    blocks_,      inverses_,
+            unknowns_, windows_,   &plans_.current(), has_turn_, is_stiff_};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
@@ -285,8 +286,9 @@ void TriadSystem::store_poses(const IslandView& island) const {
         const FourBodies& bodies = four_of(place);
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
-            island.bodies[body_indices_[slots[place]]].pose_ws = {
-                vec3_in_lane(lane, bodies.position), quat_in_lane(lane, bodies.rotation)};
+            Pose& pose_ws = island.bodies[body_indices_[slots[place]]].pose_ws;
+            get_lane(lane, bodies.position, pose_ws.position);
+            get_lane(lane, bodies.rotation, pose_ws.rotation);
         }
     }
 }
@@ -298,8 +300,8 @@ void TriadSystem::store_velocities(const IslandView& island) const {
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             SolverBody& body = island.bodies[body_indices_[slots[place]]];
-            body.velocity_mps = vec3_in_lane(lane, bodies.velocity);
-            body.spin_radps = vec3_in_lane(lane, bodies.spin);
+            get_lane(lane, bodies.velocity, body.velocity_mps);
+            get_lane(lane, bodies.spin, body.spin_radps);
         }
     }
     const TriadPlan& plan = plans_.current();
@@ -316,7 +318,7 @@ void TriadSystem::store_velocities(const IslandView& island) const {
         for (std::size_t k = 0; k < braid.length; ++k) {
             for (std::size_t lane = 0; lane < k_lanes; ++lane) {
                 RowBlock& block = island.blocks[triads_[plan.links(braid)[k][lane] / 2].block];
-                block.impulse_ws_ns = vec3_in_lane(lane, links_[braid.step + k].impulse);
+                get_lane(lane, links_[braid.step + k].impulse, block.impulse_ws_ns);
             }
         }
     }
@@ -388,16 +390,6 @@ void TriadSystem::evaluate_velocities(const IslandView& island) {
     }
 }
 
-double TriadSystem::worst_value() { return std::sqrt(kernels_->worst_square(arrays())); }
-
-double TriadSystem::worst_hand_value() const {
-    double worst = 0.0;
-    for (std::size_t i = 0; has_hand_ && i < hands_.size(); ++i) {
-        worst = hands_[i] != 0 ? std::max(worst, dot3(values_[i].v, values_[i].v)) : worst;
-    }
-    return std::sqrt(worst);
-}
-
 void TriadSystem::gather_stiffness() {
     is_stiff_ = true;
     stiffness_.resize(bodies_.size());
@@ -428,7 +420,10 @@ double TriadSystem::hand_size() const {
 
 void TriadSystem::factorise(const Softness& softness, double factor) {
     kernels_->multiply_out(arrays(), factor * softness.joint);
-    const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size() : 0.0;
+    if (has_hand_ && !is_narrow_) {
+        hand_size_ = hand_size();
+    }
+    const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size_ : 0.0;
     kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
 }
 

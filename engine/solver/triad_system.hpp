@@ -40,6 +40,17 @@ class TriadSystem {
     void evaluate_velocities(const IslandView& island);
     double worst_value();
     double worst_hand_value() const;  // of the hands' alone
+    JointError worst_joints() const;  // of all others: points and rotations
+
+    // From here on only what is near to bodies that the last solve moved by this much or more, or
+    // turned by as much at k_angle_m: a long rope is busy where it is pulled, and at rest
+    // elsewhere. Call where the errors are those of the present poses.
+    void narrow(double still_m);
+    // All of them, as after `load` and `resume`.
+    void widen();
+    // Rows of strands, four bodies each, that steps move and that there are.
+    std::size_t busy_rows() const;
+    std::size_t strand_rows() const;
 
     void clear_stiffness() { is_stiff_ = false; }
     // From the last multipliers and the present arms.
@@ -89,6 +100,8 @@ class TriadSystem {
     bool is_as_loaded(const IslandView& island) const;
     Quat rotation_at(const IslandView& island, std::uint32_t end) const;
     double hand_size() const;
+    RowWindow busy_window(const TriadPlan::Braid& braid, const RowWindow& window,
+                          double still_m) const;
 
     // Made for each call: it points into this.
     TriadArrays arrays();
@@ -116,14 +129,17 @@ class TriadSystem {
     std::vector<Rows3> blocks_;
     std::vector<Rows3> inverses_;
     std::vector<TriadVector> unknowns_;
+    std::vector<RowWindow> windows_;  // by braid
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // by slot
     std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
+    double hand_size_ = 0.0;              // of the last factor of all rows
     double longest_move_ = 0.0;
     double longest_turn_ = 0.0;
     bool is_evaluated_ = false;  // at the present poses
+    bool is_narrow_ = false;
     bool is_stiff_ = false;
     bool has_hand_ = false;
     bool has_turn_ = false;

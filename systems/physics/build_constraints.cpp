@@ -203,13 +203,14 @@ RowKind row_kind(JointKind kind) {
 // this time.
 constexpr double k_detent_s = 0.05;
 
-JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
-    JointRows rows;
+void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, JointRows& rows) {
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
     rows.previous = state.coordinate + state.speed * dt_s;  // as predicted: it may turn fast
     rows.friction_impulse = joint.friction * dt_s;
+    rows.drive_to = rows.drive_s = rows.drive_impulse = 0.0;
+    rows.lock_limit_impulse = rows.lock_impulse = 0.0;
     if (joint.detent_spacing > 0.0) {
         rows.drive_to = joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
         rows.drive_s = std::max(k_detent_s, dt_s);
@@ -221,7 +222,6 @@ JointRows joint_rows(const Joint& joint, const JointState& state, double dt_s) {
         rows.upper = joint.latch.at;
         rows.lock_limit_impulse = joint.latch.strength * dt_s;
     }
-    return rows;
 }
 
 // The block of a joint; false where it ties nothing that moves, or what is gone.
@@ -251,7 +251,7 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
     block.point_b_bs = joint.frame_b_bs.position;
     block.rotation_a_bs = joint.frame_a_bs.rotation;
     block.rotation_b_bs = joint.frame_b_bs.rotation;
-    block.joint = joint_rows(joint, io.joint_state.at(entity), io.dt_s);
+    write_joint_rows(joint, io.joint_state.at(entity), io.dt_s, block.joint);
     block.impulse_ws_ns.setZero();
     block.couple_ws_nms.setZero();
     return true;

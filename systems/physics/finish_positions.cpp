@@ -230,25 +230,43 @@ void write_hand_error(const FinishPositionsIo& io, const RowBlock& block, StageS
     io.grab.rows()[block.source].error_m = error;
 }
 
-void write_errors(const FinishPositionsIo& io, StageStats& stats) {
-    for (Grab& grab : io.grab.rows()) {
-        grab.error_m = 0.0;
-    }
+void take_worst(const JointError& error, StageStats& stats) {
+    stats.joint_error_m = std::max(stats.joint_error_m, error.point_m);
+    stats.joint_error_rad = std::max(stats.joint_error_rad, error.angle_rad);
+}
+
+// What the island's last solve left of its joints, if it told and nothing was moved since.
+std::optional<JointError> told_error(const FrameGraph& frame, std::size_t island) {
+    const bool is_told = frame.sunk_bodies.empty() && frame.island_errors[island];
+    return is_told ? frame.island_errors[island]->joints : std::nullopt;
+}
+
+void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageStats& stats) {
     const ConstraintGraph& graph = io.frame.graph;
-    for (const RowBlock& block : graph.blocks) {
+    const std::optional<JointError> told = told_error(io.frame, island);
+    take_worst(told.value_or(JointError{}), stats);
+    for (const std::uint32_t i : graph.blocks_of(graph.islands[island])) {
+        const RowBlock& block = graph.blocks[i];
         if (is_hand(block)) {
             write_hand_error(io, block, stats);
-        } else if (is_joint(block)) {
-            const JointError error = joint_error(graph.bodies, block);
-            stats.joint_error_m = std::max(stats.joint_error_m, error.point_m);
-            stats.joint_error_rad = std::max(stats.joint_error_rad, error.angle_rad);
-        } else {
+        } else if (is_contact(block)) {
             const double overlap = block_error_m(graph.bodies, block);
             stats.residual_m = std::max(stats.residual_m, overlap);
             if (overlap > k_new_overlap_m) {
                 stats.count(Fallback::contacts_unresolved);
             }
+        } else if (!told) {
+            take_worst(joint_error(graph.bodies, block), stats);
         }
+    }
+}
+
+void write_errors(const FinishPositionsIo& io, StageStats& stats) {
+    for (Grab& grab : io.grab.rows()) {
+        grab.error_m = 0.0;
+    }
+    for (std::size_t island = 0; island < io.frame.graph.islands.size(); ++island) {
+        write_island_errors(io, island, stats);
     }
     for (const Overlap& hidden : io.frame.hidden_overlaps.of_body) {
         stats.residual_m = std::max(stats.residual_m, hidden.depth_m);

@@ -155,7 +155,7 @@ std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonR
     if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
         return std::nullopt;
     }
-    return IslandErrors{result.residual_m, result.residual_m, result.residual_m};
+    return IslandErrors{result.residual_m, result.residual_m, result.residual_m, result.joints};
 }
 
 // Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no

@@ -1,6 +1,7 @@
 #include "systems/physics/update_velocities.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "engine/core/parallel.hpp"
@@ -135,12 +136,12 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
 
 // What rows give and take may be far out of proportion for something thin.
 Vec3 clamp_spin(const SolverBody& body, double limit_radps, StageStats& stats) {
-    const double spin = body.spin_radps.norm();
-    if (body.role != BodyRole::free || spin <= limit_radps) {
+    const double square = body.spin_radps.squaredNorm();
+    if (body.role != BodyRole::free || square <= limit_radps * limit_radps) {
         return body.spin_radps;
     }
     stats.count(Fallback::object_speed_clamped);
-    return body.spin_radps * (limit_radps / spin);
+    return body.spin_radps * (limit_radps / std::sqrt(square));
 }
 
 void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
@@ -289,7 +290,8 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
             continue;
         }
         const SolverBody& body = frame.graph.bodies[i];
-        const HeadTracking* const head = io.head.find(frame.entities[i]);
+        const HeadTracking* const head =
+            body.role == BodyRole::player ? io.head.find(frame.entities[i]) : nullptr;
         valid->known = head == nullptr || head->state != TrackingState::never;
         if (frame.overlaps_with[i] == i) {
             valid->pose_ws = collider_pose(body);

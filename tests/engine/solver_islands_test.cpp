@@ -152,6 +152,38 @@ RC_GTEST_PROP(Islands, AreTheSameInWhateverOrderBlocksWereFound, (std::uint64_t 
     RC_ASSERT(graph.island_blocks == shuffled.island_blocks);
 }
 
+// As a frame does: bodies are written anew, and tied as before.
+RC_GTEST_PROP(Islands, StayAsLongAsTheSameBodiesAreTied, (std::uint64_t seed)) {
+    Random random(seed);
+    ConstraintGraph graph = random_graph(random);
+    build_islands(graph);
+    ConstraintGraph again = graph;
+    for (SolverBody& body : again.bodies) {
+        body.slot = 77;
+    }
+    build_islands(again);
+    RC_ASSERT(again.revision != graph.revision);
+    RC_ASSERT(again.island_bodies == graph.island_bodies);
+    RC_ASSERT(again.island_blocks == graph.island_blocks);
+    for (const std::uint32_t body : graph.island_bodies) {
+        RC_ASSERT(again.bodies[body].slot == graph.bodies[body].slot);
+    }
+}
+
+// One body can no longer move: what it held together falls apart.
+RC_GTEST_PROP(Islands, AreFoundAnewWhenARoleChanges, (std::uint64_t seed)) {
+    Random random(seed);
+    ConstraintGraph graph = random_graph(random);
+    build_islands(graph);
+    graph.bodies[below(graph.bodies.size(), random)].role = BodyRole::fixed;
+    std::erase_if(graph.blocks, [&graph](const RowBlock& block) {
+        return graph.bodies[block.a].role == BodyRole::fixed &&
+               graph.bodies[block.b].role == BodyRole::fixed;
+    });
+    build_islands(graph);
+    RC_ASSERT(islands_of(graph) == flood_filled(graph));
+}
+
 RC_GTEST_PROP(Islands, BuiltAgainAfterAnotherGraphShowNothingOfIt, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph fresh = random_graph(random);

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/solver/triad_system.hpp"
+#include "solver_scene.hpp"
+
+// A long rope that is pulled at one end is busy there and at rest elsewhere.
+namespace handhold::solver_busy_rows_test {
+namespace {
+
+using test::SolverScene;
+
+constexpr std::uint32_t k_links = 600;
+constexpr double k_still_m = 1e-10;
+
+enum class End { first, last };
+
+// Zigzag between two fixed bodies, whose one has moved 2 cm on since: links fold by 0.4 rad.
+SolverScene pulled_rope(End end) {
+    constexpr double k_along_m = 0.098;
+    const double up_m = std::sqrt(0.01 - k_along_m * k_along_m);
+    SolverScene scene;
+    const auto joint_at = [&](std::uint32_t i) { return Vec3(k_along_m * i, i % 2 * up_m, 0.0); };
+    const Vec3 moved(-0.02, 0.005, 0.01);
+    const Vec3 none = Vec3::Zero();
+    scene.graph.bodies = {
+        test::fixed_body(1, {end == End::first ? Vec3(-moved) : none, Quat::Identity()})};
+    for (std::uint32_t i = 0; i < k_links; ++i) {
+        const Vec3 along = joint_at(i + 1) - joint_at(i);
+        const Pose pose_ws{0.5 * (joint_at(i) + joint_at(i + 1)),
+                           rotation_between(Vec3::UnitX(), along.normalized())};
+        scene.graph.bodies.push_back(test::free_body(i + 2, 1.0, Vec3(3e-4, 1e-3, 1e-3), pose_ws));
+        scene.graph.blocks.push_back(test::row_block(
+            RowKind::ball, i, i + 1, Vec3(i == 0 ? 0.0 : 0.05, 0.0, 0.0), Vec3(-0.05, 0.0, 0.0)));
+    }
+    const Vec3 far = joint_at(k_links) + (end == End::last ? moved : none);
+    scene.graph.bodies.push_back(test::fixed_body(k_links + 2, {far, Quat::Identity()}));
+    scene.graph.blocks.push_back(
+        test::row_block(RowKind::ball, k_links, k_links + 1, Vec3(0.05, 0.0, 0.0), none));
+    sort_blocks(scene.graph);
+    build_islands(scene.graph);
+    return scene;
+}
+
+struct Outcome {
+    int steps = 0;
+    double worst_m = 0.0;
+    std::size_t least_rows = 0;
+};
+
+// Newton's steps on positions, all of them on all rows, or but the first on busy ones.
+Outcome pull(SolverScene& scene, bool narrows, TriadSystem& system) {
+    const IslandView island = scene.view(scene.graph.islands.front());
+    EXPECT_TRUE(system.load(island, std::numeric_limits<double>::infinity()));
+    Outcome outcome{0, 0.0, system.strand_rows()};
+    for (;;) {
+        system.evaluate(island);
+        outcome.worst_m = system.worst_value();
+        if (outcome.worst_m < 1e-9 || outcome.steps == 20) {
+            system.store_poses(island);
+            return outcome;
+        }
+        if (narrows && outcome.steps > 0) {
+            system.narrow(k_still_m);
+        }
+        outcome.least_rows = std::min(outcome.least_rows, system.busy_rows());
+        system.factorise({}, 1.0);
+        system.solve();
+        system.apply_moves(1.0);
+        ++outcome.steps;
+    }
+}
+
+class BusyRows : public testing::TestWithParam<End> {};
+INSTANTIATE_TEST_SUITE_P(OfARopePulledAt, BusyRows, testing::Values(End::first, End::last),
+                         [](const auto& one) {
+                             return one.param == End::first ? "itsFirstEnd" : "itsLastEnd";
+                         });
+
+TEST_P(BusyRows, AreFewAndEndWhereAllEnd) {
+    SolverScene whole = pulled_rope(GetParam());
+    SolverScene narrow = whole;
+    TriadSystem system;
+    const Outcome of_whole = pull(whole, false, system);
+    const Outcome of_narrow = pull(narrow, true, system);
+    EXPECT_GT(of_whole.steps, 2);
+    EXPECT_EQ(of_narrow.steps, of_whole.steps);
+    EXPECT_LT(of_narrow.worst_m, 1e-9);
+    EXPECT_EQ(of_whole.least_rows, system.strand_rows());
+    EXPECT_LT(of_narrow.least_rows, system.strand_rows() * 2 / 3);
+    for (std::size_t i = 0; i < whole.graph.bodies.size(); ++i) {
+        const Pose& expected = whole.graph.bodies[i].pose_ws;
+        const Pose& actual = narrow.graph.bodies[i].pose_ws;
+        ASSERT_LT((actual.position - expected.position).norm(), 1e-9) << i;
+        ASSERT_LT(actual.rotation.angularDistance(expected.rotation), 1e-7) << i;
+    }
+}
+
+TEST_P(BusyRows, HaveTheSameBitsWithAndWithoutAvx2) {
+    SolverScene fast = pulled_rope(GetParam());
+    SolverScene portable = fast;
+    TriadSystem fast_system(triad_kernels());
+    TriadSystem portable_system(portable_triad_kernels());
+    pull(fast, true, fast_system);
+    pull(portable, true, portable_system);
+    for (std::size_t i = 0; i < fast.graph.bodies.size(); ++i) {
+        const Pose& x = fast.graph.bodies[i].pose_ws;
+        const Pose& y = portable.graph.bodies[i].pose_ws;
+        for (int axis = 0; axis < 3; ++axis) {
+            ASSERT_EQ(std::bit_cast<std::uint64_t>(x.position[axis]),
+                      std::bit_cast<std::uint64_t>(y.position[axis]));
+        }
+        ASSERT_EQ(x.rotation.coeffs(), y.rotation.coeffs());
+    }
+}
+
+// What a step moves is not forgotten where the next ones would not have looked.
+TEST_P(BusyRows, AreAllAgainOnceWidened) {
+    SolverScene scene = pulled_rope(GetParam());
+    TriadSystem system;
+    pull(scene, true, system);
+    EXPECT_LT(system.busy_rows(), system.strand_rows());
+    system.widen();
+    EXPECT_EQ(system.busy_rows(), system.strand_rows());
+    EXPECT_TRUE(system.resume(scene.view(scene.graph.islands.front())));
+    EXPECT_EQ(system.busy_rows(), system.strand_rows());
+}
+
+// --- What a solve tells of the joints ----------------------------------------------------------
+
+TEST(WorstJoints, OfASolveAreThoseOfTheBlocks) {
+    SolverScene scene = pulled_rope(End::last);
+    scene.graph.blocks[100].kind = RowKind::fixed;
+    scene.graph.blocks[100].rotation_a_bs = rotation_from_vector(Vec3(0.02, 0.01, -0.03));
+    scene.graph.blocks[300].kind = RowKind::hand_point;
+    scene.graph.blocks[300].point_a_bs += Vec3(0.3, 0.0, 0.0);  // hands do not count
+    NewtonSettings settings;
+    settings.max_iterations = 1;
+    const NewtonResult result = scene.solve_positions(settings);
+    JointError worst;
+    for (const RowBlock& block : scene.graph.blocks) {
+        if (is_joint(block)) {
+            const JointError error = joint_error(scene.graph.bodies, block);
+            worst.point_m = std::max(worst.point_m, error.point_m);
+            worst.angle_rad = std::max(worst.angle_rad, error.angle_rad);
+        }
+    }
+    ASSERT_TRUE(result.joints.has_value());
+    EXPECT_GT(worst.point_m, 1e-6);
+    EXPECT_GT(worst.angle_rad, 1e-6);
+    EXPECT_NEAR(result.joints->point_m, worst.point_m, 1e-13);
+    EXPECT_NEAR(result.joints->angle_rad, worst.angle_rad, 1e-12);
+}
+
+}  // namespace
+}  // namespace handhold::solver_busy_rows_test
