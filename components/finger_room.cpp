@@ -25,44 +25,79 @@ constexpr std::array<Bend, 8> k_bends = {{{0.0, 0.0},
                                           {0.75, 0.75},
                                           {0.75, 0.25}}};
 
-// At the best of the bends, where that is less than `least_m`.
-double least_sunk_m(const HandSurroundings& hand, const HingeChain& chain, double least_m,
-                    ChainPatch& patch) {
+std::uint32_t oppositions_of(const FingerRig& finger) {
+    return finger.name == FingerName::thumb ? 3 : 1;
+}
+
+double opposition_rad(const FingerRig& finger, std::uint32_t place) {
+    const std::uint32_t count = oppositions_of(finger);
+    const double share = count > 1 ? place / (count - 1.0) : 0.0;
+    return finger.lower_opposition_rad +
+           share * (finger.upper_opposition_rad - finger.lower_opposition_rad);
+}
+
+ChainAngles bent(const Bend& bend, const ChainAngles& open_rad, const ChainAngles& closed_rad,
+                 std::size_t link_count) {
+    ChainAngles angle_rad = {};
+    for (std::size_t i = 0; i < link_count; ++i) {
+        angle_rad[i] =
+            open_rad[i] + (i == 0 ? bend.first : bend.others) * (closed_rad[i] - open_rad[i]);
+    }
+    return angle_rad;
+}
+
+struct BestBend {
+    double sunk_m = std::numeric_limits<double>::infinity();
+    std::size_t bend = 0;  // of k_bends
+    std::uint32_t opposition = 0;
+};
+
+// Keeps the better.
+void try_bends(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
+               ChainPatch& patch, BestBend& best) {
     patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, chain.closed_rad)),
                  hand.meshes);
-    for (const Bend& bend : k_bends) {
-        ChainAngles angle_rad = {};
-        for (std::size_t i = 0; i < chain.link_count; ++i) {
-            angle_rad[i] = chain.open_rad[i] + (i == 0 ? bend.first : bend.others) *
-                                                   (chain.closed_rad[i] - chain.open_rad[i]);
-        }
-        const ChainDepth depth = chain_depth(chain, angle_rad, patch, {.enough_m = least_m});
-        least_m = std::min(least_m, depth.depth_m);
-        if (least_m <= 0.0) {
-            break;
+    for (std::size_t i = 0; i < k_bends.size() && best.sunk_m > 0.0; ++i) {
+        const ChainDepth depth =
+            chain_depth(chain, bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count),
+                        patch, {.enough_m = best.sunk_m});
+        if (depth.depth_m < best.sunk_m) {
+            best = {depth.depth_m, i, opposition};
         }
     }
-    return least_m;
 }
 
 }  // namespace
 
-double fingers_sunk_m(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch) {
-    double deepest_m = 0.0;
-    for (const FingerRig& finger : hand.rig->fingers) {
-        const int oppositions = finger.name == FingerName::thumb ? 3 : 1;
-        double least_m = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < oppositions && least_m > 0.0; ++i) {
-            const double share = oppositions > 1 ? i / (oppositions - 1.0) : 0.0;
-            const double opposition_rad =
-                finger.lower_opposition_rad +
-                share * (finger.upper_opposition_rad - finger.lower_opposition_rad);
-            least_m =
-                least_sunk_m(hand, finger_chain(finger, opposition_rad, wrist_bs), least_m, patch);
+FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch) {
+    FingerRoom room;
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig->fingers[f];
+        BestBend best;
+        for (std::uint32_t i = 0; i < oppositions_of(finger) && best.sunk_m > 0.0; ++i) {
+            try_bends(hand, finger_chain(finger, opposition_rad(finger, i), wrist_bs), i, patch,
+                      best);
         }
-        deepest_m = std::max(deepest_m, least_m);
+        if (best.sunk_m > k_fingers_have_room_m) {
+            room.bends[f] =
+                static_cast<std::uint8_t>(1 + best.bend + k_bends.size() * best.opposition);
+        }
+        room.sunk_m = std::max(room.sunk_m, best.sunk_m);
     }
-    return deepest_m;
+    return room;
+}
+
+std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend) {
+    if (bend == 0 || bend > k_bends.size() * oppositions_of(finger)) {
+        return std::nullopt;
+    }
+    const std::size_t place = bend - std::size_t{1};
+    FingerAngles angles;
+    angles.curl_rad = bent(k_bends[place % k_bends.size()], finger.lower_rad, finger.upper_rad,
+                           finger.link_count);
+    angles.opposition_rad =
+        opposition_rad(finger, static_cast<std::uint32_t>(place / k_bends.size()));
+    return angles;
 }
 
 }  // namespace handhold

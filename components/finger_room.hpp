@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "engine/geometry/chain_patch.hpp"
 
@@ -9,9 +13,17 @@ namespace handhold {
 // Fingers sunk no deeper than this when they bend as is best have room: lifts do the rest.
 inline constexpr double k_fingers_have_room_m = 1.5e-3;
 
-// How deep the deepest finger or thumb is sunk with the wrist there (in the frame of
-// HandSurroundings::meshes), each as a few bends suit it best; at least 0, metres. A bound for
-// choosing, not a fit: sweep_fingers finds bends between these. `patch` is only worked in.
-double fingers_sunk_m(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch);
+struct FingerRoom {
+    double sunk_m = 0.0;     // of the deepest finger or thumb, at least 0
+    FingerBends bends = {};  // of those without room, the ones they are sunk least by
+};
+
+// How deep fingers and thumb are sunk with the wrist there (in the frame of
+// HandSurroundings::meshes), each as a few bends suit it best. A bound for choosing, not a fit:
+// sweep_fingers finds bends between these. `patch` is only worked in.
+FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch);
+
+// None for 0, and for what is no bend of the finger.
+std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend);
 
 }  // namespace handhold

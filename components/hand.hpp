@@ -11,6 +11,10 @@
 // entity has all of these.
 namespace handhold {
 
+// By place in HandRig::fingers: how each is bent, as finger_room.hpp numbers bends; 0: not at all
+// known.
+using FingerBends = std::array<std::uint8_t, k_finger_count>;
+
 // Surface under one palm, chosen for the least movement of the palm. Written by search_grip; read
 // by constrain_palms, sweep_fingers, pose_thumb.
 struct GripSurface {
@@ -26,6 +30,9 @@ struct GripSurface {
     std::uint64_t surroundings = 0;
     Pose held_bs;  // the wrist held to it, without a lift, where that is known
     bool is_held = false;
+    // Fingers that had no room where the palm alone would be held: bent like this they are held
+    // clear with it.
+    FingerBends bends = {};
     // Where palm or fingers had no room at the cheapest surface: how far the hand still goes until
     // it looks for another. 0: they had room.
     double look_in_m = 0.0;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "components/finger_room.hpp"
 #include "engine/collision/closest_point.hpp"
 
 namespace handhold {
@@ -105,35 +106,62 @@ class PalmSpheres {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
+        for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+            add_finger(hand.rig->fingers[f], surface.bends[f]);
+        }
     }
 
     // The gaps between the spheres of a hand at `wrist` and what is nearest to each, where that is
     // near; returns how deep the deepest is sunk.
     double look(const Pose& wrist, PalmGaps& gaps) {
-        double deepest_m = 0.0;
         std::size_t place = 0;
-        const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
+        double deepest_m = 0.0;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
-            constexpr int k_spheres = 3;
-            for (int i = 0; i < k_spheres; ++i) {
-                const double share = static_cast<double>(i) / (k_spheres - 1);
-                const Vec3 center =
-                    transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
-                for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++place) {
-                    auto gap = gap_under(hand_.meshes[m], m == 0 ? side_ : 1.0,
-                                         {center, capsule.radius_m}, place);
-                    if (gap) {
-                        gap->turn = (center - middle).cross(gap->along);
-                        gaps.add(*gap);
-                        deepest_m = std::max(deepest_m, -gap->gap_m);
-                    }
+            deepest_m = std::max(deepest_m, look_at(wrist, capsule, place, gaps));
+        }
+        fingers_sunk_m_ = 0.0;
+        for (std::size_t i = 0; i < link_count_; ++i) {
+            fingers_sunk_m_ = std::max(fingers_sunk_m_, look_at(wrist, links_[i], place, gaps));
+        }
+        return deepest_m;
+    }
+    // Then: of the fingers that are held clear with the palm.
+    double fingers_sunk_m() const { return fingers_sunk_m_; }
+
+  private:
+    void add_finger(const FingerRig& finger, std::uint8_t bend) {
+        const auto angles = bent_as(finger, bend);
+        if (!angles) {
+            return;
+        }
+        const auto points = finger_points(finger, *angles);
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            links_[link_count_++] = {points[i], points[i + 1], finger.radius_m[i]};
+        }
+    }
+
+    double look_at(const Pose& wrist, const PalmCapsule& capsule, std::size_t& place,
+                   PalmGaps& gaps) {
+        constexpr int k_spheres = 3;
+        double deepest_m = 0.0;
+        const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
+        for (int i = 0; i < k_spheres; ++i) {
+            const double share = static_cast<double>(i) / (k_spheres - 1);
+            const Vec3 center =
+                transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
+            for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++place) {
+                auto gap = gap_under(hand_.meshes[m], m == 0 ? side_ : 1.0,
+                                     {center, capsule.radius_m}, place);
+                if (gap) {
+                    gap->turn = (center - middle).cross(gap->along);
+                    gaps.add(*gap);
+                    deepest_m = std::max(deepest_m, -gap->gap_m);
                 }
             }
         }
         return deepest_m;
     }
 
-  private:
     struct Sphere {
         Vec3 center;
         double radius_m = 0.0;
@@ -197,10 +225,13 @@ class PalmSpheres {
                 (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
-    static constexpr std::size_t k_most_seen = 64;  // the others are looked at every time
+    static constexpr std::size_t k_most_seen = 96;  // the others are looked at every time
 
     const HandSurroundings& hand_;
     double side_ = 1.0;
+    std::array<PalmCapsule, k_finger_count * k_most_links> links_;  // of bent fingers
+    std::size_t link_count_ = 0;
+    double fingers_sunk_m_ = 0.0;
     std::array<Seen, k_most_seen> seen_;
 };
 
@@ -257,19 +288,22 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
     PalmSpheres palm(hand, surface);
     PalmGaps gaps;
     const double arm_m = std::max(k_least_arm_m, tuning.turn_arm_m);
-    double sunk_m = palm.look(held, gaps);
-    PalmFit best = {held, sunk_m};
+    PalmFit best = {held, palm.look(held, gaps), palm.fingers_sunk_m()};
+    double deepest_m = std::max(best.sunk_m, best.fingers_sunk_m);
+    double least_m = deepest_m;
     PalmMove moved;
     Pose wrist = held;
-    for (int i = 0; i < k_most_pushes && sunk_m > k_sunk_m; ++i) {
+    for (int i = 0; i < k_most_pushes && deepest_m > k_sunk_m; ++i) {
         add_limits(hand, surface, wrist, lift_m, tuning, gaps);  // last, so that they hold
         moved = least_move(gaps.all(), moved, arm_m);
         wrist.rotation = (rotation_from_vector(moved.turn_rad) * held.rotation).normalized();
         wrist.position = center + moved.way_m - wrist.rotation * center_hs;
         gaps.clear();
-        sunk_m = palm.look(wrist, gaps);
-        if (sunk_m < best.sunk_m) {
-            best = {wrist, sunk_m};
+        const double sunk_m = palm.look(wrist, gaps);
+        deepest_m = std::max(sunk_m, palm.fingers_sunk_m());
+        if (deepest_m < least_m) {
+            least_m = deepest_m;
+            best = {wrist, sunk_m, palm.fingers_sunk_m()};
         }
     }
     return best;

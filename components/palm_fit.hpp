@@ -10,13 +10,15 @@ namespace handhold {
 struct PalmFit {
     Pose wrist_bs;        // within the limits, then out of what it was sunk in as far as that goes
     double sunk_m = 0.0;  // how deep the palm still is, at least 0
+    double fingers_sunk_m = 0.0;  // and the deepest of the fingers that were held clear with it
 };
 
 // The least move of the tracked wrist that holds the palm over `surface`, lift_m higher than else:
 // along the surface's normal into the range of heights, tilted into the range of angles about the
 // palm's own centre; then, where the palm's capsules are sunk in something, moved and turned about
-// that centre, PalmTuning::turn_arm_m apart, until they and the limits are clear.
-// Precondition: the hand has meshes, and the surface is of the first one.
+// that centre, PalmTuning::turn_arm_m apart, until they and the limits are clear. Fingers that the
+// surface has bends for are held clear as if they were of the palm. Precondition: the hand has
+// meshes, and the surface is of the first one.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                  const PalmTuning& tuning);
 

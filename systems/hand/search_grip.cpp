@@ -123,7 +123,7 @@ class PalmHolder {
         constexpr double k_next_m = 1e-9;
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            const Held held = held_at(placed, palm, *near);
+            const Held held = held_at(placed, palm, *near, last.bends);
             if (last.has_room_m > 0.0 && held.sunk_m > k_roomy_m) {
                 return false;
             }
@@ -149,7 +149,7 @@ class PalmHolder {
         }
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            surface = held_at(placed, palm, *near).surface;
+            surface = held_at(placed, palm, *near, last.bends).surface;
             surface.look_in_m = left_m;
         }
         return near.has_value();
@@ -163,7 +163,7 @@ class PalmHolder {
         if (left_m <= 0.0 || !cheapest || !is_near_last(placed, *cheapest, last)) {
             return false;
         }
-        const Held held = held_at(placed, palm, *cheapest);
+        const Held held = held_at(placed, palm, *cheapest, last.bends);
         surface = held.surface;
         surface.has_room_m = left_m;
         return held.sunk_m <= k_roomy_m;
@@ -184,6 +184,12 @@ class PalmHolder {
                                             last.triangle);
     }
 
+    struct Held {
+        GripSurface surface;
+        double sunk_m = 0.0;          // how deep the palm is that is held to it
+        double fingers_sunk_m = 0.0;  // and the fingers that are held clear with it
+        double sync_m = 0.0;          // how far it is moved for that, turning counted as a way
+    };
     struct Judged {
         GripSurface surface;
         bool has_room = false;
@@ -239,7 +245,7 @@ class PalmHolder {
     // What was tried in the frames before, where the hand is now; the best of it is near `last`.
     void recall(const PlacedMesh& placed, const PalmPlace& palm, const Found& near,
                 const GripSurface& last, Tries& tries) const {
-        tries.best.surface = held_at(placed, palm, near).surface;
+        tries.best.surface = held_at(placed, palm, near, last.bends).surface;
         tries.best.surface.cost_m = last.cost_m;
         tries.best.surface.has_room_m = last.has_room_m;
         tries.has_best = true;
@@ -299,7 +305,7 @@ class PalmHolder {
         if (is_back(placed, palm, first)) {
             return true;
         }
-        const Held held = held_at(placed, palm, first);
+        const Held held = held_at(placed, palm, first, {});
         return held.sunk_m > k_roomy_m || held.sync_m > k_far_m;
     }
 
@@ -313,9 +319,22 @@ class PalmHolder {
         return hit && placed.mesh->search.normals[hit->triangle].dot(out) > 0.0;
     }
 
+    // Where fingers have no room, with the palm held so that they are clear as well; the better.
     Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
-        const Held held = held_at(placed, palm, found);
-        const double fingers_m = fingers_sunk_m(hand_, held.surface.held_bs, scratch_.patch);
+        const Held held = held_at(placed, palm, found, {});
+        const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
+        const Judged alone = judge_held(placed, palm, found, held, room.sunk_m);
+        if (room.sunk_m <= k_fingers_have_room_m) {
+            return alone;
+        }
+        // The others had room there, and mostly still have it.
+        const Held cleared = held_at(placed, palm, found, room.bends);
+        const Judged together = judge_held(placed, palm, found, cleared, cleared.fingers_sunk_m);
+        return together.surface.cost_m < alone.surface.cost_m ? together : alone;
+    }
+
+    Judged judge_held(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                      const Held& held, double fingers_m) const {
         Judged judged = {held.surface,
                          held.sunk_m <= k_roomy_m && fingers_m <= k_fingers_have_room_m};
         judged.surface.cost_m = held.sync_m;
@@ -346,17 +365,16 @@ class PalmHolder {
         return {triangle, candidate.point, candidate.cost_m};
     }
 
-    struct Held {
-        GripSurface surface;
-        double sunk_m = 0.0;  // how deep the palm is that is held to it
-        double sync_m = 0.0;  // how far it is moved for that, turning counted as a way
-    };
-    Held held_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
-        Held held = {surface_at(placed, palm, found), 0.0};
+    Held held_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                 const FingerBends& bends) const {
+        Held held;
+        held.surface = surface_at(placed, palm, found);
+        held.surface.bends = bends;
         const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm);
         held.surface.held_bs = fit.wrist_bs;
         held.surface.is_held = true;
         held.sunk_m = fit.sunk_m;
+        held.fingers_sunk_m = fit.fingers_sunk_m;
         const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
         held.sync_m = sync.palm_m + tuning_.palm.tilt_cost_m_per_rad * sync.turn_rad;
         return held;

@@ -141,7 +141,7 @@ struct FingerRoom {
     ChainPatch patch;
 
     double sunk_m(FittedHand& hand) {
-        return fingers_sunk_m(hand.hands.front(), hand.surface.at(k_right).held_bs, patch);
+        return find_finger_room(hand.hands.front(), hand.surface.at(k_right).held_bs, patch).sunk_m;
     }
 };
 
@@ -155,9 +155,37 @@ TEST(SearchGrip, LeavesFingersRoom) {
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
     const Pose held_bs = fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
-    ASSERT_GT(fingers_sunk_m(hand.hands.front(), held_bs, room.patch), 0.005);
+    ASSERT_GT(find_finger_room(hand.hands.front(), held_bs, room.patch).sunk_m, 0.005);
     hand.search();
     EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
+}
+
+// On a floor without end there is no other surface for fingers that point into it: the palm that
+// would be clear alone is turned and moved until they are too, at once and from frame to frame.
+TEST(SearchGrip, HoldsFingersClearWithThePalm) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    // The fingers point down into the floor, past what the palm's own capsules need.
+    const Vec3 up = rotation_about(Vec3::UnitX(), -0.4) * Vec3::UnitY();
+    const Pose wrist_bs = wrist_with_palm_at(rig, {0.013, 0.012, 0.007}, up);
+    ChainPatch patch;
+    const auto fingers_sunk_m = [&](const FittedHand& hand) {
+        return find_finger_room(hand.hands.front(), hand.surface.at(k_right).held_bs, patch).sunk_m;
+    };
+    FittedHand at_once(floor, wrist_bs);
+    GripSurface palm_alone;
+    palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
+    const Pose alone_bs =
+        fit_palm(at_once.hands.front(), palm_alone, 0.0, at_once.tuning.palm).wrist_bs;
+    ASSERT_GT(find_finger_room(at_once.hands.front(), alone_bs, patch).sunk_m, 0.003);
+    at_once.search();
+    EXPECT_LE(fingers_sunk_m(at_once), k_fingers_have_room_m);
+    FittedHand hand(floor, wrist_bs);
+    for (int frame = 0; frame < 60; ++frame) {
+        hand.search(k_dt_s);
+        EXPECT_LE(fingers_sunk_m(hand), k_fingers_have_room_m) << frame;
+    }
 }
 
 // In frames, a surface or two in each, a hand at rest comes to what it finds at once, and rests.
