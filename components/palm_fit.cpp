@@ -28,6 +28,18 @@ Vec3 slide_onto(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& ce
     return placed.pose.rotation * Vec3(closest_on_triangle(flat, corners) - flat);
 }
 
+// Turned back, by the shortest way, to where the palm is tilted against the normal as far as it
+// may.
+Quat within_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, double most_rad) {
+    const Vec3 up = rotation * -rig.palm_normal_hs;
+    const Vec3 across = up.cross(normal);
+    const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
+    if (angle_rad <= most_rad || across.norm() <= 1e-9) {
+        return rotation;
+    }
+    return (rotation_about(across.normalized(), angle_rad - most_rad) * rotation).normalized();
+}
+
 // Height first, tilt second: tilting about the palm's centre keeps its height.
 Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
                     const PalmTuning& tuning) {
@@ -42,14 +54,7 @@ Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, do
     center += (wanted_m - height_m) * normal;
 
     Pose wrist = hand.wrist_bs;
-    const Vec3 up = wrist.rotation * -rig.palm_normal_hs;
-    const Vec3 across = up.cross(normal);
-    const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
-    if (angle_rad > tuning.max_angle_rad && across.norm() > 1e-9) {
-        wrist.rotation =
-            (rotation_about(across.normalized(), angle_rad - tuning.max_angle_rad) * wrist.rotation)
-                .normalized();
-    }
+    wrist.rotation = within_tilt(wrist.rotation, rig, normal, tuning.max_angle_rad);
     wrist.position = center - wrist.rotation * rig.palm_center_hs;
     return wrist;
 }
@@ -65,15 +70,18 @@ struct PalmGap {
 class PalmGaps {
   public:
     void clear() { count_ = 0; }
-    // What there is no room for is left out.
-    void add(const PalmGap& gap) {
-        if (count_ < gaps_.size()) {
+    // The first of them; the limits always have their places.
+    void add_contact(const PalmGap& gap) {
+        if (count_ < k_most - k_limits) {
             gaps_[count_++] = gap;
         }
     }
+    // Precondition: no more than k_limits since the last clear().
+    void add_limit(const PalmGap& gap) { gaps_[count_++] = gap; }
     std::span<const PalmGap> all() const { return {gaps_.data(), count_}; }
 
-    static constexpr std::size_t k_most = 128;
+    static constexpr std::size_t k_limits = 3;
+    static constexpr std::size_t k_most = 256;  // those of five bodies about a bent hand
 
   private:
     std::array<PalmGap, k_most> gaps_;  // NOLINT(*-member-init): filled as it grows
@@ -82,19 +90,19 @@ class PalmGaps {
 
 // The limits on height and tilt, lift_m higher than else.
 void add_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& wrist,
-                double lift_m, const PalmTuning& tuning, PalmGaps& gaps) {
+                double lift_m, const PalmTuning& tuning, double arm_m, PalmGaps& gaps) {
     const Vec3& normal = surface.normal_bs;
     const Vec3 center = transform_point(wrist, hand.rig->palm_center_hs);
     const double height_m = (center - surface.point_bs).dot(normal) - lift_m;
     const double most_m = std::max(tuning.min_height_m, tuning.max_height_m);
-    gaps.add({normal, Vec3::Zero(), height_m - tuning.min_height_m});
-    gaps.add({-normal, Vec3::Zero(), most_m - height_m});
+    gaps.add_limit({normal, Vec3::Zero(), height_m - tuning.min_height_m});
+    gaps.add_limit({-normal, Vec3::Zero(), most_m - height_m});
     const Vec3 up = wrist.rotation * -hand.rig->palm_normal_hs;
     const Vec3 across = up.cross(normal);
     if (across.norm() > 1e-9) {
         const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
-        gaps.add({Vec3::Zero(), tuning.turn_arm_m * across.normalized(),
-                  tuning.turn_arm_m * (tuning.max_angle_rad - angle_rad)});
+        gaps.add_limit({Vec3::Zero(), arm_m * across.normalized(),
+                        arm_m * (tuning.max_angle_rad - angle_rad)});
     }
 }
 
@@ -154,7 +162,7 @@ class PalmSpheres {
                                      {center, capsule.radius_m}, place);
                 if (gap) {
                     gap->turn = (center - middle).cross(gap->along);
-                    gaps.add(*gap);
+                    gaps.add_contact(*gap);
                     deepest_m = std::max(deepest_m, -gap->gap_m);
                 }
             }
@@ -294,9 +302,14 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
     PalmMove moved;
     Pose wrist = held;
     for (int i = 0; i < k_most_pushes && deepest_m > k_sunk_m; ++i) {
-        add_limits(hand, surface, wrist, lift_m, tuning, gaps);  // last, so that they hold
+        add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);  // last, so that they hold
         moved = least_move(gaps.all(), moved, arm_m);
-        wrist.rotation = (rotation_from_vector(moved.turn_rad) * held.rotation).normalized();
+        // Of large turns the limit on tilt is not straight.
+        wrist.rotation =
+            within_tilt((rotation_from_vector(moved.turn_rad) * held.rotation).normalized(),
+                        *hand.rig, surface.normal_bs, tuning.max_angle_rad);
+        moved.turn_rad =
+            rotation_to_vector((wrist.rotation * held.rotation.conjugate()).normalized());
         wrist.position = center + moved.way_m - wrist.rotation * center_hs;
         gaps.clear();
         const double sunk_m = palm.look(wrist, gaps);

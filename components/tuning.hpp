@@ -194,7 +194,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,
         "surfaces farther from the palm than this are not looked at");
     see("palm.tries_per_frame", t.palm.tries_per_frame, "", 1.0, 14.0,
-        "surfaces that are tried in one frame where the cheapest leaves palm or fingers no room");
+        "surfaces that are tried in one frame, the cheapest first, until no other would cost less");
     see("palm.normal_radius_m", t.palm.normal_radius_m, "m", 1e-3, 0.2,
         "the palm lies against the mean of the surface within this");
     see("palm.rate_mps", t.palm.rate_mps, "m/s", 0.0, 1e6,

@@ -149,8 +149,13 @@ class PalmHolder {
         }
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            surface = held_at(placed, palm, *near, last.bends).surface;
+            const Held held = held_at(placed, palm, *near, last.bends);
+            if (last.has_room_m > 0.0 && held.sunk_m > k_roomy_m) {
+                return false;
+            }
+            surface = held.surface;
             surface.look_in_m = left_m;
+            surface.has_room_m = std::max(still_to_go_m(last.has_room_m, last), 0.0);
         }
         return near.has_value();
     }
@@ -201,6 +206,7 @@ class PalmHolder {
         Judged best;
         bool has_best = false;
         bool was_judged = false;  // in this frame
+        std::optional<bool> may_try_backs;
 
         bool is_full() const { return count == tried.size(); }
         void add(const Found& found) { tried[count++] = found; }
@@ -248,6 +254,7 @@ class PalmHolder {
         tries.best.surface = held_at(placed, palm, near, last.bends).surface;
         tries.best.surface.cost_m = last.cost_m;
         tries.best.surface.has_room_m = last.has_room_m;
+        tries.best.has_room = last.has_room_m > 0.0;
         tries.has_best = true;
         for (std::size_t i = 0; i < last.tried_count; ++i) {
             tries.add(found_at(placed, palm, last.tried[i]));
@@ -259,8 +266,11 @@ class PalmHolder {
     bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
                     std::size_t left, Tries& tries) const {
         bool has_looked_around = false;
-        while (left > 0 && !tries.is_full()) {
+        while (!tries.is_full()) {
             const bool is_near = tries.best.has_room && tries.best.surface.cost_m < k_near_enough_m;
+            if (left == 0 && !is_near) {
+                return false;
+            }
             if (tries.count > 0 && !has_looked_around && !is_near) {
                 look_around(*placed.mesh, palm, searcher);
                 has_looked_around = true;
@@ -269,21 +279,30 @@ class PalmHolder {
             if (!way || (tries.has_best && way->cost_m >= tries.best.surface.cost_m)) {
                 return true;
             }
+            if (left == 0) {
+                return false;
+            }
             tries.add(*way);
-            if (!is_left_out(placed, palm, *way, tries.tried.front())) {
+            if (!is_left_out(placed, palm, *way, tries)) {
                 judge_next(placed, palm, *way, tries);
                 --left;
             }
         }
-        return tries.is_full();
+        return true;
     }
 
     // Backs, but where the palm may have gone through what it came to first: fingers have room
     // behind walls as well, but no palm goes there for it.
     bool is_left_out(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
-                     const Found& first) const {
-        return found.triangle != first.triangle && is_back(placed, palm, found) &&
-               (is_inside(placed, found) || !may_try_backs(placed, palm, first));
+                     Tries& tries) const {
+        const Found& first = tries.tried.front();
+        if (found.triangle == first.triangle || !is_back(placed, palm, found)) {
+            return false;
+        }
+        if (!tries.may_try_backs) {
+            tries.may_try_backs = may_try_backs(placed, palm, first);
+        }
+        return !*tries.may_try_backs || is_inside(placed, found);
     }
 
     // Keeps the better.
@@ -312,10 +331,10 @@ class PalmHolder {
     // A palm there would be in something solid: what is over it is seen from inside.
     static bool is_inside(const PlacedMesh& placed, const Found& found) {
         constexpr double k_off_m = 1e-3;
-        constexpr double k_far_m = 1.0;
+        constexpr double k_ray_m = 1.0;
         const Vec3 out = -placed.mesh->search.normals[found.triangle];
         const auto hit = placed.mesh->search_bvh.cast_ray(found.point + k_off_m * out,
-                                                          found.point + k_far_m * out);
+                                                          found.point + k_ray_m * out);
         return hit && placed.mesh->search.normals[hit->triangle].dot(out) > 0.0;
     }
 
@@ -414,7 +433,7 @@ class PalmHolder {
     }
 
     static constexpr double k_roomy_m = 1e-3;
-    static constexpr double k_far_m = 0.05;  // a palm that is moved farther may have gone through
+    static constexpr double k_far_m = 0.05;  // of sync: a palm that comes out farther went through
     static constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
     static constexpr double k_inside_cost_m = 0.05;
     static constexpr double k_sunk_cost = 8.0;    // of a metre that a palm stays sunk

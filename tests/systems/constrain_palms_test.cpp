@@ -64,6 +64,32 @@ TEST_F(ConstrainPalms, TurnsTiltedPalmOutOfWhatItIsSunkIn) {
     EXPECT_LT(tilt_rad(hand), 0.4);
 }
 
+// Whatever it is pushed out of, a palm is never tilted farther than it may.
+TEST_F(ConstrainPalms, PushedPalmsKeepTheirTilt) {
+    test::Random random(2103);
+    int turned = 0;
+    for (int i = 0; i < 150; ++i) {
+        Mesh mesh = test::make_floor_mesh();
+        for (Vec3& position : mesh.positions) {  // blocks of 5 cm, some as high
+            const bool is_block = static_cast<int>(std::floor(position.x() / 0.05) +
+                                                   3.0 * std::floor(position.z() / 0.05) + i) %
+                                      3 ==
+                                  0;
+            position.y() = is_block ? random.between(0.0, 0.05) : 0.0;
+        }
+        const GripMesh grip = build_grip_mesh(mesh);
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.7)).normalized();
+        const Vec3 center = Vec3(0.0, random.between(-0.02, 0.04), 0.0) + random.vector(0.03);
+        FittedHand hand(grip, wrist_with_palm_at(rig, center, up));
+        hold(hand);
+        const GripSurface& surface = hand.surface.at(k_right);
+        const double cosine = std::clamp(hand.palm_up_bs().dot(surface.normal_bs), -1.0, 1.0);
+        EXPECT_LE(std::acos(cosine), hand.tuning.palm.max_angle_rad + 1e-6) << i;
+        turned += hand.offset.at(k_right).target_turn_rad.norm() > 0.05 ? 1 : 0;
+    }
+    EXPECT_GT(turned, 50);
+}
+
 TEST_F(ConstrainPalms, LowersHighPalmToMaxHeight) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.06, 0.007}, Vec3::UnitY()));
     hold(hand);

@@ -48,7 +48,7 @@ double sync_cost_m(const SurfaceGraph& graph, std::uint32_t triangle, const Vec3
            (is_back ? tuning.back_cost_m : 0.0);
 }
 
-// Nearest first, as search_grip begins.
+// From the nearest triangle on.
 SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const PalmTuning& tuning) {
     GripSearchScratch scratch;
     SurfaceSearch search(mesh.search, palm, tuning, scratch);
@@ -61,7 +61,7 @@ SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const Pal
     return found ? SurfaceCandidate{found->cost_m, found->point} : SurfaceCandidate{};
 }
 
-TEST(SearchGrip, FindsTheTriangleThatNeedsTheLeastMovement) {
+TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
     const PalmTuning tuning;
     int compared = 0;
     int missed = 0;  // behind a hill that the search's patience does not reach over
@@ -82,7 +82,6 @@ TEST(SearchGrip, FindsTheTriangleThatNeedsTheLeastMovement) {
             EXPECT_LT(excess_m, 2e-3) << "seed " << seed << " case " << i;
         }
     }
-    EXPECT_EQ(compared, 300);
     EXPECT_LE(missed, compared / 100);
 }
 
@@ -185,6 +184,21 @@ TEST(SearchGrip, HoldsFingersClearWithThePalm) {
     for (int frame = 0; frame < 60; ++frame) {
         hand.search(k_dt_s);
         EXPECT_LE(fingers_sunk_m(hand), k_fingers_have_room_m) << frame;
+    }
+}
+
+// What is cheap and has room is taken in the first frame: nothing else is looked for, then or
+// later.
+TEST(SearchGrip, IsOverAtOnceOnAPlainFloor) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.01, 0.007}, Vec3::UnitY()));
+    for (int frame = 0; frame < 3; ++frame) {
+        hand.search(k_dt_s);
+        EXPECT_EQ(hand.surface.at(k_right).tried_count, 0U) << frame;
+        EXPECT_EQ(hand.surface.at(k_right).look_in_m, 0.0) << frame;
+        EXPECT_GT(hand.surface.at(k_right).has_room_m, 0.0) << frame;
     }
 }
 
