@@ -33,11 +33,11 @@ struct GripSurface {
     // Fingers that had no room where the palm alone would be held: bent like this they are held
     // clear with it.
     FingerBends bends = {};
-    // Where palm or fingers had no room at the cheapest surface: how far the hand still goes until
-    // it looks for another. 0: they had room.
+    // Where it is not the one that is cheapest by its limits alone, or palm or fingers have no
+    // room: how far the hand still goes until it looks for another. 0: it need not.
     double look_in_m = 0.0;
-    // While it looks, a few surfaces in each frame: those it has tried, by their triangles, and
-    // what the best of them cost where it was tried, which is this one.
+    // While it looks, a few surfaces in each frame: those it has tried or left out, by their
+    // triangles, and what the best of them cost where it was tried, which is this one.
     static constexpr std::size_t k_most_tries = 14;
     std::array<std::uint32_t, k_most_tries> tried = {};
     std::uint32_t tried_count = 0;  // 0: it does not look
