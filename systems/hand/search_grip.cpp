@@ -342,13 +342,13 @@ class PalmHolder {
     Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
         const Held held = held_at(placed, palm, found, {});
         const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
-        const Judged alone = judge_held(placed, palm, found, held, room.sunk_m);
+        Judged alone = judge_held(placed, palm, found, held, room.sunk_m);
         if (room.sunk_m <= k_fingers_have_room_m) {
             return alone;
         }
         // The others had room there, and mostly still have it.
         const Held cleared = held_at(placed, palm, found, room.bends);
-        const Judged together = judge_held(placed, palm, found, cleared, cleared.fingers_sunk_m);
+        Judged together = judge_held(placed, palm, found, cleared, cleared.fingers_sunk_m);
         return together.surface.cost_m < alone.surface.cost_m ? together : alone;
     }
 
