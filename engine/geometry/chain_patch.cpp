@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/geometry/disc_trace.hpp"
+#include "engine/geometry/four_distances.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 
 namespace handhold {
@@ -42,10 +43,16 @@ class ChainPatch::SunkSearch {
         if (!any_of(is_near)) {
             return;
         }
-        const FourFloats least = least_squared(four);
-        is_near &= ~is_off(four) & (least <= most_squared_);
+        is_near &= ~is_off(four);
+        const FourCorners corner = about_middle(four);
+        is_near &= least_squared(corner) <= most_squared_;
+        if (!any_of(is_near)) {
+            return;
+        }
+        const FourFloats squared = FourDistances(corner, length_).squared();
+        is_near &= squared <= most_squared_;
         for (std::uint32_t i = 0; i < 4; ++i) {
-            noted_[count_] = {least[i], number + i};
+            noted_[count_] = {squared[i], number + i};
             count_ += is_near[i] != 0 ? 1U : 0U;
         }
     }
@@ -59,7 +66,7 @@ class ChainPatch::SunkSearch {
         }
         std::size_t best = 0;
         for (std::size_t i = 1; i < count_; ++i) {
-            best = noted_[i].least < noted_[best].least ? i : best;
+            best = noted_[i].squared < noted_[best].squared ? i : best;
         }
         const Noted first = noted_[best];
         noted_[best] = noted_[--count_];
@@ -82,7 +89,7 @@ class ChainPatch::SunkSearch {
 
   private:
     struct Noted {
-        float least;  // no more than its distance, squared
+        float squared;  // its distance, but for roundings
         std::uint32_t number;
     };
 
@@ -100,34 +107,37 @@ class ChainPatch::SunkSearch {
         return (lower(begin, end) > most_m_) | (higher(begin, end) < -most_m_);
     }
 
-    // No more than the triangles' distances, squared: those of boxes around them, turned as the
-    // middle is.
-    FourFloats least_squared(const FourReached& four) const {
-        std::array<FourFloats, 3> along;
-        std::array<FourFloats, 3> beside;
+    // Turned as the middle is.
+    FourCorners about_middle(const FourReached& four) const {
+        FourCorners corner;
         for (std::size_t i = 0; i < 3; ++i) {
             const FourFloats x = four.corner[i][0] - begin_[0];
             const FourFloats y = four.corner[i][1] - begin_[1];
-            along[i] = x * along_[0] + y * along_[1];
-            beside[i] = y * along_[0] - x * along_[1];
+            corner[i][0] = x * along_[0] + y * along_[1];
+            corner[i][1] = y * along_[0] - x * along_[1];
+            corner[i][2] = four.corner[i][2];
         }
+        return corner;
+    }
+    // No more than their distances, squared: those of boxes around them.
+    FourFloats least_squared(const FourCorners& corner) const {
         const FourFloats zero = {};
-        const auto out_of = [&](const std::array<FourFloats, 3>& of,
-                                const FourFloats& most) -> FourFloats {
-            const FourFloats low = lower(lower(of[0], of[1]), of[2]);
-            const FourFloats high = higher(higher(of[0], of[1]), of[2]);
+        const auto beyond = [&](std::size_t axis, const FourFloats& most) -> FourFloats {
+            const FourFloats low = lower(lower(corner[0][axis], corner[1][axis]), corner[2][axis]);
+            const FourFloats high =
+                higher(higher(corner[0][axis], corner[1][axis]), corner[2][axis]);
             return higher(higher(low - most, -high), zero);
         };
-        const FourFloats ahead = out_of(along, length_);
-        const FourFloats aside = out_of(beside, zero);
-        const FourFloats across = higher(higher(four.low[2], -four.high[2]), zero);
+        const FourFloats ahead = beyond(0, length_);
+        const FourFloats aside = beyond(1, zero);
+        const FourFloats across = beyond(2, zero);
         return ahead * ahead + aside * aside + across * across;
     }
 
     // What is farther than what was found is of no use any more.
     void limit() {
         constexpr double k_rounding = 1e-5;
-        const double most_m = nearest_m_ * (1.0 + k_rounding) + 2.0 * spare_m_;
+        const double most_m = nearest_m_ * (1.0 + k_rounding) + 4.0 * spare_m_;
         most_m_ = four_times(most_m);
         most_squared_ = four_times(most_m * most_m);
         for (std::size_t i = 0; i < 2; ++i) {
@@ -139,7 +149,7 @@ class ChainPatch::SunkSearch {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < count_; ++i) {
             noted_[kept] = noted_[i];
-            kept += noted_[i].least <= most_squared_[0] ? 1U : 0U;
+            kept += noted_[i].squared <= most_squared_[0] ? 1U : 0U;
         }
         count_ = kept;
     }

@@ -81,10 +81,10 @@ FourReached ReachSlab::place(const FourTriangles& four) const {
         reached.line[2] += normal * a;
         if (i < 2) {
             reached.line[i] = normal;
-            reached.corner[0][i] = a;
-            reached.corner[1][i] = b;
-            reached.corner[2][i] = c;
         }
+        reached.corner[0][i] = a;
+        reached.corner[1][i] = b;
+        reached.corner[2][i] = c;
     }
     return reached;
 }
