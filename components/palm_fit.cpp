@@ -13,7 +13,10 @@ namespace handhold {
 namespace {
 
 constexpr int k_most_pushes = 6;
-constexpr double k_least_arm_m = 1e-3;   // turning is never quite free
+constexpr int k_most_pushes_on = 2;     // the next frame goes on with it
+constexpr int k_fair_pushes = 2;        // then it may be given up
+constexpr double k_least_arm_m = 1e-3;  // turning is never quite free
+constexpr double k_any_step_m = 1.0;
 constexpr double k_sunk_m = 5e-5;        // what is sunk less is not pushed out
 constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
 
@@ -41,11 +44,11 @@ Quat within_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, d
 }
 
 // Height first, tilt second: tilting about the palm's centre keeps its height.
-Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                    const PalmTuning& tuning) {
+Pose hold_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
+                    const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
     const HandRig& rig = *hand.rig;
     const Vec3& normal = surface.normal_bs;
-    Vec3 center = transform_point(hand.wrist_bs, rig.palm_center_hs);
+    Vec3 center = transform_point(tracked_bs, rig.palm_center_hs);
     center += slide_onto(hand.meshes.front(), surface.triangle, center);
     const double height_m = (center - surface.point_bs).dot(normal);
     const double wanted_m = std::clamp(height_m, tuning.min_height_m,
@@ -53,7 +56,7 @@ Pose hold_to_limits(const HandSurroundings& hand, const GripSurface& surface, do
                             lift_m;
     center += (wanted_m - height_m) * normal;
 
-    Pose wrist = hand.wrist_bs;
+    Pose wrist = tracked_bs;
     wrist.rotation = within_tilt(wrist.rotation, rig, normal, tuning.max_angle_rad);
     wrist.position = center - wrist.rotation * rig.palm_center_hs;
     return wrist;
@@ -125,11 +128,12 @@ class PalmSpheres {
         std::size_t place = 0;
         double deepest_m = 0.0;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
-            deepest_m = std::max(deepest_m, look_at(wrist, capsule, place, gaps));
+            deepest_m = std::max(deepest_m, look_at(wrist, capsule, 0, place, gaps));
         }
         fingers_sunk_m_ = 0.0;
         for (std::size_t i = 0; i < link_count_; ++i) {
-            fingers_sunk_m_ = std::max(fingers_sunk_m_, look_at(wrist, links_[i], place, gaps));
+            fingers_sunk_m_ = std::max(
+                fingers_sunk_m_, look_at(wrist, links_[i], is_first_[i] ? 0 : 1, place, gaps));
         }
         return deepest_m;
     }
@@ -144,16 +148,18 @@ class PalmSpheres {
         }
         const auto points = finger_points(finger, *angles);
         for (std::size_t i = 0; i < finger.link_count; ++i) {
+            is_first_[link_count_] = i == 0;
             links_[link_count_++] = {points[i], points[i + 1], finger.radius_m[i]};
         }
     }
 
-    double look_at(const Pose& wrist, const PalmCapsule& capsule, std::size_t& place,
+    // From sphere `first` on: at a hinge the link before it is as thick.
+    double look_at(const Pose& wrist, const PalmCapsule& capsule, int first, std::size_t& place,
                    PalmGaps& gaps) {
         constexpr int k_spheres = 3;
         double deepest_m = 0.0;
         const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
-        for (int i = 0; i < k_spheres; ++i) {
+        for (int i = first; i < k_spheres; ++i) {
             const double share = static_cast<double>(i) / (k_spheres - 1);
             const Vec3 center =
                 transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
@@ -238,6 +244,7 @@ class PalmSpheres {
     const HandSurroundings& hand_;
     double side_ = 1.0;
     std::array<PalmCapsule, k_finger_count * k_most_links> links_;  // of bent fingers
+    std::array<bool, k_finger_count* k_most_links> is_first_ = {};  // of its finger
     std::size_t link_count_ = 0;
     double fingers_sunk_m_ = 0.0;
     std::array<Seen, k_most_seen> seen_;
@@ -286,35 +293,71 @@ PalmMove least_move(std::span<const PalmGap> gaps, const PalmMove& moved, double
     return move;
 }
 
+double size_of(const PalmMove& move, double arm_m) {
+    return move.way_m.norm() + arm_m * move.turn_rad.norm();
+}
+
+// Pushing on does not help any more.
+bool is_settled(double deepest_m, double step_m, bool is_pushed) {
+    constexpr double k_stuck_m = 2e-5;
+    constexpr double k_settled_m = 2e-4;
+    return deepest_m > k_sunk_m ? step_m <= k_stuck_m : !is_pushed || step_m <= k_settled_m;
+}
+
+PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
+    return {transform_point(to, center_hs) - transform_point(from, center_hs),
+            rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
+}
+
+Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
+    Pose moved;
+    moved.rotation = (rotation_from_vector(move.turn_rad) * wrist.rotation).normalized();
+    moved.position = transform_point(wrist, center_hs) + move.way_m - moved.rotation * center_hs;
+    return moved;
+}
+
 }  // namespace
 
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 const PalmTuning& tuning) {
-    const Pose held = hold_to_limits(hand, surface, lift_m, tuning);
+                 const PalmTuning& tuning, const PalmEffort& effort) {
     const Vec3& center_hs = hand.rig->palm_center_hs;
-    const Vec3 center = transform_point(held, center_hs);
+    const double arm_m = std::max(k_least_arm_m, tuning.turn_arm_m);
+    const Pose held = hold_to_limits(hand, hand.wrist_bs, surface, lift_m, tuning);
+    PalmMove moved;
+    const bool goes_on = effort.last != nullptr && effort.last->is_held;
+    if (goes_on) {
+        const GripSurface& last = *effort.last;
+        moved = move_between(hold_to_limits(hand, last.wrist_bs, last, lift_m, tuning),
+                             last.held_bs, center_hs);
+    }
     PalmSpheres palm(hand, surface);
     PalmGaps gaps;
-    const double arm_m = std::max(k_least_arm_m, tuning.turn_arm_m);
-    PalmFit best = {held, palm.look(held, gaps), palm.fingers_sunk_m()};
+    Pose wrist = moved_by(moved, held, center_hs);
+    PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
     double deepest_m = std::max(best.sunk_m, best.fingers_sunk_m);
     double least_m = deepest_m;
-    PalmMove moved;
-    Pose wrist = held;
-    for (int i = 0; i < k_most_pushes && deepest_m > k_sunk_m; ++i) {
+    double step_m = k_any_step_m;
+    const bool is_pushed = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
+    const int most_pushes = goes_on ? k_most_pushes_on : k_most_pushes;
+    for (int i = 0; i < most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {
+        if (i >= k_fair_pushes && least_m > effort.most_sunk_m) {
+            break;
+        }
         add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);  // last, so that they hold
+        const PalmMove before = moved;
         moved = least_move(gaps.all(), moved, arm_m);
+        wrist = moved_by(moved, held, center_hs);
         // Of large turns the limit on tilt is not straight.
         wrist.rotation =
-            within_tilt((rotation_from_vector(moved.turn_rad) * held.rotation).normalized(),
-                        *hand.rig, surface.normal_bs, tuning.max_angle_rad);
-        moved.turn_rad =
-            rotation_to_vector((wrist.rotation * held.rotation.conjugate()).normalized());
-        wrist.position = center + moved.way_m - wrist.rotation * center_hs;
+            within_tilt(wrist.rotation, *hand.rig, surface.normal_bs, tuning.max_angle_rad);
+        wrist.position =
+            transform_point(held, center_hs) + moved.way_m - wrist.rotation * center_hs;
+        moved = move_between(held, wrist, center_hs);
+        step_m = size_of({moved.way_m - before.way_m, moved.turn_rad - before.turn_rad}, arm_m);
         gaps.clear();
         const double sunk_m = palm.look(wrist, gaps);
         deepest_m = std::max(sunk_m, palm.fingers_sunk_m());
-        if (deepest_m < least_m) {
+        if (deepest_m < least_m || deepest_m <= k_sunk_m) {
             least_m = deepest_m;
             best = {wrist, sunk_m, palm.fingers_sunk_m()};
         }

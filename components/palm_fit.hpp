@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
 #include "components/tuning.hpp"
@@ -13,13 +15,22 @@ struct PalmFit {
     double fingers_sunk_m = 0.0;  // and the deepest of the fingers that were held clear with it
 };
 
+// How hard fit_palm tries.
+struct PalmEffort {
+    // Of the same hand a frame ago: begins with the move that held the palm there, which is mostly
+    // nearly the one, and tries on from frame to frame.
+    const GripSurface* last = nullptr;
+    // Palms that stay sunk deeper soon are given up.
+    double most_sunk_m = std::numeric_limits<double>::infinity();
+};
+
 // The least move of the tracked wrist that holds the palm over `surface`, lift_m higher than else:
 // along the surface's normal into the range of heights, tilted into the range of angles about the
 // palm's own centre; then, where the palm's capsules are sunk in something, moved and turned about
 // that centre, PalmTuning::turn_arm_m apart, until they and the limits are clear. Fingers that the
 // surface has bends for are held clear as if they were of the palm. Precondition: the hand has
-// meshes, and the surface is of the first one.
+// meshes, and the surfaces are of the first one.
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 const PalmTuning& tuning);
+                 const PalmTuning& tuning, const PalmEffort& effort = {});
 
 }  // namespace handhold

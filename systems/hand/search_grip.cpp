@@ -119,11 +119,11 @@ class PalmHolder {
     // No surface is judged in two frames in a row: digits have their turn. False where it is gone,
     // or its room is.
     bool rest(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
-              const GripSurface& last, GripSurface& surface) const {
+              const GripSurface& last, GripSurface& surface) {
         constexpr double k_next_m = 1e-9;
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            const Held held = held_at(placed, palm, *near, last.bends);
+            const Held held = keep_at(placed, palm, *near, last);
             if (last.has_room_m > 0.0 && held.sunk_m > k_roomy_m) {
                 return false;
             }
@@ -142,14 +142,14 @@ class PalmHolder {
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
     // looked stays with what it found for a while. False where it is to look now.
     bool stay(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
-              const GripSurface& last, GripSurface& surface) const {
+              const GripSurface& last, GripSurface& surface) {
         const double left_m = still_to_go_m(last.look_in_m, last);
         if (left_m <= 0.0) {
             return false;
         }
         const auto near = near_last(placed, searcher, last);
         if (near) {
-            const Held held = held_at(placed, palm, *near, last.bends);
+            const Held held = keep_at(placed, palm, *near, last);
             if (last.has_room_m > 0.0 && held.sunk_m > k_roomy_m) {
                 return false;
             }
@@ -162,13 +162,13 @@ class PalmHolder {
 
     // What had room for fingers mostly has it a little farther on. False where it is to be asked.
     bool keep_room(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
-                   const GripSurface& last, GripSurface& surface) const {
+                   const GripSurface& last, GripSurface& surface) {
         const double left_m = still_to_go_m(last.has_room_m, last);
         const auto cheapest = searcher.cheapest_beside({});
         if (left_m <= 0.0 || !cheapest || !is_near_last(placed, *cheapest, last)) {
             return false;
         }
-        const Held held = held_at(placed, palm, *cheapest, last.bends);
+        const Held held = keep_at(placed, palm, *cheapest, last);
         surface = held.surface;
         surface.has_room_m = left_m;
         return held.sunk_m <= k_roomy_m;
@@ -194,6 +194,7 @@ class PalmHolder {
         double sunk_m = 0.0;          // how deep the palm is that is held to it
         double fingers_sunk_m = 0.0;  // and the fingers that are held clear with it
         double sync_m = 0.0;          // how far it is moved for that, turning counted as a way
+        bool is_kept = false;         // from where it was held a frame ago
     };
     struct Judged {
         GripSurface surface;
@@ -217,7 +218,7 @@ class PalmHolder {
     // their costs in closed form, which are rarely more, until those are. A few in each frame: goes
     // on from where `last` came to, or begins with where that is.
     GripSurface try_surfaces(const PlacedMesh& placed, const PalmPlace& palm,
-                             SurfaceSearch& searcher, const GripSurface& last) const {
+                             SurfaceSearch& searcher, const GripSurface& last) {
         Tries tries;
         std::size_t left = most_tries();
         const auto near = near_last(placed, searcher, last);
@@ -250,8 +251,8 @@ class PalmHolder {
 
     // What was tried in the frames before, where the hand is now; the best of it is near `last`.
     void recall(const PlacedMesh& placed, const PalmPlace& palm, const Found& near,
-                const GripSurface& last, Tries& tries) const {
-        tries.best.surface = held_at(placed, palm, near, last.bends).surface;
+                const GripSurface& last, Tries& tries) {
+        tries.best.surface = keep_at(placed, palm, near, last).surface;
         tries.best.surface.cost_m = last.cost_m;
         tries.best.surface.has_room_m = last.has_room_m;
         tries.best.has_room = last.has_room_m > 0.0;
@@ -264,7 +265,7 @@ class PalmHolder {
     // The cheapest of those that are left, `left` of them. True where there is none to try any
     // more.
     bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
-                    std::size_t left, Tries& tries) const {
+                    std::size_t left, Tries& tries) {
         bool has_looked_around = false;
         while (!tries.is_full()) {
             const bool is_near = tries.best.has_room && tries.best.surface.cost_m < k_near_enough_m;
@@ -294,7 +295,7 @@ class PalmHolder {
     // Backs, but where the palm may have gone through what it came to first: fingers have room
     // behind walls as well, but no palm goes there for it.
     bool is_left_out(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
-                     Tries& tries) const {
+                     Tries& tries) {
         const Found& first = tries.tried.front();
         if (found.triangle == first.triangle || !is_back(placed, palm, found)) {
             return false;
@@ -307,8 +308,10 @@ class PalmHolder {
 
     // Keeps the better.
     void judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
-                    Tries& tries) const {
-        const Judged next = judge(placed, palm, way);
+                    Tries& tries) {
+        constexpr double k_any_m = std::numeric_limits<double>::infinity();
+        const Judged next =
+            judge(placed, palm, way, tries.has_best ? tries.best.surface.cost_m : k_any_m);
         if (!tries.has_best || next.surface.cost_m < tries.best.surface.cost_m) {
             tries.best = next;
         }
@@ -320,11 +323,11 @@ class PalmHolder {
         return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
     }
     // The palm may have gone through.
-    bool may_try_backs(const PlacedMesh& placed, const PalmPlace& palm, const Found& first) const {
+    bool may_try_backs(const PlacedMesh& placed, const PalmPlace& palm, const Found& first) {
         if (is_back(placed, palm, first)) {
             return true;
         }
-        const Held held = held_at(placed, palm, first, {});
+        const Held held = held_at(placed, palm, first, {}, {});
         return held.sunk_m > k_roomy_m || held.sync_m > k_far_m;
     }
 
@@ -339,15 +342,22 @@ class PalmHolder {
     }
 
     // Where fingers have no room, with the palm held so that they are clear as well; the better.
-    Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) const {
-        const Held held = held_at(placed, palm, found, {});
+    // Where the palm alone costs `most_m` they are not asked: they make it no cheaper.
+    Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                 double most_m) {
+        const PalmEffort effort = {.most_sunk_m = most_m / k_sunk_cost};
+        const Held held = held_at(placed, palm, found, {}, effort);
+        Judged alone = judge_held(placed, palm, found, held, 0.0);
+        if (alone.surface.cost_m >= most_m) {
+            return alone;
+        }
         const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
-        Judged alone = judge_held(placed, palm, found, held, room.sunk_m);
         if (room.sunk_m <= k_fingers_have_room_m) {
             return alone;
         }
+        alone = judge_held(placed, palm, found, held, room.sunk_m);
         // The others had room there, and mostly still have it.
-        const Held cleared = held_at(placed, palm, found, room.bends);
+        const Held cleared = held_at(placed, palm, found, room.bends, effort);
         Judged together = judge_held(placed, palm, found, cleared, cleared.fingers_sunk_m);
         return together.surface.cost_m < alone.surface.cost_m ? together : alone;
     }
@@ -384,12 +394,36 @@ class PalmHolder {
         return {triangle, candidate.point, candidate.cost_m};
     }
 
+    // As `last` is held, if it is there and with the same fingers held clear.
+    Held keep_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                 const GripSurface& last) {
+        return held_at(placed, palm, found, last.bends, {.last = &last});
+    }
+
+    // Of the first few that are asked for, which are asked for again, it is known.
     Held held_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
-                 const FingerBends& bends) const {
+                 const FingerBends& bends, const PalmEffort& effort) {
+        for (std::size_t i = 0; i < known_count_; ++i) {
+            const GripSurface& known = known_[i].surface;
+            if (known.triangle == found.triangle && known.bends == bends &&
+                known_[i].is_kept == (effort.last != nullptr)) {
+                return known_[i];
+            }
+        }
+        const Held held = hold_at(placed, palm, found, bends, effort);
+        if (known_count_ < known_.size()) {
+            known_[known_count_++] = held;
+        }
+        return held;
+    }
+
+    Held hold_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
+                 const FingerBends& bends, const PalmEffort& effort) const {
         Held held;
+        held.is_kept = effort.last != nullptr;
         held.surface = surface_at(placed, palm, found);
         held.surface.bends = bends;
-        const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm);
+        const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm, effort);
         held.surface.held_bs = fit.wrist_bs;
         held.surface.is_held = true;
         held.sunk_m = fit.sunk_m;
@@ -444,6 +478,8 @@ class PalmHolder {
     const Tuning& tuning_;
     GripSearch search_;
     GripSearchScratch& scratch_;
+    std::array<Held, 4> known_;
+    std::size_t known_count_ = 0;
 };
 
 }  // namespace
