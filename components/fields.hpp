@@ -418,6 +418,7 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("tried", c.tried);
     visit("tried_count", c.tried_count);
     visit("cost_m", c.cost_m);
+    visit("to_clear", c.to_clear);
     visit("has_room_m", c.has_room_m);
     visit("bends", c.bends);
     visit("was_judged", c.was_judged);

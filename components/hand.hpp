@@ -42,6 +42,8 @@ struct GripSurface {
     std::array<std::uint32_t, k_most_tries> tried = {};
     std::uint32_t tried_count = 0;  // 0: it does not look
     double cost_m = 0.0;
+    // Fingers that had no room at the last of those: it is yet to be tried with them held clear.
+    FingerBends to_clear = {};
     // Where the fingers had room: how far the hand still goes until that is asked again.
     double has_room_m = 0.0;
     // Room for palm and fingers was looked for in this frame: what is dear has turns. Next frame it

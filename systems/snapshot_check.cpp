@@ -249,8 +249,8 @@ class BreachFinder {
                   w_.grip_surface.owners()[row], ".look_in_m", "a way in [0, 1] m");
             check(surface.has_room_m >= 0.0 && surface.has_room_m <= k_most_m, "grip_surface",
                   w_.grip_surface.owners()[row], ".has_room_m", "a way in [0, 1] m");
-            check(surface.tried_count < GripSurface::k_most_tries, "grip_surface",
-                  w_.grip_surface.owners()[row], ".tried_count", "at most 13");
+            check(surface.tried_count <= GripSurface::k_most_tries, "grip_surface",
+                  w_.grip_surface.owners()[row], ".tried_count", "at most 14");
         }
     }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/geometry/disc_trace.hpp"
+#include "engine/geometry/four_cut.hpp"
 #include "engine/geometry/four_distances.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 
@@ -188,12 +189,15 @@ Vec3 ChainPatch::Frame::turned(const Vec3& direction) const {
         across_.dot(direction)};
 }
 
+std::uint32_t ChainPatch::Frame::number(std::uint32_t slot) const {
+    return mesh_->contact_bvh.number_at(slot);
+}
+
 ChainPatch::Triangle ChainPatch::Frame::triangle(std::uint32_t slot) const {
-    const std::uint32_t number = mesh_->contact_bvh.number_at(slot);
     const Corners corners = mesh_->contact_bvh.corners_at(slot);
     const Corners corners_ds = {turned(corners[0] - base_), turned(corners[1] - base_),
                                 turned(corners[2] - base_)};
-    return {corners_ds, turned(mesh_->contact.normals[number]), number};
+    return {corners_ds, turned(mesh_->contact.normals[number(slot)])};
 }
 
 void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> meshes) {
@@ -281,45 +285,23 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
                             std::vector<DiscSegment>& segments) {
     const std::size_t before = segments.size();
     std::size_t of_first_mesh = 0;
-    const FourFloats most = four_times(offset_m + spare_m_);
-    const FourFloats least = four_times(offset_m - spare_m_);
-    for (std::size_t f = 0; f < fours_.size(); ++f) {
-        const FourInts may_be_cut =
-            is_near_[f] & (fours_[f].low[2] < most) & (fours_[f].high[2] > least);
-        if (!any_of(may_be_cut)) {
-            continue;
-        }
-        for (std::uint32_t i = 0; i < 4; ++i) {
-            if (may_be_cut[i] != 0) {
-                const auto place = static_cast<std::uint32_t>(4 * f) + i;
-                cut_triangle(exact(place), offset_m, plane, segments);
+    const FourCut cut(offset_m, radius_m_ + spare_m_);
+    for (std::size_t mesh = 0; mesh < frames_.size(); ++mesh) {
+        const std::size_t end =
+            mesh + 1 < frames_.size() ? frames_[mesh + 1].first() : fours_.size();
+        for (std::size_t f = frames_[mesh].first(); f < end; ++f) {
+            const FourSegments found = cut.of(fours_[f].corner, is_near_[f]);
+            for (std::uint32_t i = 0; any_of(found.is_near) && i < 4; ++i) {
+                if (found.is_near[i] != 0) {
+                    const auto number = frames_[mesh].number(first_slot_[f] + i);
+                    add_segment({found.end(0, i), found.end(1, i), plane, number}, radius_m_,
+                                segments);
+                }
             }
         }
-        if (f < of_first_mesh_) {
-            of_first_mesh = segments.size() - before;
-        }
+        of_first_mesh = mesh == 0 ? segments.size() - before : of_first_mesh;
     }
     return of_first_mesh;
-}
-
-void ChainPatch::cut_triangle(const Triangle& triangle, double offset_m, std::uint32_t plane,
-                              std::vector<DiscSegment>& segments) const {
-    const Corners& corners = triangle.corners;
-    const std::array<bool, 3> over = {corners[0].z() >= offset_m, corners[1].z() >= offset_m,
-                                      corners[2].z() >= offset_m};
-    if (over[0] == over[1] && over[0] == over[2]) {
-        return;
-    }
-    // Of the three corners one is alone on its side: both cut edges begin there.
-    const std::size_t alone = over[0] == over[1] ? 2 : (over[0] == over[2] ? 1 : 0);
-    std::array<Vec2, 2> ends;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Vec3& from = corners[alone];
-        const Vec3& to = corners[(alone + 1 + i) % 3];
-        const double share = (offset_m - from.z()) / (to.z() - from.z());
-        ends[i] = (from + share * (to - from)).head<2>();
-    }
-    add_segment({ends[0], ends[1], plane, triangle.number}, radius_m_, segments);
 }
 
 SunkCapsule ChainPatch::find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m,

@@ -55,7 +55,6 @@ class ChainPatch {
     struct Triangle {
         Corners corners;
         Vec3 normal;  // unit
-        std::uint32_t number = 0;
     };
 
     // From one mesh into disc space, in doubles.
@@ -63,7 +62,8 @@ class ChainPatch {
       public:
         Frame(const GripMesh& mesh, const Pose& base, std::size_t first);
         Triangle triangle(std::uint32_t slot) const;
-        std::size_t first() const { return first_; }  // of the fours that are this mesh's
+        std::uint32_t number(std::uint32_t slot) const;  // the mesh's own
+        std::size_t first() const { return first_; }     // of the fours that are this mesh's
 
       private:
         Vec3 turned(const Vec3& direction) const;
@@ -80,8 +80,6 @@ class ChainPatch {
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
     const Triangle& exact(std::uint32_t place);  // four times the four, and its lane
-    void cut_triangle(const Triangle& triangle, double offset_m, std::uint32_t plane,
-                      std::vector<DiscSegment>& segments) const;
 
     // Of four triangles, those in one box.
     struct Boxed {

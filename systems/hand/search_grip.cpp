@@ -131,6 +131,7 @@ class PalmHolder {
             surface.cost_m = last.cost_m;
             surface.tried = last.tried;
             surface.tried_count = last.tried_count;
+            surface.to_clear = last.to_clear;
             surface.has_room_m = std::max(still_to_go_m(last.has_room_m, last), 0.0);
             surface.look_in_m = last.look_in_m > 0.0
                                     ? std::max(still_to_go_m(last.look_in_m, last), k_next_m)
@@ -206,9 +207,11 @@ class PalmHolder {
         std::size_t count = 0;
         Judged best;
         bool has_best = false;
-        bool was_judged = false;  // in this frame
+        bool was_judged = false;    // in this frame
+        FingerBends to_clear = {};  // at the last of them, which is to be judged so as well
         std::optional<bool> may_try_backs;
 
+        bool is_to_be_cleared() const { return to_clear != FingerBends{}; }
         bool is_full() const { return count == tried.size(); }
         void add(const Found& found) { tried[count++] = found; }
     };
@@ -243,6 +246,10 @@ class PalmHolder {
         const bool is_cheapest = stays || (tries.count == 1 && tries.best.has_room && !near);
         surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
         surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(tries.count);
+        surface.to_clear = {};
+        if (!is_over) {
+            surface.to_clear = tries.to_clear;
+        }
         for (std::size_t i = 0; i < surface.tried_count; ++i) {
             surface.tried[i] = tries.tried[i].triangle;
         }
@@ -260,6 +267,7 @@ class PalmHolder {
         for (std::size_t i = 0; i < last.tried_count; ++i) {
             tries.add(found_at(placed, palm, last.tried[i]));
         }
+        tries.to_clear = last.to_clear;
     }
 
     // The cheapest of those that are left, `left` of them. True where there is none to try any
@@ -267,7 +275,17 @@ class PalmHolder {
     bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
                     std::size_t left, Tries& tries) {
         bool has_looked_around = false;
-        while (!tries.is_full()) {
+        for (;;) {
+            if (tries.is_to_be_cleared()) {
+                if (left == 0) {
+                    return false;
+                }
+                judge_cleared(placed, palm, tries);
+                --left;
+            }
+            if (tries.is_full()) {
+                return true;
+            }
             const bool is_near = tries.best.has_room && tries.best.surface.cost_m < k_near_enough_m;
             if (left == 0 && !is_near) {
                 return false;
@@ -289,7 +307,6 @@ class PalmHolder {
                 --left;
             }
         }
-        return true;
     }
 
     // Backs, but where the palm may have gone through what it came to first: fingers have room
@@ -306,17 +323,44 @@ class PalmHolder {
         return !*tries.may_try_backs || is_inside(placed, found);
     }
 
-    // Keeps the better.
+    // Where the palm alone costs more than the best its fingers are not asked: they make it no
+    // cheaper. Where they have no room they are to be held clear with the palm, in their own turn.
     void judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
                     Tries& tries) {
-        constexpr double k_any_m = std::numeric_limits<double>::infinity();
-        const Judged next =
-            judge(placed, palm, way, tries.has_best ? tries.best.surface.cost_m : k_any_m);
-        if (!tries.has_best || next.surface.cost_m < tries.best.surface.cost_m) {
-            tries.best = next;
+        const Held held = held_at(placed, palm, way, {}, effort_for(tries));
+        Judged judged = judge_held(placed, palm, way, held, 0.0);
+        if (!tries.has_best || judged.surface.cost_m < tries.best.surface.cost_m) {
+            const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
+            if (room.sunk_m > k_fingers_have_room_m) {
+                judged = judge_held(placed, palm, way, held, room.sunk_m);
+                tries.to_clear = room.bends;
+            }
+        }
+        take_better(judged, tries);
+    }
+
+    // The last that was tried; the others of its fingers had room there, and mostly still have it.
+    void judge_cleared(const PlacedMesh& placed, const PalmPlace& palm, Tries& tries) {
+        const Found& last = tries.tried[tries.count - 1];
+        const Held held = held_at(placed, palm, last, tries.to_clear, effort_for(tries));
+        take_better(judge_held(placed, palm, last, held, held.fingers_sunk_m), tries);
+        tries.to_clear = {};
+    }
+
+    static void take_better(const Judged& judged, Tries& tries) {
+        if (!tries.has_best || judged.surface.cost_m < tries.best.surface.cost_m) {
+            tries.best = judged;
         }
         tries.has_best = true;
         tries.was_judged = true;
+    }
+    // What stays sunk so deep that it is no better is given up soon.
+    static PalmEffort effort_for(const Tries& tries) {
+        PalmEffort effort;
+        if (tries.has_best) {
+            effort.most_sunk_m = tries.best.surface.cost_m / k_sunk_cost;
+        }
+        return effort;
     }
 
     static bool is_back(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) {
@@ -341,27 +385,6 @@ class PalmHolder {
         return hit && placed.mesh->search.normals[hit->triangle].dot(out) > 0.0;
     }
 
-    // Where fingers have no room, with the palm held so that they are clear as well; the better.
-    // Where the palm alone costs `most_m` they are not asked: they make it no cheaper.
-    Judged judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
-                 double most_m) {
-        const PalmEffort effort = {.most_sunk_m = most_m / k_sunk_cost};
-        const Held held = held_at(placed, palm, found, {}, effort);
-        Judged alone = judge_held(placed, palm, found, held, 0.0);
-        if (alone.surface.cost_m >= most_m) {
-            return alone;
-        }
-        const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
-        if (room.sunk_m <= k_fingers_have_room_m) {
-            return alone;
-        }
-        alone = judge_held(placed, palm, found, held, room.sunk_m);
-        // The others had room there, and mostly still have it.
-        const Held cleared = held_at(placed, palm, found, room.bends, effort);
-        Judged together = judge_held(placed, palm, found, cleared, cleared.fingers_sunk_m);
-        return together.surface.cost_m < alone.surface.cost_m ? together : alone;
-    }
-
     Judged judge_held(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
                       const Held& held, double fingers_m) const {
         Judged judged = {held.surface,
@@ -381,7 +404,7 @@ class PalmHolder {
 
     std::size_t most_tries() const {
         return std::isinf(dt_s_)
-                   ? GripSurface::k_most_tries
+                   ? 2 * GripSurface::k_most_tries
                    : static_cast<std::size_t>(std::max(1, tuning_.palm.tries_per_frame));
     }
 
@@ -410,7 +433,7 @@ class PalmHolder {
                 return known_[i];
             }
         }
-        const Held held = hold_at(placed, palm, found, bends, effort);
+        Held held = hold_at(placed, palm, found, bends, effort);
         if (known_count_ < known_.size()) {
             known_[known_count_++] = held;
         }

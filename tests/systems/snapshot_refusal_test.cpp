@@ -207,8 +207,9 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world("].retry", [](World& w) { w.finger_pose.rows()[1].retry[2].wait_m = 1e9; });
     break_world("].look_in_m", [](World& w) { w.grip_surface.rows()[0].look_in_m = 1e9; });
     break_world("].has_room_m", [](World& w) { w.grip_surface.rows()[0].has_room_m = -1.0; });
-    break_world("].tried_count",
-                [](World& w) { w.grip_surface.rows()[0].tried_count = GripSurface::k_most_tries; });
+    break_world("].tried_count", [](World& w) {
+        w.grip_surface.rows()[0].tried_count = GripSurface::k_most_tries + 1;
+    });
     break_world("].thumb_search",
                 [](World& w) { w.finger_pose.rows()[0].thumb_search.tried = ~0U; });
     break_world("].push_off_weight",
