@@ -57,12 +57,12 @@ void try_bends(const HandSurroundings& hand, const HingeChain& chain, std::uint3
                ChainPatch& patch, BestBend& best) {
     patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, chain.closed_rad)),
                  hand.meshes);
+    ChainDepths depths(chain, patch);
     for (std::size_t i = 0; i < k_bends.size() && best.sunk_m > 0.0; ++i) {
-        const ChainDepth depth =
-            chain_depth(chain, bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count),
-                        patch, {.enough_m = best.sunk_m});
-        if (depth.depth_m < best.sunk_m) {
-            best = {depth.depth_m, i, opposition};
+        const double depth_m = depths.depth_m(
+            bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count), best.sunk_m);
+        if (depth_m < best.sunk_m) {
+            best = {depth_m, i, opposition};
         }
     }
 }

@@ -185,6 +185,7 @@ class ChainFitter {
     void bend_clear() {
         const ChainFit before = fit_;
         DiscChain bent = flat_;
+        ChainDepths depths(chain_, scratch_.patch);
         double least_m = fit_.depth_m;
         constexpr int k_bends = 5;
         for (int sum = 0; sum <= 2 * (k_bends - 1); ++sum) {
@@ -192,8 +193,7 @@ class ChainFitter {
                  ++first) {
                 const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
                                               static_cast<double>(sum - first) / (k_bends - 1));
-                const double depth_m =
-                    chain_depth(chain_, angle_rad, scratch_.patch, {.enough_m = least_m}).depth_m;
+                const double depth_m = depths.depth_m(angle_rad, least_m);
                 if (depth_m < least_m) {
                     least_m = depth_m;
                     bent.open_rad = angle_rad;

@@ -143,7 +143,8 @@ ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, Ch
                        const DepthQuestion& question) {
     ChainDepth deepest;
     const auto points_ds = chain_points_ds(chain, angle_rad);
-    for (std::size_t i = question.first; i < chain.link_count; ++i) {
+    const std::size_t end = std::min<std::size_t>(chain.link_count, question.end);
+    for (std::size_t i = question.first; i < end; ++i) {
         const SunkCapsule sunk = patch.find_sunk({points_ds[i], points_ds[i + 1]},
                                                  chain.radius_m[i] + question.more_m, i);
         double depth_m = sunk.depth_m;
@@ -166,6 +167,27 @@ ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, Ch
         }
     }
     return deepest;
+}
+
+double ChainDepths::depth_m(const ChainAngles& angle_rad, double enough_m) {
+    const FirstLink& first = first_link(angle_rad);
+    if (first.is_crossed || first.depth_m >= enough_m) {
+        return first.depth_m;
+    }
+    const ChainDepth others =
+        chain_depth(chain_, angle_rad, patch_, {.first = 1, .enough_m = enough_m});
+    return std::max(first.depth_m, others.depth_m);
+}
+
+const ChainDepths::FirstLink& ChainDepths::first_link(const ChainAngles& angle_rad) {
+    for (std::size_t i = 0; i < known_count_; ++i) {
+        if (known_[i].angle_rad == angle_rad[0]) {
+            return known_[i];
+        }
+    }
+    const ChainDepth depth = chain_depth(chain_, angle_rad, patch_, {.end = 1});
+    known_count_ = std::min(known_count_ + 1, known_.size());
+    return known_[known_count_ - 1] = {angle_rad[0], depth.depth_m, depth.beyond_m[0] > 0.0};
 }
 
 ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end) {

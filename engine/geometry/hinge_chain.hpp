@@ -72,13 +72,37 @@ struct ChainDepth {
     std::size_t end = 0;  // those from here on were not looked at
 };
 struct DepthQuestion {
-    double more_m = 0.0;    // of a chain that is so much thicker
-    std::size_t first = 0;  // links before it are left out
+    double more_m = 0.0;                  // of a chain that is so much thicker
+    std::size_t first = 0;                // links before it are left out
+    std::size_t end = k_most_disc_links;  // and those from here on
     double enough_m = std::numeric_limits<double>::infinity();  // as deep as this, how deep is of
                                                                 // no interest
 };
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
                        const DepthQuestion& question = {});
+// How deep one chain is in several poses, of which some have their first link in common: that is
+// looked at once.
+class ChainDepths {
+  public:
+    ChainDepths(const HingeChain& chain, ChainPatch& patch) : chain_(chain), patch_(patch) {}
+
+    // As ChainDepth::depth_m; as deep as `enough_m`, how deep is of no interest.
+    double depth_m(const ChainAngles& angle_rad, double enough_m);
+
+  private:
+    struct FirstLink {
+        double angle_rad = 0.0;
+        double depth_m = 0.0;
+        bool is_crossed = false;
+    };
+    const FirstLink& first_link(const ChainAngles& angle_rad);
+
+    const HingeChain& chain_;
+    ChainPatch& patch_;
+    std::array<FirstLink, 5> known_;
+    std::size_t known_count_ = 0;
+};
+
 // What a thicker chain says of the chain itself, of links before `end`.
 ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 
