@@ -310,5 +310,45 @@ TEST(PushOff, ExchangesMomentumExactlyWhereKappaIsOne) {
     EXPECT_GT((s.velocity() - s.body_velocity(crate)).norm(), 1.0);  // they did push off
 }
 
+// A rock is waved, then shoved into a wall and held there.
+TEST(Ledger, TellsWhatEachGainedAndWhatForwardDiscarded) {
+    Scenario s;
+    s.tuning.locomotion.drift_drag_per_s = 0.0;
+    s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.6));
+    const Vec3 palm(0.3, 1.2, 0.0);
+    const Entity rock = s.add_rock("rock", 5.0, palm - Vec3(0.0, 0.085, 0.0));
+    s.add_player_here();
+    const Vec3 hand = hand_for_palm(s, palm);
+    s.script.hands[1] = [=](double t) {
+        const Vec3 wave(0.1 * std::sin(5 * t), 0.1 * std::sin(4 * t), -0.9 * ease(t, 1.0, 2.0));
+        return Pose{hand + ease(t, 0.2, 0.5) * wave, Quat::Identity()};
+    };
+    s.script.grabs[1] = [](double t) { return t > 0.05; };
+    Vec3 rock_before = Vec3::Zero();
+    Vec3 player_before = Vec3::Zero();
+    double discarded_ns = 0.0;
+    double fixed_ns = 0.0;
+    s.run(2.5, [&] {
+        const Vec3 rock_now = 5.0 * s.body_velocity(rock);
+        const Vec3 player_now = 80.0 * s.velocity();
+        const auto& given = s.stats.ledger.linear_kgmps;
+        ASSERT_LE((given[MomentumLedger::objects] - (rock_now - rock_before)).norm(), 1e-9);
+        ASSERT_LE((given[MomentumLedger::players] - (player_now - player_before)).norm(), 1e-9);
+        if (s.t_s() < 1.0) {  // nothing but the virtual player bears the waving
+            const Vec3 both =
+                given[MomentumLedger::objects] + given[MomentumLedger::virtual_player];
+            ASSERT_LE(both.norm(), 1e-9);
+            ASSERT_EQ(given[MomentumLedger::players], Vec3::Zero());
+            discarded_ns += given[MomentumLedger::virtual_player].norm();
+        }
+        fixed_ns += given[MomentumLedger::statics].norm();
+        rock_before = rock_now;
+        player_before = player_now;
+    });
+    EXPECT_GT(discarded_ns, 5.0);
+    EXPECT_GT(fixed_ns, 5.0);
+    EXPECT_GT(s.origin().z(), 0.2);  // he was pushed back
+}
+
 }  // namespace
 }  // namespace handhold::scenario_physics_test
