@@ -209,12 +209,6 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
         rotation_to_vector(hand.pose_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
 }
 
-// True where the two hands hold the player, or one body, together.
-bool share_hold(const Grab& a, const Grab& b) {
-    const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
-    return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
-}
-
 // The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
 // player (or the body).
 void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first) {
@@ -356,6 +350,9 @@ void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats&
         }
         if (grab.phase == GrabPhase::releasing && pair.hand.resumed) {
             // It opened while nobody saw it: where it is now says nothing of how it let go.
+            if (pair.other != nullptr && share_hold(grab, *pair.other)) {
+                take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
+            }
             grab = {};
             stats.count(Fallback::grip_lost);
             continue;

@@ -232,6 +232,27 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
     }
 }
 
+// It opened while nobody saw it, 20 cm from its anchor: its player stays where both had him.
+TEST(SettleGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
+    for (const Entity leaving : {k_left, k_right}) {
+        Settling scene;
+        const Entity staying = other_of(leaving);
+        for (const Entity hand : {leaving, staying}) {
+            scene.move_hand(hand, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.1, 0.0)));
+        }
+        scene.set_grip(leaving, GripKind::surface, GrabPhase::releasing, k_wall,
+                       pose_at(Vec3(0.5, 1.0, 0.0)));
+        scene.set_grip(staying, GripKind::surface, GrabPhase::holding, k_ship,
+                       pose_at(Vec3(0.1, 1.0, 0.0)));
+        scene.set_edge(leaving, GrabEdge::release, 0.5);
+        scene.hand.at(leaving).resumed = true;
+        scene.run();
+        EXPECT_EQ(scene.grab.at(leaving).kind, GripKind::none);
+        EXPECT_EQ(count_of(scene.stats, Fallback::grip_lost), 1U);
+        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(0.3, 1.0, 0.0)).norm(), 1e-12);
+    }
+}
+
 TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     Settling scene;
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.0)));
