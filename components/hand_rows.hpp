@@ -42,6 +42,13 @@ inline bool share_free_body(const Grab& a, const Grab& b) {
            !b.jointed;
 }
 
+// True where two hands of one player hold him, or one body, together: they meet halfway where they
+// cannot both have what they want, and one that is left alone starts afresh.
+inline bool share_hold(const Grab& a, const Grab& b) {
+    const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
+    return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
+}
+
 // Of two hands on one body the one that holds longer is the first; of two alike the left one.
 inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab, std::size_t row,
                           std::size_t other) {

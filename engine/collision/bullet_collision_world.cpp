@@ -24,6 +24,8 @@ void* counted_allocate(std::size_t size) {
     return std::malloc(size);
 }
 
+constexpr std::size_t k_usual_contacts = 16;  // of one body
+
 // Memory from before the hook is freed by the same function: Bullet's default is malloc too.
 void hook_allocator() {
     static std::once_flag once;
@@ -177,6 +179,7 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     }
     auto find = [&](std::size_t i) {
         world.found[i].clear();
+        world.found[i].reserve(k_usual_contacts);  // a body's first touches allocate nothing
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };
     parallel_for(world.body_pairs.size(), find);

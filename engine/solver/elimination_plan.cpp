@@ -31,6 +31,34 @@ void EliminationPlan::build(std::span<const RowNode> nodes, std::span<const std:
     find_appearances();
 }
 
+void EliminationPlan::reserve(const EliminationPlan& other) {
+    if (neighbours_.size() < other.neighbours_.size()) {
+        neighbours_.resize(other.neighbours_.size());
+    }
+    for (std::size_t node = 0; node < other.neighbours_.size(); ++node) {
+        reserve_as(other.neighbours_[node], neighbours_[node]);
+    }
+    reserve_as(other.nodes_, nodes_);
+    reserve_as(other.turns_, turns_);
+    reserve_as(other.panels_, panels_);
+    reserve_as(other.blocks_, blocks_);
+    reserve_as(other.updates_, updates_);
+    reserve_as(other.couplings_, couplings_);
+    reserve_as(other.hub_couplings_, hub_couplings_);
+    reserve_as(other.hubs_, hubs_);
+    reserve_as(other.panel_of_node_, panel_of_node_);
+    reserve_as(other.appearances_, appearances_);
+    reserve_as(other.appearances_begin_, appearances_begin_);
+    reserve_as(other.ends_, ends_);
+    reserve_as(other.ends_begin_, ends_begin_);
+    reserve_as(other.rows_of_slot_, rows_of_slot_);
+    reserve_as(other.hub_of_slot_, hub_of_slot_);
+    reserve_as(other.merged_, merged_);
+    reserve_as(other.order_, order_);
+    reserve_as(other.eliminated_, eliminated_);
+    reserve_as(other.candidates_, candidates_);
+}
+
 // The row nodes of each body, and which bodies are hubs.
 void EliminationPlan::find_incidence() {
     ends_begin_.assign(turns_.size() + 1, 0);
@@ -176,7 +204,8 @@ void EliminationPlan::eliminate(std::uint32_t node) {
         merged_.clear();
         std::ranges::set_union(of, around, std::back_inserter(merged_));
         std::erase_if(merged_, [&](std::uint32_t x) { return x == other || x == node; });
-        of.assign(merged_.begin(), merged_.end());
+        of.resize(merged_.size());  // unlike assign, it leaves room to grow
+        std::ranges::copy(merged_, of.begin());
     }
 }
 

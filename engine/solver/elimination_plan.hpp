@@ -16,6 +16,11 @@ inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
+template <typename T>
+void reserve_as(const std::vector<T>& other, std::vector<T>& here) {
+    here.reserve(other.capacity());
+}
+
 // Rows between the same two bodies: one block of unknowns, their multipliers.
 struct RowNode {
     std::uint32_t slots[2] = {k_no_slot, k_no_slot};  // of the bodies that move; a's, b's
@@ -36,6 +41,8 @@ class EliminationPlan {
   public:
     // `turns` by slot: false for what only moves along (players).
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    // Room for what the other has room for: a build of its structure allocates nothing.
+    void reserve(const EliminationPlan& other);
     // True where it was built from the same.
     bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const;
 

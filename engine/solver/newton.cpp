@@ -27,6 +27,9 @@ constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of s
 // Of the tolerance: the view goes where hands are, and shows what they lack. What a step leaves of
 // it the same factor takes away.
 constexpr double k_hand_share = 0.1;
+// Whole steps in a row that each leave less than this share of the error.
+constexpr int k_steady_steps = 3;
+constexpr double k_steady_share = 0.95;
 // Of the tolerance: what a step moves by less is at rest.
 constexpr double k_still_share = 1e-3;
 
@@ -300,19 +303,38 @@ class TriadSteps {
 
 // --- Newton's method ---------------------------------------------------------------------------
 
-// Hands give way until the error falls below half of the least so far: steps that overshoot to and
-// fro are no progress. Contacts do so only where they contradict each other: else their multipliers
-// grow without bound and push along what they do not even oppose.
-void adapt(double residual_m, double least_m, double overlap_m, double previous_overlap_m,
-           double contact_softness, Softness& softness) {
+// Hands give way until the error falls below half of the least so far, or steadily: steps that
+// overshoot to and fro are no progress, but on a light link at the end of heavy ones it is the soft
+// hand itself that lets the error fall but slowly. Contacts do so only where they contradict each
+// other: else their multipliers grow without bound and push along what they do not even oppose.
+void adapt(bool progresses, double overlap_m, double previous_overlap_m, double contact_softness,
+           Softness& softness) {
     const bool hands_gave_way = softness.hand >= k_softness_cap;
     const bool stubborn =
         hands_gave_way && overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
-    softness.hand = residual_m < 0.5 * least_m ? std::max(softness.hand * 0.03, k_softness_floor)
-                                               : std::min(softness.hand * 10.0, k_softness_cap);
+    softness.hand = progresses ? std::max(softness.hand * 0.03, k_softness_floor)
+                               : std::min(softness.hand * 10.0, k_softness_cap);
     softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
                                 : std::max(softness.contact * 0.1, contact_softness);
 }
+
+// Says whether the error falls steadily, step by step, and begins to count anew where it does.
+// Between contacts steps are not trusted that far.
+class SteadyFall {
+  public:
+    bool take(double residual_m, double least_m, bool is_whole, bool has_contact) {
+        const bool falls = is_whole && !has_contact && residual_m < k_steady_share * least_m;
+        steps_ = falls ? steps_ + 1 : 0;
+        if (steps_ < k_steady_steps) {
+            return false;
+        }
+        steps_ = 0;
+        return true;
+    }
+
+  private:
+    int steps_ = 0;
+};
 
 struct StepResult {
     double length_m = 0.0;
@@ -376,6 +398,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
     double previous_overlap = previous;
     double least = previous;
     StepResult step{previous, false};
+    SteadyFall fall;
     bool polishes = false;  // the step to come, or just taken, is for hands alone
     for (;;) {
         steps.evaluate(step.whole);
@@ -398,8 +421,10 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
             steps.renew();
         }
         if (result.iterations > 0 && !repeats) {
-            adapt(result.residual_m, least, overlap, previous_overlap, settings.softness.contact,
-                  softness);
+            const bool is_steady =
+                fall.take(result.residual_m, least, step.whole, steps.has_contact());
+            adapt(result.residual_m < 0.5 * least || is_steady, overlap, previous_overlap,
+                  settings.softness.contact, softness);
             choose_rows(step.whole && result.residual_m < 0.5 * previous, settings, steps);
             steps.stiffen(result.residual_m > settings.stiffness_from_m);
         }

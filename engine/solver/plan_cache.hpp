@@ -10,7 +10,7 @@ namespace handhold {
 
 // The plans of the structures that an island has had of late. Structures come back: with and
 // without contacts, with the player held still or not. Which were kept changes nothing but the
-// cost. A Plan has `build` and `fits` as EliminationPlan.
+// cost. A Plan has `build`, `reserve` and `fits` as EliminationPlan.
 template <typename Plan>
 class PlanCache {
   public:
@@ -26,6 +26,10 @@ class PlanCache {
             oldest = used_[candidate] < used_[oldest] ? candidate : oldest;
         }
         plans_[oldest].build(nodes, turns);
+        // All grow together: it is the first of its size that allocates, not the first six.
+        for (Plan& plan : plans_) {
+            plan.reserve(plans_[oldest]);
+        }
         return use(oldest);
     }
     // The one chosen last.

@@ -22,6 +22,8 @@ class StrandPlan {
     using Lanes = std::array<std::uint32_t, 4>;
 
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    // Room for what the other has room for: a build of its structure allocates nothing.
+    void reserve(const StrandPlan& other);
 
     // Four strands.
     struct Braid {

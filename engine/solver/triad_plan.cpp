@@ -37,6 +37,28 @@ void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8
     pack_ends();
 }
 
+void TriadPlan::reserve(const TriadPlan& other) {
+    strands_.reserve(other.strands_);
+    plan_.reserve(other.plan_);
+    reserve_as(other.nodes_, nodes_);
+    reserve_as(other.turns_, turns_);
+    reserve_as(other.steps_, steps_);
+    reserve_as(other.later_, later_);
+    reserve_as(other.updates_, updates_);
+    reserve_as(other.braids_, braids_);
+    reserve_as(other.holds_, holds_);
+    reserve_as(other.places_, places_);
+    reserve_as(other.slots_, slots_);
+    reserve_as(other.packed_ends_, packed_ends_);
+    reserve_as(other.groups_, groups_);
+    reserve_as(other.ends_, ends_);
+    reserve_as(other.pairs_, pairs_);
+    reserve_as(other.zeros_, zeros_);
+    reserve_as(other.place_in_body_, place_in_body_);
+    reserve_as(other.counts_, counts_);
+    reserve_as(other.is_written_, is_written_);
+}
+
 void TriadPlan::take_steps() {
     const std::span<const EliminationPlan::Panel> panels = plan_.panels();
     steps_.clear();
@@ -82,13 +104,13 @@ void TriadPlan::find_places() {
 // Nodes that go first come first: a product's block lies in the panel of the earlier of its two.
 void TriadPlan::find_groups() {
     const std::span<const std::uint32_t> slots = strands_.rest_slots();
-    std::vector<std::uint32_t> counts(strands_.rest_turns().size(), 0);
+    counts_.assign(strands_.rest_turns().size(), 0);
     place_in_body_.assign(spare_end(), 0);
     for (const Step& step : steps_) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             const std::uint32_t slot = slot_of(2 * step.node + side);
             if (slot != k_no_slot) {
-                place_in_body_[2 * step.node + side] = counts[slot]++;
+                place_in_body_[2 * step.node + side] = counts_[slot]++;
             }
         }
     }
@@ -101,7 +123,7 @@ void TriadPlan::find_groups() {
         std::uint32_t width = 0;
         for (const std::uint32_t slot :
              slots.subspan(body, std::min(k_lanes, slots.size() - body))) {
-            width = std::max(width, counts[slot]);
+            width = std::max(width, counts_[slot]);
         }
         groups_.push_back({width, four++, packed + ends, ends, pairs});
         ends += width;
@@ -178,35 +200,35 @@ void TriadPlan::find_strand_blocks(const EliminationPlan::Coupling& coupling,
 }
 
 void TriadPlan::find_zeros() {
-    std::vector<std::uint32_t> sums(block_count_ + 1, 0);
+    counts_.assign(block_count_ + 1, 0);
     for (const Pair& pair : pairs_) {
         for (const std::uint32_t block : pair.blocks) {
-            ++sums[block];
+            ++counts_[block];
         }
     }
     for (const Braid& braid : braids_) {
         for (const Lanes* const blocks :
              {&braid.block_before, &braid.block_after, &braid.block_between}) {
             for (const std::uint32_t block : *blocks) {
-                sums[block] += 2;  // never alone
+                counts_[block] += 2;  // never alone
             }
         }
     }
-    sums[spare_block()] = 1;
-    std::vector<std::uint8_t> is_written(block_count_ + 1, 0);
+    counts_[spare_block()] = 1;
+    is_written_.assign(block_count_ + 1, 0);
     for (Pair& pair : pairs_) {
         pair.is_alone = std::ranges::all_of(
-            pair.blocks, [&sums](std::uint32_t block) { return sums[block] == 1; });
+            pair.blocks, [this](std::uint32_t block) { return counts_[block] == 1; });
         if (pair.is_alone) {
             for (const std::uint32_t block : pair.blocks) {
-                is_written[block] = 1;
+                is_written_[block] = 1;
             }
         }
     }
-    is_written[spare_block()] = 0;
+    is_written_[spare_block()] = 0;
     zeros_.clear();
     for (std::uint32_t block = 0; block <= spare_block(); ++block) {
-        if (is_written[block] == 0) {
+        if (is_written_[block] == 0) {
             zeros_.push_back(block);
         }
     }

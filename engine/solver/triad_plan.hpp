@@ -21,6 +21,8 @@ class TriadPlan {
   public:
     // `nodes` each three rows wide, no body with more than k_hub_nodes of them.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    // Room for what the other has room for: a build of its structure allocates nothing.
+    void reserve(const TriadPlan& other);
     // True where it was built from the same.
     bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const;
 
@@ -143,6 +145,10 @@ class TriadPlan {
     std::vector<std::uint32_t> zeros_;
     std::vector<std::uint32_t> place_in_body_;  // by end
     std::size_t block_count_ = 0;
+
+    // Scratch of build.
+    std::vector<std::uint32_t> counts_;     // ends by slot, then sums by block
+    std::vector<std::uint8_t> is_written_;  // by block
 };
 
 }  // namespace handhold

@@ -86,6 +86,13 @@ Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, Sta
     return found;
 }
 
+// From what of the body is nearest to the palm: a ring's middle may come to a palm that then has
+// nothing to close on, and that of a long pole be far away. Its middle, where it has no surface.
+Vec3 way_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
+    const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
+    return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
+}
+
 // False where it ends; counted where that is not the hand's will.
 bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
              StageStats& stats) {
@@ -93,24 +100,16 @@ bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tu
     if (!tracking.pressed || io.grab.at(hand).kind != GripKind::none) {
         return false;
     }
-    const BodyPose* const body = io.body_pose.find(pull.body);
+    const bool is_there = io.body_pose.find(pull.body) != nullptr;
     const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
     const bool is_seen = tracking.state == TrackingState::tracked && !tracking.resumed;
-    const bool is_there = body != nullptr && is_seen &&
-                          !refusal(io, hand, pull.body, tuning.pull) &&
-                          (body->pose_ws.position - palm_ws).norm() <=
-                              k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
-    if (!is_there) {
+    const bool may_go_on = is_there && is_seen && !refusal(io, hand, pull.body, tuning.pull) &&
+                           way_to_palm(io, pull.body, palm_ws).norm() <=
+                               k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
+    if (!may_go_on) {
         stats.count(Fallback::pull_lost);
     }
-    return is_there;
-}
-
-// From what of the body is nearest to the palm: a ring's middle may come to a palm that then has
-// nothing to close on. Its middle, where it has no surface.
-Vec3 way_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
-    const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
-    return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
+    return may_go_on;
 }
 
 // One frame of the rope: an impulse on the body, and its opposite on the player.

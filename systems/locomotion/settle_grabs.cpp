@@ -1,6 +1,7 @@
 #include "systems/locomotion/settle_grabs.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "components/hand_rows.hpp"
 #include "engine/solver/two_hands.hpp"
@@ -19,13 +20,41 @@ struct Instant {
             return interpolate(start->pose_ws, io.body_pose.at(body).pose_ws, t);
         }
         const HeadTracking& head = io.head.at(body);
-        return origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
+        return led_origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
     }
     Pose origin_ws(Entity player) const {
         return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);
     }
     Pose hand_ps(const HandTracking& hand) const {
         return interpolate(hand.start_ps, hand.pose_ps, t);
+    }
+    // Where a hand that holds on to something fixed would have its player.
+    Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const {
+        return transform_point(body_ws(grab.body), grab.anchor_bs.position) -
+               origin_ws(player).rotation * hand_ps(hand).position;
+    }
+    // Whom hands have held on to something fixed since before the frame goes the mean of their
+    // ways, and lacks all the while what he lacked at the frame's start; others go as predicted.
+    Pose led_origin_ws(Entity player) const {
+        const Instant start{io, 0.0};
+        Pose led_ws = origin_ws(player);
+        Vec3 way = Vec3::Zero();
+        int hands = 0;
+        for (std::size_t row = 0; row < io.grab.size(); ++row) {
+            const Entity entity = io.grab.owners()[row];
+            const Grab& grab = io.grab.rows()[row];
+            const HandTracking& hand = io.hand.at(entity);
+            if (io.owner.at(entity).player == player && grab.kind == GripKind::surface &&
+                grab.phase == GrabPhase::holding && hand.edge != GrabEdge::onset && !hand.resumed) {
+                way +=
+                    held_origin_ws(player, grab, hand) - start.held_origin_ws(player, grab, hand);
+                ++hands;
+            }
+        }
+        if (hands > 0) {
+            led_ws.position = io.player_start.at(player).pose_ws.position + way / hands;
+        }
+        return led_ws;
     }
 };
 
@@ -87,7 +116,7 @@ void take_anchor_at_start(const SettleGrabsIo& io, Entity player, const HandTrac
 
 // Where the hands want a free body; `first` leads it, alone or with the other hand.
 Pose wanted_body(const Instant& now, const HandPair& first) {
-    const Pose origin_ws = now.origin_ws(first.player);
+    const Pose origin_ws = now.led_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);
     const Pose& anchor_bs = first.grab.anchor_bs;
     if (!first.grab.two_handed) {
@@ -180,12 +209,6 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
         rotation_to_vector(hand.pose_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
 }
 
-// True where the two hands hold the player, or one body, together.
-bool share_hold(const Grab& a, const Grab& b) {
-    const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
-    return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
-}
-
 // The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
 // player (or the body).
 void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first) {
@@ -232,6 +255,31 @@ void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tu
                                   tuning.tilt_cost_m_per_rad);
 }
 
+// Whose hand leads the free body that another player's closes on; none where nobody's does, or
+// those of several do: they share it by their masses, which only the solver knows.
+std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joining) {
+    std::optional<HandPair> leader;
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        const bool at_once =
+            pair.hand.edge == GrabEdge::onset && pair.hand.edge_t_s >= joining.hand.edge_t_s;
+        if (pair.player == joining.player || pair.grab.phase == GrabPhase::fresh || at_once ||
+            !share_free_body(pair.grab, joining.grab)) {
+            continue;
+        }
+        if (leader && leader->player != pair.player) {
+            return std::nullopt;
+        }
+        const bool in_both = pair.other != nullptr && pair.other->phase != GrabPhase::fresh &&
+                             share_free_body(pair.grab, *pair.other);
+        if (!in_both ||
+            is_first_hand(io.owner, io.grab, row, find_other_hand(io.owner, io.grab, row))) {
+            leader.emplace(pair);
+        }
+    }
+    return leader;
+}
+
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     if (pair.hand.edge != GrabEdge::onset) {  // it has pulled something near, and has it now
         take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
@@ -245,10 +293,31 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const Grab* const leading = at_once ? nullptr : pair.other;
     const bool joins = leading != nullptr && leading->phase != GrabPhase::fresh &&
                        share_free_body(pair.grab, *leading);
-    const Pose body_ws = joins ? held_body(now, swapped(pair)) : now.body_ws(pair.grab.body);
+    Pose body_ws = now.body_ws(pair.grab.body);
+    if (joins) {
+        body_ws = held_body(now, swapped(pair));
+    } else if (const std::optional<HandPair> leader = leader_of(io, pair)) {
+        body_ws = held_body(now, *leader);
+    }
     take_anchor(body_ws, origin_at(now, pair.player, leading, pair.other_hand), pair.hand.edge_ps,
                 pair.grab);
     pair.grab.phase = GrabPhase::holding;
+}
+
+// The row of the new grip with the earliest edge, or the column's size: who holds first leads who
+// joins, whichever is listed first.
+std::size_t earliest_fresh(const SettleGrabsIo& io) {
+    std::size_t earliest = io.grab.size();
+    double edge_t_s = 0.0;
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandTracking& hand = io.hand.at(io.grab.owners()[row]);
+        if (io.grab.rows()[row].phase == GrabPhase::fresh &&
+            (earliest == io.grab.size() || hand.edge_t_s < edge_t_s)) {
+            earliest = row;
+            edge_t_s = hand.edge_t_s;
+        }
+    }
+    return earliest;
 }
 
 // The hand was lost and is somewhere now: it holds on there, and so does the one it led with.
@@ -269,18 +338,9 @@ void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, StageStats& s
 
 void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats& stats) {
     end_broken_pairs(io, stats);
-    // New grips before anything leaves, the earlier edge first: which hand is listed first
-    // does not matter.
-    for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        const HandPair pair = pair_of(io, row);
-        if (pair.grab.phase != GrabPhase::fresh) {
-            continue;
-        }
-        if (pair.other != nullptr && pair.other->phase == GrabPhase::fresh &&
-            pair.other_hand->edge_t_s < pair.hand.edge_t_s) {
-            settle_fresh(io, swapped(pair));
-        }
-        settle_fresh(io, pair);
+    // New grips before anything leaves.
+    for (std::size_t row = earliest_fresh(io); row < io.grab.size(); row = earliest_fresh(io)) {
+        settle_fresh(io, pair_of(io, row));
     }
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -290,6 +350,9 @@ void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats&
         }
         if (grab.phase == GrabPhase::releasing && pair.hand.resumed) {
             // It opened while nobody saw it: where it is now says nothing of how it let go.
+            if (pair.other != nullptr && share_hold(grab, *pair.other)) {
+                take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
+            }
             grab = {};
             stats.count(Fallback::grip_lost);
             continue;

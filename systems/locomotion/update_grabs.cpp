@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
 
 namespace handhold {
@@ -239,23 +240,79 @@ void begin_grab(const UpdateGrabsIo& io, Entity entity, const Closing& closing, 
     }
 }
 
-// Of a player's two hands the one that is stretched more lets go, of two alike the one that grips
-// for the shorter time: what is left may then be met.
-bool gives_way(const UpdateGrabsIo& io, std::size_t row) {
-    const Grab& grab = io.grab.rows()[row];
-    const Entity player = io.owner.at(io.grab.owners()[row]).player;
-    for (std::size_t other = 0; other < io.grab.size(); ++other) {
-        const Grab& candidate = io.grab.rows()[other];
-        if (other == row || candidate.kind == GripKind::none ||
-            io.owner.at(io.grab.owners()[other]).player != player) {
-            continue;
+// The row of the player's other hand, where that grips something too.
+std::optional<std::size_t> partner_of(const UpdateGrabsIo& io, std::size_t row) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    return other < io.grab.size() && io.grab.rows()[other].kind != GripKind::none
+               ? std::optional(other)
+               : std::nullopt;
+}
+
+// Where what is gripped is at the frame's start.
+Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped) {
+    const BodyPose* const body = io.body_pose.find(gripped);
+    return body != nullptr ? body->pose_ws
+                           : io.origin.at(gripped).pose_ws * io.head.at(gripped).start_ps;
+}
+
+// The hand lets go now. Another with which it shared what they could not both have holds on from
+// where it is, before anything has moved: nobody is drawn to where it closed.
+void let_go(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
+    Grab& grab = io.grab.rows()[row];
+    stats.count(reason);
+    if (const std::optional<std::size_t> partner = partner_of(io, row)) {
+        Grab& staying = io.grab.rows()[*partner];
+        const Entity hand = io.grab.owners()[*partner];
+        // Of hands that lead a free body together settle_grabs takes care.
+        if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
+            const Pose hand_ws =
+                io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
+            staying.anchor_bs = inverse(gripped_start_ws(io, staying.body)) * hand_ws;
+            staying.error_m = 0.0;
+            stats.count(Fallback::grip_reanchored);
         }
-        constexpr double k_alike_m = 1e-6;
-        const double difference = grab.error_m - candidate.error_m;
-        return std::abs(difference) > k_alike_m ? difference > 0.0
-                                                : grab.since_s >= candidate.since_s;
     }
-    return true;
+    grab = {};
+}
+
+// Of a player's two hands the one that is stretched more lets go, of two alike the one that grips
+// for the shorter time, of two that closed at once the left one: what is left may then be met.
+bool gives_way(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
+    const Grab& grab = io.grab.rows()[row];
+    const Grab& other = io.grab.rows()[partner];
+    constexpr double k_alike_m = 1e-6;
+    const double difference = grab.error_m - other.error_m;
+    if (std::abs(difference) > k_alike_m) {
+        return difference > 0.0;
+    }
+    return grab.since_s != other.since_s
+               ? grab.since_s > other.since_s
+               : io.owner.at(io.grab.owners()[row]).side == HandSide::left;
+}
+
+void let_go_of_what_is_gone(const UpdateGrabsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        if (grab.kind != GripKind::none && !is_there(io, grab)) {
+            let_go(io, row, Fallback::grip_body_gone, stats);
+        }
+    }
+}
+
+// Hands that grip alone first: whose partner lets go here is left to the next frame.
+void let_go_where_stretched(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
+    for (const bool alone : {true, false}) {
+        for (std::size_t row = 0; row < io.grab.size(); ++row) {
+            const Grab& grab = io.grab.rows()[row];
+            if (grab.kind == GripKind::none || grab.error_m <= max_stretch_m) {
+                continue;
+            }
+            const std::optional<std::size_t> partner = partner_of(io, row);
+            if (alone != partner.has_value() && (alone || gives_way(io, row, *partner))) {
+                let_go(io, row, Fallback::grip_stretched, stats);
+            }
+        }
+    }
 }
 
 // What a hand sits in ends with its grip, and where a hand that may turn on what it grips has
@@ -286,19 +343,12 @@ void keep_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab, StageSt
 }  // namespace
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    let_go_of_what_is_gone(io, stats);
+    let_go_where_stretched(io, tuning.hand.max_stretch_m, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];
         const Entity entity = io.grab.owners()[row];
         const HandTracking& hand = io.hand.at(entity);
-        if (grab.kind != GripKind::none && !is_there(io, grab)) {
-            stats.count(Fallback::grip_body_gone);
-            grab = {};
-        }
-        if (grab.kind != GripKind::none && grab.error_m > tuning.hand.max_stretch_m &&
-            gives_way(io, row)) {
-            stats.count(Fallback::grip_stretched);
-            grab = {};
-        }
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
             grab.phase = GrabPhase::releasing;
         }

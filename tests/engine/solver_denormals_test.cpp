@@ -1,9 +1,14 @@
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "engine/core/parallel.hpp"
 #include "engine/math/flush_denormals.hpp"
 #include "solver_scene.hpp"
 #include "triad_steps.hpp"
@@ -69,6 +74,36 @@ TEST(Denormals, OfARopeThatIsPutTogetherAreNothing) {
     scene.solve_positions();
     EXPECT_EQ(denormal_heights(scene), 0);
     EXPECT_NE(scene.body(300).pose_ws.position.y(), 0.0);
+}
+
+// A guard around the loop over islands would serve the caller's thread only.
+TEST(DenormalsThreaded, OfIslandsOnWorkersAreNothing) {
+#ifndef __SSE2__
+    GTEST_SKIP() << "nothing is flushed on this processor";
+#endif
+    using Clock = std::chrono::steady_clock;
+    std::array<SolverScene, 2> velocities{rope_pulled_across(), rope_pulled_across()};
+    std::array<SolverScene, 2> positions = velocities;
+    std::atomic<int> present = 0;
+    auto solve = [&](std::size_t i) {
+        ++present;  // the other island waits for another thread
+        const Clock::time_point give_up = Clock::now() + std::chrono::seconds(20);
+        while (present < 2 && Clock::now() < give_up) {
+            std::this_thread::yield();
+        }
+        velocities[i].solve_velocities();
+        positions[i].body(600).pose_ws.position.y() = 1e-3;
+        positions[i].solve_positions();
+    };
+    const int before = thread_count();
+    set_thread_count(2);
+    parallel_for(2, solve);
+    set_thread_count(before);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(denormal_velocities(velocities[i]), 0);
+        EXPECT_EQ(denormal_heights(positions[i]), 0);
+        EXPECT_NE(velocities[i].body(300).velocity_mps.y(), 0.0);
+    }
 }
 
 TEST(Denormals, AreFlushedWhileTheGuardLives) {

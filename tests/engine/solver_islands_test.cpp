@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -195,6 +196,21 @@ RC_GTEST_PROP(Islands, BuiltAgainAfterAnotherGraphShowNothingOfIt, (std::uint64_
     build_islands(reused);
     RC_ASSERT(islands_of(fresh) == islands_of(reused));
     RC_ASSERT(fresh.island_blocks == reused.island_blocks);
+}
+
+RC_GTEST_PROP(Islands, LargestGoFirstOfEqualOnesTheEarlier, (std::uint64_t seed)) {
+    Random random(seed);
+    ConstraintGraph graph = random_graph(random);
+    build_islands(graph);
+    std::vector<std::uint32_t> order(graph.islands.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::shuffle(order.begin(), order.end(), random.engine());
+    sort_largest_first(graph, order);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const std::size_t before = graph.blocks_of(graph.islands[order[i - 1]]).size();
+        const std::size_t here = graph.blocks_of(graph.islands[order[i]]).size();
+        RC_ASSERT(before > here || (before == here && order[i - 1] < order[i]));
+    }
 }
 
 TEST(Islands, FixedBodiesCutThem) {

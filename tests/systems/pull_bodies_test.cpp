@@ -72,6 +72,15 @@ struct Pulls {
         proxies.push_back(
             {persistent_id.at(added).value, shape, pose, pose, kind == BodyKind::free});
     }
+    void move_body(Entity moved, const Vec3& center) {
+        BodyPose& pose = body_pose.at(moved);
+        pose.pose_ws = frame_ws * test::pose_at(center);
+        for (ColliderProxy& proxy : proxies) {
+            if (proxy.id == persistent_id.at(moved).value) {
+                proxy.from_ws = proxy.to_ws = pose.pose_ws;
+            }
+        }
+    }
     // The hand closes, and stays closed, where its palm is at `palm`.
     void close(Entity closed, const Vec3& palm) {
         Vec3 center = tuning.hand.palm_center_m;
@@ -224,9 +233,32 @@ TEST(PullBodies, EndsWhereTheHandOpensGripsOrIsLost) {
     ends(0, [](Pulls& pulls) { pulls.tuning.pull.reach_m = 0.0; });
     ends(1, [](Pulls& pulls) { pulls.hand.at(k_right).state = TrackingState::lost; });
     ends(1, [](Pulls& pulls) { pulls.hand.at(k_right).resumed = true; });
-    ends(1,
-         [](Pulls& pulls) { pulls.body_pose.at(k_stone).pose_ws.position = Vec3(0.0, -9.0, 0.0); });
+    ends(1, [](Pulls& pulls) { pulls.move_body(k_stone, Vec3(0.0, -9.0, 0.0)); });
     ends(1, [](Pulls& pulls) { pulls.body.at(k_stone).mass_kg = 1e3; });
+}
+
+// The middle of a pole of 14 m is farther from a palm that points at its end than any pull reaches.
+// It is given up where its end is.
+TEST(PullBodies, PoleIsPulledByItsEndHoweverFarItsMiddleIs) {
+    constexpr double k_half_m = 7.0;
+    Pulls pulls;
+    const auto middle_below_end = [](double end_y) { return Vec3(0.0, end_y - k_half_m, 0.0); };
+    const ShapeId pole = pulls.shapes.add_box(Vec3(0.02, k_half_m, 0.02));
+    pulls.add_body(k_stone, pole, middle_below_end(-0.5), k_stone_kg, BodyKind::free);
+    pulls.close(k_right, Vec3(0.0, 1.0, 0.0));
+    for (int frame = 0; frame < 3; ++frame) {
+        pulls.run();
+        ASSERT_TRUE(pulls.pull.contains(k_right)) << frame;
+        EXPECT_EQ(count_of_all(pulls.stats), 0U);
+    }
+    const double farthest_m = 1.5 * pulls.tuning.pull.reach_m + pulls.tuning.hand.reach_m;
+    pulls.move_body(k_stone, middle_below_end(1.0 - farthest_m + 1e-3));
+    pulls.run();
+    EXPECT_TRUE(pulls.pull.contains(k_right));
+    pulls.move_body(k_stone, middle_below_end(1.0 - farthest_m - 1e-3));
+    pulls.run();
+    EXPECT_FALSE(pulls.pull.contains(k_right));
+    EXPECT_EQ(count_of(pulls.stats, Fallback::pull_lost), 1U);
 }
 
 TEST(PullBodies, MirroredHandAndMovedWorldDoTheSame) {

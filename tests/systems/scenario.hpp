@@ -128,6 +128,14 @@ class Scenario {
         }
         inputs_.assign(1, PlayerInput{player.player, samples_, commands});
     }
+    // After the world's clock was set back: the next sample is the first one after it.
+    void rewind_devices() {
+        next_sample_ = 0;
+        while (world.clock.frame > 0 &&
+               static_cast<double>(next_sample_) / sample_hz <= world.clock.t_s) {
+            ++next_sample_;
+        }
+    }
     void take_step() { step_frame(world, *caches_, tuning, {1.0 / hz, inputs_}, stats); }
     void run(
         double seconds, const std::function<void()>& after_frame = [] {}) {

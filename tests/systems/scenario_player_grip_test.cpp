@@ -165,6 +165,40 @@ TEST(PlayerGrip, WhoHoldsOnToAWallCarriesTheOther) {
     EXPECT_LE((pair.origin(k_held) - wave(pair.t_s())).norm(), 1e-5);
 }
 
+// Who closes on the head of one who climbs at up to 5 m/s^2, with a hand that goes the same way:
+// what both hands want is to be had without moving him off his way, or the holder at all.
+TEST(PlayerGrip, ClosingOnAClimbersHeadMovesNeither) {
+    Pair pair;
+    const auto way = [](double t) { return Vec3(0.0, 0.05 * (1.0 - std::cos(10.0 * t)), 0.0); };
+    pair.move_hand(way);
+    const Vec3 palm(-0.3, 1.2, 0.0);
+    add_body(pair.world, {"wall",
+                          {},
+                          {palm - Vec3(0.0, 0.055, 0.0), Quat::Identity()},
+                          {},
+                          pair.shapes.add_box(Vec3(0.2, 0.05, 0.2))});
+    Vec3 palm_to_hand = pair.tuning.hand.palm_center_m;
+    palm_to_hand.x() *= -1.0;
+    DeviceScript& climber = pair.scripts[k_held];
+    climber.hands[index_of(HandSide::left)] = [=](double t) {
+        return Pose{palm - palm_to_hand - way(t), Quat::Identity()};
+    };
+    climber.grabs[index_of(HandSide::left)] = [](double) { return true; };
+    pair.hold_until(1e9);
+    pair.build();
+    Vec3 off_way = Vec3::Zero();
+    pair.run(0.5, [&] {
+        const Vec3 now = pair.origin(k_held) - way(pair.t_s());
+        if (pair.t_s() > 0.05) {  // he holds on by then
+            ASSERT_LE((now - off_way).norm(), 1e-5) << pair.t_s();
+        }
+        off_way = now;
+        ASSERT_LE(pair.origin(k_holder).norm(), 1e-5) << pair.t_s();
+    });
+    EXPECT_EQ(pair.grab().kind, GripKind::player);
+    EXPECT_EQ(pair.world.grab.at(pair.players[k_held].hands[0]).kind, GripKind::surface);
+}
+
 // The hand is on the head, not on the play space: who leans takes the hand along.
 TEST(PlayerGrip, HandStaysOnAHeadThatLeans) {
     Pair pair;

@@ -232,6 +232,27 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
     }
 }
 
+// It opened while nobody saw it, 20 cm from its anchor: its player stays where both had him.
+TEST(SettleGrabs, HandThatOpenedUnseenLeavesThePlayerWhereHeIs) {
+    for (const Entity leaving : {k_left, k_right}) {
+        Settling scene;
+        const Entity staying = other_of(leaving);
+        for (const Entity hand : {leaving, staying}) {
+            scene.move_hand(hand, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.1, 0.0)));
+        }
+        scene.set_grip(leaving, GripKind::surface, GrabPhase::releasing, k_wall,
+                       pose_at(Vec3(0.5, 1.0, 0.0)));
+        scene.set_grip(staying, GripKind::surface, GrabPhase::holding, k_ship,
+                       pose_at(Vec3(0.1, 1.0, 0.0)));
+        scene.set_edge(leaving, GrabEdge::release, 0.5);
+        scene.hand.at(leaving).resumed = true;
+        scene.run();
+        EXPECT_EQ(scene.grab.at(leaving).kind, GripKind::none);
+        EXPECT_EQ(count_of(scene.stats, Fallback::grip_lost), 1U);
+        EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(0.3, 1.0, 0.0)).norm(), 1e-12);
+    }
+}
+
 TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     Settling scene;
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.0)));
@@ -312,6 +333,104 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatHoldsTheBody) {
     scene.set_edge(k_right, GrabEdge::onset, 0.5);
     scene.run();
     EXPECT_LT((scene.grab.at(k_right).anchor_bs.position - Vec3(0.2, 1.0, -0.1)).norm(), 1e-12);
+}
+
+// --- Hands of two players ------------------------------------------------------------------------
+
+constexpr Entity k_guest = test::entity(7);
+constexpr Entity k_guest_hand = test::entity(8);
+
+// The first player's left hand holds the ship, as it was at the frame's start, and moves by 0.2 m
+// along z, where prediction has the ship fly off; a guest's hand closes on it.
+Settling joined_by_guest(double fraction, bool guest_is_listed_first) {
+    Settling scene({});
+    const auto add = [&](Entity player, Entity hand, HandSide side) {
+        scene.owner.add(hand, {player, side});
+        scene.hand.add(hand);
+        scene.grab.add(hand);
+    };
+    scene.player_start.add(k_guest);
+    scene.origin.add(k_guest);
+    if (guest_is_listed_first) {
+        add(k_guest, k_guest_hand, HandSide::right);
+        add(k_player, k_left, HandSide::left);
+    } else {
+        add(k_player, k_left, HandSide::left);
+        add(k_guest, k_guest_hand, HandSide::right);
+    }
+    scene.move_body(k_ship, {}, pose_at(Vec3(0.0, 0.0, 7.0)));
+    scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
+    scene.move_hand(k_guest_hand, pose_at(Vec3(0.2, 1.0, 0.0)), pose_at(Vec3(0.2, 1.0, 0.0)));
+    scene.set_grip(k_left, GripKind::held, GrabPhase::holding, k_ship,
+                   pose_at(Vec3(-0.2, 1.0, 0.0)));
+    scene.set_grip(k_guest_hand, GripKind::held, GrabPhase::fresh, k_ship);
+    scene.set_edge(k_guest_hand, GrabEdge::onset, fraction);
+    return scene;
+}
+Vec3 guest_anchor(Settling scene) {
+    scene.run();
+    return scene.grab.at(k_guest_hand).anchor_bs.position;
+}
+
+TEST(SettleGrabs, GuestsAnchorGoesByTheHandThatHoldsTheBodyWhoeverIsListedFirst) {
+    for (const bool first : {false, true}) {
+        EXPECT_LT((guest_anchor(joined_by_guest(0.5, first)) - Vec3(0.2, 1.0, -0.1)).norm(), 1e-12);
+        EXPECT_LT((guest_anchor(joined_by_guest(1.0, first)) - Vec3(0.2, 1.0, -0.2)).norm(), 1e-12);
+    }
+}
+
+// Both close in this frame, the host a quarter into it where prediction has the ship by then: it
+// goes with his hand from there on. Who closes later, or at the same instant, leads nobody.
+TEST(SettleGrabs, WhoClosesFirstLeadsWhoeverIsListedFirst) {
+    for (const bool first : {false, true}) {
+        const auto closing_at = [&](double fraction) {
+            Settling scene = joined_by_guest(0.5, first);
+            scene.grab.at(k_left).phase = GrabPhase::fresh;
+            scene.set_edge(k_left, GrabEdge::onset, fraction);
+            return guest_anchor(scene);
+        };
+        const double ship_z = 0.25 * 7.0 + 0.25 * 0.2;
+        EXPECT_LT((closing_at(0.25) - Vec3(0.2, 1.0, -ship_z)).norm(), 1e-12);
+        EXPECT_LT((closing_at(0.5) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
+        EXPECT_LT((closing_at(0.75) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
+    }
+}
+
+// He climbs with his other hand: what he holds goes with the wall, not with his predicted way.
+TEST(SettleGrabs, GuestsAnchorGoesByTheWallThatTheHolderHoldsOnTo) {
+    Settling scene = joined_by_guest(0.5, false);
+    scene.owner.add(k_right, {k_player, HandSide::right});
+    scene.hand.add(k_right);
+    scene.grab.add(k_right);
+    scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0, 2, 0)));
+    scene.move_hand(k_right, pose_at(Vec3(0, 2, 0)), pose_at(Vec3(0.0, 2.3, 0.0)));  // he goes down
+    scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
+    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.15, -0.1)).norm(), 1e-12);
+}
+
+// Shared already, its way is the solver's to find.
+TEST(SettleGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
+    constexpr Entity k_third = test::entity(9);
+    constexpr Entity k_third_hand = test::entity(10);
+    Settling scene = joined_by_guest(0.5, false);
+    scene.player_start.add(k_third);
+    scene.origin.add(k_third);
+    scene.owner.add(k_third_hand, {k_third, HandSide::left});
+    scene.hand.add(k_third_hand);
+    scene.grab.add(k_third_hand);
+    scene.set_grip(k_third_hand, GripKind::held, GrabPhase::holding, k_ship);
+    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
+}
+
+// Who grips a climber's head goes by the climber's hand as well.
+TEST(SettleGrabs, AnchorOnAClimbersHeadGoesByTheWallThatHeHoldsOnTo) {
+    Settling scene = joined_by_guest(0.5, false);
+    scene.head.add(k_player);
+    scene.set_grip(k_left, GripKind::surface, GrabPhase::holding, k_wall,
+                   pose_at(Vec3(-0.2, 1.0, 0.0)));  // he goes back by 0.2 m
+    scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
+    scene.set_grip(k_guest_hand, GripKind::player, GrabPhase::fresh, k_player);
+    EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, 0.1)).norm(), 1e-12);
 }
 
 TEST(SettleGrabs, HandsOnDifferentFreeBodiesLeaveEachOtherAlone) {

@@ -265,6 +265,43 @@ TEST(UpdateGrabs, HandLetsGoWhereItIsStretchedFartherThanAllowed) {
     }
 }
 
+// The one that is stretched more; of two alike the one that joined; of two that closed at once the
+// left one. In either order of rows.
+TEST(UpdateGrabs, OfTwoStretchedHandsOnlyOneLetsGo) {
+    struct Case {
+        double left_more_m;
+        double left_later_s;
+        Entity lets_go;
+    };
+    for (const Case& one :
+         {Case{0.02, -0.5, k_left}, Case{-0.02, 0.5, k_right}, Case{0.0, 0.5, k_left},
+          Case{0.0, -0.5, k_right}, Case{0.0, 0.0, k_left}}) {
+        for (const auto& hands : {std::initializer_list<Entity>{k_left, k_right},
+                                  std::initializer_list<Entity>{k_right, k_left}}) {
+            Grabs grabs({}, hands);
+            grabs.add_floor(1.0);
+            grabs.close(k_left, Vec3(-0.3, 1.05, 0.0));
+            grabs.close(k_right, Vec3(0.3, 1.05, 0.0));
+            grabs.run();
+            for (const Entity hand : hands) {
+                grabs.hand.at(hand).edge = GrabEdge::none;
+                Grab& grab = grabs.grab.at(hand);
+                grab.error_m = grabs.tuning.hand.max_stretch_m + 0.03;
+                grab.since_s = 1.0;
+                if (hand == k_left) {
+                    grab.error_m += one.left_more_m;
+                    grab.since_s += one.left_later_s;
+                }
+            }
+            grabs.run();
+            EXPECT_EQ(count_of(grabs.stats, Fallback::grip_stretched), 1U);
+            for (const Entity hand : hands) {
+                EXPECT_EQ(grabs.grab.at(hand).kind == GripKind::none, hand == one.lets_go);
+            }
+        }
+    }
+}
+
 // One hand keeps a rock while the other takes and drops many: what is held is never forgotten.
 TEST(UpdateGrabs, HeldBodyStaysIgnoredWhilePlacesAreFree) {
     Grabs grabs;

@@ -1,0 +1,51 @@
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "allocation_count.hpp"
+#include "engine/solver/plan_cache.hpp"
+#include "engine/solver/triad_plan.hpp"
+
+namespace handhold::solver_plan_cache_test {
+namespace {
+
+// A rope that hangs on nothing that moves; one of its nodes is told the other way round.
+std::vector<RowNode> rope(std::uint32_t bodies, std::uint32_t turned) {
+    std::vector<RowNode> nodes{{{k_no_slot, 0}, 3, false, true}};
+    for (std::uint32_t i = 1; i < bodies; ++i) {
+        nodes.push_back({{i - 1, i}, 3, false, true});
+    }
+    std::swap(nodes[turned].slots[0], nodes[turned].slots[1]);
+    return nodes;
+}
+
+// How often it allocates to plan ropes of one length, after the first.
+template <typename Plan>
+std::size_t allocations_of_ropes_alike() {
+    constexpr std::uint32_t k_bodies = 150;
+    const std::vector<std::uint8_t> turns(k_bodies, 1);
+    PlanCache<Plan> plans;
+    plans.choose(rope(k_bodies, 0), turns);
+    std::size_t count = 0;
+    for (std::uint32_t turned = 1; turned < 20; ++turned) {
+        const std::vector<RowNode> nodes = rope(k_bodies, turned);
+        const std::size_t before = allocation_count();
+        plans.choose(nodes, turns);
+        count += allocation_count() - before;
+    }
+    return count;
+}
+
+TEST(PlanCache, AllocatesForTheFirstOfASizeOnly) {
+    if (!counts_allocations()) {
+        GTEST_SKIP() << "the sanitizer brings operators of its own";
+    }
+    EXPECT_EQ(allocations_of_ropes_alike<EliminationPlan>(), 0U);
+    EXPECT_EQ(allocations_of_ropes_alike<TriadPlan>(), 0U);
+}
+
+}  // namespace
+}  // namespace handhold::solver_plan_cache_test

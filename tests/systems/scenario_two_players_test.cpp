@@ -1,0 +1,201 @@
+// Hands of two players on one bar through the whole frame. Expected values are closed forms of what
+// the hands do.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/systems/column_scene.hpp"
+#include "tests/systems/scenario.hpp"
+
+namespace handhold::scenario_two_players_test {
+namespace {
+
+constexpr double k_step_s = 1.0 / 90.0;
+constexpr int k_samples = 20;      // of the devices in a frame: buttons go down and up within it
+constexpr double k_jump_m = 1e-5;  // of a head, in the frame of an edge: 0.01 mm
+constexpr double k_bar_kg = 5.0;
+
+// A bar under the right palms of two players, 40 cm to either side of its middle.
+struct SharedBar {
+    ShapeLibrary shapes;
+    World world;
+    Tuning tuning;
+    StageStats stats;
+    std::array<DeviceScript, 2> scripts;
+    std::array<PlayerEntities, 2> players;
+    Entity bar;
+    std::unique_ptr<FrameCaches> caches;
+    double jump_m = 0.0;       // of either head in the last frame
+    int samples_a_frame = 20;  // of the devices: buttons go down and up within it; 1: at its end
+
+    explicit SharedBar(std::array<double, 2> masses_kg = {80.0, 80.0}) {
+        tuning.locomotion.drift_drag_per_s = 0.0;
+        const ShapeId shape = shapes.add_box(Vec3(0.6, 0.02, 0.02));
+        const RigidBody body{BodyKind::free, k_bar_kg, solid_inertia(shapes.at(shape), k_bar_kg),
+                             0.0};
+        bar = add_body(world, {"bar", body, {Vec3(0.0, 1.175, 0.0), Quat::Identity()}, {}, shape});
+        for (std::size_t i = 0; i < players.size(); ++i) {
+            PlayerDescription description;
+            description.name = i == 0 ? "first" : "second";
+            description.body.mass_kg = masses_kg[i];
+            description.head_shape = shapes.add_sphere(tuning.head.radius_m);
+            players[i] = add_player(world, description);
+            for (const Entity hand : players[i].hands) {
+                world.controller_to_hand.add(hand, {});
+            }
+            move_hand(i, [](double) { return Pose{}; });
+            hold(i, 0.1, 1e9);
+            scripts[i].head = [i](double) {
+                return Pose{Vec3(i == 0 ? -0.6 : 0.6, 1.8, 0.5), Quat::Identity()};
+            };
+        }
+        caches = std::make_unique<FrameCaches>(shapes);
+    }
+    // From where it rests.
+    void move_hand(std::size_t i, const std::function<Pose(double)>& way) {
+        const Vec3 palm(i == 0 ? -0.4 : 0.4, 1.2, 0.0);
+        const Vec3 rest = palm - tuning.hand.palm_center_m;
+        scripts[i].hands[index_of(HandSide::right)] = [=](double t) {
+            const Pose moved = way(t);
+            return Pose{rest + moved.position, moved.rotation};
+        };
+    }
+    void hold(std::size_t i, double from_s, double until_s) {
+        scripts[i].grabs[index_of(HandSide::right)] = [=](double t) {
+            return t > from_s && t < until_s;
+        };
+    }
+    void run(
+        double seconds, const std::function<void()>& after_frame = [] {}) {
+        for (int i = 0; i < static_cast<int>(std::lround(seconds / k_step_s)); ++i) {
+            const double end_s = world.clock.t_s + k_step_s;
+            std::array<std::vector<TrackingSample>, 2> samples;
+            std::vector<PlayerInput> inputs;
+            for (std::size_t p = 0; p < players.size(); ++p) {
+                for (int k = 0; k <= samples_a_frame; ++k) {
+                    const double t_s = end_s - k_step_s * (samples_a_frame - k) / samples_a_frame;
+                    samples[p].push_back(sample_of(scripts[p], t_s));
+                }
+                inputs.push_back({players[p].player, samples[p], {}});
+            }
+            const Vec3 before[] = {origin(0), origin(1)};
+            step_frame(world, *caches, tuning, {k_step_s, inputs}, stats);
+            jump_m = std::max((origin(0) - before[0]).norm(), (origin(1) - before[1]).norm());
+            after_frame();
+        }
+    }
+    const Grab& grab(std::size_t i) const {
+        return world.grab.at(players[i].hands[index_of(HandSide::right)]);
+    }
+    bool holds(std::size_t i) const { return grab(i).kind == GripKind::held; }
+    double t_s() const { return world.clock.t_s; }
+    Vec3 origin(std::size_t i) const {
+        return world.player_origin.at(players[i].player).pose_ws.position;
+    }
+    Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
+};
+
+// How all hands and what they hold move as one. At up to half a metre a second and 5 m/s^2; and so
+// evenly that the chord that a hand takes within a frame is its way to 2e-7 m.
+Pose lively(double t) {
+    const double w = ease(t, 0.15, 0.4);
+    return {w * Vec3(0.1 * std::sin(4 * t), 0.08 * std::cos(3 * t), 0.1 * std::sin(5 * t)),
+            rotation_from_vector(w * Vec3(0.1 * std::sin(3 * t), 0.2 * std::sin(2 * t), 0.05))};
+}
+Pose even(double t) {
+    return {Vec3(0.3 * t, -0.1 * t, 0.2 * t), rotation_about(Vec3(0.6, 0.0, 0.8), 0.1 * t)};
+}
+struct Carry {
+    Pose (*way)(double);
+    int samples_a_frame;
+};
+constexpr Carry k_carries[] = {{lively, 1}, {even, 20}};
+
+void carry(const Carry& how, SharedBar& shared) {
+    shared.samples_a_frame = how.samples_a_frame;
+    for (DeviceScript& script : shared.scripts) {
+        const auto rest = script.hands[index_of(HandSide::right)];
+        script.hands[index_of(HandSide::right)] = [=](double t) { return how.way(t) * rest(t); };
+    }
+}
+// Whoever joins and whoever leaves, and however his hand is turned: what the hands want all the
+// while is to be had without moving anybody.
+TEST(TwoPlayers, JoiningAndLeavingMovesNeitherHead) {
+    for (const Carry& how : k_carries) {
+        for (const std::size_t first : {0U, 1U}) {
+            SharedBar shared({80.0, 60.0});
+            shared.move_hand(1 - first, [](double) {
+                return Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), 0.5)};
+            });
+            shared.hold(first, 0.1, 0.8047);
+            shared.hold(1 - first, 0.3047, 1e9);
+            carry(how, shared);
+            int both = 0;
+            shared.run(1.0, [&] {
+                both += shared.holds(0) && shared.holds(1) ? 1 : 0;
+                ASSERT_LE(shared.jump_m, k_jump_m) << shared.t_s();
+                ASSERT_LE(shared.velocity(0).norm() + shared.velocity(1).norm(), 1e-3);
+            });
+            EXPECT_GT(both, 40);
+            EXPECT_FALSE(shared.holds(first));
+            EXPECT_TRUE(shared.holds(1 - first));
+        }
+    }
+}
+
+// From one player to the other: with both hands on it, in one frame, and in one frame with the
+// first hand open before the second is closed.
+TEST(TwoPlayers, PassingMovesNeitherHeadAndTheBarStaysInTheHands) {
+    const Carry& how = k_carries[1];
+    for (const double late_s : {0.03, 0.002, -0.002}) {
+        SharedBar shared({80.0, 60.0});
+        const double pass_s = 0.5 + 4.0 / 900.0;
+        shared.hold(0, 0.1, pass_s + late_s);
+        shared.hold(1, pass_s, 1e9);
+        carry(how, shared);
+        shared.run(0.4);
+        const auto bar_in_hands = [&] {
+            const Pose hands_ws = Pose{shared.origin(1), Quat::Identity()} * how.way(shared.t_s());
+            return Pose(inverse(hands_ws) * shared.world.body_pose.at(shared.bar).pose_ws);
+        };
+        const Pose held = bar_in_hands();
+        double slipped = 0.0;
+        shared.run(0.6, [&] {
+            ASSERT_LE(shared.jump_m, k_jump_m) << shared.t_s() << " " << late_s;
+            slipped = std::max(slipped, test::distance(held, bar_in_hands()));
+        });
+        EXPECT_LE(slipped, 1e-5);
+        EXPECT_FALSE(shared.holds(0));
+        EXPECT_TRUE(shared.holds(1));
+    }
+}
+
+// Hands go 20 cm apart, along the bar or across it: so do the players, who share that by their
+// masses, and the bar goes with the first one's hand, which rests.
+TEST(TwoPlayers, PullingMovesThemByTheirMasses) {
+    for (const Vec3& way : {Vec3(0.2, 0.0, 0.0), Vec3(0.0, 0.2, 0.0)}) {
+        SharedBar shared({80.0, 60.0});
+        shared.move_hand(1, [=](double t) {
+            return Pose{ease(t, 0.3, 0.8) * way, Quat::Identity()};
+        });
+        shared.run(1.0, [&] {
+            const Vec3 momentum = 80.0 * shared.velocity(0) + 60.0 * shared.velocity(1) +
+                                  k_bar_kg * shared.world.body_velocity.at(shared.bar).linear_mps;
+            ASSERT_LE(momentum.norm(), 1e-9) << shared.t_s();
+            ASSERT_LE(shared.grab(0).error_m, 1e-6);
+            ASSERT_LE(shared.grab(1).error_m, 1e-6);
+        });
+        const double sum_kg = 80.0 + 60.0 + k_bar_kg;
+        EXPECT_LE((shared.origin(0) - 60.0 / sum_kg * way).norm(), 2e-4);
+        EXPECT_LE((shared.origin(1) + (80.0 + k_bar_kg) / sum_kg * way).norm(), 2e-4);
+        EXPECT_LE(shared.velocity(0).norm() + shared.velocity(1).norm(), 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace handhold::scenario_two_players_test
