@@ -285,7 +285,7 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
                             std::vector<DiscSegment>& segments) {
     const std::size_t before = segments.size();
     std::size_t of_first_mesh = 0;
-    const FourCut cut(offset_m, radius_m_ + spare_m_);
+    const FourCut cut(offset_m, radius_m_);
     for (std::size_t mesh = 0; mesh < frames_.size(); ++mesh) {
         const std::size_t end =
             mesh + 1 < frames_.size() ? frames_[mesh + 1].first() : fours_.size();
@@ -294,8 +294,8 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
             for (std::uint32_t i = 0; any_of(found.is_near) && i < 4; ++i) {
                 if (found.is_near[i] != 0) {
                     const auto number = frames_[mesh].number(first_slot_[f] + i);
-                    add_segment({found.end(0, i), found.end(1, i), plane, number}, radius_m_,
-                                segments);
+                    add_near_part({found.end(0, i), found.end(1, i), plane, number}, radius_m_,
+                                  segments);
                 }
             }
         }

@@ -41,8 +41,9 @@ class ChainPatch {
     void gather(const ChainReach& reach, std::span<const PlacedMesh> meshes);
 
     // What the plane `offset_m` across cuts out of the triangles within the reach, as `plane` in
-    // the segments, which are added to; the first mesh's come before the others'. Precondition: the
-    // plane is within the half width. Returns how many are the first mesh's.
+    // the segments, which are added to; the first mesh's come before the others'. In floats, the
+    // reach's edge too. Precondition: the plane is within the half width. Returns how many are the
+    // first mesh's.
     std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments);
 
     // Of a capsule whose middle lies in the plane, within box `box` of the reach that was gathered

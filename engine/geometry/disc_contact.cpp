@@ -106,14 +106,12 @@ class Closing {
         scratch_.bounds.resize((segments_.size() + 3) / 4);
         for (std::size_t i = 0; i < 4 * scratch_.bounds.size(); ++i) {
             const DiscSegment& segment = segments_[std::min(i, segments_.size() - 1)];
+            const DiscBox box(segment.a_ds, segment.b_ds);
             DiscScratch::FourBounds& bounds = scratch_.bounds[i / 4];
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                const auto along = static_cast<Eigen::Index>(axis);
-                const auto a = static_cast<float>(segment.a_ds[along]);
-                const auto b = static_cast<float>(segment.b_ds[along]);
-                bounds.low[axis][i % 4] = std::min(a, b);
-                bounds.high[axis][i % 4] = std::max(a, b);
-            }
+            bounds.low[0][i % 4] = static_cast<float>(box.low.x());
+            bounds.low[1][i % 4] = static_cast<float>(box.low.y());
+            bounds.high[0][i % 4] = static_cast<float>(box.high.x());
+            bounds.high[1][i % 4] = static_cast<float>(box.high.y());
         }
     }
 

@@ -285,23 +285,26 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
 }
 
 void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments) {
-    if (distance_to_origin(segment.a_ds, segment.b_ds) > radius_m) {
-        return;
+    if (distance_to_origin(segment.a_ds, segment.b_ds) <= radius_m) {
+        add_near_part(segment, radius_m, segments);
     }
-    // What is very long is cut to what is near: distances are found in floats.
+}
+
+void add_near_part(const DiscSegment& segment, double radius_m,
+                   std::vector<DiscSegment>& segments) {
     const Vec2 way = segment.b_ds - segment.a_ds;
     const double longest = 16.0 * radius_m;
-    if (way.squaredNorm() > longest * longest) {
-        const double length = way.norm();
-        const Vec2 along = way / length;
-        const double middle = std::clamp(-segment.a_ds.dot(along), 0.0, length);
-        const double first = std::max(0.0, middle - 0.5 * longest);
-        const double last = std::min(length, middle + 0.5 * longest);
-        segments.push_back({segment.a_ds + first * along, segment.a_ds + last * along,
-                            segment.plane, segment.triangle});
+    if (way.squaredNorm() <= longest * longest) {
+        segments.push_back(segment);
         return;
     }
-    segments.push_back(segment);
+    const double length = way.norm();
+    const Vec2 along = way / length;
+    const double middle = std::clamp(-segment.a_ds.dot(along), 0.0, length);
+    const double first = std::max(0.0, middle - 0.5 * longest);
+    const double last = std::min(length, middle + 0.5 * longest);
+    segments.push_back({segment.a_ds + first * along, segment.a_ds + last * along, segment.plane,
+                        segment.triangle});
 }
 
 }  // namespace handhold

@@ -75,4 +75,7 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
 // what is near.
 void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
 
+// Adds what is near of a segment that is known to come near: distances to it are found in floats.
+void add_near_part(const DiscSegment& segment, double radius_m, std::vector<DiscSegment>& segments);
+
 }  // namespace handhold
