@@ -92,6 +92,8 @@ const char* name_of(Fallback reason) {
             return "put_back";
         case Fallback::active_set_unsettled:
             return "active_set_unsettled";
+        case Fallback::hands_led:
+            return "hands_led";
         case Fallback::friction_wedged:
             return "friction_wedged";
         case Fallback::friction_undecided:

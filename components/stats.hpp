@@ -57,6 +57,7 @@ enum class Fallback : std::uint8_t {
     contacts_unresolved,       // contacts still overlapping at the end of the frame
     put_back,                  // islands whose sunk bodies went back to where they were clear
     active_set_unsettled,      // solves that ended before it was clear which contacts push
+    hands_led,                 // solves that ran out of steps and then took hands part by part
     friction_wedged,           // contacts that would press without end or give energy slip freely
     friction_undecided,        // who sticks and who slides was not settled within its passes
     release_speed_clamped,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/solver/island_view.hpp"
+#include "engine/solver/led_hands.hpp"
 #include "engine/solver/row_system.hpp"
 #include "engine/solver/rows.hpp"
 #include "engine/solver/softness.hpp"
@@ -38,6 +39,9 @@ struct SolveScratch {
     bool is_driven = false;  // a hand or a detent may give energy
     RowSystem system;
     TriadSystem triads;  // in place of all the others where it serves
+    LedHands led;
+    std::vector<Pose> start;  // of the island's bodies, before and after steps that ran out
+    std::vector<Pose> first;
 };
 
 bool has_contact(std::span<const Row> rows);

@@ -190,7 +190,6 @@ class RowSteps {
     static void widen() {}
     static bool has_cheap_factor() { return false; }
     static std::optional<JointError> worst_joints() { return std::nullopt; }
-    void finish() {}
 
   private:
     // All of them hold, none may let go.
@@ -294,7 +293,6 @@ class TriadSteps {
     void widen() { system_.widen(); }
     static bool has_cheap_factor() { return true; }
     std::optional<JointError> worst_joints() const { return system_.worst_joints(); }
-    void finish() { system_.store_poses(island_); }
 
   private:
     const IslandView& island_;
@@ -391,7 +389,7 @@ bool is_good_step(double residual_m, double previous_m, bool cheap_factor,
 }
 
 template <typename Steps>
-NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
+NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
     NewtonResult result;
     Softness softness = settings.softness;
     double previous = std::numeric_limits<double>::infinity();
@@ -409,7 +407,6 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
                    steps.worst_hand_m() > k_hand_share * settings.tolerance_m;
         if ((result.converged && !polishes) || result.iterations == settings.max_iterations ||
             step.length_m < settings.step_tolerance_m) {
-            steps.finish();
             result.joints = steps.worst_joints();
             return result;
         }
@@ -437,16 +434,89 @@ NewtonResult iterate(const NewtonSettings& settings, Steps steps) {
     }
 }
 
+// Positions may bring any contact near: not one may be left out.
+bool load(const IslandView& island, SolveScratch& scratch) {
+    return scratch.triads.load(island, std::numeric_limits<double>::infinity());
+}
+
+NewtonResult solve_loaded(const IslandView& island, const NewtonSettings& settings,
+                          SolveScratch& scratch) {
+    const NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
+    scratch.triads.store_poses(island);
+    return result;
+}
+
+void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
+    poses.clear();
+    for (const std::uint32_t index : island.island_bodies) {
+        poses.push_back(island.bodies[index].pose_ws);
+    }
+}
+void put_back(const IslandView& island, std::span<const Pose> poses) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        island.bodies[island.island_bodies[i]].pose_ws = poses[i];
+    }
+}
+
+// From `scratch.start`, with `scratch.led` taken there: part by part of the hands' way. Gives up
+// where one part cannot be had.
+NewtonResult lead(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch) {
+    constexpr int k_parts = 4;
+    constexpr double k_on_its_way_m = 1e-5;
+    NewtonSettings on_its_way = settings;
+    on_its_way.tolerance_m = std::max(settings.tolerance_m, k_on_its_way_m);
+    put_back(island, scratch.start);
+    NewtonResult result;
+    int iterations = 0;
+    for (int part = 1; part <= k_parts; ++part) {
+        scratch.led.hold_back(island, 1.0 - static_cast<double>(part) / k_parts);
+        load(island, scratch);
+        result = solve_loaded(island, part < k_parts ? on_its_way : settings, scratch);
+        iterations += result.iterations;
+        if (!result.converged) {
+            break;
+        }
+    }
+    scratch.led.hold_back(island, 0.0);
+    result.iterations = iterations;
+    result.led = true;
+    return result;
+}
+
+// Where hands jump far, on links of very different masses, no number of steps suffices: they are
+// led then. What cannot be had even so stays as it was.
+NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settings,
+                          SolveScratch& scratch) {
+    NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
+    scratch.led.clear();
+    if (settings.leads && !result.converged && result.iterations == settings.max_iterations) {
+        scratch.led.take(island);
+        keep_poses(island, scratch.start);
+    }
+    scratch.triads.store_poses(island);
+    if (scratch.led.empty()) {
+        return result;
+    }
+    keep_poses(island, scratch.first);
+    NewtonResult led = lead(island, settings, scratch);
+    led.iterations += result.iterations;
+    if (led.converged) {
+        return led;
+    }
+    put_back(island, scratch.first);
+    load(island, scratch);
+    scratch.triads.store_poses(island);
+    result.iterations = led.iterations;
+    return result;
+}
+
 }  // namespace
 
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
-    // Positions may bring any contact near: not one may be left out.
-    constexpr double k_touch_m = std::numeric_limits<double>::infinity();
     const FlushDenormals flush;
-    return scratch.triads.load(island, k_touch_m)
-               ? iterate(settings, TriadSteps(island, scratch.triads))
-               : iterate(settings, RowSteps(island, scratch));
+    return load(island, scratch) ? solve_triads(island, settings, scratch)
+                                 : iterate(settings, RowSteps(island, scratch));
 }
 
 }  // namespace handhold

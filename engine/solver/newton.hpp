@@ -13,6 +13,7 @@ struct NewtonSettings {
     double step_tolerance_m = 1e-9;
     Softness softness{};             // at first; contacts and joints never have less
     double stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
+    bool leads = true;               // hands part by part where the iterations do not suffice
 };
 
 struct NewtonResult {
@@ -22,6 +23,7 @@ struct NewtonResult {
     std::optional<JointError> joints;  // worst of them at the end, where all rows always hold
     bool unsettled =
         false;  // a step left rows out that may overlap: its changes of the active set ran out
+    bool led = false;  // hands were led part by part, since no number of steps sufficed
 };
 
 // Moves the island's bodies, by their inverse masses, until every row is met or no step helps.

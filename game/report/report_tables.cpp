@@ -95,6 +95,8 @@ const char* meaning_of(Fallback reason) {
                    "clear of it.";
         case Fallback::active_set_unsettled:
             return "A solve ended before it was clear which contacts push; some may overlap.";
+        case Fallback::hands_led:
+            return "Hands jumped too far for a solve's steps; it took them there part by part.";
         case Fallback::friction_wedged:
             return "Contacts wedged something in, or would have given it energy; their friction "
                    "was set aside.";

@@ -194,6 +194,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         if (result.unsettled) {
             s.stats.count(Fallback::active_set_unsettled);
         }
+        if (result.led) {
+            s.stats.count(Fallback::hands_led);
+        }
     }
     return frame.island_order.size();
 }

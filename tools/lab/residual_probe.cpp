@@ -29,6 +29,7 @@ void probe(const IslandView& island, const NewtonSettings& settings, SolveScratc
     for (int iterations = 1; iterations <= k_most_iterations; ++iterations) {
         NewtonSettings few = settings;
         few.max_iterations = iterations;
+        few.leads = false;
         set_sweeps(iterations);
         const NewtonResult result = g_solver(island, few, scratch);
         if (result.iterations == iterations) {

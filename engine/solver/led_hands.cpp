@@ -1,0 +1,38 @@
+#include "engine/solver/led_hands.hpp"
+
+namespace handhold {
+
+void LedHands::take(const IslandView& island) {
+    hands_.clear();
+    for (const std::uint32_t index : island.island_blocks) {
+        const RowBlock& block = island.blocks[index];
+        if (!is_hand(block) || !takes_part(island, block)) {
+            continue;
+        }
+        const Quat& a_ws = island.bodies[block.a].pose_ws.rotation;
+        const Quat& b_ws = island.bodies[block.b].pose_ws.rotation;
+        Hand hand{index, block.point_a_bs, block.rotation_a_bs};
+        if (block.kind != RowKind::hand_direction) {
+            hand.lack_a_bs = a_ws.conjugate() * point_error(island.bodies, block);
+        }
+        if (block.kind != RowKind::hand_point) {
+            hand.turn_a_bs = a_ws.conjugate() * rotation_error(a_ws, b_ws, block);
+        }
+        hands_.push_back(hand);
+    }
+}
+
+void LedHands::hold_back(const IslandView& island, double share) const {
+    for (const Hand& hand : hands_) {
+        RowBlock& block = island.blocks[hand.block];
+        block.point_a_bs = hand.point_a_bs;
+        block.rotation_a_bs = hand.rotation_a_bs;
+        if (share > 0.0) {
+            block.point_a_bs -= share * hand.lack_a_bs;
+            block.rotation_a_bs =
+                rotation_from_vector(-share * hand.turn_a_bs) * hand.rotation_a_bs;
+        }
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/solver/island_view.hpp"
+
+// Load stepping: hands that jumped go their way in parts, each of which Newton's method can follow.
+namespace handhold {
+
+// The hands of one island, and how far they are from what they hold. Keeps its memory.
+class LedHands {
+  public:
+    // As they are at the bodies' present poses.
+    void take(const IslandView& island);
+    void clear() { hands_.clear(); }
+    bool empty() const { return hands_.empty(); }
+
+    // Has hands ask for all but `share` of that, in [0, 1]. 0: bitwise as they were taken.
+    void hold_back(const IslandView& island, double share) const;
+
+  private:
+    struct Hand {
+        std::uint32_t block = 0;  // into the graph's blocks
+        Vec3 point_a_bs = Vec3::Zero();
+        Quat rotation_a_bs = Quat::Identity();
+        Vec3 lack_a_bs = Vec3::Zero();  // from b's point to a's, in a's frame
+        Vec3 turn_a_bs = Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
+    };
+    std::vector<Hand> hands_;
+};
+
+}  // namespace handhold

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "engine/solver/led_hands.hpp"
+#include "engine/solver/newton.hpp"
+#include "solver_scene.hpp"
+
+namespace handhold::led_hands_test {
+namespace {
+
+using test::Random;
+using test::SolverScene;
+
+bool is_same(const RowBlock& a, const RowBlock& b) {
+    return a.point_a_bs == b.point_a_bs && a.rotation_a_bs.coeffs() == b.rotation_a_bs.coeffs() &&
+           a.point_b_bs == b.point_b_bs && a.rotation_b_bs.coeffs() == b.rotation_b_bs.coeffs();
+}
+
+RC_GTEST_PROP(LedHands, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
+    Random random(seed);
+    SolverScene scene;
+    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
+                          test::random_free_body(2, random)};
+    const bool is_weld = random.between(0.0, 1.0) < 0.5;
+    scene.graph.blocks = {
+        test::random_block(is_weld ? RowKind::hand_weld : RowKind::hand_point, 0, 1, random)};
+    build_islands(scene.graph);
+    const IslandView island = scene.view(scene.graph.islands.front());
+    const RowBlock taken = scene.block(0);
+    const auto point_lack_m = [&] {
+        return point_error(scene.graph.bodies, scene.block(0)).norm();
+    };
+    const auto turn_lack_rad = [&] {
+        return rotation_error(scene.body(0).pose_ws.rotation, scene.body(1).pose_ws.rotation,
+                              scene.block(0))
+            .norm();
+    };
+    const double far_m = point_lack_m();
+    const double turned_rad = turn_lack_rad();
+    LedHands led;
+    led.take(island);
+    for (const double share : {1.0, 0.75, 0.25}) {
+        led.hold_back(island, share);
+        RC_ASSERT(std::abs(point_lack_m() - (1.0 - share) * far_m) < 1e-12);
+        RC_ASSERT(!is_weld || std::abs(turn_lack_rad() - (1.0 - share) * turned_rad) < 1e-9);
+    }
+    led.hold_back(island, 0.0);
+    RC_ASSERT(is_same(scene.block(0), taken));
+}
+
+// A chain on a wall, every other link a thousand times as heavy as those beside it, and a hand that
+// has its end `reach` of the chain's length away from the wall, to the side.
+SolverScene chain_to(double reach) {
+    constexpr std::uint32_t k_links = 16;
+    constexpr double k_half_m = 0.05;
+    const Vec3 end(k_half_m, 0.0, 0.0);
+    SolverScene scene;
+    scene.graph.bodies = {test::fixed_body(1)};
+    for (std::uint32_t i = 0; i < k_links; ++i) {
+        const double mass_kg = i % 2 == 0 ? 1.0 : 1000.0;
+        const double across = mass_kg * k_half_m * k_half_m / 3.0;
+        scene.graph.bodies.push_back(test::free_body(i + 2, mass_kg,
+                                                     Vec3(0.3 * across, across, across),
+                                                     {(2.0 * i + 1.0) * end, Quat::Identity()}));
+        scene.graph.blocks.push_back(
+            test::row_block(RowKind::ball, i, i + 1, i == 0 ? Vec3(Vec3::Zero()) : end, -end));
+    }
+    scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
+    scene.body(k_links + 1).inverse_mass = 0.0;
+    const Vec3 hand = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
+    scene.graph.blocks.push_back(
+        test::row_block(RowKind::hand_point, k_links + 1, k_links, hand, end));
+    return scene;
+}
+
+double worst_error_m(const SolverScene& scene) {
+    double worst_m = 0.0;
+    for (std::size_t i = 0; i < scene.graph.blocks.size(); ++i) {
+        worst_m = std::max(worst_m, scene.error_m(i));
+    }
+    return worst_m;
+}
+
+// With fewer steps than it takes at once, but enough for a part of the way.
+TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
+    SolverScene scene = chain_to(0.8);
+    build_islands(scene.graph);
+    const std::vector<RowBlock> blocks = scene.graph.blocks;
+    NewtonSettings settings;
+    settings.max_iterations = 12;
+    const NewtonResult result = scene.solve_positions(settings);
+    EXPECT_TRUE(result.led);
+    EXPECT_TRUE(result.converged);
+    EXPECT_GT(result.iterations, settings.max_iterations);
+    EXPECT_LT(worst_error_m(scene), 2.0 * settings.tolerance_m);
+    EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), scene.graph.blocks.begin(), &is_same));
+    SolverScene at_once = chain_to(0.8);
+    settings.max_iterations = 200;
+    const NewtonResult with_more = at_once.solve_positions(settings);
+    EXPECT_FALSE(with_more.led);
+    EXPECT_TRUE(with_more.converged);
+}
+
+TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
+    SolverScene scene = chain_to(1.5);
+    build_islands(scene.graph);
+    const std::vector<RowBlock> blocks = scene.graph.blocks;
+    NewtonSettings settings;
+    settings.max_iterations = 8;
+    const NewtonResult result = scene.solve_positions(settings);
+    EXPECT_FALSE(result.led);
+    EXPECT_FALSE(result.converged);
+    EXPECT_GT(result.iterations, settings.max_iterations);
+    EXPECT_LE(result.iterations, 5 * settings.max_iterations);
+    EXPECT_NEAR(worst_error_m(scene), result.residual_m, 1e-12);
+    EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), scene.graph.blocks.begin(), &is_same));
+}
+
+}  // namespace
+}  // namespace handhold::led_hands_test
