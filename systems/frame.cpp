@@ -113,10 +113,10 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
     }
     {
         const StageTimer timer(Stage::settle_grabs, stats);
-        settle_grabs(
-            {start_s, end_s, w.hand_owner, w.hand_tracking, w.player_start, w.player_origin,
-             w.head_tracking, w.body_start, w.body_pose, w.authored_hold, w.grab},
-            tuning.palm, stats);
+        settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
+                      w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold,
+                      w.body, w.joint, w.joint_state, w.grab},
+                     tuning, stats);
     }
 }
 

@@ -82,6 +82,10 @@ class Column {
         return row == k_npos ? nullptr : &rows_[row];
     }
     bool contains(Entity entity) const { return find_row(entity) != k_npos; }
+    // `row` is one of `rows()`.
+    Entity owner_of(const T& row) const {
+        return owners_[static_cast<std::size_t>(&row - rows_.data())];
+    }
 
     // The entity's row. Throws PreconditionError where there is none.
     T& at(Entity entity) {

@@ -4,10 +4,33 @@
 #include <optional>
 
 #include "components/hand_rows.hpp"
+#include "components/joint_rail.hpp"
 #include "engine/solver/two_hands.hpp"
 
 namespace handhold {
 namespace {
+
+// Where a hand was, on the way through its samples.
+Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, double start_s,
+                       double end_s, double t) {
+    struct Stop {
+        double t = 0.0;
+        const Pose* hand_ps = nullptr;
+    };
+    Stop before{0.0, &hand.start_ps};
+    Stop after{1.0, &hand.pose_ps};
+    const bool jumps = hand.resumed;  // it has no way
+    for (std::uint32_t i = 0; i < history.count && !jumps; ++i) {
+        const HandHistory::Entry& entry = history.entries[i];
+        const double at = (entry.t_s - start_s) / (end_s - start_s);
+        if (at > before.t && at <= t && at < 1.0) {
+            before = {at, &entry.hand_ps};
+        } else if (at > t && at < after.t) {
+            after = {at, &entry.hand_ps};
+        }
+    }
+    return interpolate(*before.hand_ps, *after.hand_ps, (t - before.t) / (after.t - before.t));
+}
 
 // Where things were at one instant within the frame, 0 its start, 1 its end.
 struct Instant {
@@ -25,8 +48,10 @@ struct Instant {
     Pose origin_ws(Entity player) const {
         return interpolate(io.player_start.at(player).pose_ws, io.origin.at(player).pose_ws, t);
     }
+    // `hand` is a row of `io.hand`.
     Pose hand_ps(const HandTracking& hand) const {
-        return interpolate(hand.start_ps, hand.pose_ps, t);
+        const HandHistory& history = io.hand_history.at(io.hand.owner_of(hand));
+        return hand_within_frame(hand, history, io.start_s, io.end_s, t);
     }
     // Where a hand that holds on to something fixed would have its player.
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const {
@@ -83,17 +108,84 @@ HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
     return pair;
 }
 
-// The player's origin at an instant: from a hand that already holds on to something fixed, exact;
-// else on the predicted way.
+// --- Bodies on joints --------------------------------------------------------------------------
+
+// Has it had what it holds since before the frame, and does it know where it is?
+bool leads_all_along(const Grab& grab, const HandTracking& hand) {
+    return grab.phase != GrabPhase::none && grab.phase != GrabPhase::fresh &&
+           hand.edge != GrabEdge::onset && !hand.resumed;
+}
+
+// Where a body on a joint is that hands lead: as far along the joint as they went, on average, and
+// off it by what it lacked at the frame's start. Any other body: as predicted.
+Pose led_body_ws(const Instant& now, Entity body, const PhaseTuning& tuning) {
+    const SettleGrabsIo& io = now.io;
+    const std::optional<JointRail> rail =
+        find_rail({io.body, io.joint, io.joint_state}, body, tuning);
+    if (!rail) {
+        return now.body_ws(body);
+    }
+    const Instant start{io, 0.0};
+    const auto holder_ws = [&](const Instant& at) {
+        return is_null(rail->holder) ? Pose{} : at.body_ws(rail->holder);
+    };
+    const Pose holder_start_ws = holder_ws(start);
+    const Pose holder_now_ws = holder_ws(now);
+    double way = 0.0;
+    int hands = 0;
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        if (io.grab.rows()[row].body != body || !leads_all_along(io.grab.rows()[row], hand)) {
+            continue;
+        }
+        const Entity player = io.owner.at(entity).player;
+        const auto hand_hs = [&](const Instant& at, const Pose& at_holder_ws) {
+            const Vec3 hand_ws =
+                transform_point(at.led_origin_ws(player), at.hand_ps(hand).position);
+            return inverse_transform_point(at_holder_ws, hand_ws);
+        };
+        way += way_along(*rail, hand_hs(start, holder_start_ws), hand_hs(now, holder_now_ws));
+        ++hands;
+    }
+    if (hands == 0) {
+        return now.body_ws(body);
+    }
+    return holder_now_ws *
+           moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), way / hands);
+}
+
+// The player's origin at an instant, who goes by a hand of his all that its body, on a joint,
+// cannot go with it.
+Pose origin_by_jointed(const Instant& now, Entity player, const Pose& body_ws, const Grab& grab,
+                       const HandTracking& hand) {
+    const Instant start{now.io, 0.0};
+    const Vec3 body_way = transform_point(body_ws, grab.anchor_bs.position) -
+                          transform_point(start.body_ws(grab.body), grab.anchor_bs.position);
+    Pose origin_ws = now.led_origin_ws(player);
+    const Vec3 hand_way =
+        transform_point(origin_ws, now.hand_ps(hand).position) -
+        transform_point(start.led_origin_ws(player), start.hand_ps(hand).position);
+    origin_ws.position += body_way - hand_way;
+    return origin_ws;
+}
+
+// The player's origin at an instant: from a hand that already holds on to something fixed, exact,
+// or to something on a joint; else on the predicted way.
 Pose origin_at(const Instant& now, Entity player, const Grab* holding,
-               const HandTracking* holding_hand) {
+               const HandTracking* holding_hand, const PhaseTuning& tuning) {
     Pose origin_ws = now.origin_ws(player);
     // A hand that was lost until now may have jumped: what it holds says nothing.
-    if (holding != nullptr && holding->kind == GripKind::surface &&
-        holding->phase == GrabPhase::holding && !holding_hand->resumed) {
+    if (holding == nullptr || holding->phase != GrabPhase::holding || holding_hand->resumed) {
+        return origin_ws;
+    }
+    if (holding->kind == GripKind::surface) {
         const Vec3 anchor_ws =
             transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
         origin_ws.position = anchor_ws - origin_ws.rotation * now.hand_ps(*holding_hand).position;
+    } else if (holding->jointed && leads_all_along(*holding, *holding_hand)) {
+        return origin_by_jointed(now, player, led_body_ws(now, holding->body, tuning), *holding,
+                                 *holding_hand);
     }
     return origin_ws;
 }
@@ -211,11 +303,13 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
 
 // The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
 // player (or the body).
-void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first) {
+void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
+                       const PhaseTuning& tuning) {
     Grab& staying = *leaving.other;
     const HandTracking& staying_hand = *leaving.other_hand;
     const Instant now{io, fraction_of(io, leaving.hand.edge_t_s)};
     Pose origin_ws = now.origin_ws(leaving.player);
+    Pose body_ws = now.body_ws(staying.body);
     if (staying.kind == GripKind::surface) {
         const auto held_origin = [&](const Grab& grab, const Vec3& hand_ps) -> Vec3 {
             return transform_point(now.body_ws(grab.body), grab.anchor_bs.position) -
@@ -224,10 +318,17 @@ void leave_shared_hold(const SettleGrabsIo& io, const HandPair& leaving, bool le
         const Vec3 from_staying = held_origin(staying, now.hand_ps(staying_hand).position);
         const Vec3 from_leaving = held_origin(leaving.grab, leaving.hand.edge_ps.position);
         origin_ws.position = 0.5 * (from_staying + from_leaving);
+    } else if (staying.jointed && leads_all_along(staying, staying_hand) &&
+               leads_all_along(leaving.grab, leaving.hand)) {
+        body_ws = led_body_ws(now, staying.body, tuning);
+        const Pose by_staying =
+            origin_by_jointed(now, leaving.player, body_ws, staying, staying_hand);
+        const Pose by_leaving =
+            origin_by_jointed(now, leaving.player, body_ws, leaving.grab, leaving.hand);
+        origin_ws.position = 0.5 * (by_staying.position + by_leaving.position);
+    } else if (share_free_body(leaving.grab, staying)) {
+        body_ws = held_body(now, leaving_is_first ? leaving : swapped(leaving));
     }
-    const Pose body_ws = share_free_body(leaving.grab, staying)
-                             ? held_body(now, leaving_is_first ? leaving : swapped(leaving))
-                             : now.body_ws(staying.body);
     if (staying_hand.resumed && share_free_body(leaving.grab, staying)) {
         take_anchor_at_start(io, leaving.player, staying_hand, staying);
     } else {
@@ -280,7 +381,7 @@ std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joini
     return leader;
 }
 
-void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
+void settle_fresh(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
     if (pair.hand.edge != GrabEdge::onset) {  // it has pulled something near, and has it now
         take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
         pair.grab.phase = GrabPhase::holding;
@@ -294,13 +395,15 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair) {
     const bool joins = leading != nullptr && leading->phase != GrabPhase::fresh &&
                        share_free_body(pair.grab, *leading);
     Pose body_ws = now.body_ws(pair.grab.body);
-    if (joins) {
+    if (pair.grab.jointed) {
+        body_ws = led_body_ws(now, pair.grab.body, tuning);
+    } else if (joins) {
         body_ws = held_body(now, swapped(pair));
     } else if (const std::optional<HandPair> leader = leader_of(io, pair)) {
         body_ws = held_body(now, *leader);
     }
-    take_anchor(body_ws, origin_at(now, pair.player, leading, pair.other_hand), pair.hand.edge_ps,
-                pair.grab);
+    take_anchor(body_ws, origin_at(now, pair.player, leading, pair.other_hand, tuning),
+                pair.hand.edge_ps, pair.grab);
     pair.grab.phase = GrabPhase::holding;
 }
 
@@ -321,7 +424,8 @@ std::size_t earliest_fresh(const SettleGrabsIo& io) {
 }
 
 // The hand was lost and is somewhere now: it holds on there, and so does the one it led with.
-void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, StageStats& stats) {
+void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning,
+                    StageStats& stats) {
     const Instant now{io, 0.0};
     if (pair.grab.two_handed) {
         take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
@@ -329,18 +433,18 @@ void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, StageStats& s
         pair.other->two_handed = false;
     }
     take_anchor(now.body_ws(pair.grab.body),
-                origin_at(now, pair.player, pair.other, pair.other_hand), pair.hand.pose_ps,
+                origin_at(now, pair.player, pair.other, pair.other_hand, tuning), pair.hand.pose_ps,
                 pair.grab);
     stats.count(Fallback::grip_reanchored);
 }
 
 }  // namespace
 
-void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats& stats) {
+void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_pairs(io, stats);
     // New grips before anything leaves.
     for (std::size_t row = earliest_fresh(io); row < io.grab.size(); row = earliest_fresh(io)) {
-        settle_fresh(io, pair_of(io, row));
+        settle_fresh(io, pair_of(io, row), tuning.phases);
     }
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -360,15 +464,16 @@ void settle_grabs(const SettleGrabsIo& io, const PalmTuning& tuning, StageStats&
         if (grab.phase == GrabPhase::releasing && pair.other != nullptr &&
             pair.other->phase == GrabPhase::holding && share_hold(grab, *pair.other)) {
             const std::size_t other = find_other_hand(io.owner, io.grab, row);
-            leave_shared_hold(io, pair, is_first_hand(io.owner, io.grab, row, other));
+            leave_shared_hold(io, pair, is_first_hand(io.owner, io.grab, row, other),
+                              tuning.phases);
             stats.count(Fallback::hand_left_two_hand_grip);
             continue;
         }
         if (grab.phase == GrabPhase::holding && pair.hand.resumed &&
             pair.hand.edge != GrabEdge::onset) {
-            settle_resumed(io, pair, stats);
+            settle_resumed(io, pair, tuning.phases, stats);
         }
-        draw_into_hand(io, io.grab.owners()[row], tuning, pair);
+        draw_into_hand(io, io.grab.owners()[row], tuning.palm, pair);
         aim(io, pair.hand, grab);
     }
     end_broken_pairs(io, stats);

@@ -23,8 +23,9 @@ Vec3 hand_of(const Scenario& s, HandSide side) {
 
 // The right hand holds, the left one joins; one of them leaves. Both go the same way, at up to 0.9
 // m/s and 3.6 m/s^2: the head goes it backwards, whoever of them holds.
-void join_and_leave_a_wall(HandSide leaving) {
+void join_and_leave_a_wall(HandSide leaving, double sample_hz) {
     Scenario s;
+    s.sample_hz = sample_hz;
     s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
     s.add_player_here();
     const auto way = [](double t_s) {
@@ -52,11 +53,15 @@ void join_and_leave_a_wall(HandSide leaving) {
 }
 
 TEST(TwoSupports, JoiningAndLeavingAWallMovesTheHeadByNothing) {
-    join_and_leave_a_wall(HandSide::left);
+    for (const double sample_hz : {90.0, 1000.0}) {
+        join_and_leave_a_wall(HandSide::left, sample_hz);
+    }
 }
 
 TEST(TwoSupports, PassingAWallFromHandToHandMovesTheHeadByNothing) {
-    join_and_leave_a_wall(HandSide::right);
+    for (const double sample_hz : {90.0, 1000.0}) {
+        join_and_leave_a_wall(HandSide::right, sample_hz);
+    }
 }
 
 // The hands want to be 20 cm farther apart than what they hold: half of it is missing at each when

@@ -35,7 +35,11 @@ struct Settling {
     Column<BodyStart> body_start;
     Column<BodyPose> body_pose;
     Column<AuthoredHold> authored_hold;
-    PalmTuning palm;
+    Column<HandHistory> hand_history;
+    Column<RigidBody> rigid_body;
+    Column<Joint> joint;
+    Column<JointState> joint_state;
+    Tuning tuning;
     Column<Grab> grab;
     StageStats stats;
 
@@ -47,10 +51,14 @@ struct Settling {
             body_pose.add(body);
         }
         for (const Entity entity : hands) {
-            owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
-            hand.add(entity);
-            grab.add(entity);
+            add_hand(k_player, entity, entity == k_left ? HandSide::left : HandSide::right);
         }
+    }
+    void add_hand(Entity player, Entity entity, HandSide side) {
+        owner.add(entity, {player, side});
+        hand.add(entity);
+        hand_history.add(entity);
+        grab.add(entity);
     }
     void move_player(const Pose& from, const Pose& to) {
         player_start.at(k_player).pose_ws = from;
@@ -81,9 +89,9 @@ struct Settling {
     }
     void run() {
         stats = {};
-        settle_grabs({k_start_s, k_end_s, owner, hand, player_start, origin, head, body_start,
-                      body_pose, authored_hold, grab},
-                     palm, stats);
+        settle_grabs({k_start_s, k_end_s, owner, hand, hand_history, player_start, origin, head,
+                      body_start, body_pose, authored_hold, rigid_body, joint, joint_state, grab},
+                     tuning, stats);
     }
 };
 
@@ -153,6 +161,31 @@ TEST(SettleGrabs, SecondHandsAnchorGoesByTheHandThatAlreadyHolds) {
     scene.run();
     // The holding hand has moved 0.1 in z by then: the origin is at -0.1.
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.3, 1.0, -0.1)).norm(), 1e-12);
+}
+
+// The same with a hand that does not go straight: samples say where it was in between.
+TEST(SettleGrabs, SecondHandsAnchorGoesByTheHoldersWayThroughItsSamples) {
+    for (const double sampled_at : {0.25, 0.5, 0.75}) {
+        Settling scene;
+        scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.0, 0.2)));
+        HandHistory& history = scene.hand_history.at(k_right);
+        const double sample_s = k_start_s + sampled_at * k_dt_s;
+        history.entries[0] = {k_start_s - k_dt_s, pose_at(Vec3(9.0, 9.0, 9.0))};
+        history.entries[1] = {sample_s, pose_at(Vec3(0.3, 1.4, 0.0))};
+        history.entries[2] = {k_end_s, pose_at(Vec3(0.3, 1.0, 0.2))};
+        history.count = history.next = 3;
+        scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall,
+                       pose_at(Vec3(0.3, 1.0, 0.0)));
+        scene.move_hand(k_left, pose_at(Vec3(-0.3, 1.0, 0.0)), pose_at(Vec3(-0.3, 1.0, 0.0)));
+        scene.set_edge(k_left, GrabEdge::onset, 0.5);
+        scene.set_grip(k_left, GripKind::surface, GrabPhase::fresh, k_wall);
+        scene.run();
+        // Up by 0.4 m until the sample, then down, and 0.2 m along z.
+        const Vec3 way = sampled_at >= 0.5 ? Vec3(0.0, 0.4 * 0.5 / sampled_at, 0.0)
+                                           : Vec3(0.0, 0.4 - 0.4 * 0.25 / 0.75, 0.2 * 0.25 / 0.75);
+        EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - (Vec3(-0.3, 1.0, 0.0) - way)).norm(),
+                  1e-9);
+    }
 }
 
 TEST(SettleGrabs, GripsKeepTheirAnchorWhileNothingHappens) {
@@ -344,19 +377,14 @@ constexpr Entity k_guest_hand = test::entity(8);
 // along z, where prediction has the ship fly off; a guest's hand closes on it.
 Settling joined_by_guest(double fraction, bool guest_is_listed_first) {
     Settling scene({});
-    const auto add = [&](Entity player, Entity hand, HandSide side) {
-        scene.owner.add(hand, {player, side});
-        scene.hand.add(hand);
-        scene.grab.add(hand);
-    };
     scene.player_start.add(k_guest);
     scene.origin.add(k_guest);
     if (guest_is_listed_first) {
-        add(k_guest, k_guest_hand, HandSide::right);
-        add(k_player, k_left, HandSide::left);
+        scene.add_hand(k_guest, k_guest_hand, HandSide::right);
+        scene.add_hand(k_player, k_left, HandSide::left);
     } else {
-        add(k_player, k_left, HandSide::left);
-        add(k_guest, k_guest_hand, HandSide::right);
+        scene.add_hand(k_player, k_left, HandSide::left);
+        scene.add_hand(k_guest, k_guest_hand, HandSide::right);
     }
     scene.move_body(k_ship, {}, pose_at(Vec3(0.0, 0.0, 7.0)));
     scene.move_hand(k_left, pose_at(Vec3(-0.2, 1.0, 0.0)), pose_at(Vec3(-0.2, 1.0, 0.2)));
@@ -399,9 +427,7 @@ TEST(SettleGrabs, WhoClosesFirstLeadsWhoeverIsListedFirst) {
 // He climbs with his other hand: what he holds goes with the wall, not with his predicted way.
 TEST(SettleGrabs, GuestsAnchorGoesByTheWallThatTheHolderHoldsOnTo) {
     Settling scene = joined_by_guest(0.5, false);
-    scene.owner.add(k_right, {k_player, HandSide::right});
-    scene.hand.add(k_right);
-    scene.grab.add(k_right);
+    scene.add_hand(k_player, k_right, HandSide::right);
     scene.set_grip(k_right, GripKind::surface, GrabPhase::holding, k_wall, pose_at(Vec3(0, 2, 0)));
     scene.move_hand(k_right, pose_at(Vec3(0, 2, 0)), pose_at(Vec3(0.0, 2.3, 0.0)));  // he goes down
     scene.move_player({}, pose_at(Vec3(5.0, 0.0, 0.0)));
@@ -415,9 +441,7 @@ TEST(SettleGrabs, BodyInTheHandsOfTwoOthersIsWherePredictionHasIt) {
     Settling scene = joined_by_guest(0.5, false);
     scene.player_start.add(k_third);
     scene.origin.add(k_third);
-    scene.owner.add(k_third_hand, {k_third, HandSide::left});
-    scene.hand.add(k_third_hand);
-    scene.grab.add(k_third_hand);
+    scene.add_hand(k_third, k_third_hand, HandSide::left);
     scene.set_grip(k_third_hand, GripKind::held, GrabPhase::holding, k_ship);
     EXPECT_LT((guest_anchor(scene) - Vec3(0.2, 1.0, -3.5)).norm(), 1e-12);
 }
