@@ -23,7 +23,8 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
             continue;
         }
         const bool is_rail = joint.kind == JointKind::hinge || joint.kind == JointKind::slider;
-        if (rail || !is_rail) {
+        const bool is_gone = !is_null(holder) && !io.body.contains(holder);
+        if (rail || !is_rail || is_gone) {
             return std::nullopt;
         }
         const Pose& frame_hs = is_b ? joint.frame_a_bs : joint.frame_b_bs;

@@ -118,6 +118,16 @@ struct SolverTuning {
     double forward_hand_softness = 1e-3;
     double contact_softness = 1e-7;
     double joint_softness = 1e-10;
+    // How far they do, and how fast (engine/solver/softness.hpp).
+    double softest_hand = 1e-2;
+    double hardest_hand = 1e-9;
+    double softest_contact = 1e-3;
+    double hardening = 0.03;
+    double softening = 10.0;
+    std::int32_t steady_steps = 3;
+    double steady_share = 0.95;
+    double largest_turn_rad = 1.0;
+    double least_scale = 0.3;
     double stiffness_from_m = 1e-4;
     std::int32_t friction_passes = 16;
 };
@@ -285,6 +295,24 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "how much contacts give way that cannot all be met");
     see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1e-3,
         "how much joints give way that cannot all be met; their limits a hundred times");
+    see("solver.softest_hand", t.solver.softest_hand, "", 1e-9, 1.0,
+        "how much hands give way at most, where the error does not fall");
+    see("solver.hardest_hand", t.solver.hardest_hand, "", 1e-12, 1e-2,
+        "how much hands give way at least, where the error falls");
+    see("solver.softest_contact", t.solver.softest_contact, "", 1e-12, 1e-2,
+        "how much contacts that contradict each other give way at most");
+    see("solver.hardening", t.solver.hardening, "", 1e-6, 1.0,
+        "times the softness of hands after a step that takes the error down");
+    see("solver.softening", t.solver.softening, "", 1.0, 1e6,
+        "times the softness of hands after a step that does not");
+    see("solver.steady_steps", t.solver.steady_steps, "", 1.0, 1000.0,
+        "whole steps in a row that let the error fall slowly count as one that takes it down");
+    see("solver.steady_share", t.solver.steady_share, "", 0.0, 1.0,
+        "of the error, which such a step leaves at most");
+    see("solver.largest_turn_rad", t.solver.largest_turn_rad, "rad", 1e-3, 3.0,
+        "of a body in a Newton step; farther ones are scaled down");
+    see("solver.least_scale", t.solver.least_scale, "", 0.0, 1.0,
+        "steps scaled down further are tried again with everything softer");
     see("solver.stiffness_from_m", t.solver.stiffness_from_m, "m", 1e-9, 10.0,
         "constraint error above which steps account for how forces turn with their arms");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,

@@ -12,24 +12,16 @@
 namespace handhold {
 namespace {
 
-constexpr double k_softness_cap = 1e-2;
-constexpr double k_softness_floor = 1e-9;
-constexpr double k_contact_softness_cap = 1e-3;
 constexpr double k_stubborn_overlap_m =
-    1e-4;                                   // contacts that contradict each other soften from here
-constexpr double k_near_contact_m = 1e-3;   // contacts farther than this and any error stay out
-constexpr double k_largest_turn_rad = 1.0;  // of a step
+    1e-4;                                  // contacts that contradict each other soften from here
+constexpr double k_near_contact_m = 1e-3;  // contacts farther than this and any error stay out
 // The farthest that joints may move a body, in what they lack: a chain that is all but stretched
 // out. A hand that pulls across an endless rail would send what slides on it to the horizon.
 constexpr double k_largest_joint_move = 10.0;
-constexpr double k_free_move_m = 0.1;     // no move is too far up to this
-constexpr double k_smallest_scale = 0.3;  // below: regularise more instead of scaling further
+constexpr double k_free_move_m = 0.1;  // no move is too far up to this
 // Of the tolerance: the view goes where hands are, and shows what they lack. What a step leaves of
 // it the same factor takes away.
 constexpr double k_hand_share = 0.1;
-// Whole steps in a row that each leave less than this share of the error.
-constexpr int k_steady_steps = 3;
-constexpr double k_steady_share = 0.95;
 // Of the tolerance: what a step moves by less is at rest.
 constexpr double k_still_share = 1e-3;
 
@@ -305,25 +297,32 @@ class TriadSteps {
 // overshoot to and fro are no progress, but on a light link at the end of heavy ones it is the soft
 // hand itself that lets the error fall but slowly. Contacts do so only where they contradict each
 // other: else their multipliers grow without bound and push along what they do not even oppose.
-void adapt(bool progresses, double overlap_m, double previous_overlap_m, double contact_softness,
-           Softness& softness) {
-    const bool hands_gave_way = softness.hand >= k_softness_cap;
+void adapt(bool progresses, double overlap_m, double previous_overlap_m,
+           const NewtonSettings& settings, Softness& softness) {
+    const StepSchedule& schedule = settings.schedule;
+    const bool hands_gave_way = softness.hand >= schedule.softest_hand;
     const bool stubborn =
         hands_gave_way && overlap_m > k_stubborn_overlap_m && overlap_m > 0.5 * previous_overlap_m;
-    softness.hand = progresses ? std::max(softness.hand * 0.03, k_softness_floor)
-                               : std::min(softness.hand * 10.0, k_softness_cap);
-    softness.contact = stubborn ? std::min(softness.contact * 10.0, k_contact_softness_cap)
-                                : std::max(softness.contact * 0.1, contact_softness);
+    softness.hand = progresses
+                        ? std::max(softness.hand * schedule.hardening, schedule.hardest_hand)
+                        : std::min(softness.hand * schedule.softening, schedule.softest_hand);
+    softness.contact =
+        stubborn
+            ? std::min(softness.contact * schedule.softening, schedule.softest_contact)
+            : std::max(softness.contact * (1.0 / schedule.softening), settings.softness.contact);
 }
 
 // Says whether the error falls steadily, step by step, and begins to count anew where it does.
 // Between contacts steps are not trusted that far.
 class SteadyFall {
   public:
+    explicit SteadyFall(const StepSchedule& schedule) : schedule_(schedule) {}
+
     bool take(double residual_m, double least_m, bool is_whole, bool has_contact) {
-        const bool falls = is_whole && !has_contact && residual_m < k_steady_share * least_m;
+        const bool falls =
+            is_whole && !has_contact && residual_m < schedule_.steady_share * least_m;
         steps_ = falls ? steps_ + 1 : 0;
-        if (steps_ < k_steady_steps) {
+        if (steps_ < schedule_.steady_steps) {
             return false;
         }
         steps_ = 0;
@@ -331,6 +330,7 @@ class SteadyFall {
     }
 
   private:
+    const StepSchedule& schedule_;
     int steps_ = 0;
 };
 
@@ -341,7 +341,8 @@ struct StepResult {
 
 // One Newton step.
 template <typename Steps>
-StepResult take_step(const Softness& softness, double worst_m, Steps& steps) {
+StepResult take_step(const Softness& softness, const StepSchedule& schedule, double worst_m,
+                     Steps& steps) {
     double factor = 1.0;
     double scale = 1.0;
     for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
@@ -351,8 +352,8 @@ StepResult take_step(const Softness& softness, double worst_m, Steps& steps) {
         const double largest = steps.has_contact()
                                    ? k_largest_move * worst_m
                                    : std::max(k_largest_joint_move * worst_m, k_free_move_m);
-        scale = std::min({1.0, k_largest_turn_rad / turn, largest / move});
-        if (scale >= k_smallest_scale) {
+        scale = std::min({1.0, schedule.largest_turn_rad / turn, largest / move});
+        if (scale >= schedule.least_scale) {
             break;
         }
         factor *= 100.0;
@@ -396,7 +397,7 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
     double previous_overlap = previous;
     double least = previous;
     StepResult step{previous, false};
-    SteadyFall fall;
+    SteadyFall fall(settings.schedule);
     bool polishes = false;  // the step to come, or just taken, is for hands alone
     for (;;) {
         steps.evaluate(step.whole);
@@ -420,12 +421,13 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
         if (result.iterations > 0 && !repeats) {
             const bool is_steady =
                 fall.take(result.residual_m, least, step.whole, steps.has_contact());
-            adapt(result.residual_m < 0.5 * least || is_steady, overlap, previous_overlap,
-                  settings.softness.contact, softness);
+            adapt(result.residual_m < 0.5 * least || is_steady, overlap, previous_overlap, settings,
+                  softness);
             choose_rows(step.whole && result.residual_m < 0.5 * previous, settings, steps);
             steps.stiffen(result.residual_m > settings.stiffness_from_m);
         }
-        step = repeats ? repeat_step(steps) : take_step(softness, result.residual_m, steps);
+        step = repeats ? repeat_step(steps)
+                       : take_step(softness, settings.schedule, result.residual_m, steps);
         result.unsettled |= steps.is_unsettled();
         previous = result.residual_m;
         least = std::min(least, previous);

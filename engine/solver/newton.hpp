@@ -14,6 +14,7 @@ struct NewtonSettings {
     Softness softness{};             // at first; contacts and joints never have less
     double stiffness_from_m = 1e-4;  // residual above which geometric stiffness is added
     bool leads = true;               // hands part by part where the iterations do not suffice
+    StepSchedule schedule{};
 };
 
 struct NewtonResult {

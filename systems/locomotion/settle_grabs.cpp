@@ -110,7 +110,7 @@ HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
 
 // --- Bodies on joints --------------------------------------------------------------------------
 
-// Has it had what it holds since before the frame, and does it know where it is?
+// True where it has had what it holds since before the frame, and knows where it is.
 bool leads_all_along(const Grab& grab, const HandTracking& hand) {
     return grab.phase != GrabPhase::none && grab.phase != GrabPhase::fresh &&
            hand.edge != GrabEdge::onset && !hand.resumed;

@@ -131,11 +131,14 @@ NewtonSettings settings_of(const Solve& s, Phase phase) {
     const SolverTuning& tuning = s.tuning.solver;
     const double hand =
         phase == Phase::forward ? tuning.forward_hand_softness : tuning.hand_softness;
-    return {tuning.max_iterations,
-            tuning.tolerance_m,
-            tuning.step_tolerance_m,
-            {hand, tuning.contact_softness, tuning.joint_softness},
-            tuning.stiffness_from_m};
+    return {.max_iterations = tuning.max_iterations,
+            .tolerance_m = tuning.tolerance_m,
+            .step_tolerance_m = tuning.step_tolerance_m,
+            .softness = {hand, tuning.contact_softness, tuning.joint_softness},
+            .stiffness_from_m = tuning.stiffness_from_m,
+            .schedule = {tuning.softest_hand, tuning.hardest_hand, tuning.softest_contact,
+                         tuning.hardening, tuning.softening, tuning.steady_steps,
+                         tuning.steady_share, tuning.largest_turn_rad, tuning.least_scale}};
 }
 
 BlockFilter filter_of(Phase phase) {

@@ -184,7 +184,7 @@ TEST(SolvePositions, RodBetweenTwoHandsIsFoundFromAnyTurn) {
 // Rods of 0.1 m joined end to end, alternately of 1 and 1000 kg, whose stretched chain's end jumps
 // aside by 63 degrees. Without geometric stiffness it zigzags for all 30 iterations and leaves 47
 // mm.
-TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
+SolverScene uneven_chain_with_a_far_hand() {
     constexpr std::uint32_t k_links = 8;
     constexpr double k_half_m = 0.05;
     const Vec3 end(k_half_m, 0.0, 0.0);
@@ -205,12 +205,29 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
     const Vec3 hand = 0.9 * length_m * Vec3(1.0, 2.0, 0.0).normalized();
     scene.graph.blocks.push_back(
         test::row_block(RowKind::hand_point, k_links + 1, k_links, hand, end));
-    const NewtonResult result = scene.solve_positions();
+    return scene;
+}
+
+TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
+    const NewtonResult result = uneven_chain_with_a_far_hand().solve_positions();
     EXPECT_TRUE(result.converged) << "left " << result.residual_m;
     EXPECT_LE(result.iterations, 20);
 }
 
-RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyByMoreThanARadian, (std::uint64_t seed)) {
+TEST(SolvePositions, HandsHardenAsFastAsTheScheduleSays) {
+    NewtonSettings settings;
+    settings.leads = false;
+    settings.softness.hand = 1e-3;
+    const int usual = uneven_chain_with_a_far_hand().solve_positions(settings).iterations;
+    settings.schedule.hardening = 0.5;
+    EXPECT_GT(uneven_chain_with_a_far_hand().solve_positions(settings).iterations, usual);
+    // Hands that stay as soft as they may be are drawn off by the links' weight on the way.
+    settings.schedule.hardening = 1.0;
+    settings.schedule.softest_hand = settings.softness.hand = 1e-2;
+    EXPECT_FALSE(uneven_chain_with_a_far_hand().solve_positions(settings).converged);
+}
+
+RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyFartherThanTheScheduleSays, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1, test::random_pose(random)),
@@ -219,10 +236,12 @@ RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyByMoreThanARadian, (std::uint64_t 
     scene.graph.blocks = {test::random_block(kind, 0, 1, random)};
     NewtonSettings settings;
     settings.max_iterations = 1;
+    settings.schedule.largest_turn_rad = random.between(0.05, 1.0);
     for (int i = 0; i < 5; ++i) {
         const Quat before = scene.body(1).pose_ws.rotation;
         scene.solve_positions(settings);
-        RC_ASSERT(angle_between(scene.body(1).pose_ws.rotation, before) < 1.0 + 1e-9);
+        RC_ASSERT(angle_between(scene.body(1).pose_ws.rotation, before) <
+                  settings.schedule.largest_turn_rad + 1e-7);
     }
 }
 
