@@ -228,6 +228,12 @@ void visit_fields(const FingerRetry& c, V&& visit) {
     visit("queued", c.queued);
 }
 template <typename V>
+void visit_fields(const FingerOutlook& c, V&& visit) {
+    visit("wait_m", c.wait_m);
+    visit("since_m", c.since_m);
+    visit("is_ahead", c.is_ahead);
+}
+template <typename V>
 void visit_fields(const ThumbSearch& c, V&& visit) {
     visit("runs", c.runs);
     visit("is_near", c.is_near);
@@ -421,6 +427,9 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("to_clear", c.to_clear);
     visit("has_room_m", c.has_room_m);
     visit("bends", c.bends);
+    visit("search_in_m", c.search_in_m);
+    visit("is_settled", c.is_settled);
+    visit("pushed_at_rest", c.pushed_at_rest);
     visit("was_judged", c.was_judged);
 }
 template <typename V>
@@ -455,6 +464,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("thumb_arrived", c.thumb_arrived);
     visit("thumb_search", c.thumb_search);
     visit("retry", c.retry);
+    visit("outlook", c.outlook);
     visit("finger_tried", c.finger_tried);
     visit("thumb_waits", c.thumb_waits);
     visit("pose_refused", c.pose_refused);

@@ -5,6 +5,12 @@
 #include "engine/collision/closest_point.hpp"
 
 namespace handhold {
+namespace {
+
+constexpr double k_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
+constexpr double k_most_way_m = 1.0;
+
+}  // namespace
 
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist) {
     HingeChain chain;
@@ -80,10 +86,8 @@ void count_refusal(const PalmOffset& offset, std::size_t finger, FingerPose& pos
 }
 
 void age(FingerRetry& retry, double way_m, double dt_s) {
-    constexpr double k_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
-    constexpr double k_most_m = 1.0;
-    retry.since_m = std::min(retry.since_m + way_m, k_most_m);
-    retry.wait_m = std::max(retry.wait_m - way_m - k_time_mps * dt_s, -k_most_m);
+    retry.since_m = std::min(retry.since_m + way_m, k_most_way_m);
+    retry.wait_m = std::max(retry.wait_m - way_m - k_time_mps * dt_s, -k_most_way_m);
 }
 
 bool may_retry(const FingerRetry& retry) { return retry.wait_m <= 0.0 && retry.since_m > 0.0; }
@@ -99,6 +103,26 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
     const std::uint32_t rounds = in_vain ? std::min(retry.tries - 1, k_most_rounds) : 0;
     retry.wait_m = k_first_m * (1U << rounds);
     retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
+}
+
+void age(FingerOutlook& outlook, double way_m, double dt_s) {
+    outlook.since_m = std::min(outlook.since_m + way_m, k_most_way_m);
+    outlook.wait_m = std::max(outlook.wait_m - way_m - k_time_mps * dt_s, 0.0);
+}
+
+std::optional<bool> is_ahead(const FingerOutlook& outlook) {
+    return outlook.wait_m > 0.0 ? std::optional<bool>(outlook.is_ahead) : std::nullopt;
+}
+
+void note_outlook(ChainFit& fit, FingerOutlook& outlook) {
+    constexpr double k_look_again_m = 0.004;
+    if (fit.has_looked_ahead) {
+        outlook = {k_look_again_m, 0.0, fit.is_ahead};
+    } else if (fit.fallback != ChainFallback::relaxed && fit.contact_link != DiscClosure::k_none) {
+        outlook = {};
+    } else if (outlook.since_m > 0.0) {
+        fit.is_on_its_way = true;
+    }
 }
 
 bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning& tuning,

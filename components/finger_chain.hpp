@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "components/hand.hpp"
 #include "components/hand_rig.hpp"
 #include "components/hand_surroundings.hpp"
@@ -45,6 +47,14 @@ void age(FingerRetry& retry, double way_m, double dt_s);
 bool may_retry(const FingerRetry& retry);
 // After a try, of `most` things that there are to try.
 void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
+
+// FingerOutlook's frame: the wrist shown went `way_m`.
+void age(FingerOutlook& outlook, double way_m, double dt_s);
+// What of it still counts for a chain that is fitted again.
+std::optional<bool> is_ahead(const FingerOutlook& outlook);
+// After the chain was fitted again: it looked, it touches something and need not, or it goes by
+// what it knew. What it knew of another place has to be looked at again where the hand rests.
+void note_outlook(ChainFit& fit, FingerOutlook& outlook);
 
 // Lifts the palm by one step more where fingers or the thumb are sunk so deep, up to three times.
 // Not before the hand that is shown has come to where it is bound for: on its way there they may

@@ -50,15 +50,26 @@ struct BestBend {
     double sunk_m = std::numeric_limits<double>::infinity();
     std::size_t bend = 0;  // of k_bends
     std::uint32_t opposition = 0;
+
+    bool has_room() const { return sunk_m <= k_fingers_have_room_m; }
 };
 
-// Keeps the better.
+// Keeps the better; the first with room will do.
 void try_bends(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
                ChainPatch& patch, BestBend& best) {
+    // Straight, which is the first of the bends, most have room, and there is little to gather.
+    patch.gather(chain_reach(chain, chain.open_rad, chain.open_rad), hand.meshes);
+    const double straight_m = chain_depth(chain, chain.open_rad, patch).depth_m;
+    if (straight_m < best.sunk_m) {
+        best = {straight_m, 0, opposition};
+    }
+    if (best.has_room()) {
+        return;
+    }
     patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, chain.closed_rad)),
                  hand.meshes);
     ChainDepths depths(chain, patch);
-    for (std::size_t i = 0; i < k_bends.size() && best.sunk_m > 0.0; ++i) {
+    for (std::size_t i = 1; i < k_bends.size() && !best.has_room(); ++i) {
         const double depth_m = depths.depth_m(
             bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count), best.sunk_m);
         if (depth_m < best.sunk_m) {
@@ -74,11 +85,11 @@ FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, 
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         BestBend best;
-        for (std::uint32_t i = 0; i < oppositions_of(finger) && best.sunk_m > 0.0; ++i) {
+        for (std::uint32_t i = 0; i < oppositions_of(finger) && !best.has_room(); ++i) {
             try_bends(hand, finger_chain(finger, opposition_rad(finger, i), wrist_bs), i, patch,
                       best);
         }
-        if (best.sunk_m > k_fingers_have_room_m) {
+        if (!best.has_room()) {
             room.bends[f] =
                 static_cast<std::uint8_t>(1 + best.bend + k_bends.size() * best.opposition);
         }

@@ -46,6 +46,13 @@ struct GripSurface {
     FingerBends to_clear = {};
     // Where the fingers had room: how far the hand still goes until that is asked again.
     double has_room_m = 0.0;
+    // While it is held: how far the hand still goes until all around is searched again, and the
+    // mean of the surface found anew.
+    double search_in_m = 0.0;
+    // False: pushing the palm on moves it still. A hand that rests is held again until it does
+    // not, but for no more than a few frames.
+    bool is_settled = true;
+    std::uint32_t pushed_at_rest = 0;  // frames
     // Room for palm and fingers was looked for in this frame: what is dear has turns. Next frame it
     // is not, while the surface and its room are there, and in this one nothing that is sunk is
     // tried anew.
@@ -84,6 +91,14 @@ struct FingerRetry {
     std::uint32_t queued = 0;
 };
 
+// Whether a finger that touches nothing would touch something if it closed: to look for that is
+// dear, and mostly the same a little farther on. By the way of the wrist shown.
+struct FingerOutlook {
+    double wait_m = 0.0;   // still to go until it looks again; time counts as a way. 0: not known
+    double since_m = 0.0;  // gone since it looked
+    bool is_ahead = false;
+};
+
 // A thumb's way through its oppositions, of which a few are tried in each frame.
 struct ThumbSearch {
     bool runs = false;
@@ -113,6 +128,7 @@ struct FingerPose {
     bool thumb_arrived = false;
     ThumbSearch thumb_search;
     std::array<FingerRetry, k_finger_count> retry;
+    std::array<FingerOutlook, k_finger_count> outlook;
     // A hand tries anew one sunk digit in a frame, beside those that are closed for the first time:
     // the fingers leave the next turn to a thumb that waits.
     bool finger_tried = false;  // in this frame; by sweep_fingers

@@ -13,11 +13,12 @@ namespace handhold {
 namespace {
 
 constexpr int k_most_pushes = 6;
-constexpr int k_most_pushes_on = 2;     // the next frame goes on with it
+constexpr int k_most_pushes_on = 1;     // the next frame goes on with it
 constexpr int k_fair_pushes = 2;        // then it may be given up
 constexpr double k_least_arm_m = 1e-3;  // turning is never quite free
 constexpr double k_any_step_m = 1.0;
 constexpr double k_sunk_m = 5e-5;        // what is sunk less is not pushed out
+constexpr double k_near_m = 0.003;       // gaps as wide are seen
 constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
 
 // How far beside the found triangle the palm is: along the triangle's plane, zero over it.
@@ -113,7 +114,9 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
 // winding, and from which side the palm is held to.
 class PalmSpheres {
   public:
-    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface) : hand_(hand) {
+    // `is_clear`: nothing was sunk a moment ago, so that nothing is deep inside of something.
+    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool is_clear)
+        : hand_(hand), is_clear_(is_clear) {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
@@ -197,15 +200,18 @@ class PalmSpheres {
         Seen overflow;
         Seen& seen = place < seen_.size() ? seen_[place] : overflow;
         if ((sphere.center - seen.center).squaredNorm() < seen.clear_m * seen.clear_m) {
-            return gap_over(placed, sphere, seen.point);
+            return seen.has_point ? std::optional(gap_over(placed, sphere, seen.point))
+                                  : std::nullopt;
         }
-        double look_m = std::max(sphere.radius_m, k_far_inside_m);
+        double look_m =
+            is_clear_ ? sphere.radius_m + k_near_m : std::max(sphere.radius_m, k_far_inside_m);
         if (seen.has_point) {
             constexpr double k_noise_m = 1e-9;
             look_m = std::min(look_m, (sphere.center - seen.point).norm() + k_noise_m);
         }
         const auto near = placed.mesh->contact_bvh.closest_point(sphere.center, look_m);
-        seen = {sphere.center, near ? near->point : Vec3::Zero(), 0.0, near.has_value()};
+        seen = {sphere.center, near ? near->point : Vec3::Zero(), look_m - sphere.radius_m,
+                near.has_value()};
         if (!near) {
             return std::nullopt;
         }
@@ -242,6 +248,7 @@ class PalmSpheres {
     static constexpr std::size_t k_most_seen = 96;  // the others are looked at every time
 
     const HandSurroundings& hand_;
+    bool is_clear_;
     double side_ = 1.0;
     std::array<PalmCapsule, k_finger_count * k_most_links> links_;  // of bent fingers
     std::array<bool, k_finger_count* k_most_links> is_first_ = {};  // of its finger
@@ -330,7 +337,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(hold_to_limits(hand, last.wrist_bs, last, lift_m, tuning),
                              last.held_bs, center_hs);
     }
-    PalmSpheres palm(hand, surface);
+    PalmSpheres palm(hand, surface, goes_on && effort.last->has_room_m > 0.0);
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
@@ -362,6 +369,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
             best = {wrist, sunk_m, palm.fingers_sunk_m()};
         }
     }
+    best.is_settled = is_settled(deepest_m, step_m, is_pushed);
     return best;
 }
 

@@ -13,12 +13,13 @@ struct PalmFit {
     Pose wrist_bs;        // within the limits, then out of what it was sunk in as far as that goes
     double sunk_m = 0.0;  // how deep the palm still is, at least 0
     double fingers_sunk_m = 0.0;  // and the deepest of the fingers that were held clear with it
+    bool is_settled = true;       // false: with more pushes it would be another
 };
 
 // How hard fit_palm tries.
 struct PalmEffort {
     // Of the same hand a frame ago: begins with the move that held the palm there, which is mostly
-    // nearly the one, and tries on from frame to frame.
+    // nearly the one, and pushes once: it settles from frame to frame.
     const GripSurface* last = nullptr;
     // Palms that stay sunk deeper soon are given up.
     double most_sunk_m = std::numeric_limits<double>::infinity();

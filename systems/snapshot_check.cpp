@@ -239,6 +239,11 @@ class BreachFinder {
                       "finger_pose", w_.finger_pose.owners()[row], ".retry",
                       "ways within 1 m, at most a million tries or frames");
             }
+            for (const FingerOutlook& outlook : w_.finger_pose.rows()[row].outlook) {
+                check(outlook.wait_m >= 0.0 && outlook.wait_m <= k_most_m &&
+                          outlook.since_m >= 0.0 && outlook.since_m <= k_most_m,
+                      "finger_pose", w_.finger_pose.owners()[row], ".outlook", "ways in [0, 1] m");
+            }
             const ThumbSearch& search = w_.finger_pose.rows()[row].thumb_search;
             check(search.from_step < k_most_tries && search.tried <= k_most_tries, "finger_pose",
                   w_.finger_pose.owners()[row], ".thumb_search", "at most a million steps");
@@ -249,6 +254,8 @@ class BreachFinder {
                   w_.grip_surface.owners()[row], ".look_in_m", "a way in [0, 1] m");
             check(surface.has_room_m >= 0.0 && surface.has_room_m <= k_most_m, "grip_surface",
                   w_.grip_surface.owners()[row], ".has_room_m", "a way in [0, 1] m");
+            check(surface.search_in_m <= k_most_m, "grip_surface", w_.grip_surface.owners()[row],
+                  ".search_in_m", "a way of at most 1 m");
             check(surface.tried_count <= GripSurface::k_most_tries, "grip_surface",
                   w_.grip_surface.owners()[row], ".tried_count", "at most 14");
         }

@@ -38,7 +38,7 @@ class ChainFitter {
             return fit_;
         }
         bool is_complete = false;
-        if (seed.triangle != k_no_triangle) {
+        if (settings_.searches && seed.triangle != k_no_triangle) {
             is_complete = search_cuts(seed);
             close();
         }

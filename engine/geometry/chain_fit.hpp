@@ -36,7 +36,8 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool mends = true;  // false: neither bends nor opens what is sunk
+    bool searches = true;  // false: all cuts at once, none is searched for
+    bool mends = true;     // false: neither bends nor opens what is sunk
 };
 
 enum class ChainFallback : std::uint8_t {
@@ -57,6 +58,8 @@ struct ChainFit {
                            // through the chain's middle, with what is beyond
     ChainFallback fallback = ChainFallback::none;
     bool is_on_its_way = false;  // of a refit (chain_refit.hpp): it would turn farther than it may
+    bool has_looked_ahead = false;  // of a refit: there was nothing to touch near it
+    bool is_ahead = false;          // then: and there is farther on
     bool wants_mending = false;  // only where ChainFitSettings::mends is off: with it, it would be
                                  // another
     std::uint32_t discs = 0;     // planes searched

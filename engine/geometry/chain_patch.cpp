@@ -77,6 +77,7 @@ class ChainPatch::SunkSearch {
         const SegmentTriangle found = nearest_between(segment_, triangle.corners, triangle.normal);
         if (found.distance_m < nearest_m_) {
             nearest_m_ = found.distance_m;
+            nearest_ = found;
             limit();
             drop_far();
         }
@@ -86,7 +87,15 @@ class ChainPatch::SunkSearch {
         }
     }
 
-    SunkCapsule found() const { return {radius_m_ - nearest_m_, nearest_m_, crossed_at_}; }
+    SunkCapsule found() const {
+        SunkCapsule sunk = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
+        sunk.nearest_ds = nearest_.on_segment.head<2>();
+        if (nearest_.distance_m > 0.0) {
+            const Vec3 way = nearest_.on_segment - nearest_.on_triangle;
+            sunk.away_ds = way.head<2>() / nearest_.distance_m;
+        }
+        return sunk;
+    }
 
   private:
     struct Noted {
@@ -159,6 +168,7 @@ class ChainPatch::SunkSearch {
     double length_m_;
     double radius_m_;
     double nearest_m_;
+    SegmentTriangle nearest_;
     double spare_m_;
     std::optional<double> crossed_at_;
     // The middle in the plane, each number four times, and how far around it matters.

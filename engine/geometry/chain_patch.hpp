@@ -30,6 +30,10 @@ struct SunkCapsule {
     double nearest_m = 0.0;  // that distance, where it is less than the radius; else the radius
     std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
                                        // through its middle
+    // Of the nearest pair of points, where there is one: that on its middle, and the way there from
+    // the surface, unit, what of it lies in the plane. Zero where a surface goes through.
+    Vec2 nearest_ds = Vec2::Zero();
+    Vec2 away_ds = Vec2::Zero();
 };
 
 // Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/chain_follow.hpp"
+
 namespace handhold {
 namespace {
 
@@ -15,13 +17,16 @@ class ChainRefitter {
     ChainFit run(const ChainAngles& last_rad, std::span<const PlacedMesh> meshes) {
         fit_.angle_rad = within_limits(last_rad);
         gather_near(meshes);
-        const ChainDepth depth = depth_of(fit_.angle_rad, refit_.still_gap_m);
-        const double sunk_m = depth.depth_m - refit_.still_gap_m;
+        const ChainDepth depth = depth_of(fit_.angle_rad, refit_.look_gap_m);
+        if (follow(depth)) {
+            return fit_;
+        }
+        const double sunk_m = depth.depth_m - refit_.look_gap_m;
         if (sunk_m > refit_.still_depth_m) {
             if (!open(own_depth(chain_, depth, chain_.link_count))) {
                 return fit_;
             }
-        } else if (depth.depth_m > 0.0) {
+        } else if (sunk_m > -refit_.still_gap_m) {
             stay(depth);
             if (is_done()) {
                 return fit_;
@@ -66,13 +71,30 @@ class ChainRefitter {
     // With each hinge anywhere between two angles.
     void gather_between(const ChainAngles& least_rad, const ChainAngles& most_rad,
                         std::span<const PlacedMesh> meshes) {
-        ChainReach reach = chain_reach(chain_, least_rad, most_rad, refit_.still_gap_m);
+        ChainReach reach = chain_reach(chain_, least_rad, most_rad, refit_.look_gap_m);
         reach.half_width_m = half_width_m(chain_, settings_.plane_offset);
         scratch_.patch.gather(reach, meshes);
     }
 
     ChainDepth depth_of(const ChainAngles& angle_rad, double more_m) const {
         return chain_depth(chain_, angle_rad, scratch_.patch, {.more_m = more_m});
+    }
+
+    // On the surface where it is near by. False where it has to be closed anew.
+    bool follow(const ChainDepth& depth) {
+        const ChainFollowSettings settings = {
+            .still_gap_m = refit_.still_gap_m,
+            .still_depth_m = refit_.still_depth_m,
+            .look_gap_m = refit_.look_gap_m,
+            .most_opened = refit_.open_share * refit_.open_steps,
+            .most_closed = std::min(refit_.close_share, turn_share())};
+        const auto followed = follow_chain(chain_, fit_.angle_rad, depth, scratch_.patch, settings);
+        if (followed) {
+            fit_.angle_rad = followed->angle_rad;
+            fit_.depth_m = followed->depth_m;
+            fit_.contact_link = followed->last_touching;
+        }
+        return followed.has_value();
     }
 
     // Opens the hinges up to the deepest link until all is clear; false where it does not come
@@ -104,7 +126,7 @@ class ChainRefitter {
 
     // Hinges up to and with the last link that touches keep their angles.
     void stay(const ChainDepth& depth) {
-        fit_.depth_m = std::max(0.0, depth.depth_m - refit_.still_gap_m);
+        fit_.depth_m = std::max(0.0, depth.depth_m - refit_.look_gap_m);
         for (std::size_t i = 0; i < depth.end; ++i) {
             const bool touches = depth.nearest_m[i] < chain_.radius_m[i] + refit_.still_gap_m;
             kept_ = touches ? i + 1 : kept_;
@@ -131,14 +153,20 @@ class ChainRefitter {
     void close_on(std::span<const PlacedMesh> meshes) {
         const double turn = turn_share();
         fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
+        if (kept_ == 0 && refit_.is_ahead == false) {
+            if (relax()) {
+                return;
+            }
+        }
         cut();
         const DiscClosure closure = closure_by(std::min(refit_.close_share, turn));
         const bool touches = kept_ > 0 || closure.contact_link != DiscClosure::k_none;
-        if (touches) {
+        const bool goes_on = !touches && refit_.is_ahead == true && turn <= refit_.close_share;
+        if (touches || goes_on) {
             take(closure);
             fit_.is_on_its_way = !is_done();
         }
-        if (!touches || (fit_.is_on_its_way && turn > refit_.close_share)) {
+        if ((!touches && !goes_on) || (fit_.is_on_its_way && turn > refit_.close_share)) {
             const std::int32_t kept = fit_.contact_link + 1;
             kept_ = static_cast<std::size_t>(kept);
             close_far(meshes, touches && turn < 1.0 ? turn - refit_.close_share : turn);
@@ -150,7 +178,9 @@ class ChainRefitter {
         gather_all(meshes);
         cut();
         const DiscClosure whole = closure_by(1.0);
-        if (kept_ == 0 && whole.contact_link == DiscClosure::k_none) {
+        fit_.has_looked_ahead = kept_ == 0;
+        fit_.is_ahead = whole.contact_link != DiscClosure::k_none;
+        if (kept_ == 0 && !fit_.is_ahead) {
             relax();
             return;
         }
@@ -188,8 +218,8 @@ class ChainRefitter {
         fit_.fallback = ChainFallback::none;
     }
 
-    // As far as it may turn; stays where that is sunk.
-    void relax() {
+    // As far as it may turn; stays where that is sunk, and says so.
+    bool relax() {
         fit_.fallback = ChainFallback::relaxed;
         fit_.contact_link = DiscClosure::k_none;
         double most_rad = 0.0;
@@ -207,7 +237,9 @@ class ChainRefitter {
             fit_.angle_rad = angle_rad;
             fit_.depth_m = depth_m;
             fit_.is_on_its_way = share < 1.0;
+            return true;
         }
+        return false;
     }
 
     const HingeChain& chain_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "engine/geometry/chain_fit.hpp"
@@ -15,9 +16,13 @@ namespace handhold {
 struct ChainRefitSettings {
     double still_gap_m = 5e-4;    // a chain as near to the surface stays
     double still_depth_m = 3e-4;  // or sunk as deep
+    double look_gap_m = 2e-3;     // what is as near is followed by its gap
     double open_share = 0.02;     // at a time, of the way from open to closed
     std::int32_t open_steps = 3;
     double close_share = 0.06;  // what is so near is looked for first
+    // Where it touches nothing: whether there is something to touch farther on, where that is known
+    // from a moment ago. Else it is looked for (ChainFit::has_looked_ahead).
+    std::optional<bool> is_ahead;
     // A hinge turns no farther, but where it opens out of something.
     double most_turn_rad = std::numeric_limits<double>::infinity();
 };

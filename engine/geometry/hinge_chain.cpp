@@ -157,6 +157,8 @@ ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, Ch
             }
         }
         deepest.nearest_m[i] = sunk.nearest_m;
+        deepest.nearest_ds[i] = sunk.nearest_ds;
+        deepest.away_ds[i] = sunk.away_ds;
         deepest.end = i + 1;
         if (depth_m > deepest.depth_m) {
             deepest.depth_m = depth_m;

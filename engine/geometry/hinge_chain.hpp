@@ -69,6 +69,9 @@ struct ChainDepth {
     // begins to count, and what is beyond a surface that goes through.
     std::array<double, k_most_disc_links> nearest_m = {};
     std::array<double, k_most_disc_links> beyond_m = {};
+    // Where on its middle that is, and the way there from the surface (SunkCapsule).
+    std::array<Vec2, k_most_disc_links> nearest_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+    std::array<Vec2, k_most_disc_links> away_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     std::size_t end = 0;  // those from here on were not looked at
 };
 struct DepthQuestion {

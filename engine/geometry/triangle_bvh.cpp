@@ -108,6 +108,43 @@ class LeastDistance {
     FourFloats spare_ = {};
 };
 
+// Normals of what looks towards a side, as long as twice the triangles' areas.
+class TowardsSide {
+  public:
+    TowardsSide(const Vec3& side, double most_m2)
+        : side_{four_times(side.x()), four_times(side.y()), four_times(side.z())},
+          most_(four_times(most_m2)) {}
+
+    // Of the first `count` of four, those that are wanted.
+    Vec3 areas_of(const FourTriangles& four, const FourInts& is_wanted, std::uint32_t count) const {
+        const FourFloats zero = {};
+        std::array<FourFloats, 3> b;
+        std::array<FourFloats, 3> c;
+        for (std::size_t i = 0; i < 3; ++i) {
+            b[i] = four.corner[1][i] - four.corner[0][i];
+            c[i] = four.corner[2][i] - four.corner[0][i];
+        }
+        const FourFloats size = (b[1] * c[2] - b[2] * c[1]) * four.normal[0] +
+                                (b[2] * c[0] - b[0] * c[2]) * four.normal[1] +
+                                (b[0] * c[1] - b[1] * c[0]) * four.normal[2];
+        const FourFloats facing =
+            side_[0] * four.normal[0] + side_[1] * four.normal[1] + side_[2] * four.normal[2];
+        const FourInts counts = is_wanted & (facing > zero);
+        const FourFloats area = counts ? lower(higher(size, zero), most_) : zero;
+        Vec3 sum = Vec3::Zero();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            sum += static_cast<double>(area[i]) * Vec3(static_cast<double>(four.normal[0][i]),
+                                                       static_cast<double>(four.normal[1][i]),
+                                                       static_cast<double>(four.normal[2][i]));
+        }
+        return sum;
+    }
+
+  private:
+    std::array<FourFloats, 3> side_;
+    FourFloats most_;
+};
+
 // No more than the triangle's distance from the point, squared, but for rounding: that of a box
 // around it.
 double box_squared(const Vec3& point, const Corners& corners) {
@@ -136,6 +173,36 @@ double TriangleBvh::reach_m() const {
         most = std::max({most, nodes_[0].high[i], -nodes_[0].low[i]});
     }
     return static_cast<double>(most);
+}
+
+Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
+                                  double most_m2) const {
+    Vec3 sum = Vec3::Zero();
+    if (nodes_.empty() || !is_finite(center) || !(radius_m >= 0.0)) {
+        return sum;
+    }
+    const Vec3 local = center - origin_;
+    const LeastDistance least(local, reach_m());
+    const auto most = static_cast<float>(radius_m * radius_m);
+    const TowardsSide towards(side, most_m2);
+    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        if (least.squared(node.low, node.high) > most) {
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.first + 1;
+            stack[depth++] = node.first;
+            continue;
+        }
+        const FourTriangles& four = fours_[node.first / 4];
+        sum += towards.areas_of(four, least.squared(four) <= four_times(radius_m * radius_m),
+                                node.count);
+    }
+    return sum;
 }
 
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,

@@ -53,6 +53,12 @@ class TriangleBvh {
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
+    // Of triangles as near as radius_m, and a few that are hardly farther, those that look towards
+    // `side`: the sum of their normals, each as long as twice its triangle's area, but no longer
+    // than most_m2. In floats: off by roundings of the mesh's reach.
+    Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
+                         double most_m2) const;
+
     // visit(first_slot, count, four) for each leaf that may meet the box, which is about origin(),
     // as the corners of `four` are: its one to four triangles, the last repeated. More triangles
     // than would be needed, but the cheapest way to them; always in the tree's order.

@@ -13,13 +13,10 @@ constexpr double k_lifts_kept_m = 0.01;  // a hand that moved farther may try it
 constexpr double k_lifts_kept_rad = 0.17;
 
 // search_grip knows already, but for lifts.
-Pose hold_wrist(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                const PalmTuning& tuning) {
-    const bool is_known = surface.is_held && lift_m == 0.0 &&
-                          surface.surroundings == hand.signature &&
-                          surface.wrist_bs.position == hand.wrist_bs.position &&
-                          surface.wrist_bs.rotation.coeffs() == hand.wrist_bs.rotation.coeffs();
-    return is_known ? surface.held_bs : fit_palm(hand, surface, lift_m, tuning).wrist_bs;
+bool is_known(const HandSurroundings& hand, const GripSurface& surface, double lift_m) {
+    return surface.is_held && lift_m == 0.0 && surface.surroundings == hand.signature &&
+           surface.wrist_bs.position == hand.wrist_bs.position &&
+           surface.wrist_bs.rotation.coeffs() == hand.wrist_bs.rotation.coeffs();
 }
 
 void set_target(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
@@ -44,8 +41,9 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         rotation_to_vector(moved.rotation).norm() > k_lifts_kept_rad) {
         offset.lift_m = 0.0;
     }
-    if (offset.target_surroundings == hand.signature && offset.target_lift_m == offset.lift_m &&
-        offset.target_triangle == surface.triangle &&
+    const bool knows = is_known(hand, surface, offset.lift_m);
+    if (!knows && offset.target_surroundings == hand.signature &&
+        offset.target_lift_m == offset.lift_m && offset.target_triangle == surface.triangle &&
         hand_way_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
         return;
     }
@@ -53,8 +51,9 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
     offset.target_wrist_bs = hand.wrist_bs;
     offset.target_lift_m = offset.lift_m;
     offset.target_triangle = surface.triangle;
-    const Pose target =
-        inverse(hand.wrist_bs) * hold_wrist(hand, surface, offset.lift_m, tuning.palm);
+    const Pose held_bs =
+        knows ? surface.held_bs : fit_palm(hand, surface, offset.lift_m, tuning.palm).wrist_bs;
+    const Pose target = inverse(hand.wrist_bs) * held_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
 }

@@ -196,14 +196,18 @@ class ThumbPoser {
         if (pose.thumb_search.runs) {
             return go_on(hand, thumb, f, pose);
         }
-        age(retry, hand_way_m(pose.thumb_wrist_bs, pose.solved_wrist_bs), io_.dt_s);
+        const double way_m = hand_way_m(pose.thumb_wrist_bs, pose.solved_wrist_bs);
+        age(retry, way_m, io_.dt_s);
+        age(pose.outlook[f], way_m, io_.dt_s);
         const FingerAngles& last = pose.target[f];
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
+        refit.is_ahead = is_ahead(pose.outlook[f]);
         ThumbFit kept;
         kept.opposition_rad = last.opposition_rad;
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
                                last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
+        note_outlook(kept.fit, pose.outlook[f]);
         if (is_well(kept.fit)) {
             retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
@@ -222,11 +226,16 @@ class ThumbPoser {
         const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
         const std::uint32_t step =
             step_beside(step_at(thumb, kept.opposition_rad), pose.retry[f].tries % most);
+        settings_.searches = false;
         const ThumbFit anew =
             close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
+        settings_.searches = true;
         const bool changes =
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
         note_try(pose.retry[f], !is_well(anew.fit), most);
+        if (changes) {
+            pose.outlook[f] = {};
+        }
         return changes ? anew : kept;
     }
 
@@ -252,6 +261,7 @@ class ThumbPoser {
         const double from_rad =
             pose.thumb_solved ? pose.target[f].opposition_rad : rest_opposition(thumb);
         pose.retry[f] = {};
+        pose.outlook[f] = {};
         pose.thumb_search = {};
         pose.thumb_search.runs = true;
         pose.thumb_search.is_near = pose.thumb_solved;

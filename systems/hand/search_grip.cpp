@@ -19,7 +19,10 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_patience = 24;  // pops without a better triangle end the search
+constexpr std::uint32_t k_patience = 24;    // pops without a better triangle end the search
+constexpr std::uint32_t k_patience_on = 6;  // where it was found a moment ago
+constexpr double k_search_again_m = 0.006;  // what was found is followed so far
+constexpr std::uint32_t k_most_pushed_at_rest = 24;
 constexpr double k_look_again_m = 0.016;  // a hand goes so far before it looks for room again
 
 PalmPlace palm_in(const Pose& frame, const HandSurroundings& hand) {
@@ -32,19 +35,9 @@ PalmPlace palm_in(const Pose& frame, const HandSurroundings& hand) {
 // `outward`; unit.
 Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
                  const Vec3& outward, double radius_m) {
-    Vec3 sum = Vec3::Zero();
-    const SurfaceGraph& surface = mesh.contact;
-    mesh.contact_bvh.visit_in_sphere(point, radius_m, [&](std::uint32_t triangle) {
-        const auto& [a, b, c] = surface.triangles[triangle];
-        const Corners corners = {surface.positions[a], surface.positions[b], surface.positions[c]};
-        const Vec3 area = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        if (area.dot(outward) > 0.0) {
-            // A triangle that reaches far out counts no more than the sphere's cut can.
-            const double most = 2.0 * std::numbers::pi * radius_m * radius_m;
-            const double squared = area.squaredNorm();
-            sum += squared > most * most ? Vec3(most / std::sqrt(squared) * area) : area;
-        }
-    });
+    // A triangle that reaches far out counts no more than the sphere's cut can.
+    const double most_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
+    const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, most_m2);
     const double length = sum.norm();
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
@@ -59,35 +52,41 @@ class PalmHolder {
         const PlacedMesh& placed = hand_.meshes.front();
         const GripMesh& mesh = *placed.mesh;
         const PalmPlace palm = palm_in(placed.pose, hand_);
-        const auto hit = mesh.search_bvh.cast_ray(
-            palm.center + tuning_.hand.ray_back_m * palm.up,
-            palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
-        const auto near = mesh.search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
         const GripSurface last = surface;
         const std::uint32_t before = last.body == hand_.body ? last.triangle : ~0U;
         surface = {};
         if (search_ == GripSearch::ray_only) {
-            if (hit) {
+            if (const auto hit = cast_palm_ray(mesh, palm)) {
                 surface = surface_at(placed, palm, {hit->triangle, hit->point, 0.0});
             }
             return;
         }
         SurfaceSearch searcher(mesh.search, palm, tuning_.palm, scratch_);
+        searcher.add_seed(before);
+        const bool is_known = before < mesh.search.triangles.size();
+        const double search_in_m = last.search_in_m - hand_way_m(last.wrist_bs, hand_.wrist_bs);
+        if (is_known && search_in_m > 0.0 && !std::isinf(dt_s_)) {
+            searcher.run(k_patience_on);
+            kept_normal_bs_ = last.normal_bs;
+            if (goes_on(placed, palm, searcher, last, surface)) {
+                surface.search_in_m = search_in_m;
+                return;
+            }
+            kept_normal_bs_.reset();
+            known_count_ = 0;
+            surface = {};
+        }
+        const auto hit = cast_palm_ray(mesh, palm);
+        const auto near = mesh.search_bvh.closest_point(palm.center, tuning_.palm.reach_m);
         searcher.add_seed(hit ? hit->triangle : GripSurface::k_none);
         searcher.add_seed(near ? near->triangle : GripSurface::k_none);
-        searcher.add_seed(before);
         searcher.run(k_patience);
-        const bool is_known = before < mesh.search.triangles.size();
-        if (is_known && last.was_judged && !std::isinf(dt_s_) &&
-            rest(placed, palm, searcher, last, surface)) {
-            return;
-        }
-        if (is_known && last.tried_count == 0 &&
-            (stay(placed, palm, searcher, last, surface) ||
-             keep_room(placed, palm, searcher, last, surface))) {
+        if (is_known && goes_on(placed, palm, searcher, last, surface)) {
+            surface.search_in_m = k_search_again_m;
             return;
         }
         surface = try_surfaces(placed, palm, searcher, is_known ? last : GripSurface{});
+        surface.search_in_m = k_search_again_m;
     }
 
     // Under a palm in an authored grip: fingers that close begin there.
@@ -107,6 +106,22 @@ class PalmHolder {
 
   private:
     using Found = SurfaceSearch::Found;
+
+    std::optional<TriangleHit> cast_palm_ray(const GripMesh& mesh, const PalmPlace& palm) const {
+        return mesh.search_bvh.cast_ray(
+            palm.center + tuning_.hand.ray_back_m * palm.up,
+            palm.center - (tuning_.hand.ray_length_m - tuning_.hand.ray_back_m) * palm.up);
+    }
+
+    // On the surface that it had. False where surfaces are to be judged.
+    bool goes_on(const PlacedMesh& placed, const PalmPlace& palm, const SurfaceSearch& searcher,
+                 const GripSurface& last, GripSurface& surface) {
+        if (last.was_judged && !std::isinf(dt_s_) && rest(placed, palm, searcher, last, surface)) {
+            return true;
+        }
+        return last.tried_count == 0 && (stay(placed, palm, searcher, last, surface) ||
+                                         keep_room(placed, palm, searcher, last, surface));
+    }
 
     // Time counts as a way too: a hand at rest looks again.
     double still_to_go_m(double left_m, const GripSurface& last) const {
@@ -449,6 +464,7 @@ class PalmHolder {
         const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_.palm, effort);
         held.surface.held_bs = fit.wrist_bs;
         held.surface.is_held = true;
+        held.surface.is_settled = fit.is_settled;
         held.sunk_m = fit.sunk_m;
         held.fingers_sunk_m = fit.fingers_sunk_m;
         const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
@@ -483,9 +499,15 @@ class PalmHolder {
         surface.surroundings = hand_.signature;
         surface.triangle = found.triangle;
         surface.point_bs = transform_point(placed.pose, point);
-        surface.normal_bs =
-            placed.pose.rotation * Vec3(side * mean_normal(mesh, point, wound, side * palm.up,
-                                                           tuning_.palm.normal_radius_m));
+        const Vec3 own_bs = placed.pose.rotation * Vec3(side * wound);
+        constexpr double k_alike = 0.7;
+        if (kept_normal_bs_ && kept_normal_bs_->dot(own_bs) > k_alike) {
+            surface.normal_bs = *kept_normal_bs_;
+        } else {
+            surface.normal_bs =
+                placed.pose.rotation * Vec3(side * mean_normal(mesh, point, wound, side * palm.up,
+                                                               tuning_.palm.normal_radius_m));
+        }
         return surface;
     }
 
@@ -501,6 +523,7 @@ class PalmHolder {
     const Tuning& tuning_;
     GripSearch search_;
     GripSearchScratch& scratch_;
+    std::optional<Vec3> kept_normal_bs_;  // of the surface as it was a moment ago
     std::array<Held, 4> known_;
     std::size_t known_count_ = 0;
 };
@@ -525,12 +548,18 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
         }
         const bool is_to_look = surface.tried_count > 0 ||
                                 (surface.look_in_m > 0.0 && surface.look_in_m < k_look_again_m);
-        if (surface.surroundings == hand.signature && surface.triangle != GripSurface::k_none &&
-            !is_to_look && hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
+        const bool is_to_push =
+            !surface.is_settled && surface.pushed_at_rest < k_most_pushed_at_rest;
+        const bool rests = surface.surroundings == hand.signature &&
+                           surface.triangle != GripSurface::k_none &&
+                           hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m;
+        if (rests && !is_to_look && !is_to_push) {
             surface.was_judged = false;
             continue;
         }
+        const std::uint32_t pushed = rests ? surface.pushed_at_rest + 1 : 0;
         PalmHolder(hand, io.dt_s, tuning, search, io.scratch).run(surface);
+        surface.pushed_at_rest = pushed;
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);
         }

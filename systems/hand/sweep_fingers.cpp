@@ -95,6 +95,7 @@ class HandCloser {
         for (FingerRetry& retry : pose.retry) {
             age(retry, k_seen_as_m, 0.0);
         }
+        pose.outlook = {};
     }
 
     // Where there is no surface near an authored grip its fingers stand as they were posed.
@@ -144,6 +145,7 @@ class HandCloser {
                 continue;
             }
             age(retry, way_m, io_.dt_s);
+            age(pose.outlook[f], way_m, io_.dt_s);
             fits_[f] = keep(hand, wrist_bs, f, pose);
             is_fitted[f] = true;
             if (fits_[f].depth_m > settings_.open_depth_m) {
@@ -221,16 +223,22 @@ class HandCloser {
     }
 
     ChainFit keep(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
-                  const FingerPose& pose) {
+                  FingerPose& pose) {
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        return refit_chain(finger_chain(hand.rig->fingers[f], 0.0, wrist_bs),
-                           pose.target[f].curl_rad, hand.meshes, settings_, refit, io_.scratch);
+        refit.is_ahead = is_ahead(pose.outlook[f]);
+        ChainFit fit =
+            refit_chain(finger_chain(hand.rig->fingers[f], 0.0, wrist_bs), pose.target[f].curl_rad,
+                        hand.meshes, settings_, refit, io_.scratch);
+        note_outlook(fit, pose.outlook[f]);
+        return fit;
     }
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                           FingerPose& pose) {
+        settings_.searches = false;
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
+        settings_.searches = true;
         if (is_clearly_better(anew, fits_[f], settings_)) {
             fits_[f] = anew;
         }
@@ -256,7 +264,10 @@ class HandCloser {
         const ChainSeed seed =
             chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
-        pose.seed_triangle[f] = fit.contact_triangle;
+        if (fit.contact_triangle != k_no_triangle) {
+            pose.seed_triangle[f] = fit.contact_triangle;
+        }
+        pose.outlook[f] = {};
         count_fallback(fit.fallback, stats_);
         note_try(pose.retry[f], fit.depth_m > settings_.open_depth_m);
         return fit;

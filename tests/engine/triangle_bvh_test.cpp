@@ -296,5 +296,55 @@ TEST(TriangleBvh, RefusesIndicesOutOfRange) {
     EXPECT_THROW(TriangleBvh(positions, triangles), PreconditionError);
 }
 
+// All of it is in the sphere: what counts is told by each triangle's own cross product.
+TEST(TriangleBvh, SumsTheAreasThatLookTowardsASide) {
+    Random random(72);
+    const Mesh mesh = make_soup(random, 400);
+    const TriangleBvh bvh(mesh.positions, mesh.triangles);
+    constexpr double k_most_m2 = 0.5;
+    for (int i = 0; i < 20; ++i) {
+        const Vec3 side = random.vector(1.0);
+        Vec3 expected = Vec3::Zero();
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const Corners c = corners_of(mesh, t);
+            const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]);
+            if (area.dot(side) > 0.0) {
+                expected += std::min(1.0, k_most_m2 / area.norm()) * area;
+            }
+        }
+        const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), 10.0, side, k_most_m2);
+        EXPECT_LT((sum - expected).norm(), 1e-4 * expected.norm()) << i;
+    }
+    EXPECT_EQ(bvh.areas_in_sphere(Vec3(50.0, 0.0, 0.0), 1.0, Vec3::UnitX(), 1.0), Vec3::Zero());
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(bvh.areas_in_sphere(Vec3(nan, 0.0, 0.0), 1.0, Vec3::UnitX(), 1.0), Vec3::Zero());
+    EXPECT_EQ(TriangleBvh().areas_in_sphere(Vec3::Zero(), 1.0, Vec3::UnitX(), 1.0), Vec3::Zero());
+}
+
+// What is surely within the sphere counts, what is surely beyond does not.
+TEST(TriangleBvh, SumsNoAreasBeyondTheSphere) {
+    Random random(73);
+    const Mesh mesh = make_soup(random, 300);
+    const TriangleBvh bvh(mesh.positions, mesh.triangles);
+    constexpr double k_radius_m = 0.4;
+    Vec3 nearer = Vec3::Zero();
+    Vec3 hardly_farther = Vec3::Zero();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Corners c = corners_of(mesh, t);
+        const double distance_m = closest_on_triangle(Vec3::Zero(), c).norm();
+        const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]);
+        if (area.z() > 0.0 && distance_m <= k_radius_m) {
+            nearer += area;
+        }
+        if (area.z() > 0.0 && distance_m <= 2.0 * k_radius_m) {
+            hardly_farther += area;
+        }
+    }
+    const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), k_radius_m, Vec3::UnitZ(), 1e9);
+    EXPECT_GE(sum.z(), nearer.z() * (1.0 - 1e-5));
+    EXPECT_LE(sum.z(), hardly_farther.z() * (1.0 + 1e-5));
+    EXPECT_LT(nearer.z(), 0.9 * hardly_farther.z());
+}
+
 }  // namespace
 }  // namespace handhold::triangle_bvh_test

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "components/authored_grip.hpp"
 #include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
 #include "components/surface_search.hpp"
 #include "engine/collision/closest_point.hpp"
+#include "engine/geometry/chain_fit.hpp"
 #include "fitted_hand.hpp"
+#include "tests/engine/surface_cuts.hpp"
 
 namespace handhold::search_grip_test {
 namespace {
@@ -59,6 +62,19 @@ SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const Pal
     search.run(k_patience);
     const auto found = search.cheapest_beside({});
     return found ? SurfaceCandidate{found->cost_m, found->point} : SurfaceCandidate{};
+}
+
+// How deep the palm is that search_grip holds, by find_sunk, which has its own tests.
+double palm_sunk_m(FittedHand& hand) {
+    const Pose& wrist_bs = hand.surface.at(k_right).held_bs;
+    double deepest_m = 0.0;
+    for (const PalmCapsule& palm : hand.rig.palm) {
+        const Capsule capsule = {
+            {transform_point(wrist_bs, palm.a_hs), transform_point(wrist_bs, palm.b_hs)},
+            palm.radius_m};
+        deepest_m = std::max(deepest_m, find_sunk(capsule, hand.hands.front().meshes).depth_m);
+    }
+    return deepest_m;
 }
 
 TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
@@ -235,6 +251,73 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
         hand.search(k_dt_s);
         EXPECT_EQ(hand.surface.at(k_right).held_bs.position, found.held_bs.position);
     }
+}
+
+// Along a ring the surface that is followed, searched for all around every few frames only, takes
+// hardly more to be held to than the one that a search from the beginning finds.
+TEST(SearchGrip, FollowsASurfaceAsWellAsItSearchesForOne) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const auto on_ring = [&](double turn_rad) {
+        const Quat turn = rotation_about(Vec3::UnitY(), turn_rad);
+        return Pose{Vec3::Zero(), turn} *
+               wrist_with_palm_at(rig, {0.0, 0.028, 0.12}, Vec3::UnitY());
+    };
+    FittedHand hand(ring, on_ring(0.0));
+    int followed = 0;
+    for (int frame = 0; frame < 150; ++frame) {
+        hand.wrist_bs() = on_ring(0.018 * frame);
+        const double search_in_m = hand.surface.at(k_right).search_in_m;
+        hand.search(k_dt_s);
+        const GripSurface& surface = hand.surface.at(k_right);
+        ASSERT_NE(surface.triangle, GripSurface::k_none) << frame;
+        followed += surface.search_in_m < search_in_m ? 1 : 0;
+        FittedHand afresh(ring, hand.wrist_bs());
+        afresh.search();
+        const auto sync_m = [&](const GripSurface& found) {
+            return grip_sync(hand.wrist_bs(), found.held_bs, rig.palm_center_hs).palm_m;
+        };
+        EXPECT_LE(sync_m(surface), sync_m(afresh.surface.at(k_right)) + 3e-3) << frame;
+    }
+    EXPECT_GT(followed, 30);
+    EXPECT_LT(followed, 120);  // and all around was searched in between
+}
+
+// A palm that goes on from where it was is pushed once a frame; at rest it is pushed on until it is
+// as clear as one that is held afresh, and then it rests. Depths are find_sunk's.
+TEST(SearchGrip, PalmThatComesToRestSettles) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    test::Random random(7);
+    int compared = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double around_rad = random.between(0.0, 6.2);
+        const double about_rad = random.between(0.0, 3.0);
+        const Vec3 out(std::cos(around_rad), 0.0, std::sin(around_rad));
+        const Vec3 up = std::cos(about_rad) * out + std::sin(about_rad) * Vec3::UnitY();
+        FittedHand hand(ring, wrist_with_palm_at(rig, 0.12 * out + 0.035 * up, up));
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.search(k_dt_s);
+        }
+        hand.wrist_bs().position += random.vector(0.01);
+        for (int frame = 0; frame < 60; ++frame) {
+            hand.search(k_dt_s);
+        }
+        FittedHand afresh(ring, hand.wrist_bs());
+        afresh.search();
+        if (hand.surface.at(k_right).triangle == GripSurface::k_none ||
+            palm_sunk_m(afresh) > 1e-4) {
+            continue;
+        }
+        ++compared;
+        EXPECT_LE(palm_sunk_m(hand), 2e-4) << i;
+        const Vec3 held = hand.surface.at(k_right).held_bs.position;
+        hand.search(k_dt_s);
+        EXPECT_EQ(hand.surface.at(k_right).held_bs.position, held) << i;
+    }
+    EXPECT_GT(compared, 30);
 }
 
 TEST(SearchGrip, PrefersTheOuterSideOfAPlate) {

@@ -205,8 +205,10 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
     break_world("].retry", [](World& w) { w.finger_pose.rows()[1].retry[2].wait_m = 1e9; });
+    break_world("].outlook", [](World& w) { w.finger_pose.rows()[1].outlook[2].since_m = -1.0; });
     break_world("].look_in_m", [](World& w) { w.grip_surface.rows()[0].look_in_m = 1e9; });
     break_world("].has_room_m", [](World& w) { w.grip_surface.rows()[0].has_room_m = -1.0; });
+    break_world("].search_in_m", [](World& w) { w.grip_surface.rows()[0].search_in_m = 1e9; });
     break_world("].tried_count", [](World& w) {
         w.grip_surface.rows()[0].tried_count = GripSurface::k_most_tries + 1;
     });

@@ -195,6 +195,40 @@ TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
     EXPECT_GT(hand.traces[0][2].discs, 0U);
 }
 
+// A finger stands out beside the beam's end. That there is nothing to touch is looked for when
+// they have gone a few millimetres, not in every frame; and a hand that comes to rest is done.
+TEST_F(SweepFingers, FingersWithNothingToTouchLookAheadNowAndThen) {
+    Pose at_end = on_beam;
+    at_end.position.x() += 0.18;
+    FittedHand hand(beam, at_end);
+    const auto waits_m = [&](std::size_t f) { return hand.pose().outlook[f].wait_m; };
+    for (int frame = 0; frame < 30; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    std::size_t open = k_finger_count;
+    int looks = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        const FingerPose before = hand.pose();
+        hand.wrist_bs().position.x() += frame < 15 ? 1e-3 : -2e-4;
+        hand.frame(k_dt_s);
+        for (std::size_t f = 0; f < rig.fingers.size() && open == k_finger_count; ++f) {
+            const bool is_finger = rig.fingers[f].name != FingerName::thumb;
+            open = is_finger && waits_m(f) > 0.0 && !hand.pose().outlook[f].is_ahead ? f : open;
+        }
+        if (open != k_finger_count) {
+            looks += waits_m(open) > before.outlook[open].wait_m ? 1 : 0;
+        }
+    }
+    ASSERT_NE(open, k_finger_count);
+    EXPECT_GE(looks, 5);
+    EXPECT_LE(looks, 25);
+    for (int frame = 0; frame < 120; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    EXPECT_TRUE(hand.pose().arrived);
+    EXPECT_EQ(hand.pose().outlook[open].since_m, 0.0);  // it looked where it stands
+}
+
 // What comes near does so without the hand. Expected: by find_sunk.
 TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
     FittedHand hand(beam, on_beam);
