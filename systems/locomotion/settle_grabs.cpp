@@ -283,8 +283,15 @@ void pair_hands(const SettleGrabsIo& io, const HandPair& first, StageStats& stat
     first.other->two_handed = lead_both;
 }
 
-void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
+void aim_at(const SettleGrabsIo& io, const Pose& target_ps, const HandTracking& hand, Grab& grab) {
     const double dt_s = io.end_s - io.start_s;
+    grab.target_ps = target_ps;
+    grab.target_velocity_ps_mps = (target_ps.position - hand.start_ps.position) / dt_s;
+    grab.target_spin_ps_radps =
+        rotation_to_vector(target_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
+}
+
+void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
     if (grab.phase == GrabPhase::releasing) {
         const double rest_s = std::max(0.0, io.end_s - hand.edge_t_s);
         grab.target_velocity_ps_mps = hand.release_velocity_ps_mps;
@@ -295,10 +302,7 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
                 .normalized();
         return;
     }
-    grab.target_ps = hand.pose_ps;
-    grab.target_velocity_ps_mps = (hand.pose_ps.position - hand.start_ps.position) / dt_s;
-    grab.target_spin_ps_radps =
-        rotation_to_vector(hand.pose_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
+    aim_at(io, hand.pose_ps, hand, grab);
 }
 
 // The leaving hand drops its row now; the staying one starts afresh from where the pair had put the
@@ -356,14 +360,16 @@ void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tu
                                   tuning.tilt_cost_m_per_rad);
 }
 
-// Whose hand leads the free body that another player's closes on; none where nobody's does, or
-// those of several do: they share it by their masses, which only the solver knows.
+// Whose hand leads the free body that another player's closes on, or opens from; none where
+// nobody's does, or those of several do: they share it by their masses, which only the solver
+// knows.
 std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joining) {
     std::optional<HandPair> leader;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
-        const bool at_once =
-            pair.hand.edge == GrabEdge::onset && pair.hand.edge_t_s >= joining.hand.edge_t_s;
+        const bool at_once = joining.hand.edge == GrabEdge::onset &&
+                             pair.hand.edge == GrabEdge::onset &&
+                             pair.hand.edge_t_s >= joining.hand.edge_t_s;
         if (pair.player == joining.player || pair.grab.phase == GrabPhase::fresh || at_once ||
             !share_free_body(pair.grab, joining.grab)) {
             continue;
@@ -379,6 +385,22 @@ std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joini
         }
     }
     return leader;
+}
+
+// What another player still has is not thrown: the hand that leaves it goes on as the body does,
+// from its edge to the frame's end, and pulls at nobody. False where nobody else has it.
+bool aim_along(const SettleGrabsIo& io, const HandPair& leaving) {
+    const std::optional<HandPair> leader = leader_of(io, leaving);
+    if (!leader || leader->grab.phase == GrabPhase::releasing) {
+        return false;
+    }
+    const Instant edge{io, fraction_of(io, leaving.hand.edge_t_s)};
+    const Instant end{io, 1.0};
+    const Pose hand_ws = edge.led_origin_ws(leaving.player) * leaving.hand.edge_ps;
+    const Pose way_ws = held_body(end, *leader) * inverse(held_body(edge, *leader));
+    aim_at(io, inverse(end.led_origin_ws(leaving.player)) * (way_ws * hand_ws), leaving.hand,
+           leaving.grab);
+    return true;
 }
 
 void settle_fresh(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
@@ -474,7 +496,9 @@ void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& sta
             settle_resumed(io, pair, tuning.phases, stats);
         }
         draw_into_hand(io, io.grab.owners()[row], tuning.palm, pair);
-        aim(io, pair.hand, grab);
+        if (grab.phase != GrabPhase::releasing || !aim_along(io, pair)) {
+            aim(io, pair.hand, grab);
+        }
     }
     end_broken_pairs(io, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {

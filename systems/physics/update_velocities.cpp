@@ -19,16 +19,64 @@ bool has_hand_or_joint(const ConstraintGraph& graph, const Island& island) {
                                [&](std::uint32_t i) { return !is_contact(graph.blocks[i]); });
 }
 
+bool joint_has_force(const JointRows& joint) {
+    return joint.friction_impulse > 0.0 || joint.drive_impulse > 0.0 ||
+           joint.lock_limit_impulse > 0.0;
+}
+
+// True where who is pushed shares momentum with somebody or something: another player, a heavy
+// body, what touches, or joints that rub, snap or lock by so much force.
+bool shares_momentum(const FrameGraph& frame, const Island& island) {
+    int players = 0;
+    for (const std::uint32_t i : frame.graph.bodies_of(island)) {
+        const BodyRole role = frame.graph.bodies[i].role;
+        players += role == BodyRole::player ? 1 : 0;
+        if (role == BodyRole::heavy || players > 1) {
+            return true;
+        }
+    }
+    return std::ranges::any_of(frame.graph.blocks_of(island), [&](std::uint32_t i) {
+        const RowBlock& block = frame.graph.blocks[i];
+        return is_contact(block)
+                   ? contact_separation_m(frame.graph.bodies, block) < k_valid_overlap_m
+                   : is_joint(block) && joint_has_force(block.joint);
+    });
+}
+
+double heaviest_free_kg(const FrameGraph& frame, const Island& island) {
+    double heaviest_kg = 0.0;
+    for (const std::uint32_t i : frame.graph.bodies_of(island)) {
+        const SolverBody& body = frame.graph.bodies[i];
+        heaviest_kg = std::max(heaviest_kg, body.role == BodyRole::free ? body.mass_kg : 0.0);
+    }
+    return heaviest_kg;
+}
+
+// How much of 1/mass a pushed player has who shares momentum with nobody. What he hangs on pushes
+// him alike whatever he weighs; light things that he moves meanwhile do not shake him, as in the
+// forward phase: to them he is so many times heavier.
+double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tuning) {
+    constexpr double k_times_heaviest = 1000.0;  // heavier still, and softness would show
+    const double exchanged =
+        smooth_step(heaviest_kg, tuning.kappa_light_kg,
+                    std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
+    const double least = mass_kg / std::max(k_times_heaviest * heaviest_kg, mass_kg);
+    return std::max(exchanged, least);
+}
+
 // Momentum is exchanged by the masses of the phase that moved the island: true ones where it was
-// pushed, holds on to something fixed or hangs on joints.
-void set_masses(FrameGraph& frame, const Island& island) {
+// pushed by what moves or gives way, holds on to something fixed or hangs on joints.
+void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuning) {
     const bool reached = has_hand_or_joint(frame.graph, island);
+    const bool shares = shares_momentum(frame, island);
+    const double heaviest_kg = heaviest_free_kg(frame, island);
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
         SolverBody& body = frame.graph.bodies[i];
         const FrameGraph::PhaseBody& info = frame.phase[i];
         double share = 1.0;
         if (body.role == BodyRole::player) {
-            share = info.pushed || info.grips_surface ? 1.0 : info.forward_share;
+            const double pushed = shares ? 1.0 : pushed_share(heaviest_kg, body.mass_kg, tuning);
+            share = info.grips_surface ? 1.0 : info.pushed ? pushed : info.forward_share;
         } else if (body.role == BodyRole::heavy) {
             share = info.pushed || reached ? 1.0 : 0.0;
         }
@@ -61,7 +109,7 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
     auto solve_one = [&](std::size_t order) {
         const std::uint32_t i = frame.island_order[order];
         const Island& island = graph.islands[i];
-        set_masses(frame, island);
+        set_masses(frame, island, tuning.phases);
         const IslandView view{
             BlockFilter::all,        graph.bodies,  graph.blocks, graph.bodies_of(island),
             graph.blocks_of(island), graph.revision};

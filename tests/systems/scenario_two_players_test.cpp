@@ -100,8 +100,8 @@ struct SharedBar {
     Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
 };
 
-// How all hands and what they hold move as one. At up to half a metre a second and 5 m/s^2; and so
-// evenly that the chord that a hand takes within a frame is its way to 2e-7 m.
+// How all hands and what they hold move as one: at up to half a metre a second and 5 m/s^2, and
+// evenly.
 Pose lively(double t) {
     const double w = ease(t, 0.15, 0.4);
     return {w * Vec3(0.1 * std::sin(4 * t), 0.08 * std::cos(3 * t), 0.1 * std::sin(5 * t)),
@@ -114,7 +114,7 @@ struct Carry {
     Pose (*way)(double);
     int samples_a_frame;
 };
-constexpr Carry k_carries[] = {{lively, 1}, {even, 20}};
+constexpr Carry k_carries[] = {{lively, 1}, {even, 20}, {lively, 20}};
 
 void carry(const Carry& how, SharedBar& shared) {
     shared.samples_a_frame = how.samples_a_frame;
@@ -151,27 +151,50 @@ TEST(TwoPlayers, JoiningAndLeavingMovesNeitherHead) {
 // From one player to the other: with both hands on it, in one frame, and in one frame with the
 // first hand open before the second is closed.
 TEST(TwoPlayers, PassingMovesNeitherHeadAndTheBarStaysInTheHands) {
-    const Carry& how = k_carries[1];
-    for (const double late_s : {0.03, 0.002, -0.002}) {
+    for (const Carry& how : k_carries) {
+        for (const double late_s : {0.03, 0.002, -0.002}) {
+            SharedBar shared({80.0, 60.0});
+            const double pass_s = 0.5 + 4.0 / 900.0;
+            shared.hold(0, 0.1, pass_s + late_s);
+            shared.hold(1, pass_s, 1e9);
+            carry(how, shared);
+            shared.run(0.4);
+            const auto bar_in_hands = [&] {
+                const Pose hands_ws =
+                    Pose{shared.origin(1), Quat::Identity()} * how.way(shared.t_s());
+                return Pose(inverse(hands_ws) * shared.world.body_pose.at(shared.bar).pose_ws);
+            };
+            const Pose held = bar_in_hands();
+            double slipped = 0.0;
+            shared.run(0.6, [&] {
+                ASSERT_LE(shared.jump_m, k_jump_m) << shared.t_s() << " " << late_s;
+                slipped = std::max(slipped, test::distance(held, bar_in_hands()));
+            });
+            EXPECT_LE(slipped, 1e-5) << late_s << " " << how.samples_a_frame;
+            EXPECT_FALSE(shared.holds(0));
+            EXPECT_TRUE(shared.holds(1));
+        }
+    }
+}
+
+// They pull at each other, faster and faster, while the second one lets go: they part as fast as
+// their hands did then, to what those gain within a frame.
+TEST(TwoPlayers, LeavingAPulledBarTakesNoSpeedFromEither) {
+    const Vec3 way(0.3, 0.1, 0.0);
+    const double leaves_s = 0.4547;
+    const auto share = [](double t) { return ease(t, 0.3, 0.9); };
+    for (const int samples : {1, 20}) {
         SharedBar shared({80.0, 60.0});
-        const double pass_s = 0.5 + 4.0 / 900.0;
-        shared.hold(0, 0.1, pass_s + late_s);
-        shared.hold(1, pass_s, 1e9);
-        carry(how, shared);
-        shared.run(0.4);
-        const auto bar_in_hands = [&] {
-            const Pose hands_ws = Pose{shared.origin(1), Quat::Identity()} * how.way(shared.t_s());
-            return Pose(inverse(hands_ws) * shared.world.body_pose.at(shared.bar).pose_ws);
-        };
-        const Pose held = bar_in_hands();
-        double slipped = 0.0;
-        shared.run(0.6, [&] {
-            ASSERT_LE(shared.jump_m, k_jump_m) << shared.t_s() << " " << late_s;
-            slipped = std::max(slipped, test::distance(held, bar_in_hands()));
-        });
-        EXPECT_LE(slipped, 1e-5);
-        EXPECT_FALSE(shared.holds(0));
-        EXPECT_TRUE(shared.holds(1));
+        shared.samples_a_frame = samples;
+        shared.move_hand(1, [&](double t) { return Pose{share(t) * way, Quat::Identity()}; });
+        shared.hold(1, 0.1, leaves_s);
+        shared.run(0.5);
+        const Vec3 parting_mps = shared.velocity(0) - shared.velocity(1);
+        const double gained = (share(leaves_s) - 2.0 * share(leaves_s - k_step_s) +
+                               share(leaves_s - 2.0 * k_step_s)) /
+                              k_step_s;
+        const double speed = (share(leaves_s + 1e-4) - share(leaves_s - 1e-4)) / 2e-4;
+        EXPECT_LE((parting_mps - speed * way).norm(), gained * way.norm()) << samples;
     }
 }
 
