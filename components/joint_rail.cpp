@@ -52,6 +52,10 @@ double way_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs) 
     return arc_tangent2(rail.axis_hs.dot(from.cross(to)), from.dot(to));
 }
 
+double weight_along(const JointRail& rail, const Vec3& from_hs) {
+    return rail.turns ? rail.axis_hs.cross(from_hs - rail.point_hs).squaredNorm() : 1.0;
+}
+
 Pose moved_along(const JointRail& rail, const Pose& pose_hs, double way) {
     const double way_free = std::clamp(way, rail.back, rail.ahead);
     if (!rail.turns) {

@@ -34,6 +34,11 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
 // another as it can: rad in [-pi, pi] or m, whatever the rail's ends. 0 for a point on the axle.
 double way_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs);
 
+// How much the way of a hand there counts among those of several, as the solver counts it: on a
+// hinge by the square of its arm, m^2, since an angle is the less certain the nearer it is to the
+// axle.
+double weight_along(const JointRail& rail, const Vec3& from_hs);
+
 // A pose that far along the rail, or as far as its ends allow.
 Pose moved_along(const JointRail& rail, const Pose& pose_hs, double way);
 

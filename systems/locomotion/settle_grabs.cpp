@@ -116,8 +116,9 @@ bool leads_all_along(const Grab& grab, const HandTracking& hand) {
            hand.edge != GrabEdge::onset && !hand.resumed;
 }
 
-// Where a body on a joint is that hands lead: as far along the joint as they went, on average, and
-// off it by what it lacked at the frame's start. Any other body: as predicted.
+// Where a body on a joint is that hands lead: as far along the joint as they went, on average, each
+// counted as the solver counts it, and off it by what it lacked at the frame's start. Any other
+// body: as predicted.
 Pose led_body_ws(const Instant& now, Entity body, const PhaseTuning& tuning) {
     const SettleGrabsIo& io = now.io;
     const std::optional<JointRail> rail =
@@ -132,7 +133,7 @@ Pose led_body_ws(const Instant& now, Entity body, const PhaseTuning& tuning) {
     const Pose holder_start_ws = holder_ws(start);
     const Pose holder_now_ws = holder_ws(now);
     double way = 0.0;
-    int hands = 0;
+    double weights = 0.0;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Entity entity = io.grab.owners()[row];
         const HandTracking& hand = io.hand.at(entity);
@@ -145,14 +146,17 @@ Pose led_body_ws(const Instant& now, Entity body, const PhaseTuning& tuning) {
                 transform_point(at.led_origin_ws(player), at.hand_ps(hand).position);
             return inverse_transform_point(at_holder_ws, hand_ws);
         };
-        way += way_along(*rail, hand_hs(start, holder_start_ws), hand_hs(now, holder_now_ws));
-        ++hands;
+        const Vec3 from_hs = hand_hs(start, holder_start_ws);
+        const double weight = weight_along(*rail, from_hs);
+        way += weight * way_along(*rail, from_hs, hand_hs(now, holder_now_ws));
+        weights += weight;
     }
-    if (hands == 0) {
+    constexpr double k_least_weight = 1e-8;  // a tenth of a millimetre off the axle: leads nothing
+    if (weights < k_least_weight) {
         return now.body_ws(body);
     }
     return holder_now_ws *
-           moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), way / hands);
+           moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), way / weights);
 }
 
 // The player's origin at an instant, who goes by a hand of his all that its body, on a joint,

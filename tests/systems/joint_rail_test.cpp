@@ -126,5 +126,29 @@ TEST(JointRail, TakesAPointAsNearToTheHandAsTheJointLetsIt) {
     EXPECT_LE((slid - (from - Vec3(0.0, 0.2, 0.0))).norm(), 1e-15);
 }
 
+// One hand stays at the lever's end, one near the axle trembles across its arm: by least squares
+// the end goes no farther than the tremble times the arms' ratio.
+TEST(JointRail, HandsNearTheAxleHardlyCount) {
+    constexpr double k_tremble_m = 5e-4;
+    constexpr double k_end_m = 0.5;
+    Joined scene;
+    scene.add(k_joint, JointKind::hinge, k_no_entity, k_thing);
+    const JointRail hinge = *scene.rail();
+    const Vec3 along = hinge.axis_hs.unitOrthogonal();
+    const Vec3 across = hinge.axis_hs.cross(along);
+    const Vec3 end_hs = hinge.point_hs + k_end_m * along;
+    for (const double arm_m : {0.002, 0.005, 0.01, 0.05}) {
+        const Vec3 near_hs = hinge.point_hs + arm_m * along;
+        const double near = weight_along(hinge, near_hs);
+        const double way_rad = near * way_along(hinge, near_hs, near_hs + k_tremble_m * across) /
+                               (near + weight_along(hinge, end_hs));
+        EXPECT_LE(k_end_m * way_rad, k_tremble_m * arm_m / k_end_m) << arm_m;
+        EXPECT_GT(way_rad, 0.0) << arm_m;
+    }
+    JointRail slider = hinge;
+    slider.turns = false;
+    EXPECT_EQ(weight_along(slider, hinge.point_hs), weight_along(slider, end_hs));
+}
+
 }  // namespace
 }  // namespace handhold::joint_rail_test
