@@ -2,7 +2,20 @@
 
 namespace handhold {
 
-void LedHands::take(const IslandView& island) {
+void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
+    poses.clear();
+    for (const std::uint32_t index : island.island_bodies) {
+        poses.push_back(island.bodies[index].pose_ws);
+    }
+}
+void put_back(const IslandView& island, std::span<const Pose> poses) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        island.bodies[island.island_bodies[i]].pose_ws = poses[i];
+    }
+}
+
+bool LedHands::take(const IslandView& island) {
+    keep_poses(island, start_);
     hands_.clear();
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
@@ -20,6 +33,7 @@ void LedHands::take(const IslandView& island) {
         }
         hands_.push_back(hand);
     }
+    return !hands_.empty();
 }
 
 void LedHands::hold_back(const IslandView& island, double share) const {

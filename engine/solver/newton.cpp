@@ -8,6 +8,7 @@
 
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/geometric_stiffness.hpp"
+#include "engine/solver/lead_hands.hpp"
 
 namespace handhold {
 namespace {
@@ -436,80 +437,24 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
     }
 }
 
-// Positions may bring any contact near: not one may be left out.
-bool load(const IslandView& island, SolveScratch& scratch) {
-    return scratch.triads.load(island, std::numeric_limits<double>::infinity());
-}
-
-NewtonResult solve_loaded(const IslandView& island, const NewtonSettings& settings,
-                          SolveScratch& scratch) {
+// From the bodies' present poses, which may have changed since the island was loaded.
+NewtonResult solve_part(const IslandView& island, const NewtonSettings& settings,
+                        SolveScratch& scratch) {
+    if (!scratch.triads.load(island)) {
+        return {};
+    }
     const NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
     scratch.triads.store_poses(island);
     return result;
 }
 
-void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
-    poses.clear();
-    for (const std::uint32_t index : island.island_bodies) {
-        poses.push_back(island.bodies[index].pose_ws);
-    }
-}
-void put_back(const IslandView& island, std::span<const Pose> poses) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        island.bodies[island.island_bodies[i]].pose_ws = poses[i];
-    }
-}
-
-// From `scratch.start`, with `scratch.led` taken there: part by part of the hands' way. Gives up
-// where one part cannot be had.
-NewtonResult lead(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch) {
-    constexpr int k_parts = 4;
-    constexpr double k_on_its_way_m = 1e-5;
-    NewtonSettings on_its_way = settings;
-    on_its_way.tolerance_m = std::max(settings.tolerance_m, k_on_its_way_m);
-    put_back(island, scratch.start);
-    NewtonResult result;
-    int iterations = 0;
-    for (int part = 1; part <= k_parts; ++part) {
-        scratch.led.hold_back(island, 1.0 - static_cast<double>(part) / k_parts);
-        load(island, scratch);
-        result = solve_loaded(island, part < k_parts ? on_its_way : settings, scratch);
-        iterations += result.iterations;
-        if (!result.converged) {
-            break;
-        }
-    }
-    scratch.led.hold_back(island, 0.0);
-    result.iterations = iterations;
-    result.led = true;
-    return result;
-}
-
-// Where hands jump far, on links of very different masses, no number of steps suffices: they are
-// led then. What cannot be had even so stays as it was.
 NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settings,
                           SolveScratch& scratch) {
-    NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
-    scratch.led.clear();
-    if (settings.leads && !result.converged && result.iterations == settings.max_iterations) {
-        scratch.led.take(island);
-        keep_poses(island, scratch.start);
-    }
+    const NewtonResult at_once = iterate(settings, TriadSteps(island, scratch.triads));
+    const bool ran_out = !at_once.converged && at_once.iterations == settings.max_iterations;
+    const bool leads = settings.leads && ran_out && scratch.led.take(island);
     scratch.triads.store_poses(island);
-    if (scratch.led.empty()) {
-        return result;
-    }
-    keep_poses(island, scratch.first);
-    NewtonResult led = lead(island, settings, scratch);
-    led.iterations += result.iterations;
-    if (led.converged) {
-        return led;
-    }
-    put_back(island, scratch.first);
-    load(island, scratch);
-    scratch.triads.store_poses(island);
-    result.iterations = led.iterations;
-    return result;
+    return leads ? lead_hands(island, settings, at_once, scratch, &solve_part) : at_once;
 }
 
 }  // namespace
@@ -517,8 +462,8 @@ NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settin
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     const FlushDenormals flush;
-    return load(island, scratch) ? solve_triads(island, settings, scratch)
-                                 : iterate(settings, RowSteps(island, scratch));
+    return scratch.triads.load(island) ? solve_triads(island, settings, scratch)
+                                       : iterate(settings, RowSteps(island, scratch));
 }
 
 }  // namespace handhold
