@@ -31,13 +31,24 @@ NewtonResult go_in_parts(const IslandView& island, const NewtonSettings& setting
 
 }  // namespace
 
+void reserve_leading(const IslandView& island, SolveScratch& scratch) {
+    scratch.led.reserve(island);
+    reserve_poses(island, scratch.at_once);
+}
+
+bool needs_leading(const NewtonResult& at_once, const NewtonSettings& settings) {
+    return !at_once.converged && at_once.iterations == settings.max_iterations &&
+           at_once.hands_from_m - at_once.residual_m > settings.lead_from_m;
+}
+
 NewtonResult lead_hands(const IslandView& island, const NewtonSettings& settings,
                         const NewtonResult& at_once, SolveScratch& scratch, SolvePart solve) {
     keep_poses(island, scratch.at_once);
     NewtonResult led = go_in_parts(island, settings, scratch, solve);
     led.iterations += at_once.iterations;
     if (led.converged) {
-        led.led = true;
+        led.hands_from_m = at_once.hands_from_m;
+        led.leading = Leading::arrived;
         return led;
     }
     put_back(island, scratch.at_once);
@@ -46,6 +57,7 @@ NewtonResult lead_hands(const IslandView& island, const NewtonSettings& settings
     scratch.triads.load(island);
     NewtonResult result = at_once;
     result.iterations = led.iterations;
+    result.leading = Leading::in_vain;
     return result;
 }
 

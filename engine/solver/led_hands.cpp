@@ -1,7 +1,23 @@
 #include "engine/solver/led_hands.hpp"
 
-namespace handhold {
+#include <algorithm>
 
+namespace handhold {
+namespace {
+
+// By no less than half of what there is: islands grow by a body at a time.
+template <typename T>
+void reserve(std::size_t size, std::vector<T>& values) {
+    if (size > values.capacity()) {
+        values.reserve(std::max(size, values.capacity() + values.capacity() / 2));
+    }
+}
+
+}  // namespace
+
+void reserve_poses(const IslandView& island, std::vector<Pose>& poses) {
+    reserve(island.island_bodies.size(), poses);
+}
 void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
     poses.clear();
     for (const std::uint32_t index : island.island_bodies) {
@@ -12,6 +28,13 @@ void put_back(const IslandView& island, std::span<const Pose> poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
         island.bodies[island.island_bodies[i]].pose_ws = poses[i];
     }
+}
+
+void LedHands::reserve(const IslandView& island) {
+    reserve_poses(island, start_);
+    const auto hands = std::ranges::count_if(
+        island.island_blocks, [&](std::uint32_t index) { return is_hand(island.blocks[index]); });
+    handhold::reserve(static_cast<std::size_t>(hands), hands_);
 }
 
 bool LedHands::take(const IslandView& island) {

@@ -11,6 +11,7 @@ namespace handhold {
 
 // Poses of the island's bodies, by slot.
 void keep_poses(const IslandView& island, std::vector<Pose>& poses);
+void reserve_poses(const IslandView& island, std::vector<Pose>& poses);
 void put_back(const IslandView& island, std::span<const Pose> poses);
 
 // The hands of one island, and how far they are from what they hold where the bodies start. Keeps
@@ -19,6 +20,8 @@ class LedHands {
   public:
     // As they are at the bodies' present poses. False where there are none.
     bool take(const IslandView& island);
+    // Room for such an island's, so that taking them allocates nothing.
+    void reserve(const IslandView& island);
     // Puts the bodies where they were then.
     void go_back(const IslandView& island) const { put_back(island, start_); }
 

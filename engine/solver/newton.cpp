@@ -314,7 +314,10 @@ void adapt(bool progresses, double overlap_m, double previous_overlap_m,
 }
 
 // Says whether the error falls steadily, step by step, and begins to count anew where it does.
-// Between contacts steps are not trusted that far.
+// Steps that repeat a factor are not asked: they neither count nor end a run, for they say nothing
+// of how soft hands should be. Until a run is long enough its steps are no progress, so that hands
+// soften twice by `softening` and then harden once by `hardening`: about where they were, in three
+// steps, in place of a thousand times as soft. Between contacts steps are not trusted that far.
 class SteadyFall {
   public:
     explicit SteadyFall(const StepSchedule& schedule) : schedule_(schedule) {}
@@ -404,6 +407,9 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
         steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
+        if (result.iterations == 0) {
+            result.hands_from_m = steps.worst_hand_m();
+        }
         polishes = result.converged && !polishes && step.whole && steps.keeps_factor() &&
                    result.iterations + 1 < settings.max_iterations &&
                    steps.worst_hand_m() > k_hand_share * settings.tolerance_m;
@@ -451,8 +457,8 @@ NewtonResult solve_part(const IslandView& island, const NewtonSettings& settings
 NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settings,
                           SolveScratch& scratch) {
     const NewtonResult at_once = iterate(settings, TriadSteps(island, scratch.triads));
-    const bool ran_out = !at_once.converged && at_once.iterations == settings.max_iterations;
-    const bool leads = settings.leads && ran_out && scratch.led.take(island);
+    reserve_leading(island, scratch);
+    const bool leads = needs_leading(at_once, settings) && scratch.led.take(island);
     scratch.triads.store_poses(island);
     return leads ? lead_hands(island, settings, at_once, scratch, &solve_part) : at_once;
 }
