@@ -94,6 +94,8 @@ const char* name_of(Fallback reason) {
             return "active_set_unsettled";
         case Fallback::hands_led:
             return "hands_led";
+        case Fallback::hands_led_in_vain:
+            return "hands_led_in_vain";
         case Fallback::friction_wedged:
             return "friction_wedged";
         case Fallback::friction_undecided:

@@ -57,9 +57,10 @@ enum class Fallback : std::uint8_t {
     contacts_unresolved,       // contacts still overlapping at the end of the frame
     put_back,                  // islands whose sunk bodies went back to where they were clear
     active_set_unsettled,      // solves that ended before it was clear which contacts push
-    hands_led,                 // solves that ran out of steps and then took hands part by part
-    friction_wedged,           // contacts that would press without end or give energy slip freely
-    friction_undecided,        // who sticks and who slides was not settled within its passes
+    hands_led,           // solves that ran out of steps and then took hands there part by part
+    hands_led_in_vain,   // the same, but not even the parts could be had: as the steps left it
+    friction_wedged,     // contacts that would press without end or give energy slip freely
+    friction_undecided,  // who sticks and who slides was not settled within its passes
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,

@@ -129,6 +129,7 @@ struct SolverTuning {
     double largest_turn_rad = 1.0;
     double least_scale = 0.3;
     double stiffness_from_m = 1e-4;
+    double lead_from_m = 0.05;
     std::int32_t friction_passes = 16;
 };
 
@@ -282,7 +283,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("contact.sunk_m", t.contact.sunk_m, "m", 1e-6, 10.0,
         "free bodies that no phase takes out of a deeper overlap stay where they were");
     see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0,
-        "Newton iterations a phase");
+        "Newton iterations a phase; five times as many at most where hands are led");
     see("solver.tolerance_m", t.solver.tolerance_m, "m", 1e-12, 1e-3,
         "constraint error at which a phase is solved; angles count times 0.1 m");
     see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
@@ -296,11 +297,13 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1e-3,
         "how much joints give way that cannot all be met; their limits a hundred times");
     see("solver.softest_hand", t.solver.softest_hand, "", 1e-9, 1.0,
-        "how much hands give way at most, where the error does not fall");
+        "how much hands give way at most, where the error does not fall; no less than "
+        "solver.hardest_hand");
     see("solver.hardest_hand", t.solver.hardest_hand, "", 1e-12, 1e-2,
         "how much hands give way at least, where the error falls");
     see("solver.softest_contact", t.solver.softest_contact, "", 1e-12, 1e-2,
-        "how much contacts that contradict each other give way at most");
+        "how much contacts that contradict each other give way at most; no less than "
+        "solver.contact_softness");
     see("solver.hardening", t.solver.hardening, "", 1e-6, 1.0,
         "times the softness of hands after a step that takes the error down");
     see("solver.softening", t.solver.softening, "", 1.0, 1e6,
@@ -315,6 +318,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "steps scaled down further are tried again with everything softer");
     see("solver.stiffness_from_m", t.solver.stiffness_from_m, "m", 1e-9, 10.0,
         "constraint error above which steps account for how forces turn with their arms");
+    see("solver.lead_from_m", t.solver.lead_from_m, "m", 0.0, 1e6,
+        "hands that a phase's iterations took so much nearer, but not there, are led part by part");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "solves at most to find who sticks and who slides");
     visit_body_tuning(t, see);

@@ -40,8 +40,7 @@ struct SolveScratch {
     RowSystem system;
     TriadSystem triads;  // in place of all the others where it serves
     LedHands led;
-    std::vector<Pose> start;  // of the island's bodies, before and after steps that ran out
-    std::vector<Pose> first;
+    std::vector<Pose> at_once;  // by slot, where steps ran out before hands were led
 };
 
 bool has_contact(std::span<const Row> rows);

@@ -1,8 +1,44 @@
 #include "engine/solver/led_hands.hpp"
 
-namespace handhold {
+#include <algorithm>
 
-void LedHands::take(const IslandView& island) {
+namespace handhold {
+namespace {
+
+// By no less than half of what there is: islands grow by a body at a time.
+template <typename T>
+void reserve(std::size_t size, std::vector<T>& values) {
+    if (size > values.capacity()) {
+        values.reserve(std::max(size, values.capacity() + values.capacity() / 2));
+    }
+}
+
+}  // namespace
+
+void reserve_poses(const IslandView& island, std::vector<Pose>& poses) {
+    reserve(island.island_bodies.size(), poses);
+}
+void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
+    poses.clear();
+    for (const std::uint32_t index : island.island_bodies) {
+        poses.push_back(island.bodies[index].pose_ws);
+    }
+}
+void put_back(const IslandView& island, std::span<const Pose> poses) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        island.bodies[island.island_bodies[i]].pose_ws = poses[i];
+    }
+}
+
+void LedHands::reserve(const IslandView& island) {
+    reserve_poses(island, start_);
+    const auto hands = std::ranges::count_if(
+        island.island_blocks, [&](std::uint32_t index) { return is_hand(island.blocks[index]); });
+    handhold::reserve(static_cast<std::size_t>(hands), hands_);
+}
+
+bool LedHands::take(const IslandView& island) {
+    keep_poses(island, start_);
     hands_.clear();
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
@@ -20,6 +56,7 @@ void LedHands::take(const IslandView& island) {
         }
         hands_.push_back(hand);
     }
+    return !hands_.empty();
 }
 
 void LedHands::hold_back(const IslandView& island, double share) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/solver/island_view.hpp"
@@ -8,13 +9,21 @@
 // Load stepping: hands that jumped go their way in parts, each of which Newton's method can follow.
 namespace handhold {
 
-// The hands of one island, and how far they are from what they hold. Keeps its memory.
+// Poses of the island's bodies, by slot.
+void keep_poses(const IslandView& island, std::vector<Pose>& poses);
+void reserve_poses(const IslandView& island, std::vector<Pose>& poses);
+void put_back(const IslandView& island, std::span<const Pose> poses);
+
+// The hands of one island, and how far they are from what they hold where the bodies start. Keeps
+// its memory.
 class LedHands {
   public:
-    // As they are at the bodies' present poses.
-    void take(const IslandView& island);
-    void clear() { hands_.clear(); }
-    bool empty() const { return hands_.empty(); }
+    // As they are at the bodies' present poses. False where there are none.
+    bool take(const IslandView& island);
+    // Room for such an island's, so that taking them allocates nothing.
+    void reserve(const IslandView& island);
+    // Puts the bodies where they were then.
+    void go_back(const IslandView& island) const { put_back(island, start_); }
 
     // Has hands ask for all but `share` of that, in [0, 1]. 0: bitwise as they were taken.
     void hold_back(const IslandView& island, double share) const;
@@ -28,6 +37,7 @@ class LedHands {
         Vec3 turn_a_bs = Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
     };
     std::vector<Hand> hands_;
+    std::vector<Pose> start_;  // by slot
 };
 
 }  // namespace handhold

@@ -8,6 +8,7 @@
 
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/geometric_stiffness.hpp"
+#include "engine/solver/lead_hands.hpp"
 
 namespace handhold {
 namespace {
@@ -313,7 +314,10 @@ void adapt(bool progresses, double overlap_m, double previous_overlap_m,
 }
 
 // Says whether the error falls steadily, step by step, and begins to count anew where it does.
-// Between contacts steps are not trusted that far.
+// Steps that repeat a factor are not asked: they neither count nor end a run, for they say nothing
+// of how soft hands should be. Until a run is long enough its steps are no progress, so that hands
+// soften twice by `softening` and then harden once by `hardening`: about where they were, in three
+// steps, in place of a thousand times as soft. Between contacts steps are not trusted that far.
 class SteadyFall {
   public:
     explicit SteadyFall(const StepSchedule& schedule) : schedule_(schedule) {}
@@ -403,6 +407,9 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
         steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
         result.converged = result.residual_m < settings.tolerance_m;
+        if (result.iterations == 0) {
+            result.hands_from_m = steps.worst_hand_m();
+        }
         polishes = result.converged && !polishes && step.whole && steps.keeps_factor() &&
                    result.iterations + 1 < settings.max_iterations &&
                    steps.worst_hand_m() > k_hand_share * settings.tolerance_m;
@@ -436,80 +443,24 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
     }
 }
 
-// Positions may bring any contact near: not one may be left out.
-bool load(const IslandView& island, SolveScratch& scratch) {
-    return scratch.triads.load(island, std::numeric_limits<double>::infinity());
-}
-
-NewtonResult solve_loaded(const IslandView& island, const NewtonSettings& settings,
-                          SolveScratch& scratch) {
+// From the bodies' present poses, which may have changed since the island was loaded.
+NewtonResult solve_part(const IslandView& island, const NewtonSettings& settings,
+                        SolveScratch& scratch) {
+    if (!scratch.triads.load(island)) {
+        return {};
+    }
     const NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
     scratch.triads.store_poses(island);
     return result;
 }
 
-void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
-    poses.clear();
-    for (const std::uint32_t index : island.island_bodies) {
-        poses.push_back(island.bodies[index].pose_ws);
-    }
-}
-void put_back(const IslandView& island, std::span<const Pose> poses) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        island.bodies[island.island_bodies[i]].pose_ws = poses[i];
-    }
-}
-
-// From `scratch.start`, with `scratch.led` taken there: part by part of the hands' way. Gives up
-// where one part cannot be had.
-NewtonResult lead(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch) {
-    constexpr int k_parts = 4;
-    constexpr double k_on_its_way_m = 1e-5;
-    NewtonSettings on_its_way = settings;
-    on_its_way.tolerance_m = std::max(settings.tolerance_m, k_on_its_way_m);
-    put_back(island, scratch.start);
-    NewtonResult result;
-    int iterations = 0;
-    for (int part = 1; part <= k_parts; ++part) {
-        scratch.led.hold_back(island, 1.0 - static_cast<double>(part) / k_parts);
-        load(island, scratch);
-        result = solve_loaded(island, part < k_parts ? on_its_way : settings, scratch);
-        iterations += result.iterations;
-        if (!result.converged) {
-            break;
-        }
-    }
-    scratch.led.hold_back(island, 0.0);
-    result.iterations = iterations;
-    result.led = true;
-    return result;
-}
-
-// Where hands jump far, on links of very different masses, no number of steps suffices: they are
-// led then. What cannot be had even so stays as it was.
 NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settings,
                           SolveScratch& scratch) {
-    NewtonResult result = iterate(settings, TriadSteps(island, scratch.triads));
-    scratch.led.clear();
-    if (settings.leads && !result.converged && result.iterations == settings.max_iterations) {
-        scratch.led.take(island);
-        keep_poses(island, scratch.start);
-    }
+    const NewtonResult at_once = iterate(settings, TriadSteps(island, scratch.triads));
+    reserve_leading(island, scratch);
+    const bool leads = needs_leading(at_once, settings) && scratch.led.take(island);
     scratch.triads.store_poses(island);
-    if (scratch.led.empty()) {
-        return result;
-    }
-    keep_poses(island, scratch.first);
-    NewtonResult led = lead(island, settings, scratch);
-    led.iterations += result.iterations;
-    if (led.converged) {
-        return led;
-    }
-    put_back(island, scratch.first);
-    load(island, scratch);
-    scratch.triads.store_poses(island);
-    result.iterations = led.iterations;
-    return result;
+    return leads ? lead_hands(island, settings, at_once, scratch, &solve_part) : at_once;
 }
 
 }  // namespace
@@ -517,8 +468,8 @@ NewtonResult solve_triads(const IslandView& island, const NewtonSettings& settin
 NewtonResult solve_positions(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     const FlushDenormals flush;
-    return load(island, scratch) ? solve_triads(island, settings, scratch)
-                                 : iterate(settings, RowSteps(island, scratch));
+    return scratch.triads.load(island) ? solve_triads(island, settings, scratch)
+                                       : iterate(settings, RowSteps(island, scratch));
 }
 
 }  // namespace handhold

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,9 @@ class TriadSystem {
 
     // Takes over the bodies of the island and its blocks that take part. False where one of them
     // may let go, slide or stop, or where so many meet in one body that RowSystem's hubs serve
-    // better: nothing else may be called then. `touch_m`: contacts farther apart do not count.
-    bool load(const IslandView& island, double touch_m);
+    // better: nothing else may be called then. `touch_m`: contacts farther apart do not count; a
+    // solve of positions may bring any of them near.
+    bool load(const IslandView& island, double touch_m = std::numeric_limits<double>::infinity());
     // Takes over the velocities alone, where it still has all the rest: `load` and `store_poses`
     // came before, in the same revision of the graph, and masses and poses are as they were. False
     // where it has not, or where contacts might count by now.

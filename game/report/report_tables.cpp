@@ -97,6 +97,9 @@ const char* meaning_of(Fallback reason) {
             return "A solve ended before it was clear which contacts push; some may overlap.";
         case Fallback::hands_led:
             return "Hands jumped too far for a solve's steps; it took them there part by part.";
+        case Fallback::hands_led_in_vain:
+            return "Hands jumped too far for a solve's steps, and could not be taken there part by "
+                   "part either.";
         case Fallback::friction_wedged:
             return "Contacts wedged something in, or would have given it energy; their friction "
                    "was set aside.";

@@ -136,7 +136,10 @@ NewtonSettings settings_of(const Solve& s, Phase phase) {
             .step_tolerance_m = tuning.step_tolerance_m,
             .softness = {hand, tuning.contact_softness, tuning.joint_softness},
             .stiffness_from_m = tuning.stiffness_from_m,
-            .schedule = {tuning.softest_hand, tuning.hardest_hand, tuning.softest_contact,
+            .lead_from_m = tuning.lead_from_m,
+            // Softest is never harder than hardest, or than what contacts begin with.
+            .schedule = {std::max(tuning.softest_hand, tuning.hardest_hand), tuning.hardest_hand,
+                         std::max(tuning.softest_contact, tuning.contact_softness),
                          tuning.hardening, tuning.softening, tuning.steady_steps,
                          tuning.steady_share, tuning.largest_turn_rad, tuning.least_scale}};
 }
@@ -197,8 +200,9 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
         if (result.unsettled) {
             s.stats.count(Fallback::active_set_unsettled);
         }
-        if (result.led) {
-            s.stats.count(Fallback::hands_led);
+        if (result.leading != Leading::none) {
+            s.stats.count(result.leading == Leading::arrived ? Fallback::hands_led
+                                                             : Fallback::hands_led_in_vain);
         }
     }
     return frame.island_order.size();

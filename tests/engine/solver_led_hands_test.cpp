@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -93,7 +94,7 @@ TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
     NewtonSettings settings;
     settings.max_iterations = 12;
     const NewtonResult result = scene.solve_positions(settings);
-    EXPECT_TRUE(result.led);
+    EXPECT_EQ(result.leading, Leading::arrived);
     EXPECT_TRUE(result.converged);
     EXPECT_GT(result.iterations, settings.max_iterations);
     EXPECT_LT(worst_error_m(scene), 2.0 * settings.tolerance_m);
@@ -101,7 +102,7 @@ TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
     SolverScene at_once = chain_to(0.8);
     settings.max_iterations = 200;
     const NewtonResult with_more = at_once.solve_positions(settings);
-    EXPECT_FALSE(with_more.led);
+    EXPECT_EQ(with_more.leading, Leading::none);
     EXPECT_TRUE(with_more.converged);
 }
 
@@ -112,12 +113,33 @@ TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
     NewtonSettings settings;
     settings.max_iterations = 8;
     const NewtonResult result = scene.solve_positions(settings);
-    EXPECT_FALSE(result.led);
+    EXPECT_EQ(result.leading, Leading::in_vain);
     EXPECT_FALSE(result.converged);
     EXPECT_GT(result.iterations, settings.max_iterations);
     EXPECT_LE(result.iterations, 5 * settings.max_iterations);
     EXPECT_NEAR(worst_error_m(scene), result.residual_m, 1e-12);
     EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), scene.graph.blocks.begin(), &is_same));
+}
+
+// Nothing that steps can do takes a hand nearer that has pulled its rope taut, or that stretches
+// it: parts of its way would be paid for in every frame.
+TEST(SolvePositions, HandsOnTautRopesAreNotLed) {
+    for (const double beyond_m : {0.001, 0.02, 0.2}) {
+        SolverScene scene = chain_to(1.0 + beyond_m / 1.6);
+        build_islands(scene.graph);
+        NewtonSettings settings;
+        settings.max_iterations = 300;
+        settings.lead_from_m = std::numeric_limits<double>::infinity();
+        scene.solve_positions(settings);  // as earlier frames have left it
+        settings = NewtonSettings{};
+        for (int frame = 1; frame <= 5; ++frame) {
+            scene.graph.blocks.back().point_a_bs *= 1.001;
+            const NewtonResult result = scene.solve_positions(settings);
+            EXPECT_FALSE(result.converged) << beyond_m;
+            EXPECT_EQ(result.leading, Leading::none) << beyond_m;
+            EXPECT_LE(result.iterations, settings.max_iterations) << beyond_m;
+        }
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -216,7 +217,7 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
 
 TEST(SolvePositions, HandsHardenAsFastAsTheScheduleSays) {
     NewtonSettings settings;
-    settings.leads = false;
+    settings.lead_from_m = std::numeric_limits<double>::infinity();
     settings.softness.hand = 1e-3;
     const int usual = uneven_chain_with_a_far_hand().solve_positions(settings).iterations;
     settings.schedule.hardening = 0.5;

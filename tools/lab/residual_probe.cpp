@@ -1,6 +1,7 @@
 #include "tools/lab/residual_probe.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "tools/lab/gauss_seidel.hpp"
 
@@ -29,7 +30,7 @@ void probe(const IslandView& island, const NewtonSettings& settings, SolveScratc
     for (int iterations = 1; iterations <= k_most_iterations; ++iterations) {
         NewtonSettings few = settings;
         few.max_iterations = iterations;
-        few.leads = false;
+        few.lead_from_m = std::numeric_limits<double>::infinity();
         set_sweeps(iterations);
         const NewtonResult result = g_solver(island, few, scratch);
         if (result.iterations == iterations) {

@@ -1,0 +1,85 @@
+// What solve_phases asks the solver for, and what it counts of its answers.
+#include "systems/physics/solve_phases.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "column_scene.hpp"
+#include "engine/collision/shape_library.hpp"
+
+namespace handhold::solve_phases_test {
+namespace {
+
+NewtonSettings g_asked;
+NewtonResult g_answer;
+
+NewtonResult answer(const IslandView& /*island*/, const NewtonSettings& settings,
+                    SolveScratch& /*scratch*/) {
+    g_asked = settings;
+    return g_answer;
+}
+
+// A loose body on a fixed one, by a joint: one island.
+struct Phases {
+    ShapeLibrary shapes;
+    CollisionWorld collision{shapes};
+    FrameGraph frame;
+    Tuning tuning;
+    StageStats stats;
+
+    Phases() {
+        SolverBody loose;
+        loose.id = 2;
+        loose.role = BodyRole::free;
+        loose.mass_kg = 1.0;
+        loose.inertia_kgm2 = Vec3::Ones();
+        frame.graph.bodies = {SolverBody{}, loose};
+        RowBlock joint;
+        joint.kind = RowKind::ball;
+        joint.a = 0;
+        joint.b = 1;
+        frame.graph.blocks = {joint};
+        frame.phase.resize(2);
+        frame.proxies.resize(2);
+        build_islands(frame.graph);
+        for (SolverBody& body : frame.graph.bodies) {
+            body.inverse_mass = body.mass_kg > 0.0 ? 1.0 / body.mass_kg : 0.0;
+        }
+        frame.position_solver = &answer;
+    }
+    void solve() { solve_phases({collision, frame}, tuning, stats); }
+};
+
+TEST(SolvePhases, CountsHandsThatWereLedByHowItEnded) {
+    const auto counted = [](Leading leading) {
+        g_answer = {};
+        g_answer.converged = true;
+        g_answer.leading = leading;
+        Phases phases;
+        phases.solve();
+        return std::array{test::count_of(phases.stats, Fallback::hands_led),
+                          test::count_of(phases.stats, Fallback::hands_led_in_vain)};
+    };
+    EXPECT_EQ(counted(Leading::none), (std::array<std::uint64_t, 2>{0, 0}));
+    EXPECT_EQ(counted(Leading::arrived), (std::array<std::uint64_t, 2>{1, 0}));
+    EXPECT_EQ(counted(Leading::in_vain), (std::array<std::uint64_t, 2>{0, 1}));
+}
+
+TEST(SolvePhases, SoftestIsNeverHarderThanHardest) {
+    g_answer = {};
+    g_answer.converged = true;
+    Phases phases;
+    phases.tuning.solver.softest_hand = 1e-9;
+    phases.tuning.solver.hardest_hand = 1e-4;
+    phases.tuning.solver.softest_contact = 1e-9;
+    phases.tuning.solver.contact_softness = 1e-5;
+    phases.solve();
+    EXPECT_EQ(g_asked.schedule.softest_hand, 1e-4);
+    EXPECT_EQ(g_asked.schedule.hardest_hand, 1e-4);
+    EXPECT_EQ(g_asked.schedule.softest_contact, 1e-5);
+    EXPECT_EQ(g_asked.softness.contact, 1e-5);
+}
+
+}  // namespace
+}  // namespace handhold::solve_phases_test
