@@ -92,7 +92,8 @@ struct FingerRetry {
 };
 
 // Whether a finger that touches nothing would touch something if it closed: to look for that is
-// dear, and mostly the same a little farther on. By the way of the wrist shown.
+// dear, and mostly the same a little farther on. By the way of the wrist shown. Written by
+// sweep_fingers and pose_thumb.
 struct FingerOutlook {
     double wait_m = 0.0;   // still to go until it looks again; time counts as a way. 0: not known
     double since_m = 0.0;  // gone since it looked

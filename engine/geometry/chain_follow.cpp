@@ -112,9 +112,8 @@ class ChainFollower {
     bool close() {
         double share = std::numeric_limits<double>::infinity();  // until something is touched
         double unseen = share;  // as far as what no link sees cannot be touched
-        double arm_m = 0.0;
         for (std::size_t i = kept_; i < chain_.link_count; ++i) {
-            arm_m = 0.0;
+            double arm_m = 0.0;  // how fast its end goes, by the share
             for (std::size_t j = kept_; j <= i; ++j) {
                 const Vec2 arm = points_ds_[i + 1] - points_ds_[j];
                 arm_m += range_rad(j) * arm.norm();

@@ -153,10 +153,8 @@ class ChainRefitter {
     void close_on(std::span<const PlacedMesh> meshes) {
         const double turn = turn_share();
         fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
-        if (kept_ == 0 && refit_.is_ahead == false) {
-            if (relax()) {
-                return;
-            }
+        if (kept_ == 0 && refit_.is_ahead == false && relax()) {
+            return;
         }
         cut();
         const DiscClosure closure = closure_by(std::min(refit_.close_share, turn));

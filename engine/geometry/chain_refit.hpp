@@ -7,10 +7,11 @@
 #include "engine/geometry/chain_fit.hpp"
 
 // Closes a chain again that was closed a moment ago and has moved little since: from the angles
-// that it had. What still lies on the surface stays as it is, what is sunk opens until it is clear,
-// and what is clear closes; where nothing is left to touch, it goes back to being relaxed. It stays
-// with the one of several fits that it had: a chain that is closed anew takes whichever its way
-// from fully open meets first, and may change between them from one moment to the next.
+// that it had. What is near the surface follows it by its gaps (chain_follow.hpp). Where that does
+// not do, what is sunk opens until it is clear, and what is clear closes; where nothing is left to
+// touch, it goes back to being relaxed. It stays with the one of several fits that it had: a chain
+// that is closed anew takes whichever its way from fully open meets first, and may change between
+// them from one moment to the next.
 namespace handhold {
 
 struct ChainRefitSettings {

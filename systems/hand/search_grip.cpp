@@ -72,6 +72,7 @@ class PalmHolder {
                 surface.search_in_m = search_in_m;
                 return;
             }
+            // What was held there was held to the normal of a moment ago.
             kept_normal_bs_.reset();
             known_count_ = 0;
             surface = {};
