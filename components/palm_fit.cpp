@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "components/finger_chain.hpp"
 #include "components/finger_room.hpp"
 #include "engine/collision/closest_point.hpp"
 
@@ -316,6 +317,11 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
             rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
 }
 
+// Where it is now, as far as its fingers had room where it was judged.
+bool has_room_still(const HandSurroundings& hand, const GripSurface& last) {
+    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs);
+}
+
 Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
     Pose moved;
     moved.rotation = (rotation_from_vector(move.turn_rad) * wrist.rotation).normalized();
@@ -337,7 +343,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(hold_to_limits(hand, last.wrist_bs, last, lift_m, tuning),
                              last.held_bs, center_hs);
     }
-    PalmSpheres palm(hand, surface, goes_on && effort.last->has_room_m > 0.0);
+    PalmSpheres palm(hand, surface, goes_on && has_room_still(hand, *effort.last));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};

@@ -175,6 +175,28 @@ TEST(SearchGrip, LeavesFingersRoom) {
     EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
 }
 
+// A gripping hand that is thrown farther than its room was known to reach, in the frame after its
+// surface was judged, sees the block that it is thrown into in that frame: only small gaps are
+// looked for where nothing can have come near.
+TEST(SearchGrip, SeesWhatItIsThrownIntoInTheSameFrame) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    constexpr double k_beside_x_m = -0.27;
+    FingerRoom room;
+    for (const double thrown_m : {0.03, 0.04, 0.05, 0.06}) {
+        const auto beside_block = [&](double x_m) {
+            return wrist_with_palm_at(room.rig, {x_m, 0.02, -0.15}, Vec3::UnitY());
+        };
+        FittedHand hand(room.mesh, beside_block(k_beside_x_m));
+        hand.search(k_dt_s);
+        ASSERT_TRUE(hand.surface.at(k_right).was_judged) << thrown_m;
+        ASSERT_GT(hand.surface.at(k_right).has_room_m, 0.0) << thrown_m;
+        ASSERT_LE(palm_sunk_m(hand), 1e-4) << thrown_m;
+        hand.wrist_bs() = beside_block(k_beside_x_m + thrown_m);
+        hand.search(k_dt_s);
+        EXPECT_LE(palm_sunk_m(hand), 2e-3) << thrown_m;
+    }
+}
+
 // On a floor without end there is no other surface for fingers that point into it: the palm that
 // would be clear alone is turned and moved until they are too, at once and from frame to frame.
 TEST(SearchGrip, HoldsFingersClearWithThePalm) {
