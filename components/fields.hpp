@@ -232,6 +232,7 @@ void visit_fields(const FingerOutlook& c, V&& visit) {
     visit("wait_m", c.wait_m);
     visit("since_m", c.since_m);
     visit("is_ahead", c.is_ahead);
+    visit("is_known", c.is_known);
 }
 template <typename V>
 void visit_fields(const ThumbSearch& c, V&& visit) {
@@ -423,7 +424,9 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("look_in_m", c.look_in_m);
     visit("tried", c.tried);
     visit("tried_count", c.tried_count);
+    visit("listed_count", c.listed_count);
     visit("cost_m", c.cost_m);
+    visit("goes_through", c.goes_through);
     visit("to_clear", c.to_clear);
     visit("has_room_m", c.has_room_m);
     visit("bends", c.bends);

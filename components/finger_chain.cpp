@@ -110,14 +110,15 @@ void age(FingerOutlook& outlook, double way_m, double dt_s) {
     outlook.wait_m = std::max(outlook.wait_m - way_m - k_time_mps * dt_s, 0.0);
 }
 
-std::optional<bool> is_ahead(const FingerOutlook& outlook) {
-    return outlook.wait_m > 0.0 ? std::optional<bool>(outlook.is_ahead) : std::nullopt;
+std::optional<bool> is_ahead(const FingerOutlook& outlook, bool may_look) {
+    const bool is_told = outlook.wait_m > 0.0 || (outlook.is_known && !may_look);
+    return is_told ? std::optional<bool>(outlook.is_ahead) : std::nullopt;
 }
 
 void note_outlook(ChainFit& fit, FingerOutlook& outlook) {
     constexpr double k_look_again_m = 0.004;
     if (fit.has_looked_ahead) {
-        outlook = {k_look_again_m, 0.0, fit.is_ahead};
+        outlook = {k_look_again_m, 0.0, fit.is_ahead, true};
     } else if (fit.fallback != ChainFallback::relaxed && fit.contact_link != DiscClosure::k_none) {
         outlook = {};
     } else if (outlook.since_m > 0.0) {

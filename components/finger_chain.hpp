@@ -50,8 +50,9 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
 
 // FingerOutlook's frame: the wrist shown went `way_m`.
 void age(FingerOutlook& outlook, double way_m, double dt_s);
-// What of it still counts for a chain that is fitted again.
-std::optional<bool> is_ahead(const FingerOutlook& outlook);
+// What of it still counts for a chain that is fitted again; where that may not look now, all that
+// is known.
+std::optional<bool> is_ahead(const FingerOutlook& outlook, bool may_look);
 // After the chain was fitted again: it looked, it touches something and need not, or it goes by
 // what it knew. What it knew of another place has to be looked at again where the hand rests.
 void note_outlook(ChainFit& fit, FingerOutlook& outlook);

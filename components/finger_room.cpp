@@ -46,6 +46,12 @@ ChainAngles bent(const Bend& bend, const ChainAngles& open_rad, const ChainAngle
     return angle_rad;
 }
 
+// No bend turns a hinge farther.
+ChainAngles most_bent(const HingeChain& chain) {
+    constexpr Bend k_most = {0.75, 0.75};
+    return bent(k_most, chain.open_rad, chain.closed_rad, chain.link_count);
+}
+
 struct BestBend {
     double sunk_m = std::numeric_limits<double>::infinity();
     std::size_t bend = 0;  // of k_bends
@@ -54,26 +60,27 @@ struct BestBend {
     bool has_room() const { return sunk_m <= k_fingers_have_room_m; }
 };
 
-// Keeps the better; the first with room will do.
-void try_bends(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
-               ChainPatch& patch, BestBend& best) {
-    // Straight, which is the first of the bends, most have room, and there is little to gather.
+// Straight, as most have room, and there is little to gather.
+void try_straight(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
+                  ChainPatch& patch, BestBend& best) {
     patch.gather(chain_reach(chain, chain.open_rad, chain.open_rad), hand.meshes);
     const double straight_m = chain_depth(chain, chain.open_rad, patch).depth_m;
     if (straight_m < best.sunk_m) {
         best = {straight_m, 0, opposition};
     }
-    if (best.has_room()) {
-        return;
-    }
-    patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, chain.closed_rad)),
+}
+
+// The other bends, at the opposition of the best; the first with room will do.
+void try_bends(const HandSurroundings& hand, const HingeChain& chain, ChainPatch& patch,
+               BestBend& best) {
+    patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, most_bent(chain))),
                  hand.meshes);
     ChainDepths depths(chain, patch);
     for (std::size_t i = 1; i < k_bends.size() && !best.has_room(); ++i) {
         const double depth_m = depths.depth_m(
             bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count), best.sunk_m);
         if (depth_m < best.sunk_m) {
-            best = {depth_m, i, opposition};
+            best = {depth_m, i, best.opposition};
         }
     }
 }
@@ -84,10 +91,15 @@ FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, 
     FingerRoom room;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
+        const auto chain_at = [&](std::uint32_t opposition) {
+            return finger_chain(finger, opposition_rad(finger, opposition), wrist_bs);
+        };
         BestBend best;
         for (std::uint32_t i = 0; i < oppositions_of(finger) && !best.has_room(); ++i) {
-            try_bends(hand, finger_chain(finger, opposition_rad(finger, i), wrist_bs), i, patch,
-                      best);
+            try_straight(hand, chain_at(i), i, patch, best);
+        }
+        if (!best.has_room()) {
+            try_bends(hand, chain_at(best.opposition), patch, best);
         }
         if (!best.has_room()) {
             room.bends[f] =

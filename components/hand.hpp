@@ -36,12 +36,16 @@ struct GripSurface {
     // Where it is not the one that is cheapest by its limits alone, or palm or fingers have no
     // room: how far the hand still goes until it looks for another. 0: it need not.
     double look_in_m = 0.0;
-    // While it looks, a few surfaces in each frame: those it has tried or left out, by their
-    // triangles, and what the best of them cost where it was tried, which is this one.
+    // While it looks, a few surfaces in each frame: those it has tried, by their triangles, then
+    // those that it is to try, once they are listed; and what the best of those tried cost where it
+    // was tried, which is this one.
     static constexpr std::size_t k_most_tries = 14;
     std::array<std::uint32_t, k_most_tries> tried = {};
-    std::uint32_t tried_count = 0;  // 0: it does not look
+    std::uint32_t tried_count = 0;   // 0: it does not look
+    std::uint32_t listed_count = 0;  // with those to be tried; 0: not listed yet
     double cost_m = 0.0;
+    // The palm may have gone through the first of them: backs of surfaces are tried as well.
+    bool goes_through = false;
     // Fingers that had no room at the last of those: it is yet to be tried with them held clear.
     FingerBends to_clear = {};
     // Where the fingers had room: how far the hand still goes until that is asked again.
@@ -98,6 +102,7 @@ struct FingerOutlook {
     double wait_m = 0.0;   // still to go until it looks again; time counts as a way. 0: not known
     double since_m = 0.0;  // gone since it looked
     bool is_ahead = false;
+    bool is_known = false;  // it has looked since it touched
 };
 
 // A thumb's way through its oppositions, of which a few are tried in each frame.

@@ -13,8 +13,6 @@
 namespace handhold {
 namespace {
 
-constexpr int k_most_pushes = 6;
-constexpr int k_most_pushes_on = 1;     // the next frame goes on with it
 constexpr int k_fair_pushes = 2;        // then it may be given up
 constexpr double k_least_arm_m = 1e-3;  // turning is never quite free
 constexpr double k_any_step_m = 1.0;
@@ -351,8 +349,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
     double least_m = deepest_m;
     double step_m = k_any_step_m;
     const bool is_pushed = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
-    const int most_pushes = goes_on ? k_most_pushes_on : k_most_pushes;
-    for (int i = 0; i < most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {
+    for (int i = 0; i < effort.most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {
         if (i >= k_fair_pushes && least_m > effort.most_sunk_m) {
             break;
         }

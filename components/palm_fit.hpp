@@ -19,8 +19,10 @@ struct PalmFit {
 // How hard fit_palm tries.
 struct PalmEffort {
     // Of the same hand a frame ago: begins with the move that held the palm there, which is mostly
-    // nearly the one, and pushes once: it settles from frame to frame.
+    // nearly the one.
     const GripSurface* last = nullptr;
+    // After as many it ends, settled or not.
+    int most_pushes = 6;
     // Palms that stay sunk deeper soon are given up.
     double most_sunk_m = std::numeric_limits<double>::infinity();
 };

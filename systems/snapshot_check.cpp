@@ -258,6 +258,10 @@ class BreachFinder {
                   ".search_in_m", "a way of at most 1 m");
             check(surface.tried_count <= GripSurface::k_most_tries, "grip_surface",
                   w_.grip_surface.owners()[row], ".tried_count", "at most 14");
+            check(surface.listed_count <= GripSurface::k_most_tries &&
+                      (surface.listed_count == 0 || surface.listed_count >= surface.tried_count),
+                  "grip_surface", w_.grip_surface.owners()[row], ".listed_count",
+                  "0, or at least tried_count and at most 14");
         }
     }
 

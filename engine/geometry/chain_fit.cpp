@@ -37,14 +37,8 @@ class ChainFitter {
             relax();
             return fit_;
         }
-        bool is_complete = false;
-        if (settings_.searches && seed.triangle != k_no_triangle) {
-            is_complete = search_cuts(seed);
-            close();
-        }
-        const bool touches = fit_.contact_link != DiscClosure::k_none;
-        if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
-            close_over_all_cuts(touches);
+        if (settings_.searches || !begins_sunk()) {
+            close_from_open(seed);
         }
         if (fit_.contact_link == DiscClosure::k_none) {
             relax();
@@ -69,6 +63,33 @@ class ChainFitter {
         std::ptrdiff_t first = 0;
         std::ptrdiff_t end = 0;
     };
+
+    // Over what the searches find, or where that does not do over all that is within reach.
+    void close_from_open(const ChainSeed& seed) {
+        bool is_complete = false;
+        if (settings_.searches && seed.triangle != k_no_triangle) {
+            is_complete = search_cuts(seed);
+            close();
+        }
+        const bool touches = fit_.contact_link != DiscClosure::k_none;
+        if (!is_complete || !touches || fit_.depth_m > settings_.search_depth_m) {
+            close_over_all_cuts(touches);
+        }
+    }
+
+    // True where it is sunk before it closes: it would not turn at all.
+    bool begins_sunk() {
+        const ChainDepth depth = depth_of(chain_.open_rad);
+        if (depth.depth_m <= settings_.search_depth_m) {
+            return false;
+        }
+        fit_.angle_rad = chain_.open_rad;
+        fit_.depth_m = depth.depth_m;
+        fit_.contact_link = static_cast<std::int32_t>(depth.link);
+        fit_.fallback = ChainFallback::all_cuts;
+        scratch_.segments.assign(scratch_.cuts.begin(), scratch_.cuts.end());
+        return true;
+    }
 
     // What is within reach, and what the planes cut out of it.
     void gather() {

@@ -36,7 +36,8 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool searches = true;  // false: all cuts at once, none is searched for
+    bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
+                           // it closes is not closed from there
     bool mends = true;     // false: neither bends nor opens what is sunk
 };
 

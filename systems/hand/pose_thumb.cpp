@@ -202,7 +202,9 @@ class ThumbPoser {
         const FingerAngles& last = pose.target[f];
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        refit.is_ahead = is_ahead(pose.outlook[f]);
+        const bool may_look =
+            std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
+        refit.is_ahead = is_ahead(pose.outlook[f], may_look);
         ThumbFit kept;
         kept.opposition_rad = last.opposition_rad;
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),

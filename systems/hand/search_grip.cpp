@@ -23,6 +23,8 @@ constexpr std::uint32_t k_patience = 24;    // pops without a better triangle en
 constexpr std::uint32_t k_patience_on = 6;  // where it was found a moment ago
 constexpr double k_search_again_m = 0.006;  // what was found is followed so far
 constexpr std::uint32_t k_most_pushed_at_rest = 24;
+constexpr int k_most_pushes_on = 1;       // of a palm that goes on: it settles from frame to frame
+constexpr int k_most_pushes_tried = 2;    // of one that is tried, and taken only if it is better
 constexpr double k_look_again_m = 0.016;  // a hand goes so far before it looks for room again
 
 PalmPlace palm_in(const Pose& frame, const HandSurroundings& hand) {
@@ -74,7 +76,6 @@ class PalmHolder {
             }
             // What was held there was held to the normal of a moment ago.
             kept_normal_bs_.reset();
-            known_count_ = 0;
             surface = {};
         }
         const auto hit = cast_palm_ray(mesh, palm);
@@ -147,6 +148,8 @@ class PalmHolder {
             surface.cost_m = last.cost_m;
             surface.tried = last.tried;
             surface.tried_count = last.tried_count;
+            surface.listed_count = last.listed_count;
+            surface.goes_through = last.goes_through;
             surface.to_clear = last.to_clear;
             surface.has_room_m = std::max(still_to_go_m(last.has_room_m, last), 0.0);
             surface.look_in_m = last.look_in_m > 0.0
@@ -217,19 +220,26 @@ class PalmHolder {
         GripSurface surface;
         bool has_room = false;
     };
-    // Surfaces that were tried for one hand, and the best of them.
+    // Surfaces that were tried for one hand, and the best of them; then those that are to be tried,
+    // the cheapest first, once they are listed.
     struct Tries {
         std::array<Found, GripSurface::k_most_tries> tried;
         std::size_t count = 0;
+        std::size_t listed = 0;  // with those to be tried; 0: not listed
         Judged best;
         bool has_best = false;
         bool was_judged = false;    // in this frame
         FingerBends to_clear = {};  // at the last of them, which is to be judged so as well
-        std::optional<bool> may_try_backs;
+        bool goes_through = false;  // GripSurface::goes_through
 
         bool is_to_be_cleared() const { return to_clear != FingerBends{}; }
         bool is_full() const { return count == tried.size(); }
+        bool is_listed() const { return listed > 0; }
+        std::span<const Found> so_far() const { return {tried.data(), count}; }
         void add(const Found& found) { tried[count++] = found; }
+        bool is_cheaper(const Found& way) const {
+            return !has_best || way.cost_m < best.surface.cost_m;
+        }
     };
 
     // The surface where what it takes to hold the palm there is least, pushes out of what it is
@@ -245,7 +255,11 @@ class PalmHolder {
             recall(placed, palm, *near, last, tries);
         } else if (near) {
             tries.add(*near);
-            judge_next(placed, palm, *near, tries);
+            const bool is_alone = last.bends == FingerBends{} && last.is_held;
+            judge(placed, palm, *near,
+                  is_alone ? keep_at(placed, palm, *near, last)
+                           : held_at(placed, palm, *near, {}, effort_for(tries)),
+                  tries);
             --left;
         }
         bool stays = false;
@@ -253,7 +267,7 @@ class PalmHolder {
             const auto cheapest = searcher.cheapest_beside({});
             stays = cheapest && is_near_last(placed, *cheapest, tries.best.surface);
         }
-        const bool is_over = stays || try_others(placed, palm, searcher, left, tries);
+        const bool is_over = stays || try_others(placed, palm, searcher, last, left, tries);
         if (!tries.has_best) {
             return {};
         }
@@ -261,15 +275,22 @@ class PalmHolder {
         surface.was_judged = tries.was_judged;
         const bool is_cheapest = stays || (tries.count == 1 && tries.best.has_room && !near);
         surface.look_in_m = is_cheapest ? 0.0 : k_look_again_m;
-        surface.tried_count = is_over ? 0 : static_cast<std::uint32_t>(tries.count);
         surface.to_clear = {};
+        surface.tried_count = surface.listed_count = 0;
+        surface.goes_through = false;
         if (!is_over) {
-            surface.to_clear = tries.to_clear;
-        }
-        for (std::size_t i = 0; i < surface.tried_count; ++i) {
-            surface.tried[i] = tries.tried[i].triangle;
+            note_tries(tries, surface);
         }
         return surface;
+    }
+    static void note_tries(const Tries& tries, GripSurface& surface) {
+        surface.to_clear = tries.to_clear;
+        surface.goes_through = tries.goes_through;
+        surface.tried_count = static_cast<std::uint32_t>(tries.count);
+        surface.listed_count = static_cast<std::uint32_t>(tries.listed);
+        for (std::size_t i = 0; i < std::max(tries.count, tries.listed); ++i) {
+            surface.tried[i] = tries.tried[i].triangle;
+        }
     }
 
     // What was tried in the frames before, where the hand is now; the best of it is near `last`.
@@ -280,70 +301,98 @@ class PalmHolder {
         tries.best.surface.has_room_m = last.has_room_m;
         tries.best.has_room = last.has_room_m > 0.0;
         tries.has_best = true;
-        for (std::size_t i = 0; i < last.tried_count; ++i) {
-            tries.add(found_at(placed, palm, last.tried[i]));
+        tries.count = last.tried_count;
+        tries.listed = last.listed_count;
+        for (std::size_t i = 0; i < std::max(tries.count, tries.listed); ++i) {
+            tries.tried[i] = found_at(placed, palm, last.tried[i]);
         }
         tries.to_clear = last.to_clear;
+        tries.goes_through = last.goes_through;
     }
 
     // The cheapest of those that are left, `left` of them. True where there is none to try any
     // more.
     bool try_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
-                    std::size_t left, Tries& tries) {
-        bool has_looked_around = false;
+                    const GripSurface& last, std::size_t left, Tries& tries) {
         for (;;) {
             if (tries.is_to_be_cleared()) {
                 if (left == 0) {
                     return false;
                 }
-                judge_cleared(placed, palm, tries);
+                judge_cleared(placed, palm, last, tries);
                 --left;
             }
-            if (tries.is_full()) {
-                return true;
-            }
             const bool is_near = tries.best.has_room && tries.best.surface.cost_m < k_near_enough_m;
-            if (left == 0 && !is_near) {
-                return false;
+            if (tries.count > 0 && !tries.is_listed() && !is_near) {
+                if (left == 0) {
+                    return false;
+                }
+                list_others(placed, palm, searcher, tries);
+                --left;
             }
-            if (tries.count > 0 && !has_looked_around && !is_near) {
-                look_around(*placed.mesh, palm, searcher);
-                has_looked_around = true;
-            }
-            const auto way = searcher.cheapest_beside({tries.tried.data(), tries.count});
-            if (!way || (tries.has_best && way->cost_m >= tries.best.surface.cost_m)) {
+            const auto way = next_of(searcher, tries);
+            if (!way) {
                 return true;
             }
             if (left == 0) {
                 return false;
             }
             tries.add(*way);
-            if (!is_left_out(placed, palm, *way, tries)) {
-                judge_next(placed, palm, *way, tries);
-                --left;
-            }
+            judge_next(placed, palm, *way, tries);
+            --left;
         }
     }
 
-    // Backs, but where the palm may have gone through what it came to first: fingers have room
-    // behind walls as well, but no palm goes there for it.
-    bool is_left_out(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
-                     Tries& tries) {
-        const Found& first = tries.tried.front();
-        if (found.triangle == first.triangle || !is_back(placed, palm, found)) {
-            return false;
+    // The cheapest that is left, if it may be cheaper than the best.
+    static std::optional<Found> next_of(const SurfaceSearch& searcher, Tries& tries) {
+        if (tries.is_listed()) {
+            while (tries.count < tries.listed && !tries.is_cheaper(tries.tried[tries.count])) {
+                ++tries.count;
+            }
+            return tries.count < tries.listed ? std::optional(tries.tried[tries.count])
+                                              : std::nullopt;
         }
-        if (!tries.may_try_backs) {
-            tries.may_try_backs = may_try_backs(placed, palm, first);
+        const auto way = tries.is_full() ? std::nullopt : searcher.cheapest_beside(tries.so_far());
+        return way && tries.is_cheaper(*way) ? way : std::nullopt;
+    }
+
+    // All around, what may be cheaper than the best. Backs are left out, but where the palm may
+    // have gone through what it came to first: fingers have room behind walls as well, but no palm
+    // goes there for it.
+    void list_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
+                     Tries& tries) const {
+        look_around(*placed.mesh, palm, searcher);
+        const std::size_t count = tries.count;
+        while (!tries.is_full()) {
+            const auto way = searcher.cheapest_beside(tries.so_far());
+            if (!way || !tries.is_cheaper(*way)) {
+                break;
+            }
+            tries.add(*way);
         }
-        return !*tries.may_try_backs || is_inside(placed, found);
+        tries.was_judged = true;
+        tries.listed = count;
+        for (std::size_t i = count; i < tries.count; ++i) {
+            const Found& way = tries.tried[i];
+            if (!is_back(placed, palm, way) || (tries.goes_through && !is_inside(placed, way))) {
+                tries.tried[tries.listed++] = way;
+            }
+        }
+        tries.count = count;
     }
 
     // Where the palm alone costs more than the best its fingers are not asked: they make it no
     // cheaper. Where they have no room they are to be held clear with the palm, in their own turn.
     void judge_next(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
                     Tries& tries) {
-        const Held held = held_at(placed, palm, way, {}, effort_for(tries));
+        judge(placed, palm, way, held_at(placed, palm, way, {}, effort_for(tries)), tries);
+    }
+    void judge(const PlacedMesh& placed, const PalmPlace& palm, const Found& way, const Held& held,
+               Tries& tries) {
+        if (tries.count == 1) {
+            tries.goes_through =
+                is_back(placed, palm, way) || held.sunk_m > k_roomy_m || held.sync_m > k_far_m;
+        }
         Judged judged = judge_held(placed, palm, way, held, 0.0);
         if (!tries.has_best || judged.surface.cost_m < tries.best.surface.cost_m) {
             const FingerRoom room = find_finger_room(hand_, held.surface.held_bs, scratch_.patch);
@@ -356,10 +405,15 @@ class PalmHolder {
     }
 
     // The last that was tried; the others of its fingers had room there, and mostly still have it.
-    void judge_cleared(const PlacedMesh& placed, const PalmPlace& palm, Tries& tries) {
-        const Found& last = tries.tried[tries.count - 1];
-        const Held held = held_at(placed, palm, last, tries.to_clear, effort_for(tries));
-        take_better(judge_held(placed, palm, last, held, held.fingers_sunk_m), tries);
+    void judge_cleared(const PlacedMesh& placed, const PalmPlace& palm, const GripSurface& last,
+                       Tries& tries) {
+        const Found& found = tries.tried[tries.count - 1];
+        PalmEffort effort = effort_for(tries);
+        if (last.triangle != GripSurface::k_none && is_near_last(placed, found, last)) {
+            effort.last = &last;
+        }
+        const Held held = held_at(placed, palm, found, tries.to_clear, effort);
+        take_better(judge_held(placed, palm, found, held, held.fingers_sunk_m), tries);
         tries.to_clear = {};
     }
 
@@ -371,8 +425,11 @@ class PalmHolder {
         tries.was_judged = true;
     }
     // What stays sunk so deep that it is no better is given up soon.
-    static PalmEffort effort_for(const Tries& tries) {
+    PalmEffort effort_for(const Tries& tries) const {
         PalmEffort effort;
+        if (!std::isinf(dt_s_)) {
+            effort.most_pushes = k_most_pushes_tried;
+        }
         if (tries.has_best) {
             effort.most_sunk_m = tries.best.surface.cost_m / k_sunk_cost;
         }
@@ -382,15 +439,6 @@ class PalmHolder {
     static bool is_back(const PlacedMesh& placed, const PalmPlace& palm, const Found& found) {
         return placed.mesh->search.normals[found.triangle].dot(palm.up) < 0.0;
     }
-    // The palm may have gone through.
-    bool may_try_backs(const PlacedMesh& placed, const PalmPlace& palm, const Found& first) {
-        if (is_back(placed, palm, first)) {
-            return true;
-        }
-        const Held held = held_at(placed, palm, first, {}, {});
-        return held.sunk_m > k_roomy_m || held.sync_m > k_far_m;
-    }
-
     // A palm there would be in something solid: what is over it is seen from inside.
     static bool is_inside(const PlacedMesh& placed, const Found& found) {
         constexpr double k_off_m = 1e-3;
@@ -436,7 +484,8 @@ class PalmHolder {
     // As `last` is held, if it is there and with the same fingers held clear.
     Held keep_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
                  const GripSurface& last) {
-        return held_at(placed, palm, found, last.bends, {.last = &last});
+        return held_at(placed, palm, found, last.bends,
+                       {.last = &last, .most_pushes = k_most_pushes_on});
     }
 
     // Of the first few that are asked for, which are asked for again, it is known.

@@ -29,12 +29,13 @@ struct SearchGripIo {
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
 // PalmTuning::tilt_cost_m_per_rad apart. In the order of these costs surfaces are tried,
 // PalmTuning::tries_per_frame in every second frame, until the others' are no less than the best
-// one's: what counts then is the whole move that holds the palm there and pushes it out of what it
-// is sunk in, and, where palm or fingers have no room however they bend, what stays sunk; such
-// fingers are held clear with the palm where that costs less. A surface that is held is followed
-// from its triangle for some millimetres before all around is searched again. Hands with nothing
-// within PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17. Under a palm in an
-// authored grip nothing is searched for: it has the nearest triangle.
+// one's (where that is not near, all around is looked at for one such turn, and listed): what
+// counts then is the whole move that holds the palm there and pushes it out of what it is sunk in,
+// and, where palm or fingers have no room however they bend, what stays sunk; such fingers are held
+// clear with the palm where that costs less. A surface that is held is followed from its triangle
+// for some millimetres before all around is searched again. Hands with nothing within
+// PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17. Under a palm in an authored
+// grip nothing is searched for: it has the nearest triangle.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::least_sync);
 

@@ -138,15 +138,22 @@ class HandCloser {
         std::size_t closings = most_closings();
         FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
         const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        FingerSet is_kept = {};
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            is_kept[f] = is_free[f] && !is_fitted[f] && pose.retry[f].queued == 0;
+            if (is_kept[f]) {
+                age(pose.retry[f], way_m, io_.dt_s);
+                age(pose.outlook[f], way_m, io_.dt_s);
+            }
+        }
+        const std::size_t looking = next_to_look(hand, is_kept, pose);
         std::size_t neediest = k_finger_count;
         for (std::size_t f = 0; f < k_finger_count; ++f) {
             FingerRetry& retry = pose.retry[f];
-            if (!is_free[f] || is_fitted[f] || retry.queued > 0) {
+            if (!is_kept[f]) {
                 continue;
             }
-            age(retry, way_m, io_.dt_s);
-            age(pose.outlook[f], way_m, io_.dt_s);
-            fits_[f] = keep(hand, wrist_bs, f, pose);
+            fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
             if (fits_[f].depth_m > settings_.open_depth_m) {
                 const bool is_first =
@@ -222,11 +229,26 @@ class HandCloser {
                    : static_cast<std::size_t>(std::max(1, tuning_.finger.closings_per_frame));
     }
 
-    ChainFit keep(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
+    // What is ahead is looked at anew by one finger in a frame, of those that may the one that
+    // looked longest ago; by none where a surface was judged.
+    std::size_t next_to_look(const HandSurroundings& hand, const FingerSet& is_kept,
+                             const FingerPose& pose) const {
+        std::size_t next = k_finger_count;
+        for (std::size_t f = 0; f < k_finger_count; ++f) {
+            const FingerOutlook& outlook = pose.outlook[f];
+            const bool is_first =
+                next == k_finger_count || outlook.since_m > pose.outlook[next].since_m;
+            const bool wants = is_kept[f] && outlook.is_known && outlook.wait_m <= 0.0;
+            next = wants && is_first ? f : next;
+        }
+        return io_.surface.at(hand.hand).was_judged ? k_finger_count : next;
+    }
+
+    ChainFit keep(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f, bool may_look,
                   FingerPose& pose) {
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        refit.is_ahead = is_ahead(pose.outlook[f]);
+        refit.is_ahead = is_ahead(pose.outlook[f], may_look);
         ChainFit fit =
             refit_chain(finger_chain(hand.rig->fingers[f], 0.0, wrist_bs), pose.target[f].curl_rad,
                         hand.meshes, settings_, refit, io_.scratch);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "allocation_count.hpp"
+#include "broken_meshes.hpp"
 #include "sunk_oracle.hpp"
 #include "surface_cuts.hpp"
 
@@ -24,7 +25,8 @@ HingeChain finger_at(const Pose& base) {
     return chain;
 }
 
-ChainFit fit(const HingeChain& chain, std::span<const PlacedMesh> meshes) {
+ChainFit fit(const HingeChain& chain, std::span<const PlacedMesh> meshes,
+             const ChainFitSettings& settings = {}) {
     ChainFitScratch scratch;
     ChainSeed seed;
     if (!meshes.empty()) {
@@ -33,7 +35,7 @@ ChainFit fit(const HingeChain& chain, std::span<const PlacedMesh> meshes) {
             seed = {near->triangle, near->point};
         }
     }
-    return fit_chain(chain, meshes, seed, {}, scratch);
+    return fit_chain(chain, meshes, seed, settings, scratch);
 }
 
 double chain_gap_m(const HingeChain& chain, const ChainFit& fitted,
@@ -214,11 +216,35 @@ TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
     }
     const Scene scene(wall);
     const HingeChain chain = finger_at({});
-    const ChainFit fitted = fit(chain, scene.placed);
-    EXPECT_EQ(fitted.fallback, ChainFallback::bent);
-    EXPECT_GT(chain_gap_m(chain, fitted, scene.placed), -8e-4);
-    EXPECT_LE(fitted.depth_m, 8e-4);
-    EXPECT_GT(fitted.angle_rad[1], 0.2);
+    for (const bool searches : {true, false}) {
+        ChainFitSettings settings;
+        settings.searches = searches;
+        const ChainFit fitted = fit(chain, scene.placed, settings);
+        EXPECT_EQ(fitted.fallback, ChainFallback::bent);
+        EXPECT_GT(chain_gap_m(chain, fitted, scene.placed), -8e-4);
+        EXPECT_LE(fitted.depth_m, 8e-4);
+        EXPECT_GT(fitted.angle_rad[1], 0.2);
+    }
+}
+
+// Where no search is asked for, it is known before it closes that a chain is sunk: what it comes to
+// is what closing it over all cuts comes to, but for where that would turn it a little all the
+// same.
+TEST(FitChain, WithoutSearchesIsNoDeeperThanWithThem) {
+    Random random(2717);
+    const Scene ball(test::make_clean_ball(0.06, 16, 24));
+    int sunk = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Pose base{random.vector(0.12), rotation_from_vector(random.vector(M_PI))};
+        const HingeChain chain = finger_at(base);
+        ChainFitSettings settings;
+        settings.searches = false;
+        const ChainFit without = fit(chain, ball.placed, settings);
+        const ChainFit with = fit(chain, ball.placed);
+        sunk += with.depth_m > settings.search_depth_m ? 1 : 0;
+        EXPECT_LE(without.depth_m, std::max(with.depth_m, settings.open_depth_m) + 2e-3) << i;
+    }
+    EXPECT_GT(sunk, 30);
 }
 
 TEST(FitChain, SecondMeshUnderTheFingerStopsItToo) {

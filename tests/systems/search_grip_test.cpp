@@ -253,8 +253,9 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
     FingerRoom room;
     FittedHand at_once(room.mesh, room.before_block);
     at_once.search();
-    constexpr std::int32_t k_enough = 3;  // the first surface, it with its fingers, the second
-    for (const std::int32_t tries : {1, 2, k_enough}) {
+    // The first surface, it with its fingers, the list of the others, the second.
+    constexpr std::int32_t k_enough = 4;
+    for (const std::int32_t tries : {1, 2, 3, k_enough}) {
         FittedHand hand(room.mesh, room.before_block);
         hand.tuning.palm.tries_per_frame = tries;
         hand.search(k_dt_s);
@@ -273,6 +274,36 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
         hand.search(k_dt_s);
         EXPECT_EQ(hand.surface.at(k_right).held_bs.position, found.held_bs.position);
     }
+}
+
+// All around is looked at once, and what is to be tried is listed then, also where the hand goes on
+// meanwhile; nothing of the list is tried twice or left out.
+TEST(SearchGrip, ListsWhatItIsToTryOnce) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    FingerRoom room;
+    FittedHand hand(room.mesh, room.before_block);
+    const GripSurface& surface = hand.surface.at(k_right);
+    std::vector<std::uint32_t> listed;
+    std::uint32_t tried = 0;
+    int frames = 0;
+    for (int frame = 0; frame < 60 && (frame < 2 || surface.tried_count > 0); ++frame) {
+        hand.wrist_bs().position.x() += 2e-4;
+        hand.search(k_dt_s);
+        if (surface.tried_count > 0 && surface.listed_count > 0) {
+            const std::vector<std::uint32_t> now(surface.tried.begin(),
+                                                 surface.tried.begin() + surface.listed_count);
+            listed = listed.empty() ? now : listed;
+            EXPECT_EQ(now, listed) << frame;
+            EXPECT_GE(surface.tried_count, tried) << frame;
+            EXPECT_LE(surface.tried_count, surface.listed_count) << frame;
+            tried = surface.tried_count;
+            ++frames;
+        }
+    }
+    EXPECT_EQ(surface.tried_count, 0U);
+    EXPECT_EQ(surface.listed_count, 0U);
+    EXPECT_GT(listed.size(), 1U);
+    EXPECT_GT(frames, 1);
 }
 
 // Along a ring the surface that is followed, searched for all around every few frames only, takes

@@ -212,6 +212,13 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world("].tried_count", [](World& w) {
         w.grip_surface.rows()[0].tried_count = GripSurface::k_most_tries + 1;
     });
+    break_world("].listed_count", [](World& w) {
+        w.grip_surface.rows()[0].listed_count = GripSurface::k_most_tries + 1;
+    });
+    break_world("].listed_count", [](World& w) {
+        w.grip_surface.rows()[0].tried_count = 3;
+        w.grip_surface.rows()[0].listed_count = 2;
+    });
     break_world("].thumb_search",
                 [](World& w) { w.finger_pose.rows()[0].thumb_search.tried = ~0U; });
     break_world("].push_off_weight",

@@ -229,6 +229,37 @@ TEST_F(SweepFingers, FingersWithNothingToTouchLookAheadNowAndThen) {
     EXPECT_EQ(hand.pose().outlook[open].since_m, 0.0);  // it looked where it stands
 }
 
+// Looking ahead is dear: of the fingers that have looked before, one looks again in a frame, and
+// none waits long for its turn.
+TEST_F(SweepFingers, OneFingerInAFrameLooksAheadAgain) {
+    Pose at_end = on_beam;
+    at_end.position.x() += 0.3;  // beside the beam's end: all fingers are in the air
+    FittedHand hand(beam, at_end);
+    for (int frame = 0; frame < 30; ++frame) {
+        hand.frame(k_dt_s);
+    }
+    ASSERT_NE(hand.surface.at(test::k_right).triangle, GripSurface::k_none);
+    int looks = 0;
+    double longest_m = 0.0;
+    for (int frame = 0; frame < 60; ++frame) {
+        const FingerPose before = hand.pose();
+        hand.wrist_bs().position.x() -= 1e-3;
+        hand.frame(k_dt_s);
+        int looked = 0;
+        for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+            const FingerOutlook& outlook = hand.pose().outlook[f];
+            const bool is_finger = rig.fingers[f].name != FingerName::thumb;
+            looked += is_finger && before.outlook[f].is_known && outlook.since_m == 0.0 &&
+                      before.outlook[f].since_m > 0.0 && outlook.is_known;
+            longest_m = is_finger ? std::max(longest_m, outlook.since_m) : longest_m;
+        }
+        EXPECT_LE(looked, 1) << frame;
+        looks += looked;
+    }
+    EXPECT_GT(looks, 10);
+    EXPECT_LT(longest_m, 0.015);
+}
+
 // What comes near does so without the hand. Expected: by find_sunk.
 TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
     FittedHand hand(beam, on_beam);
