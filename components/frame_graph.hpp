@@ -69,6 +69,7 @@ struct FrameGraph {
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
     std::vector<std::uint32_t> body_of_row;   // by row of RigidBody: into graph.bodies
+    std::vector<RowBlock> hand_blocks;        // written by build_constraints, by row of Grab
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
     // A body that finish_positions puts back, as the phases left it.

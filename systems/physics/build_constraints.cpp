@@ -128,8 +128,9 @@ bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) 
     return grab.two_handed;
 }
 
-void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
+void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
     FrameGraph& frame = io.frame;
+    frame.hand_blocks.clear();
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];
         const Entity hand = io.grab.owners()[row];
@@ -154,7 +155,7 @@ void add_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         if (!share_rows(io, row, block)) {
             continue;
         }
-        frame.graph.blocks.push_back(block);
+        frame.hand_blocks.push_back(block);
         frame.phase[b].held = grab.kind == GripKind::held;
         if (grab.kind == GripKind::held && !grab.jointed) {
             // 1/kappa: 0 for what is light, 1 where momentum is exchanged exactly. The heaviest
@@ -257,32 +258,60 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
     return true;
 }
 
-// Over the blocks of the frame before, in the order that they were sorted into: as long as nothing
-// is tied anew they are sorted again, and need not be moved. False where these are not the joints
-// that there are.
+// Both over the blocks of the frame before, in the order that they were sorted into: as long as
+// nothing is tied anew they are sorted again, and need not be moved. False where these are not the
+// joints, or the hands, that there are.
 bool rewrite_joints(const BuildConstraintsIo& io) {
     std::vector<RowBlock>& blocks = io.frame.graph.blocks;
-    std::erase_if(blocks, [](const RowBlock& block) { return !is_joint(block); });
-    if (blocks.size() != io.joint.size()) {
+    const auto is_any_joint = [](const RowBlock& block) { return is_joint(block); };
+    if (static_cast<std::size_t>(std::ranges::count_if(blocks, is_any_joint)) != io.joint.size()) {
         return false;
     }
     // Each has another row: so it is all rows where none is beyond the last.
     return std::ranges::all_of(blocks, [&](RowBlock& block) {
-        return block.source < io.joint.size() && write_joint(io, block.source, block);
+        return !is_joint(block) ||
+               (block.source < io.joint.size() && write_joint(io, block.source, block));
     });
+}
+bool rewrite_hands(FrameGraph& frame) {
+    std::size_t rewritten = 0;
+    for (RowBlock& block : frame.graph.blocks) {
+        if (!is_hand(block)) {
+            continue;
+        }
+        const auto now = std::ranges::lower_bound(frame.hand_blocks, block.source, {},
+                                                  [](const RowBlock& hand) { return hand.source; });
+        if (now == frame.hand_blocks.end() || now->source != block.source ||
+            now->key != block.key || now->kind != block.kind) {
+            return false;
+        }
+        block = *now;
+        ++rewritten;
+    }
+    return rewritten == frame.hand_blocks.size();
 }
 
 void write_joints(const BuildConstraintsIo& io) {
+    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
+    std::erase_if(blocks, [](const RowBlock& block) { return is_contact(block); });
     if (rewrite_joints(io)) {
         return;
     }
-    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
     blocks.clear();
     for (std::size_t row = 0; row < io.joint.size(); ++row) {
         if (!write_joint(io, row, blocks.emplace_back())) {
             blocks.pop_back();
         }
     }
+}
+
+void place_hands(FrameGraph& frame) {
+    if (rewrite_hands(frame)) {
+        return;
+    }
+    std::vector<RowBlock>& blocks = frame.graph.blocks;
+    std::erase_if(blocks, [](const RowBlock& block) { return is_hand(block); });
+    blocks.insert(blocks.end(), frame.hand_blocks.begin(), frame.hand_blocks.end());
 }
 
 // What hangs on joints with something held is held too.
@@ -310,7 +339,8 @@ void spread_held(const BuildConstraintsIo& io) {
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning) {
     write_bodies(io, tuning);
     write_joints(io);
-    add_hands(io, tuning.phases);
+    write_hands(io, tuning.phases);
+    place_hands(io.frame);
     spread_held(io);
     replace_contact_rows(io.frame.contacts, io.frame.graph);
 }

@@ -171,6 +171,10 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
     }
 }
 
+bool is_slower(const Vec3& velocity_mps, double limit_mps) {
+    return velocity_mps.squaredNorm() < limit_mps * limit_mps;
+}
+
 // At most `limit` against the reference; true where it was faster.
 bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
     const Vec3 relative = velocity_mps - reference_mps;
@@ -270,9 +274,13 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
             if (frame.graph.bodies[i].role != BodyRole::free) {
                 continue;
             }
+            Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
+            if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
+                continue;  // as nearly all are
+            }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             const double limit = std::max({tuning.object_speed_max_mps, before, driven});
-            if (clamp_speed(reference, limit, io.body_velocity.at(frame.entities[i]).linear_mps)) {
+            if (clamp_speed(reference, limit, velocity_mps)) {
                 stats.count(Fallback::object_speed_clamped);
             }
         }

@@ -332,6 +332,8 @@ void expect_as_built_anew(Building& scene) {
         EXPECT_EQ(blocks[i].point_b_bs, expected.point_b_bs);
         EXPECT_EQ(blocks[i].rotation_a_bs.coeffs(), expected.rotation_a_bs.coeffs());
         EXPECT_EQ(blocks[i].rotation_b_bs.coeffs(), expected.rotation_b_bs.coeffs());
+        EXPECT_EQ(blocks[i].drive_velocity_ws_mps, expected.drive_velocity_ws_mps);
+        EXPECT_EQ(blocks[i].drive_spin_ws_radps, expected.drive_spin_ws_radps);
         expect_same(blocks[i].joint, expected.joint);
         EXPECT_EQ(blocks[i].impulse_ws_ns, Vec3(Vec3::Zero()));
         EXPECT_EQ(blocks[i].couple_ws_nms, Vec3(Vec3::Zero()));
@@ -395,6 +397,54 @@ TEST(BuildConstraints, JointsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
     scene.joint.remove(entity(11));
     expect_as_built_anew(scene);
     EXPECT_EQ(scene.frame.graph.blocks.size(), 1U);
+}
+
+// Hands that go on are written where they were; hands that change what they hold, or how, come and
+// go, are sorted in anew.
+TEST(BuildConstraints, HandsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
+    Random random(9);
+    Building scene;
+    scene.add_rock(5.0);
+    scene.add_body(k_wall, {});
+    scene.add_body(entity(5), {BodyKind::free, 2.0, Vec3(0.1, 0.2, 0.3), 0.5});
+    const auto spoil = [&] {
+        for (RowBlock& block : scene.frame.graph.blocks) {
+            block.impulse_ws_ns = Vec3(1.0, 2.0, 3.0);
+            block.couple_ws_nms = Vec3(4.0, 5.0, 6.0);
+        }
+    };
+    const auto expect_rows = [&](std::size_t count) {
+        expect_as_built_anew(scene);
+        EXPECT_EQ(scene.frame.graph.blocks.size(), count);
+        spoil();
+    };
+    scene.grip(k_left, GripKind::held, k_rock, random);
+    scene.grip(k_right, GripKind::surface, k_wall, random);
+    expect_rows(2);
+    scene.grip(k_left, GripKind::held, k_rock, random);  // elsewhere
+    expect_rows(2);
+    scene.grip(k_left, GripKind::surface, k_wall, random);  // each what the other held
+    scene.grip(k_right, GripKind::held, k_rock, random);
+    expect_rows(2);
+    scene.grip(k_left, GripKind::held, k_rock, random).two_handed = true;
+    scene.grab.at(k_right).two_handed = true;
+    expect_rows(2);
+    scene.grab.at(k_right) = {};
+    scene.grab.at(k_left).two_handed = false;
+    expect_rows(1);
+    scene.grip(k_right, GripKind::held, entity(5), random);  // one goes and one comes
+    scene.grab.at(k_left) = {};
+    expect_rows(1);
+    scene.persistent_id.add(entity(10), {id_of(entity(10))});
+    scene.joint.add(entity(10)).a = k_rock;
+    scene.joint.at(entity(10)).b = entity(5);
+    scene.joint_state.add(entity(10));
+    scene.grip(k_left, GripKind::held, k_rock, random);
+    expect_rows(3);
+    scene.grip(k_left, GripKind::held, k_rock, random);
+    expect_rows(3);
+    scene.grab.at(k_left) = scene.grab.at(k_right) = {};
+    expect_rows(1);
 }
 
 TEST(BuildConstraints, OrderOfHandsAndBodiesDoesNotMatter) {
