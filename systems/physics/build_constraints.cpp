@@ -262,16 +262,18 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
 // nothing is tied anew they are sorted again, and need not be moved. False where these are not the
 // joints, or the hands, that there are.
 bool rewrite_joints(const BuildConstraintsIo& io) {
-    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
-    const auto is_any_joint = [](const RowBlock& block) { return is_joint(block); };
-    if (static_cast<std::size_t>(std::ranges::count_if(blocks, is_any_joint)) != io.joint.size()) {
-        return false;
+    std::size_t rewritten = 0;
+    for (RowBlock& block : io.frame.graph.blocks) {
+        if (!is_joint(block)) {
+            continue;
+        }
+        if (block.source >= io.joint.size() || !write_joint(io, block.source, block)) {
+            return false;
+        }
+        ++rewritten;
     }
-    // Each has another row: so it is all rows where none is beyond the last.
-    return std::ranges::all_of(blocks, [&](RowBlock& block) {
-        return !is_joint(block) ||
-               (block.source < io.joint.size() && write_joint(io, block.source, block));
-    });
+    // Each has another row: so these are all rows.
+    return rewritten == io.joint.size();
 }
 bool rewrite_hands(FrameGraph& frame) {
     std::size_t rewritten = 0;
@@ -292,11 +294,10 @@ bool rewrite_hands(FrameGraph& frame) {
 }
 
 void write_joints(const BuildConstraintsIo& io) {
-    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
-    std::erase_if(blocks, [](const RowBlock& block) { return is_contact(block); });
     if (rewrite_joints(io)) {
         return;
     }
+    std::vector<RowBlock>& blocks = io.frame.graph.blocks;
     blocks.clear();
     for (std::size_t row = 0; row < io.joint.size(); ++row) {
         if (!write_joint(io, row, blocks.emplace_back())) {

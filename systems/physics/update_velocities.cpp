@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "engine/core/parallel.hpp"
 #include "engine/solver/collider_pose.hpp"
@@ -269,7 +270,7 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
         }
         const Entity player = frame.entities[frame.graph.blocks[*hand].a];
         const Vec3& reference = io.reference.at(player).linear_mps;
-        const double driven = driven_speed(frame, island, reference);
+        std::optional<double> driven;  // found once, and only where something is fast
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {
                 continue;
@@ -279,7 +280,10 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
                 continue;  // as nearly all are
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
-            const double limit = std::max({tuning.object_speed_max_mps, before, driven});
+            if (!driven) {
+                driven = driven_speed(frame, island, reference);
+            }
+            const double limit = std::max({tuning.object_speed_max_mps, before, *driven});
             if (clamp_speed(reference, limit, velocity_mps)) {
                 stats.count(Fallback::object_speed_clamped);
             }
