@@ -1,0 +1,63 @@
+#pragma once
+
+#include "systems/locomotion/settle_grabs.hpp"
+
+// Where hands, players and what they hold were at an instant within the frame, as hands led them:
+// what settle_grabs takes anchors from. All poses are in the world, but for the hands' in their
+// players' play spaces (_ps).
+namespace handhold {
+
+// Where things were at one instant within the frame, 0 its start, 1 its end.
+struct GrabInstant {
+    const SettleGrabsIo& io;
+    double t = 0.0;
+
+    // As predicted; of a player his head's.
+    Pose body_ws(Entity body) const;
+    Pose origin_ws(Entity player) const;
+    // `hand` is a row of `io.hand`.
+    Pose hand_ps(const HandTracking& hand) const;
+    // Where a hand that holds on to something fixed would have its player.
+    Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;
+    // Whom hands have held on to something fixed since before the frame goes the mean of their
+    // ways, and lacks all the while what he lacked at the frame's start; others go as predicted.
+    Pose led_origin_ws(Entity player) const;
+};
+
+// 0 to 1, of a time within the frame.
+double fraction_of(const SettleGrabsIo& io, double t_s);
+
+// A grip, its hand and the same player's other ones; the other grip is null where there is no other
+// hand.
+struct HandPair {
+    Grab& grab;
+    const HandTracking& hand;
+    Grab* other = nullptr;
+    const HandTracking* other_hand = nullptr;
+    Entity player;
+};
+HandPair pair_of(const SettleGrabsIo& io, std::size_t row);
+HandPair swapped(const HandPair& pair);
+
+// True where it has had what it holds since before the frame, and knows where it is.
+bool leads_all_along(const Grab& grab, const HandTracking& hand);
+
+// Where a body on a joint is that hands lead: as far along the joint as they went, on average, each
+// counted as the solver counts it, and off it by what it lacked at the frame's start. Any other
+// body: as predicted.
+Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
+
+// Where a free body that is held is: it follows its hands, not its velocity, and lacks all the
+// while what it lacked at the frame's start. What began to hold it in this frame lacks nothing.
+// `first` leads it, alone or with the other hand.
+Pose held_body_ws(const GrabInstant& now, const HandPair& first);
+
+// The player's origin, who goes by a hand of his all that its body, on a joint, cannot go with it.
+Pose origin_by_jointed(const GrabInstant& now, Entity player, const Pose& body_ws, const Grab& grab,
+                       const HandTracking& hand);
+// The player's origin: from a hand that already holds on to something fixed, exact, or to something
+// on a joint; else, and where `holding` is null, on the predicted way.
+Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
+               const HandTracking* holding_hand, const PhaseTuning& tuning);
+
+}  // namespace handhold
