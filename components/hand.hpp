@@ -36,7 +36,7 @@ struct GripSurface {
     // Where it is not the one that is cheapest by its limits alone, or palm or fingers have no
     // room: how far the hand still goes until it looks for another. 0: it need not.
     double look_in_m = 0.0;
-    // While it looks, a few surfaces in each frame: those it has tried, by their triangles, then
+    // While it looks, a few surfaces in each frame: those it has tried or passed over, then
     // those that it is to try, once they are listed; and what the best of those tried cost where it
     // was tried, which is this one.
     static constexpr std::size_t k_most_tries = 14;
@@ -57,7 +57,7 @@ struct GripSurface {
     // not, but for no more than a few frames.
     bool is_settled = true;
     std::uint32_t pushed_at_rest = 0;  // frames
-    // Room for palm and fingers was looked for in this frame: what is dear has turns. Next frame it
+    // A surface was judged in this frame, or others listed: what is dear has turns. Next frame it
     // is not, while the surface and its room are there, and in this one nothing that is sunk is
     // tried anew.
     bool was_judged = false;
@@ -99,7 +99,7 @@ struct FingerRetry {
 // dear, and mostly the same a little farther on. By the way of the wrist shown. Written by
 // sweep_fingers and pose_thumb.
 struct FingerOutlook {
-    double wait_m = 0.0;   // still to go until it looks again; time counts as a way. 0: not known
+    double wait_m = 0.0;   // still to go until it looks again, when it may; time counts as a way
     double since_m = 0.0;  // gone since it looked
     bool is_ahead = false;
     bool is_known = false;  // it has looked since it touched

@@ -315,9 +315,13 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
             rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
 }
 
-// Where it is now, as far as its fingers had room where it was judged.
-bool has_room_still(const HandSurroundings& hand, const GripSurface& last) {
-    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs);
+// Nothing was sunk a moment ago, and nothing can have come deep into it since: it and its fingers
+// had room where it was judged, farther than it went, nothing around it moved, and no other fingers
+// are to be held clear.
+bool is_clear_still(const HandSurroundings& hand, const GripSurface& surface,
+                    const GripSurface& last) {
+    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs) &&
+           last.surroundings == hand.signature && last.bends == surface.bends;
 }
 
 Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
@@ -341,12 +345,14 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(hold_to_limits(hand, last.wrist_bs, last, lift_m, tuning),
                              last.held_bs, center_hs);
     }
-    PalmSpheres palm(hand, surface, goes_on && has_room_still(hand, *effort.last));
+    PalmSpheres palm(hand, surface, goes_on && is_clear_still(hand, surface, *effort.last));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
     double deepest_m = std::max(best.sunk_m, best.fingers_sunk_m);
-    double least_m = deepest_m;
+    // One that begins where it is held without its lift is not lifted yet: it is no answer.
+    constexpr double k_any_depth_m = 1.0;
+    double least_m = goes_on && lift_m > 0.0 ? k_any_depth_m : deepest_m;
     double step_m = k_any_step_m;
     const bool is_pushed = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
     for (int i = 0; i < effort.most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {

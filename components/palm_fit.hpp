@@ -18,8 +18,8 @@ struct PalmFit {
 
 // How hard fit_palm tries.
 struct PalmEffort {
-    // Of the same hand a frame ago: begins with the move that held the palm there, which is mostly
-    // nearly the one.
+    // Of the same hand a frame ago, or now without its lift: begins with the move that held the
+    // palm there, which is mostly nearly the one.
     const GripSurface* last = nullptr;
     // After as many it ends, settled or not.
     int most_pushes = 6;

@@ -77,7 +77,7 @@ class ChainFitter {
         }
     }
 
-    // True where it is sunk before it closes: it would not turn at all.
+    // True where it is sunk before it closes: it would hardly turn.
     bool begins_sunk() {
         const ChainDepth depth = depth_of(chain_.open_rad);
         if (depth.depth_m <= settings_.search_depth_m) {
@@ -259,8 +259,12 @@ class ChainFitter {
         Angles angle_rad = fit_.angle_rad;
         ChainDepth depth = depth_of(angle_rad);
         for (std::int32_t step = 0; step < settings_.open_steps; ++step) {
+            const Angles before_rad = angle_rad;
             for (std::size_t i = 0; i <= depth.link; ++i) {
                 angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
+            }
+            if (angle_rad == before_rad) {
+                break;  // it opens no farther
             }
             depth = depth_of(angle_rad);
             if (depth.depth_m < fit_.depth_m) {

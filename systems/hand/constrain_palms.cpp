@@ -19,20 +19,8 @@ bool is_known(const HandSurroundings& hand, const GripSurface& surface, double l
            surface.wrist_bs.rotation.coeffs() == hand.wrist_bs.rotation.coeffs();
 }
 
-// Lifted from where search_grip holds it; as a palm that goes on it settles from frame to frame.
-Pose lifted_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 double dt_s, const PalmTuning& tuning) {
-    constexpr int k_most_pushes_on = 2;
-    PalmEffort effort;
-    effort.last = &surface;
-    if (!std::isinf(dt_s)) {
-        effort.most_pushes = k_most_pushes_on;
-    }
-    return fit_palm(hand, surface, lift_m, tuning, effort).wrist_bs;
-}
-
-void set_target(const HandSurroundings& hand, const GripSurface& surface, double dt_s,
-                const Tuning& tuning, PalmOffset& offset) {
+void set_target(const HandSurroundings& hand, const GripSurface& surface, const Tuning& tuning,
+                PalmOffset& offset) {
     if (hand.authored != nullptr) {
         const Pose target = inverse(hand.wrist_bs) * hand.authored->wrist_bs;
         offset.target_m = target.position;
@@ -64,7 +52,8 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, double
     offset.target_lift_m = offset.lift_m;
     offset.target_triangle = surface.triangle;
     const Pose held_bs =
-        knows ? surface.held_bs : lifted_palm(hand, surface, offset.lift_m, dt_s, tuning.palm);
+        knows ? surface.held_bs
+              : fit_palm(hand, surface, offset.lift_m, tuning.palm, {.last = &surface}).wrist_bs;
     const Pose target = inverse(hand.wrist_bs) * held_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
@@ -90,7 +79,7 @@ void follow_target(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning) {
     for (const HandSurroundings& hand : io.hands) {
         PalmOffset& offset = io.offset.at(hand.hand);
-        set_target(hand, io.surface.at(hand.hand), io.dt_s, tuning, offset);
+        set_target(hand, io.surface.at(hand.hand), tuning, offset);
         follow_target(io.dt_s, tuning.palm, offset);
         const bool is_tracked = offset.shown_m.isZero() && offset.shown_turn_rad.isZero();
         const Pose wrist_ws = hand.body_ws * hand.wrist_bs;

@@ -202,9 +202,9 @@ class ThumbPoser {
         const FingerAngles& last = pose.target[f];
         ChainRefitSettings refit;
         refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        const bool may_look =
+        const bool is_turn =
             std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
-        refit.is_ahead = is_ahead(pose.outlook[f], may_look);
+        refit.is_ahead = is_ahead(pose.outlook[f], is_turn);
         ThumbFit kept;
         kept.opposition_rad = last.opposition_rad;
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
@@ -214,8 +214,6 @@ class ThumbPoser {
             retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
         }
-        const bool is_turn =
-            std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
         // A judged surface takes the turn of both: whose it was stays.
         pose.thumb_waits = may_retry(retry) && !is_turn && (pose.finger_tried || waited);
         return may_retry(retry) && is_turn ? change_if_better(hand, thumb, f, kept, pose) : kept;

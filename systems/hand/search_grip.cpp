@@ -67,14 +67,16 @@ class PalmHolder {
         searcher.add_seed(before);
         const bool is_known = before < mesh.search.triangles.size();
         const double search_in_m = last.search_in_m - hand_way_m(last.wrist_bs, hand_.wrist_bs);
+        // What fails to follow is not held anew: what is taken of it keeps its normal for as long.
+        double search_again_m = k_search_again_m;
         if (is_known && search_in_m > 0.0 && !std::isinf(dt_s_)) {
             searcher.run(k_patience_on);
+            search_again_m = search_in_m;
             kept_normal_bs_ = last.normal_bs;
             if (goes_on(placed, palm, searcher, last, surface)) {
                 surface.search_in_m = search_in_m;
                 return;
             }
-            // What was held there was held to the normal of a moment ago.
             kept_normal_bs_.reset();
             surface = {};
         }
@@ -84,11 +86,11 @@ class PalmHolder {
         searcher.add_seed(near ? near->triangle : GripSurface::k_none);
         searcher.run(k_patience);
         if (is_known && goes_on(placed, palm, searcher, last, surface)) {
-            surface.search_in_m = k_search_again_m;
+            surface.search_in_m = search_again_m;
             return;
         }
         surface = try_surfaces(placed, palm, searcher, is_known ? last : GripSurface{});
-        surface.search_in_m = k_search_again_m;
+        surface.search_in_m = search_again_m;
     }
 
     // Under a palm in an authored grip: fingers that close begin there.
@@ -330,7 +332,7 @@ class PalmHolder {
                 list_others(placed, palm, searcher, tries);
                 --left;
             }
-            const auto way = next_of(searcher, tries);
+            const auto way = pass_to_next(placed, palm, searcher, tries);
             if (!way) {
                 return true;
             }
@@ -343,8 +345,10 @@ class PalmHolder {
         }
     }
 
-    // The cheapest that is left, if it may be cheaper than the best.
-    static std::optional<Found> next_of(const SurfaceSearch& searcher, Tries& tries) {
+    // The next one in the list, or else the cheapest that is left, that may be cheaper than the
+    // best; those passed over are done with.
+    std::optional<Found> pass_to_next(const PlacedMesh& placed, const PalmPlace& palm,
+                                      const SurfaceSearch& searcher, Tries& tries) const {
         if (tries.is_listed()) {
             while (tries.count < tries.listed && !tries.is_cheaper(tries.tried[tries.count])) {
                 ++tries.count;
@@ -352,13 +356,27 @@ class PalmHolder {
             return tries.count < tries.listed ? std::optional(tries.tried[tries.count])
                                               : std::nullopt;
         }
-        const auto way = tries.is_full() ? std::nullopt : searcher.cheapest_beside(tries.so_far());
-        return way && tries.is_cheaper(*way) ? way : std::nullopt;
+        while (!tries.is_full()) {
+            const auto way = searcher.cheapest_beside(tries.so_far());
+            if (!way || !tries.is_cheaper(*way)) {
+                return std::nullopt;
+            }
+            if (tries.count == 0 || may_try(placed, palm, *way, tries)) {
+                return way;
+            }
+            tries.add(*way);
+        }
+        return std::nullopt;
     }
 
-    // All around, what may be cheaper than the best. Backs are left out, but where the palm may
-    // have gone through what it came to first: fingers have room behind walls as well, but no palm
-    // goes there for it.
+    // No backs, but where the palm may have gone through what it came to first: fingers have room
+    // behind walls as well, but no palm goes there for it.
+    static bool may_try(const PlacedMesh& placed, const PalmPlace& palm, const Found& way,
+                        const Tries& tries) {
+        return !is_back(placed, palm, way) || (tries.goes_through && !is_inside(placed, way));
+    }
+
+    // All around, what may be cheaper than the best.
     void list_others(const PlacedMesh& placed, const PalmPlace& palm, SurfaceSearch& searcher,
                      Tries& tries) const {
         look_around(*placed.mesh, palm, searcher);
@@ -374,7 +392,7 @@ class PalmHolder {
         tries.listed = count;
         for (std::size_t i = count; i < tries.count; ++i) {
             const Found& way = tries.tried[i];
-            if (!is_back(placed, palm, way) || (tries.goes_through && !is_inside(placed, way))) {
+            if (may_try(placed, palm, way, tries)) {
                 tries.tried[tries.listed++] = way;
             }
         }
@@ -484,8 +502,11 @@ class PalmHolder {
     // As `last` is held, if it is there and with the same fingers held clear.
     Held keep_at(const PlacedMesh& placed, const PalmPlace& palm, const Found& found,
                  const GripSurface& last) {
-        return held_at(placed, palm, found, last.bends,
-                       {.last = &last, .most_pushes = k_most_pushes_on});
+        PalmEffort effort{.last = &last};
+        if (!std::isinf(dt_s_)) {
+            effort.most_pushes = k_most_pushes_on;
+        }
+        return held_at(placed, palm, found, last.bends, effort);
     }
 
     // Of the first few that are asked for, which are asked for again, it is known.
@@ -607,7 +628,9 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             surface.was_judged = false;
             continue;
         }
-        const std::uint32_t pushed = rests ? surface.pushed_at_rest + 1 : 0;
+        // While it looks, each is tried with a few pushes: those of the best are still to come.
+        const std::uint32_t more = surface.tried_count > 0 ? 0 : 1;
+        const std::uint32_t pushed = rests ? surface.pushed_at_rest + more : 0;
         PalmHolder(hand, io.dt_s, tuning, search, io.scratch).run(surface);
         surface.pushed_at_rest = pushed;
         if (surface.triangle == GripSurface::k_none) {

@@ -227,10 +227,10 @@ TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
     }
 }
 
-// Where no search is asked for, it is known before it closes that a chain is sunk: what it comes to
-// is what closing it over all cuts comes to, but for where that would turn it a little all the
-// same.
-TEST(FitChain, WithoutSearchesIsNoDeeperThanWithThem) {
+// Where no search is asked for, what is sunk before it closes is bent clear from there: hardly
+// deeper than what is closed first. The bends are the same, but not what they are measured against.
+TEST(FitChain, WithoutSearchesIsHardlyDeeperThanWithThem) {
+    constexpr double k_hardly_m = 2e-3;
     Random random(2717);
     const Scene ball(test::make_clean_ball(0.06, 16, 24));
     int sunk = 0;
@@ -242,7 +242,7 @@ TEST(FitChain, WithoutSearchesIsNoDeeperThanWithThem) {
         const ChainFit without = fit(chain, ball.placed, settings);
         const ChainFit with = fit(chain, ball.placed);
         sunk += with.depth_m > settings.search_depth_m ? 1 : 0;
-        EXPECT_LE(without.depth_m, std::max(with.depth_m, settings.open_depth_m) + 2e-3) << i;
+        EXPECT_LE(without.depth_m, std::max(with.depth_m, settings.open_depth_m) + k_hardly_m) << i;
     }
     EXPECT_GT(sunk, 30);
 }

@@ -4,6 +4,7 @@
 
 #include "components/palm_fit.hpp"
 #include "fitted_hand.hpp"
+#include "tests/engine/collision_scene.hpp"
 
 namespace handhold::constrain_palms_test {
 namespace {
@@ -88,6 +89,34 @@ TEST_F(ConstrainPalms, PushedPalmsKeepTheirTilt) {
         turned += hand.offset.at(k_right).target_turn_rad.norm() > 0.05 ? 1 : 0;
     }
     EXPECT_GT(turned, 50);
+}
+
+// A lifted palm is found from where it is held without its lift: however sunk it stays, it is
+// lifted.
+TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
+    constexpr double k_lift_m = 0.01;
+    test::Random random(2107);
+    const GripMesh roof = build_grip_mesh(*test::make_box_mesh({0.3, 0.02, 0.3}));
+    int worse = 0;  // where the lift costs room
+    for (int i = 0; i < 150; ++i) {
+        const Vec3 center(0.013, random.between(0.0, 0.02), 0.007);
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.2)).normalized();
+        FittedHand hand(floor, wrist_with_palm_at(rig, center, up));
+        hand.hands.front().meshes.push_back(
+            {&roof, {Vec3(0.0, random.between(0.04, 0.07), 0.0), Quat::Identity()}});
+        hand.search();
+        const GripSurface& surface = hand.surface.at(k_right);
+        const PalmTuning& tuning = hand.tuning.palm;
+        const PalmFit lifted =
+            fit_palm(hand.hands.front(), surface, k_lift_m, tuning, {.last = &surface});
+        const PalmFit held = fit_palm(hand.hands.front(), surface, 0.0, tuning);
+        const Vec3 center_bs = transform_point(lifted.wrist_bs, rig.palm_center_hs);
+        EXPECT_GE((center_bs - surface.point_bs).dot(surface.normal_bs),
+                  tuning.min_height_m + k_lift_m - 1e-6)
+            << i;
+        worse += lifted.sunk_m > held.sunk_m + 1e-4 ? 1 : 0;
+    }
+    EXPECT_GT(worse, 5);
 }
 
 TEST_F(ConstrainPalms, LowersHighPalmToMaxHeight) {

@@ -197,6 +197,28 @@ TEST(SearchGrip, SeesWhatItIsThrownIntoInTheSameFrame) {
     }
 }
 
+// So does a hand at rest that something is moved into.
+TEST(SearchGrip, SeesWhatIsMovedIntoIt) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const GripMesh block = build_grip_mesh(*test::make_box_mesh({0.1, 0.06, 0.1}));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    for (const double way_m : {0.03, 0.04, 0.05}) {
+        FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.02, 0.007}, Vec3::UnitY()));
+        HandSurroundings& around = hand.hands.front();
+        around.meshes.push_back({&block, {Vec3(-0.16, 0.06, 0.0), Quat::Identity()}});
+        hand.search(k_dt_s);
+        ASSERT_GT(hand.surface.at(k_right).has_room_m, 0.0);
+        ASSERT_LE(palm_sunk_m(hand), 1e-4);
+        around.meshes.back().pose.position.x() += way_m;
+        ++around.signature;
+        for (int frame = 0; frame < 4; ++frame) {
+            hand.search(k_dt_s);
+        }
+        EXPECT_LE(palm_sunk_m(hand), 1e-3) << way_m;
+    }
+}
+
 // On a floor without end there is no other surface for fingers that point into it: the palm that
 // would be clear alone is turned and moved until they are too, at once and from frame to frame.
 TEST(SearchGrip, HoldsFingersClearWithThePalm) {
@@ -277,7 +299,7 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
 }
 
 // All around is looked at once, and what is to be tried is listed then, also where the hand goes on
-// meanwhile; nothing of the list is tried twice or left out.
+// meanwhile; the list is gone through once.
 TEST(SearchGrip, ListsWhatItIsToTryOnce) {
     constexpr double k_dt_s = 1.0 / 90.0;
     FingerRoom room;
