@@ -225,15 +225,11 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
         boxed.clear();
         boxed.reserve(k_usual_fours);
     }
-    of_first_mesh_ = 0;
     spare_m_ = 0.0;
     radius_m_ = reach.radius_m;
     box_count_ = std::max(reach.box_count, 1U);
     for (const PlacedMesh& placed : meshes) {
         gather_mesh(reach, placed);
-        if (&placed == meshes.data()) {
-            of_first_mesh_ = fours_.size();
-        }
     }
     placed_.assign(fours_.size(), {k_not_placed, k_not_placed, k_not_placed, k_not_placed});
 }

@@ -103,7 +103,6 @@ class ChainPatch {
     std::size_t box_count_ = 1;
     std::vector<Triangle> triangles_;  // those that were asked for
     std::vector<Frame> frames_;        // by mesh
-    std::size_t of_first_mesh_ = 0;    // fours
     double spare_m_ = 0.0;             // more than floats round off
     double radius_m_ = 0.0;
 };

@@ -27,9 +27,6 @@ struct FourSegments {
 // origin.
 class FourCut {
   public:
-    // By corner and coordinate.
-    using FourCorners = std::array<std::array<FourFloats, 3>, 3>;
-
     FourCut(double offset_m, double radius_m)
         : offset_(four_times(offset_m)), squared_radius_(four_times(radius_m * radius_m)) {}
 

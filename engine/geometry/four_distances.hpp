@@ -9,11 +9,9 @@
 // tells of one in doubles. For what only has to tell far from near.
 namespace handhold {
 
-// Four triangles about a segment's first end, the segment along the first axis.
-using FourCorners = std::array<std::array<FourFloats, 3>, 3>;  // by corner and coordinate
-
-// Squared. Never more than the distances, but for some roundings of the largest coordinate.
-// Source: Ericson, Real-Time Collision Detection, section 5.1.9 (two segments).
+// Of triangles about a segment's first end, the segment along the first axis. Squared. Never more
+// than the distances, but for some roundings of the largest coordinate. Source: Ericson, Real-Time
+// Collision Detection, section 5.1.9 (two segments).
 class FourDistances {
   public:
     FourDistances(const FourCorners& corner, const FourFloats& length)

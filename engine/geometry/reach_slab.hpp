@@ -36,7 +36,7 @@ struct FourReached {
     // Where a triangle's plane meets the chain's own: line[0] x + line[1] y = line[2]. All 0 where
     // its normal is not known.
     std::array<FourFloats, 3> line = {};
-    std::array<std::array<FourFloats, 3>, 3> corner = {};
+    FourCorners corner = {};
 };
 
 // By box of the reach, or the only one: which of four triangles may be in reach there.

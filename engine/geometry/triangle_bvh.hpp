@@ -27,7 +27,7 @@ struct TriangleHit {
 
 // Four triangles side by side, in floats: for what only has to tell far from near.
 struct FourTriangles {
-    std::array<std::array<FourFloats, 3>, 3> corner = {};  // by corner and coordinate
+    FourCorners corner = {};
     std::array<FourFloats, 3> normal = {};  // by coordinate: unit, or zero where there is none
 };
 

@@ -13,6 +13,9 @@ using FourFloats = float __attribute__((vector_size(16)));
 // What comparisons of them give: each 0 or -1.
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
+// Four triangles side by side, by corner and coordinate.
+using FourCorners = std::array<std::array<FourFloats, 3>, 3>;
+
 inline FourFloats four_times(double value) {
     const auto rounded = static_cast<float>(value);
     return FourFloats{rounded, rounded, rounded, rounded};
