@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "components/hand_rows.hpp"
-#include "systems/locomotion/grab_instant.hpp"
 
 namespace handhold {
 namespace {

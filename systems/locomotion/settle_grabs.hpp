@@ -1,34 +1,12 @@
 #pragma once
 
-#include "components/authored_grip.hpp"
-#include "components/body.hpp"
-#include "components/grab.hpp"
-#include "components/joint.hpp"
-#include "components/player.hpp"
+#include "components/grab_instant.hpp"
 #include "components/stats.hpp"
-#include "components/tracking.hpp"
 #include "components/tuning.hpp"
-#include "engine/ecs/column.hpp"
 
 namespace handhold {
 
-struct SettleGrabsIo {
-    double start_s = 0.0;  // in: the frame
-    double end_s = 0.0;
-    const Column<HandOwner>& owner;             // in
-    const Column<HandTracking>& hand;           // in
-    const Column<HandHistory>& hand_history;    // in: the hands' ways within the frame
-    const Column<PlayerStart>& player_start;    // in
-    const Column<PlayerOrigin>& origin;         // in: predicted
-    const Column<HeadTracking>& head;           // in
-    const Column<BodyStart>& body_start;        // in
-    const Column<BodyPose>& body_pose;          // in: predicted
-    const Column<AuthoredHold>& authored_hold;  // in
-    const Column<RigidBody>& body;              // in
-    const Column<Joint>& joint;                 // in
-    const Column<JointState>& joint_state;      // in: at the frame's start
-    Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
-};
+using SettleGrabsIo = GrabFrame;
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
 // interpolated, so that a path does not depend on the frame rate:

@@ -1,15 +1,41 @@
 #pragma once
 
-#include "systems/locomotion/settle_grabs.hpp"
+#include "components/authored_grip.hpp"
+#include "components/body.hpp"
+#include "components/grab.hpp"
+#include "components/joint.hpp"
+#include "components/player.hpp"
+#include "components/tracking.hpp"
+#include "components/tuning.hpp"
+#include "engine/ecs/column.hpp"
 
 // Where hands, players and what they hold were at an instant within the frame, as hands led them:
 // what settle_grabs takes anchors from. All poses are in the world, but for the hands' in their
 // players' play spaces (_ps).
 namespace handhold {
 
+// What settle_grabs works on: nothing here writes any of it.
+struct GrabFrame {
+    double start_s = 0.0;  // in: the frame
+    double end_s = 0.0;
+    const Column<HandOwner>& owner;             // in
+    const Column<HandTracking>& hand;           // in
+    const Column<HandHistory>& hand_history;    // in: the hands' ways within the frame
+    const Column<PlayerStart>& player_start;    // in
+    const Column<PlayerOrigin>& origin;         // in: predicted
+    const Column<HeadTracking>& head;           // in
+    const Column<BodyStart>& body_start;        // in
+    const Column<BodyPose>& body_pose;          // in: predicted
+    const Column<AuthoredHold>& authored_hold;  // in
+    const Column<RigidBody>& body;              // in
+    const Column<Joint>& joint;                 // in
+    const Column<JointState>& joint_state;      // in: at the frame's start
+    Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
+};
+
 // Where things were at one instant within the frame, 0 its start, 1 its end.
 struct GrabInstant {
-    const SettleGrabsIo& io;
+    const GrabFrame& io;
     double t = 0.0;
 
     // As predicted; of a player his head's.
@@ -25,7 +51,7 @@ struct GrabInstant {
 };
 
 // 0 to 1, of a time within the frame.
-double fraction_of(const SettleGrabsIo& io, double t_s);
+double fraction_of(const GrabFrame& io, double t_s);
 
 // A grip, its hand and the same player's other ones; the other grip is null where there is no other
 // hand.
@@ -36,7 +62,7 @@ struct HandPair {
     const HandTracking* other_hand = nullptr;
     Entity player;
 };
-HandPair pair_of(const SettleGrabsIo& io, std::size_t row);
+HandPair pair_of(const GrabFrame& io, std::size_t row);
 HandPair swapped(const HandPair& pair);
 
 // True where it has had what it holds since before the frame, and knows where it is.

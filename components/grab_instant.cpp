@@ -1,4 +1,4 @@
-#include "systems/locomotion/grab_instant.hpp"
+#include "components/grab_instant.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -92,11 +92,11 @@ Pose GrabInstant::led_origin_ws(Entity player) const {
     return led_ws;
 }
 
-double fraction_of(const SettleGrabsIo& io, double t_s) {
+double fraction_of(const GrabFrame& io, double t_s) {
     return std::clamp((t_s - io.start_s) / (io.end_s - io.start_s), 0.0, 1.0);
 }
 
-HandPair pair_of(const SettleGrabsIo& io, std::size_t row) {
+HandPair pair_of(const GrabFrame& io, std::size_t row) {
     const Entity entity = io.grab.owners()[row];
     HandPair pair{io.grab.rows()[row], io.hand.at(entity), nullptr, nullptr,
                   io.owner.at(entity).player};
@@ -117,7 +117,7 @@ bool leads_all_along(const Grab& grab, const HandTracking& hand) {
 }
 
 Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning) {
-    const SettleGrabsIo& io = now.io;
+    const GrabFrame& io = now.io;
     const std::optional<JointRail> rail =
         find_rail({io.body, io.joint, io.joint_state}, body, tuning);
     if (!rail) {
