@@ -48,7 +48,13 @@ ChainAngles bent(const Bend& bend, const ChainAngles& open_rad, const ChainAngle
 
 // No bend turns a hinge farther.
 ChainAngles most_bent(const HingeChain& chain) {
-    constexpr Bend k_most = {0.75, 0.75};
+    constexpr Bend k_most = [] {
+        Bend most = {0.0, 0.0};
+        for (const Bend& bend : k_bends) {
+            most = {std::max(most.first, bend.first), std::max(most.others, bend.others)};
+        }
+        return most;
+    }();
     return bent(k_most, chain.open_rad, chain.closed_rad, chain.link_count);
 }
 

@@ -14,7 +14,8 @@
 // players' play spaces (_ps).
 namespace handhold {
 
-// What settle_grabs works on: nothing here writes any of it.
+// All that a frame's grabs are settled by: SettleGrabsIo. What is asked here reads it; settle_grabs
+// alone writes, and only `grab`.
 struct GrabFrame {
     double start_s = 0.0;  // in: the frame
     double end_s = 0.0;

@@ -235,7 +235,7 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
 }
 
 void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) {
-    constexpr double k_rounding_m = 1e-6;  // of what is asked, in floats below 4 m
+    constexpr double k_float_rounding_m = 1e-6;  // of what is asked, in floats below 4 m
     constexpr std::array<FourInts, 5> k_first = {FourInts{0, 0, 0, 0}, FourInts{-1, 0, 0, 0},
                                                  FourInts{-1, -1, 0, 0}, FourInts{-1, -1, -1, 0},
                                                  FourInts{-1, -1, -1, -1}};
@@ -243,7 +243,7 @@ void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) 
     const Pose base = inverse(placed.pose) * reach.base;
     frames_.emplace_back(*placed.mesh, base, fours_.size());
     const ReachSlab slab(reach, base, bvh);
-    spare_m_ = std::max(spare_m_, slab.spare_m() + k_rounding_m);
+    spare_m_ = std::max(spare_m_, slab.spare_m() + k_float_rounding_m);
     const auto take = [&](std::uint32_t first_slot, std::uint32_t count,
                           const FourTriangles& triangles) {
         FourNear is_near;

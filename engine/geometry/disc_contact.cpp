@@ -188,12 +188,13 @@ class Closing {
     // Pairs that come near in this stretch for the first time. Those that never do, which are most,
     // cost no more than a look at the segment's bounds.
     void add_near(const Ways& ways, double at, bool is_later) {
-        constexpr double k_rounding_m = 1e-5;  // of floats below 50 m; fingers are decimetres
+        constexpr double k_float_rounding_m = 1e-5;  // of floats below 50 m; fingers are decimetres
         for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
             if (thickest_m_[link] < 0.0) {
                 continue;
             }
-            const double m = thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_rounding_m;
+            const double m =
+                thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_float_rounding_m;
             const DiscBox& box = ways.box[link];
             const Limits limits = {{four_times(box.low.x() - m), four_times(box.low.y() - m)},
                                    {four_times(box.high.x() + m), four_times(box.high.y() + m)}};

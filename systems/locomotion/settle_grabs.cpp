@@ -309,7 +309,6 @@ void aim_all(const SettleGrabsIo& io) {
 
 }  // namespace
 
-// Each step for all hands before the next one: whose is listed first never shows.
 void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     end_broken_pairs(io, stats);
     // New grips before anything leaves.

@@ -6,7 +6,7 @@
 
 namespace handhold {
 
-using SettleGrabsIo = GrabFrame;
+using SettleGrabsIo = GrabFrame;  // components/grab_instant.hpp
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
 // interpolated, so that a path does not depend on the frame rate:
@@ -20,9 +20,9 @@ using SettleGrabsIo = GrabFrame;
 //  - two hands on one free body lead it together as long as they are apart: the first's point, the
 //    line between them, the twist about it (engine/solver/two_hands.hpp);
 //  - a free body that one hand has by an authored grip comes into the hand: its anchor goes to
-//  where
-//    the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
-// Also sets what the hand's constraint aims at in this frame.
+//    where the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
+// Also sets what the hand's constraint aims at in this frame. Each step is taken for all hands
+// before the next one: whose hand is listed first never shows.
 void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

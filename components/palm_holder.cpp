@@ -1,0 +1,145 @@
+#include "components/palm_holder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/authored_grip.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr int k_most_pushes_on = 1;  // of a palm that goes on: it settles from frame to frame
+
+PalmPlace palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
+    const Pose wrist = inverse(frame) * wrist_bs;
+    return {transform_point(wrist, rig.palm_center_hs), wrist.rotation * -rig.palm_normal_hs};
+}
+
+// The mean of the surface around the point, by area, of what is wound so that it looks towards
+// `outward`; unit.
+Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
+                 const Vec3& outward, double radius_m) {
+    // A triangle that reaches far out counts no more than the sphere's cut can.
+    const double most_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
+    const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, most_m2);
+    const double length = sum.norm();
+    return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
+}
+
+}  // namespace
+
+PalmHolder::PalmHolder(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
+                       const PalmTuning& tuning)
+    : hand_(hand),
+      placed_(hand.meshes.front()),
+      palm_(palm_in(placed_.pose, *hand.rig, wrist_bs)),
+      dt_s_(dt_s),
+      tuning_(tuning) {}
+
+bool PalmHolder::is_at_once() const { return std::isinf(dt_s_); }
+
+GripSurface PalmHolder::surface_at(const Found& found) const {
+    const GripMesh& mesh = *placed_.mesh;
+    const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.reach_m);
+    const Vec3 point = on_contact ? on_contact->point : found.point;
+    // Where the triangle is wound the other way, so is what counts around it.
+    const Vec3 wound = mesh.search.normals[found.triangle];
+    const double side = wound.dot(palm_.up) < 0.0 ? -1.0 : 1.0;
+    GripSurface surface;
+    surface.body = hand_.body;
+    surface.wrist_bs = hand_.wrist_bs;
+    surface.surroundings = hand_.signature;
+    surface.triangle = found.triangle;
+    surface.point_bs = transform_point(placed_.pose, point);
+    const Vec3 own_bs = placed_.pose.rotation * Vec3(side * wound);
+    constexpr double k_alike = 0.7;
+    if (kept_normal_bs_ && kept_normal_bs_->dot(own_bs) > k_alike) {
+        surface.normal_bs = *kept_normal_bs_;
+    } else {
+        surface.normal_bs =
+            placed_.pose.rotation *
+            Vec3(side * mean_normal(mesh, point, wound, side * palm_.up, tuning_.normal_radius_m));
+    }
+    return surface;
+}
+
+PalmHolder::Found PalmHolder::found_at(std::uint32_t triangle) const {
+    const SurfaceGraph& graph = placed_.mesh->search;
+    const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
+    triangle = static_cast<std::uint32_t>(known);
+    const SurfaceCandidate candidate = cost_of(graph, triangle, palm_, tuning_);
+    return {triangle, candidate.point, candidate.cost_m};
+}
+
+HeldPalm PalmHolder::keep_at(const Found& found, const GripSurface& last) {
+    PalmEffort effort{.last = &last};
+    if (!is_at_once()) {
+        effort.most_pushes = k_most_pushes_on;
+    }
+    return hold_at(found, last.bends, effort);
+}
+
+HeldPalm PalmHolder::hold_at(const Found& found, const FingerBends& bends,
+                             const PalmEffort& effort) {
+    for (std::size_t i = 0; i < known_count_; ++i) {
+        const GripSurface& known = known_[i].surface;
+        if (known.triangle == found.triangle && known.bends == bends &&
+            known_[i].is_kept == (effort.last != nullptr)) {
+            return known_[i];
+        }
+    }
+    HeldPalm held = hold_anew(found, bends, effort);
+    if (known_count_ < known_.size()) {
+        known_[known_count_++] = held;
+    }
+    return held;
+}
+
+HeldPalm PalmHolder::hold_anew(const Found& found, const FingerBends& bends,
+                               const PalmEffort& effort) const {
+    HeldPalm held;
+    held.is_kept = effort.last != nullptr;
+    held.surface = surface_at(found);
+    held.surface.bends = bends;
+    const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, effort);
+    held.surface.held_bs = fit.wrist_bs;
+    held.surface.is_held = true;
+    held.surface.is_settled = fit.is_settled;
+    held.sunk_m = fit.sunk_m;
+    held.fingers_sunk_m = fit.fingers_sunk_m;
+    const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
+    held.sync_m = sync.palm_m + tuning_.tilt_cost_m_per_rad * sync.turn_rad;
+    return held;
+}
+
+bool PalmHolder::is_back(const Found& found) const {
+    return placed_.mesh->search.normals[found.triangle].dot(palm_.up) < 0.0;
+}
+
+bool PalmHolder::is_inside(const Found& found) const {
+    constexpr double k_off_m = 1e-3;
+    constexpr double k_ray_m = 1.0;
+    const GripMesh& mesh = *placed_.mesh;
+    const Vec3 out = -mesh.search.normals[found.triangle];
+    const auto hit =
+        mesh.search_bvh.cast_ray(found.point + k_off_m * out, found.point + k_ray_m * out);
+    return hit && mesh.search.normals[hit->triangle].dot(out) > 0.0;
+}
+
+bool PalmHolder::is_near_last(const Found& found, const GripSurface& last) const {
+    const SurfaceGraph& graph = placed_.mesh->search;
+    return is_beside(found.point, graph.normals[found.triangle],
+                     inverse_transform_point(placed_.pose, last.point_bs),
+                     graph.normals[last.triangle]);
+}
+
+std::optional<PalmHolder::Found> PalmHolder::near_last(const SurfaceSearch& searcher,
+                                                       const GripSurface& last) const {
+    return last.triangle == GripSurface::k_none
+               ? std::nullopt
+               : searcher.cheapest_near(inverse_transform_point(placed_.pose, last.point_bs),
+                                        last.triangle);
+}
+
+}  // namespace handhold

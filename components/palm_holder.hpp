@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "components/hand.hpp"
+#include "components/hand_surroundings.hpp"
+#include "components/palm_fit.hpp"
+#include "components/surface_search.hpp"
+#include "components/tuning.hpp"
+
+namespace handhold {
+
+// A palm that is sunk no deeper has room.
+inline constexpr double k_palm_has_room_m = 1e-3;
+
+// A surface with the palm held to it, without a lift.
+struct HeldPalm {
+    GripSurface surface;
+    double sunk_m = 0.0;          // how deep the palm is that is held to it
+    double fingers_sunk_m = 0.0;  // and the fingers that are held clear with it
+    double sync_m = 0.0;          // how far it is moved for that, turning counted as a way
+    bool is_kept = false;         // from where it was held a frame ago
+};
+
+// Holds one hand's palm to surfaces of the first of the hand's meshes, in one frame: what
+// search_grip judges surfaces with. Precondition: the hand has meshes. Refers to all that it is
+// made of.
+class PalmHolder {
+  public:
+    using Found = GripSearchScratch::Found;
+
+    // The palm of a wrist at `wrist_bs`. dt_s: of the frame; infinity: palms settle at once.
+    PalmHolder(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
+               const PalmTuning& tuning);
+
+    const HandSurroundings& hand() const { return hand_; }
+    const PlacedMesh& placed() const { return placed_; }
+    const PalmPlace& palm() const { return palm_; }  // in the mesh's frame
+    bool is_at_once() const;
+
+    // Surfaces found from here on have this mean normal, where they look that way; none: their own.
+    void keep_normal(const std::optional<Vec3>& normal_bs) { kept_normal_bs_ = normal_bs; }
+
+    GripSurface surface_at(const Found& found) const;
+    // What the palm would be held to there now. The triangle may be of an older mesh.
+    Found found_at(std::uint32_t triangle) const;
+
+    // Held with the fingers of `bends` clear. Of the first few that are asked for, which are asked
+    // for again, it is known.
+    HeldPalm hold_at(const Found& found, const FingerBends& bends, const PalmEffort& effort);
+    // As `last` is held, if it is there and with the same fingers held clear.
+    HeldPalm keep_at(const Found& found, const GripSurface& last);
+
+    bool is_back(const Found& found) const;
+    // A palm there would be in something solid: what is over it is seen from inside.
+    bool is_inside(const Found& found) const;
+
+    // Precondition of both: a `last` that has a triangle has one of this mesh.
+    bool is_near_last(const Found& found, const GripSurface& last) const;
+    std::optional<Found> near_last(const SurfaceSearch& searcher, const GripSurface& last) const;
+
+  private:
+    HeldPalm hold_anew(const Found& found, const FingerBends& bends,
+                       const PalmEffort& effort) const;
+
+    const HandSurroundings& hand_;
+    const PlacedMesh& placed_;
+    PalmPlace palm_;
+    double dt_s_;
+    const PalmTuning& tuning_;
+    std::optional<Vec3> kept_normal_bs_;
+    std::array<HeldPalm, 4> known_;
+    std::size_t known_count_ = 0;
+};
+
+}  // namespace handhold
