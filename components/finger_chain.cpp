@@ -10,6 +10,24 @@ namespace {
 constexpr double k_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
 constexpr double k_most_way_m = 1.0;
 
+// In the mesh's frame.
+GraphPoint under_palm(const PlacedMesh& placed, const GripSurface& surface) {
+    const SurfaceGraph& graph = placed.mesh->search;
+    if (surface.triangle >= graph.triangles.size()) {
+        return {};
+    }
+    const Vec3 point = inverse_transform_point(placed.pose, surface.point_bs);
+    return {surface.triangle, closest_on_triangle(point, corners_of(graph, surface.triangle))};
+}
+
+GraphPoint before_finger(const PlacedMesh& placed, const HingeChain& chain) {
+    const double reach = reach_m(chain);
+    const Vec3 half_closed(0.0, -0.2 * reach, -0.4 * reach);  // about its middle
+    const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed);
+    const auto near = placed.mesh->search_bvh.closest_point(middle, reach);
+    return near ? GraphPoint{near->triangle, near->point} : GraphPoint{};
+}
+
 }  // namespace
 
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist) {
@@ -37,18 +55,14 @@ ChainFitSettings chain_settings(const FingerTuning& tuning) {
 }
 
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
-                     std::uint32_t last_triangle, const Vec3& base_bs) {
+                     std::uint32_t last_triangle, const HingeChain& chain) {
     const PlacedMesh& placed = hand.meshes.front();
     const SurfaceGraph& graph = placed.mesh->search;
-    const bool has_last = last_triangle < graph.triangles.size();
-    const std::uint32_t triangle = has_last ? last_triangle : surface.triangle;
-    if (triangle >= graph.triangles.size()) {
-        return {};
+    if (last_triangle >= graph.triangles.size()) {
+        return {under_palm(placed, surface), before_finger(placed, chain)};
     }
-    const auto& [a, b, c] = graph.triangles[triangle];
-    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
-    const Vec3 from = inverse_transform_point(placed.pose, has_last ? base_bs : surface.point_bs);
-    return {triangle, closest_on_triangle(from, corners)};
+    const Vec3 base = inverse_transform_point(placed.pose, chain.base.position);
+    return {{{last_triangle, closest_on_triangle(base, corners_of(graph, last_triangle))}}};
 }
 
 double hand_way_m(const Pose& from, const Pose& to) {

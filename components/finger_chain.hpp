@@ -18,9 +18,11 @@ HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Po
 ChainFitSettings chain_settings(const FingerTuning& tuning);
 
 // Where a finger's searches begin: at the triangle where they ended last time, nearest to the
-// finger's base, or, where that is none, under the palm. The triangle may be of an older mesh.
+// finger's base. Where that is none, under the palm, and, as the palm may lie on another part than
+// the finger will, at what is nearest to where a finger is when it is half closed. `chain` is in
+// the body's frame; the triangle may be of an older mesh. Precondition: there is a mesh.
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
-                     std::uint32_t last_triangle, const Vec3& base_bs);
+                     std::uint32_t last_triangle, const HingeChain& chain);
 
 // How far the parts of a hand have moved, roughly: a turn moves fingers by its angle times 0.1 m.
 double hand_way_m(const Pose& from, const Pose& to);

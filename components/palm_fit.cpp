@@ -23,8 +23,7 @@ constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something
 // How far beside the found triangle the palm is: along the triangle's plane, zero over it.
 Vec3 slide_onto(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
     const SurfaceGraph& graph = placed.mesh->search;
-    const auto& [a, b, c] = graph.triangles[triangle];
-    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const Corners corners = corners_of(graph, triangle);
     const Vec3 center = inverse_transform_point(placed.pose, center_bs);
     const Vec3& normal = graph.normals[triangle];
     const Vec3 flat = center - (center - corners[0]).dot(normal) * normal;

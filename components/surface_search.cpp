@@ -15,8 +15,7 @@ bool is_later(const GripSearchScratch::Node& a, const GripSearchScratch::Node& b
 
 SurfaceCandidate cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmPlace& palm,
                          const PalmTuning& tuning) {
-    const auto& [a, b, c] = graph.triangles[triangle];
-    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const Corners corners = corners_of(graph, triangle);
     const bool turned_away = graph.normals[triangle].dot(palm.up) < 0.0;
     const Vec3 normal = turned_away ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
     const double height_m = (palm.center - corners[0]).dot(normal);

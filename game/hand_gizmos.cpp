@@ -135,14 +135,15 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     for (std::uint32_t link = 0; link < finger.link_count; ++link) {
         disc.radius_m += finger.length_m[link];
     }
-    const Vec3 from = inverse_transform_point(placed.pose, surface.point_bs);
+    const GraphPoint start = {surface.triangle,
+                              inverse_transform_point(placed.pose, surface.point_bs)};
     const CrossingSearch found =
-        find_crossing(graph, disc, surface.triangle, from, SearchOrder::best_first, scratch);
+        find_crossing(graph, disc, {&start, 1}, SearchOrder::best_first, scratch);
     if (found.triangle == k_no_triangle) {
         return;
     }
     const Vec3 off = k_shown_m * graph.normals[found.triangle];
-    out.push_back({transform_point(mesh_ws, from + off),
+    out.push_back({transform_point(mesh_ws, start.point + off),
                    transform_point(mesh_ws, found.point + off), k_first_visited, 2.5});
     std::vector<DiscSegment> segments;
     walk_crossing(graph, disc, found.triangle, scratch, segments);

@@ -20,6 +20,10 @@ Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& 
     return disc;
 }
 
+bool has_start(const ChainSeed& seed) {
+    return seed[0].triangle != k_no_triangle || seed[1].triangle != k_no_triangle;
+}
+
 // The chain over cuts that searches find; or over all cuts.
 class ChainFitter {
   public:
@@ -67,7 +71,7 @@ class ChainFitter {
     // Over what the searches find, or where that does not do over all that is within reach.
     void close_from_open(const ChainSeed& seed) {
         bool is_complete = false;
-        if (settings_.searches && seed.triangle != k_no_triangle) {
+        if (settings_.searches && has_start(seed)) {
             is_complete = search_cuts(seed);
             close();
         }
@@ -121,7 +125,7 @@ class ChainFitter {
         scratch_.segments.clear();
         bool is_complete = true;
         ChainSeed start = seed;
-        ChainSeed contact_start;
+        GraphPoint contact_start;
         for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
             const auto [first, end] = other_cuts_[plane];
             scratch_.segments.insert(scratch_.segments.end(), scratch_.cuts.begin() + first,
@@ -135,17 +139,17 @@ class ChainFitter {
 
     // The surface's cut with one plane. The other planes are searched for from where the first
     // search found the surface: they are a few millimetres beside it.
-    bool search_cut(std::size_t plane, ChainSeed& start, ChainSeed& contact_start) {
+    bool search_cut(std::size_t plane, ChainSeed& start, GraphPoint& contact_start) {
         const GripMesh& mesh = *meshes_.front().mesh;
         const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
-        const CrossingSearch found = find_crossing(mesh.search, disc, start.triangle, start.point,
-                                                   settings_.order, scratch_.trace);
+        const CrossingSearch found =
+            find_crossing(mesh.search, disc, start, settings_.order, scratch_.trace);
         ++fit_.discs;
         fit_.pops += found.pops;
         if (found.triangle == k_no_triangle) {
             return false;
         }
-        start = {found.triangle, found.point};
+        start = {{{found.triangle, found.point}}};
         if (plane == 0) {
             fit_.contact_triangle = found.triangle;
         }
@@ -155,7 +159,7 @@ class ChainFitter {
 
     // From the search detail over to the surface itself.
     void walk_contact(const GripMesh& mesh, const Disc& disc, const CrossingSearch& found,
-                      ChainSeed& contact_start) {
+                      GraphPoint& contact_start) {
         if (contact_start.triangle == k_no_triangle) {
             const auto near = mesh.contact_bvh.closest_point(found.point, k_detail_apart_m);
             if (!near) {
@@ -163,9 +167,8 @@ class ChainFitter {
             }
             contact_start = {near->triangle, near->point};
         }
-        const CrossingSearch onto =
-            find_crossing(mesh.contact, disc, contact_start.triangle, contact_start.point,
-                          SearchOrder::best_first, scratch_.trace);
+        const CrossingSearch onto = find_crossing(mesh.contact, disc, {&contact_start, 1},
+                                                  SearchOrder::best_first, scratch_.trace);
         fit_.walked += onto.pops;
         if (onto.triangle == k_no_triangle) {
             return;

@@ -22,12 +22,9 @@
 // All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
 namespace handhold {
 
-// Where the searches begin: a triangle of the first mesh's search detail, and a point on it, in
-// that mesh's frame.
-struct ChainSeed {
-    std::uint32_t triangle = k_no_triangle;  // none: every cut is looked for
-    Vec3 point = Vec3::Zero();
-};
+// Where the searches begin, all at once, on the first mesh's search detail, in that mesh's frame.
+// None: every cut is looked for.
+using ChainSeed = std::array<GraphPoint, 2>;
 
 struct ChainFitSettings {
     double plane_offset = 0.62;      // of the outer planes from the middle one, in mean link radii

@@ -84,9 +84,11 @@ class CrossingSearcher {
         open_.reserve(3 * k_most_pops + 1);
     }
 
-    CrossingSearch run(std::uint32_t start, const Vec3& from) {
+    CrossingSearch run(std::span<const GraphPoint> starts) {
         CrossingSearch found;
-        push(start, from, 0.0);
+        for (const GraphPoint& start : starts) {
+            push(start.triangle, start.point, 0.0);
+        }
         while (!open_.empty() && found.pops < k_most_pops) {
             std::pop_heap(open_.begin(), open_.end(), later);
             const TraceScratch::Node node = open_.back();
@@ -109,7 +111,7 @@ class CrossingSearcher {
     }
 
     void push(std::uint32_t triangle, const Vec3& point, double way_m) {
-        if (!seen_.insert(triangle)) {
+        if (triangle == k_no_triangle || !seen_.insert(triangle)) {
             return;
         }
         const std::array<double, 3> heights = corner_heights(graph_, disc_, triangle);
@@ -142,13 +144,20 @@ class CrossingSearcher {
 };
 
 // Everything in the disc's sphere, ring by ring; what is found first is what is nearest by edges.
-CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
-                     const Vec3& from, TraceScratch& scratch) {
+CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
+                     std::span<const GraphPoint> starts, TraceScratch& scratch) {
     CrossingSearch found;
     scratch.seen.assign(graph.triangles.size(), 0);
     scratch.open.clear();
-    scratch.open.push_back({0.0, 0.0, start, 0, from});
-    scratch.seen[start] = 1;
+    const auto push = [&](std::uint32_t triangle, const Vec3& point) {
+        if (triangle != k_no_triangle && scratch.seen[triangle] == 0) {
+            scratch.seen[triangle] = 1;
+            scratch.open.push_back({0.0, 0.0, triangle, 0, point});
+        }
+    };
+    for (const GraphPoint& start : starts) {
+        push(start.triangle, start.point);
+    }
     for (; found.pops < scratch.open.size(); ++found.pops) {
         const TraceScratch::Node node = scratch.open[found.pops];
         const std::optional<Cut> cut = cut_triangle(graph, disc, node.triangle);
@@ -159,14 +168,10 @@ CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc, std::uint32_t 
         const auto& corners = graph.triangles[node.triangle];
         for (std::uint32_t i = 0; i < 3; ++i) {
             const std::uint32_t next = graph.neighbours[node.triangle][i];
-            if (next == k_no_triangle || scratch.seen[next] != 0 ||
-                !goes_over(graph, disc, node.triangle, i)) {
-                continue;
+            if (goes_over(graph, disc, node.triangle, i)) {
+                push(next, closest_on_segment(node.point, graph.positions[corners[i]],
+                                              graph.positions[corners[(i + 1) % 3]]));
             }
-            scratch.seen[next] = 1;
-            const Vec3 point = closest_on_segment(node.point, graph.positions[corners[i]],
-                                                  graph.positions[corners[(i + 1) % 3]]);
-            scratch.open.push_back({0.0, 0.0, next, 0, point});
         }
     }
     return found;
@@ -248,11 +253,11 @@ void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSeg
 
 }  // namespace
 
-CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
-                             const Vec3& from, SearchOrder order, TraceScratch& scratch) {
-    return order == SearchOrder::flood
-               ? flood(graph, disc, start, from, scratch)
-               : CrossingSearcher(graph, disc, order, scratch).run(start, from);
+CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
+                             std::span<const GraphPoint> starts, SearchOrder order,
+                             TraceScratch& scratch) {
+    return order == SearchOrder::flood ? flood(graph, disc, starts, scratch)
+                                       : CrossingSearcher(graph, disc, order, scratch).run(starts);
 }
 
 std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/geometry/disc_contact.hpp"
@@ -25,6 +26,11 @@ inline Vec2 to_disc(const Disc& disc, const Vec3& point) {
     const Vec3 from_center = point - disc.center;
     return {from_center.dot(disc.x_axis), from_center.dot(disc.y_axis)};
 }
+
+struct GraphPoint {
+    std::uint32_t triangle = k_no_triangle;  // none: no point
+    Vec3 point = Vec3::Zero();               // on it
+};
 
 enum class SearchOrder : std::uint8_t {
     best_first,     // A*: what is near the start and leads towards the disc first
@@ -56,13 +62,15 @@ struct TraceScratch {
 inline constexpr std::uint32_t k_most_pops = 128;
 inline constexpr std::uint32_t k_most_steps = 512;
 
-// From `start`, with `from` on it, over neighbours to the first triangle that the disc cuts. Its
-// distance is that of a path over the closest points of the edges in between; what is left is
-// guessed as twice the distance to the plane. Gives up after k_most_pops, or where all that is left
-// is farther than 30 mm outside of the disc. A flood finds the same as breadth_first, but looks at
-// the rest as well; what it has seen takes memory by the surface's size.
-CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc, std::uint32_t start,
-                             const Vec3& from, SearchOrder order, TraceScratch& scratch);
+// From all `starts` at once over neighbours to the first triangle that the disc cuts. Its distance
+// is that of a path over the closest points of the edges in between, from its own start; what is
+// left is guessed as twice the distance to the plane. Gives up after k_most_pops, or where all that
+// is left is farther than 30 mm outside of the disc. A flood finds the same as breadth_first, but
+// looks at the rest as well; what it has seen takes memory by the surface's size.
+// Precondition: triangles are the graph's, or none.
+CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
+                             std::span<const GraphPoint> starts, SearchOrder order,
+                             TraceScratch& scratch);
 
 // From a triangle that the disc cuts along the cut both ways, until it leaves the disc, ends, or
 // closes; the pieces within the disc, with corners that leave the line by less than 0.25 mm left

@@ -11,11 +11,6 @@
 namespace handhold {
 namespace {
 
-Corners corners_of(const SurfaceGraph& graph, std::size_t t) {
-    const auto& [a, b, c] = graph.triangles[t];
-    return {graph.positions[a], graph.positions[b], graph.positions[c]};
-}
-
 // Keeps the triangles for which keep(t) is true, in their order, and counts the others.
 template <typename Keep>
 void filter(SurfaceGraph& graph, std::uint32_t& dropped, const Keep& keep) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/collision/closest_point.hpp"
 #include "engine/geometry/mesh.hpp"
 
 // A mesh as a surface that one can walk on: welded, cleaned, each triangle with its neighbours.
@@ -47,6 +48,11 @@ struct SurfaceGraph {
     std::vector<std::uint32_t> source_triangle;  // in the mesh it was built from, ascending
     SurfaceReport report;
 };
+
+inline Corners corners_of(const SurfaceGraph& graph, std::size_t triangle) {
+    const auto& [a, b, c] = graph.triangles[triangle];
+    return {graph.positions[a], graph.positions[b], graph.positions[c]};
+}
 
 // Any mesh whose indices are in range (PreconditionError otherwise): soup, holes, slivers,
 // non-manifold edges (edge_pairs.hpp says who is whose neighbour), vertices that are not finite.

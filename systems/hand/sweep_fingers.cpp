@@ -284,7 +284,7 @@ class HandCloser {
                         FingerPose& pose) {
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
         const ChainSeed seed =
-            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain.base.position);
+            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain);
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
         if (fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = fit.contact_triangle;

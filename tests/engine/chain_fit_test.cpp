@@ -32,7 +32,7 @@ ChainFit fit(const HingeChain& chain, std::span<const PlacedMesh> meshes,
     if (!meshes.empty()) {
         const Vec3 base = inverse_transform_point(meshes[0].pose, chain.base.position);
         if (const auto near = meshes[0].mesh->search_bvh.closest_point(base, 0.2)) {
-            seed = {near->triangle, near->point};
+            seed = {{{near->triangle, near->point}}};
         }
     }
     return fit_chain(chain, meshes, seed, settings, scratch);
@@ -274,7 +274,7 @@ TEST(FitChain, AllocatesNothingOnceWarm) {
         for (int i = 0; i < 50; ++i) {
             const HingeChain chain = finger_at(over_origin(0.3, 0.3, random));
             fit_chain(chain, scene.placed, {}, {}, scratch);
-            fit_chain(chain, scene.placed, {0, Vec3::Zero()}, {}, scratch);
+            fit_chain(chain, scene.placed, {{{0, Vec3::Zero()}}}, {}, scratch);
         }
     }
     EXPECT_EQ(allocation_count(), before);

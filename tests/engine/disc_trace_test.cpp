@@ -163,6 +163,11 @@ TEST(WalkCrossing, ACornerOnThePlaneCutsEachNeighbourhoodOnce) {
     EXPECT_EQ(loose_ends(walk(ball, disc, round.front().triangle)), 0);
 }
 
+GraphPoint nearest_on(const TriangleBvh& bvh, const Vec3& point) {
+    const auto near = bvh.closest_point(point, 10.0);
+    return {near->triangle, near->point};
+}
+
 struct Pops {
     std::uint32_t best = 0;
     std::uint32_t breadth = 0;
@@ -178,10 +183,10 @@ Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& n
     for (const DiscSegment& segment : cut_by_hand(graph, disc)) {
         cut.insert(segment.triangle);
     }
-    const auto start = bvh.closest_point(near + random.vector(size_m), 10.0);
+    const GraphPoint start = nearest_on(bvh, near + random.vector(size_m));
     TraceScratch scratch;
     const auto search = [&](SearchOrder order) {
-        return find_crossing(graph, disc, start->triangle, start->point, order, scratch);
+        return find_crossing(graph, disc, {&start, 1}, order, scratch);
     };
     const CrossingSearch best = search(SearchOrder::best_first);
     const CrossingSearch breadth = search(SearchOrder::breadth_first);
@@ -245,7 +250,7 @@ TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
     TraceScratch scratch;
     for (int i = 0; i < 100; ++i) {
         const Disc disc = test::random_disc(random.vector(0.05), 0.1, random);
-        const auto start = bvh.closest_point(disc.center, 1.0);
+        const GraphPoint start = nearest_on(bvh, disc.center);
         std::uint32_t in_reach = 0;
         for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
             bool is_near = false;
@@ -259,7 +264,7 @@ TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
             in_reach += is_near ? 1U : 0U;
         }
         const auto search = [&](SearchOrder order) {
-            return find_crossing(graph, disc, start->triangle, start->point, order, scratch);
+            return find_crossing(graph, disc, {&start, 1}, order, scratch);
         };
         const CrossingSearch flooded = search(SearchOrder::flood);
         const CrossingSearch stopped = search(SearchOrder::breadth_first);
@@ -269,13 +274,59 @@ TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
     }
 }
 
+// Two floors, one above the other, and a disc that cuts the upper one only: from the lower one no
+// neighbour leads there, however many are looked at. Neither order of the starts matters to what is
+// found, a start without a triangle is none, and one that is given twice is looked at once.
+TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
+    constexpr double k_up_m = 0.3;
+    Mesh floors = *test::make_floor(1.0, 50);
+    const auto lower_count = static_cast<std::uint32_t>(floors.positions.size());
+    const std::size_t triangle_count = floors.triangles.size();
+    for (std::uint32_t i = 0; i < lower_count; ++i) {
+        floors.positions.push_back(floors.positions[i] + Vec3(0.0, k_up_m, 0.0));
+    }
+    for (std::size_t i = 0; i < triangle_count; ++i) {
+        const auto [a, b, c] = floors.triangles[i];
+        floors.triangles.push_back({a + lower_count, b + lower_count, c + lower_count});
+    }
+    const SurfaceGraph graph = build_surface_graph(floors);
+    ASSERT_EQ(graph.report.parts, 2U);
+    const TriangleBvh bvh(graph.positions, graph.triangles);
+    Random random(1507);
+    TraceScratch scratch;
+    for (int i = 0; i < 100; ++i) {
+        Disc disc = test::random_disc(Vec3(0.0, k_up_m, 0.0) + random.vector(0.02), 0.1, random);
+        if (std::abs(disc.normal.y()) > 0.9) {
+            continue;  // it may lie beside both
+        }
+        const GraphPoint lower = nearest_on(bvh, random.vector(0.05));
+        const GraphPoint upper = nearest_on(bvh, Vec3(0.0, k_up_m, 0.0) + random.vector(0.05));
+        for (const SearchOrder order :
+             {SearchOrder::best_first, SearchOrder::breadth_first, SearchOrder::flood}) {
+            const auto search = [&](const GraphPoint& first, const GraphPoint& second = {}) {
+                return find_crossing(graph, disc, std::array{first, second}, order, scratch);
+            };
+            const CrossingSearch alone = search(lower);
+            const CrossingSearch there = search(upper);
+            EXPECT_EQ(alone.triangle, k_no_triangle);
+            ASSERT_NE(there.triangle, k_no_triangle);
+            EXPECT_EQ(search(upper, upper).pops, there.pops);
+            EXPECT_EQ(search({}, upper).point, there.point);
+            EXPECT_EQ(search({}).pops, 0U);
+            EXPECT_EQ(search(lower, upper).point, there.point);
+            EXPECT_EQ(search(upper, lower).point, there.point);
+        }
+    }
+}
+
 TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     Disc disc;
     disc.center = Vec3(0.0, 0.5, 0.0);
+    const GraphPoint start = {1275, Vec3::Zero()};
     TraceScratch scratch;
     for (const SearchOrder order : {SearchOrder::best_first, SearchOrder::breadth_first}) {
-        const CrossingSearch found = find_crossing(graph, disc, 1275, Vec3::Zero(), order, scratch);
+        const CrossingSearch found = find_crossing(graph, disc, {&start, 1}, order, scratch);
         EXPECT_EQ(found.triangle, k_no_triangle);
         EXPECT_LE(found.pops, 1U);  // no edge is within 30 mm of the disc
     }

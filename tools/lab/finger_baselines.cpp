@@ -143,14 +143,15 @@ ClosedFinger close_on_crossings(const HingeChain& chain, std::span<const Vec2> l
     return closed;
 }
 
-ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh, std::uint32_t triangle,
-                           const Vec3& point, SearchOrder order, ChainFitScratch& scratch) {
+ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
+                           const GraphPoint& under_palm, SearchOrder order,
+                           ChainFitScratch& scratch) {
     ClosedFinger closed;
     closed.angle_rad = chain.relaxed_rad;
     closed.discs = 1;
     const Disc disc = disc_of(chain);
     const CrossingSearch found =
-        find_crossing(mesh.search, disc, triangle, point, order, scratch.trace);
+        find_crossing(mesh.search, disc, {&under_palm, 1}, order, scratch.trace);
     closed.pops = found.pops;
     // The walk is on the surface that is touched: what is compared is how fingers close, not on
     // which detail.
@@ -160,7 +161,8 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh, std::u
     if (!near) {
         return closed;
     }
-    const CrossingSearch onto = find_crossing(mesh.contact, disc, near->triangle, near->point,
+    const GraphPoint contact_start = {near->triangle, near->point};
+    const CrossingSearch onto = find_crossing(mesh.contact, disc, {&contact_start, 1},
                                               SearchOrder::best_first, scratch.trace);
     closed.walked = onto.pops;
     if (onto.triangle == k_no_triangle) {

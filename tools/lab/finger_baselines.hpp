@@ -28,8 +28,9 @@ struct ClosedFinger {
 // One disc, in the finger's middle plane: the search to the first triangle that crosses it, the
 // walk along the crossing edges, and for each joint in turn the highest contact.
 // Where the search finds nothing, or nothing can be touched, the finger is relaxed.
-ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh, std::uint32_t triangle,
-                           const Vec3& point, SearchOrder order, ChainFitScratch& scratch);
+ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
+                           const GraphPoint& under_palm, SearchOrder order,
+                           ChainFitScratch& scratch);
 
 // The half of it that is flat. `line_ds`: the crossings of edges with the disc, in the walk's
 // order. The finger is a line without thickness, straight beyond the joint that turns; contacts are

@@ -116,7 +116,7 @@ class OneHand {
         const GripSurface& under_palm = surface();
         const ClosedFinger closed =
             variant.fingers == FingerMethod::talk
-                ? close_by_talk(chain, mesh_, under_palm.triangle, under_palm.point_bs,
+                ? close_by_talk(chain, mesh_, {under_palm.triangle, under_palm.point_bs},
                                 variant.order, fit_scratch_)
                 : close_by_spheres(chain, mesh_);
         shown.curl_rad = closed.angle_rad;
