@@ -456,6 +456,7 @@ template <typename V>
 void visit_fields(const FingerPose& c, V&& visit) {
     visit("shown", c.shown);
     visit("target", c.target);
+    visit("behind_rad", c.behind_rad);
     visit("seed_triangle", c.seed_triangle);
     visit("solved_body", c.solved_body);
     visit("solved_wrist_bs", c.solved_wrist_bs);

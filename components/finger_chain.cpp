@@ -158,9 +158,21 @@ bool lifts_at_once(const PalmTuning& tuning, double dt_s) {
     return tuning.rate_mps * dt_s >= tuning.lift_m;
 }
 
-void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown) {
+void begin_change(const ChainAngles& to_rad, std::size_t finger, FingerPose& pose) {
     for (std::size_t i = 0; i < k_most_links; ++i) {
-        shown.curl_rad[i] = std::min(target.curl_rad[i], shown.curl_rad[i] + step_rad);
+        pose.behind_rad[finger][i] = std::max(0.0, pose.shown[finger].curl_rad[i] - to_rad[i]);
+    }
+}
+
+void follow_target(std::size_t finger, double dt_s, const FingerTuning& tuning, FingerPose& pose) {
+    const double step_rad = dt_s * tuning.close_radps;
+    const FingerAngles& target = pose.target[finger];
+    FingerAngles& shown = pose.shown[finger];
+    for (std::size_t i = 0; i < k_most_links; ++i) {
+        double& behind_rad = pose.behind_rad[finger][i];
+        behind_rad = std::max(0.0, behind_rad - dt_s * tuning.change_radps);
+        shown.curl_rad[i] =
+            std::min(target.curl_rad[i] + behind_rad, shown.curl_rad[i] + step_rad);
     }
     shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - step_rad,
                                       shown.opposition_rad + step_rad);

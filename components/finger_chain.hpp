@@ -67,8 +67,13 @@ bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning
 // True where a lift is shown within one frame: the fits that the fingers had are of no use then.
 bool lifts_at_once(const PalmTuning& tuning, double dt_s);
 
-// Opens at once, closes by at most `step_rad` a hinge; opposition turns by as much either way.
-void follow_target(const FingerAngles& target, double step_rad, FingerAngles& shown);
+// A finger is to change from the fit that it has to another: what is shown opens on its way there
+// at a rate, not at once. Before its target is set.
+void begin_change(const ChainAngles& to_rad, std::size_t finger, FingerPose& pose);
+
+// What is shown of a finger follows its target: opens at once but for a change, closes at a rate;
+// opposition turns at that rate either way.
+void follow_target(std::size_t finger, double dt_s, const FingerTuning& tuning, FingerPose& pose);
 
 // How curled a fist is, of the way from open to curled.
 inline constexpr double k_fist = 0.85;

@@ -121,6 +121,9 @@ struct FingerPose {
     std::array<FingerAngles, k_finger_count> shown;
     std::array<FingerAngles, k_finger_count> target;  // shown follows: opens at once, closes at
                                                       // FingerTuning::close_radps
+    // What shown still has to open after a change from one fit to another, at
+    // FingerTuning::change_radps; at least 0.
+    std::array<std::array<double, k_most_links>, k_finger_count> behind_rad = {};
     // Where each finger's search ended, on the gripped body's search detail: where it begins next.
     std::array<std::uint32_t, k_finger_count> seed_triangle = {~0U, ~0U, ~0U, ~0U, ~0U};
     // What the targets were found for: nothing is solved again while it stays.

@@ -59,6 +59,7 @@ struct FingerTuning {
     double open_step_rad = 0.0436;
     std::int32_t open_steps = 6;
     double close_radps = 9.42;
+    double change_radps = 15.0;
     double stroll_m = 1e-6;
     std::int32_t closings_per_frame = 2;
 };
@@ -223,7 +224,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0, "by this at a time");
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0, "and at most so often");
     see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
-        "fingers are shown closing no faster; they open at once");
+        "fingers are shown closing no faster; they open at once,");
+    see("finger.change_radps", t.finger.change_radps, "rad/s", 0.0, 1e6,
+        "but no faster from one fit to another, which may be far off");
     see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
         "a hand that moved less on its surface keeps its fingers");
     see("finger.closings_per_frame", t.finger.closings_per_frame, "", 1.0, 5.0,

@@ -64,9 +64,7 @@ class FieldShower {
     template <typename T, std::size_t N>
     void show(const char* name, const std::array<T, N>& values) const {
         for (std::size_t i = 0; i < std::min(N, k_most_listed); ++i) {
-            char element[64];
-            std::snprintf(element, sizeof element, "%s[%zu]", name, i);
-            show(element, values[i]);
+            show((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
         }
         if (N > k_most_listed) {
             begin(name);

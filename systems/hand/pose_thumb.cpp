@@ -234,6 +234,7 @@ class ThumbPoser {
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
         note_try(pose.retry[f], !is_well(anew.fit), most);
         if (changes) {
+            begin_change(anew.fit.angle_rad, f, pose);
             pose.outlook[f] = {};
         }
         return changes ? anew : kept;
@@ -381,8 +382,7 @@ void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats, 
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (hand.rig->fingers[f].name == FingerName::thumb) {
                 poser.pose(place, f);
-                FingerPose& pose = io.fingers.at(hand.hand);
-                follow_target(pose.target[f], io.dt_s * tuning.finger.close_radps, pose.shown[f]);
+                follow_target(f, io.dt_s, tuning.finger, io.fingers.at(hand.hand));
             }
         }
     }

@@ -262,6 +262,7 @@ class HandCloser {
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
         settings_.searches = true;
         if (is_clearly_better(anew, fits_[f], settings_)) {
+            begin_change(anew.angle_rad, f, pose);
             fits_[f] = anew;
         }
     }
@@ -320,7 +321,7 @@ void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& s
         FingerPose& pose = io.fingers.at(hand.hand);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (hand.rig->fingers[f].name != FingerName::thumb) {
-                follow_target(pose.target[f], io.dt_s * tuning.finger.close_radps, pose.shown[f]);
+                follow_target(f, io.dt_s, tuning.finger, pose);
             }
         }
     }

@@ -78,5 +78,35 @@ TEST_F(FingerChain, FingersOverAnotherPartThanThePalmFindIt) {
     EXPECT_EQ(hand.stats.fallbacks[static_cast<std::size_t>(Fallback::finger_searched_all)], 0U);
 }
 
+// What is shown opens by the rate on its way to another fit, and at once where its target opens
+// besides.
+TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    FingerTuning tuning;
+    tuning.change_radps = 9.0;  // 0.1 a frame
+    tuning.close_radps = 4.5;   // 0.05 a frame
+    FingerPose pose;
+    pose.shown[k_index].curl_rad = {1.0, 0.5, 0.0};
+    begin_change({0.65, 0.3, 0.2}, k_index, pose);
+    pose.target[k_index].curl_rad = {0.65, 0.3, 0.2};
+    const std::array<std::array<double, k_most_links>, 4> expected = {
+        {{0.9, 0.4, 0.05}, {0.8, 0.3, 0.1}, {0.6, 0.2, 0.15}, {0.55, 0.2, 0.2}}};
+    for (std::size_t frame = 0; frame < expected.size(); ++frame) {
+        if (frame == 2) {  // the surface comes nearer
+            pose.target[k_index].curl_rad = {0.55, 0.2, 0.2};
+        }
+        follow_target(k_index, k_dt_s, tuning, pose);
+        for (std::size_t i = 0; i < k_most_links; ++i) {
+            EXPECT_NEAR(pose.shown[k_index].curl_rad[i], expected[frame][i], 1e-12)
+                << "frame " << frame << ", link " << i;
+        }
+    }
+    EXPECT_EQ(pose.shown[k_middle].curl_rad, pose.target[k_middle].curl_rad);
+    begin_change({0.0, 0.0, 0.0}, k_index, pose);
+    pose.target[k_index].curl_rad = {0.0, 0.0, 0.0};
+    follow_target(k_index, k_at_once_s, tuning, pose);
+    EXPECT_EQ(pose.shown[k_index].curl_rad, pose.target[k_index].curl_rad);
+}
+
 }  // namespace
 }  // namespace handhold::finger_chain_test

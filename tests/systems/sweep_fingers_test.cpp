@@ -110,6 +110,37 @@ TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
 }
 
 // A hand that grips pays for a few fingers in each frame; the thumb comes when they are closed.
+// A hand that slides back and forth over a beam, now beyond its edge, turning: fingers that are
+// sunk change from under the beam to over it and back. What opens a finger by following its surface
+// opens it by less than 7 degrees in a frame; a change adds what its rate allows.
+TEST_F(SweepFingers, ChangesFromFitToFitAreNotShownInOneFrame) {
+    constexpr double k_followed_rad = 0.125;
+    const auto most_opened_rad = [&](double change_radps) {
+        FittedHand hand(beam, on_beam);
+        hand.tuning.finger.change_radps = change_radps;
+        hand.frame(k_at_once_s);
+        double most_rad = 0.0;
+        for (int frame = 0; frame < 540; ++frame) {
+            const FingerPose before = hand.pose();
+            const double turn = 2.0 * M_PI * frame / 180.0;
+            const Quat yaw = rotation_about(Vec3::UnitY(), 0.6 * std::sin(0.7 * turn));
+            hand.wrist_bs() =
+                on_beam * Pose{Vec3(0.01 * std::sin(0.3 * turn), 0.0, 0.06 * std::sin(turn)), yaw};
+            hand.frame(k_dt_s);
+            for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
+                for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
+                    most_rad = std::max(
+                        most_rad, before.shown[f].curl_rad[i] - hand.pose().shown[f].curl_rad[i]);
+                }
+            }
+        }
+        return most_rad;
+    };
+    const double change_radps = FingerTuning{}.change_radps;
+    EXPECT_LE(most_opened_rad(change_radps), change_radps * k_dt_s + k_followed_rad);
+    EXPECT_GT(most_opened_rad(1e6), 2.0 * (change_radps * k_dt_s + k_followed_rad));
+}
+
 TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
     FittedHand hand(beam, on_beam);
     const auto most = static_cast<std::size_t>(hand.tuning.finger.closings_per_frame);
