@@ -170,7 +170,8 @@ void follow_target(std::size_t finger, double dt_s, const FingerTuning& tuning, 
     FingerAngles& shown = pose.shown[finger];
     for (std::size_t i = 0; i < k_most_links; ++i) {
         double& behind_rad = pose.behind_rad[finger][i];
-        behind_rad = std::max(0.0, behind_rad - dt_s * tuning.change_radps);
+        const double left_rad = std::max(0.0, behind_rad - dt_s * tuning.change_radps);
+        behind_rad = std::min(left_rad, std::max(0.0, shown.curl_rad[i] - target.curl_rad[i]));
         shown.curl_rad[i] = std::min(target.curl_rad[i] + behind_rad, shown.curl_rad[i] + step_rad);
     }
     shown.opposition_rad = std::clamp(target.opposition_rad, shown.opposition_rad - step_rad,

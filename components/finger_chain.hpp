@@ -67,8 +67,9 @@ bool lift_if_sunk(const HandSurroundings& hand, double depth_m, const PalmTuning
 // True where a lift is shown within one frame: the fits that the fingers had are of no use then.
 bool lifts_at_once(const PalmTuning& tuning, double dt_s);
 
-// A finger is to change from the fit that it has to another: what is shown opens on its way there
-// at a rate, not at once. Before its target is set.
+// A digit of a hand that slides was sunk, or touched nothing, and changes to another fit: what is
+// shown opens on its way there at a rate. Before its target is set. First closings, fast hands,
+// authored poses and letting go open at once.
 void begin_change(const ChainAngles& to_rad, std::size_t finger, FingerPose& pose);
 
 // What is shown of a finger follows its target: opens at once but for a change, closes at a rate;

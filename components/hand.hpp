@@ -119,10 +119,11 @@ struct ThumbSearch {
 // pose_thumb.
 struct FingerPose {
     std::array<FingerAngles, k_finger_count> shown;
-    std::array<FingerAngles, k_finger_count> target;  // shown follows: opens at once, closes at
+    std::array<FingerAngles, k_finger_count> target;  // shown follows: opens at once but for
+                                                      // behind_rad, closes at
                                                       // FingerTuning::close_radps
-    // What shown still has to open after a change from one fit to another, at
-    // FingerTuning::change_radps; at least 0.
+    // What shown still has to open after its digit changed from one fit to another, at
+    // FingerTuning::change_radps; in [0, 2 pi].
     std::array<std::array<double, k_most_links>, k_finger_count> behind_rad = {};
     // Where each finger's search ended, on the gripped body's search detail: where it begins next.
     std::array<std::uint32_t, k_finger_count> seed_triangle = {~0U, ~0U, ~0U, ~0U, ~0U};

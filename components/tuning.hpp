@@ -225,8 +225,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0, "and at most so often");
     see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
         "fingers are shown closing no faster; they open at once,");
-    see("finger.change_radps", t.finger.change_radps, "rad/s", 0.0, 1e6,
-        "but no faster from one fit to another, which may be far off");
+    see("finger.change_radps", t.finger.change_radps, "rad/s", 0.1, 1e6,
+        "but no faster where a digit of a sliding hand changes from one fit to another");
     see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
         "a hand that moved less on its surface keeps its fingers");
     see("finger.closings_per_frame", t.finger.closings_per_frame, "", 1.0, 5.0,

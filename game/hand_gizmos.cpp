@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "components/finger_chain.hpp"
 #include "engine/geometry/disc_trace.hpp"
 #include "systems/hand/search_grip.hpp"
 
@@ -115,9 +116,10 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
     return nearest;
 }
 
-// The way from the palm's triangle to where the finger's disc cuts the surface, and that cut: a
-// search of its own with the stage's function, for the open finger's middle plane, on the search
-// detail of what is gripped. The stage itself may have kept last frame's answer.
+// The way from where a cold search begins, under the palm or before the finger, to where the
+// finger's disc cuts the surface, and that cut: a search of its own with the stage's function, for
+// the open finger's middle plane, on the search detail of what is gripped. The stage itself may
+// have kept last frame's answer.
 void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
              const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
     constexpr double k_shown_m = 1.5e-3;  // off the surface
@@ -135,15 +137,20 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     for (std::uint32_t link = 0; link < finger.link_count; ++link) {
         disc.radius_m += finger.length_m[link];
     }
-    const GraphPoint start = {surface.triangle,
-                              inverse_transform_point(placed.pose, surface.point_bs)};
+    const ChainSeed starts = chain_seed(hand, surface, k_no_triangle,
+                                        finger_chain(finger, 0.0, inverse(hand.body_ws) * palm_ws));
     const CrossingSearch found =
-        find_crossing(graph, disc, {&start, 1}, SearchOrder::best_first, scratch);
+        find_crossing(graph, disc, starts, SearchOrder::best_first, scratch);
     if (found.triangle == k_no_triangle) {
         return;
     }
+    const auto way_m = [&](const GraphPoint& start) {
+        return start.triangle == k_no_triangle ? std::numeric_limits<double>::infinity()
+                                               : (start.point - found.point).norm();
+    };
+    const Vec3& from = starts[way_m(starts[0]) <= way_m(starts[1]) ? 0 : 1].point;
     const Vec3 off = k_shown_m * graph.normals[found.triangle];
-    out.push_back({transform_point(mesh_ws, start.point + off),
+    out.push_back({transform_point(mesh_ws, from + off),
                    transform_point(mesh_ws, found.point + off), k_first_visited, 2.5});
     std::vector<DiscSegment> segments;
     walk_crossing(graph, disc, found.triangle, scratch, segments);

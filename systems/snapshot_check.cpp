@@ -231,7 +231,14 @@ class BreachFinder {
     void check_retries() {
         constexpr double k_most_m = 1.0;
         constexpr std::uint32_t k_most_tries = 1000000;
+        constexpr double k_most_behind_rad = 2.0 * M_PI;
         for (std::size_t row = 0; row < w_.finger_pose.size(); ++row) {
+            for (const auto& finger : w_.finger_pose.rows()[row].behind_rad) {
+                for (const double behind_rad : finger) {
+                    check(behind_rad >= 0.0 && behind_rad <= k_most_behind_rad, "finger_pose",
+                          w_.finger_pose.owners()[row], ".behind_rad", "angles in [0, 2 pi]");
+                }
+            }
             for (const FingerRetry& retry : w_.finger_pose.rows()[row].retry) {
                 check(std::abs(retry.wait_m) <= k_most_m && retry.since_m >= 0.0 &&
                           retry.since_m <= k_most_m && retry.tries <= k_most_tries &&

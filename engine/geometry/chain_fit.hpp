@@ -22,8 +22,8 @@
 // All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
 namespace handhold {
 
-// Where the searches begin, all at once, on the first mesh's search detail, in that mesh's frame.
-// None: every cut is looked for.
+// Where the searches begin, all at once, on the first mesh's search detail, in that mesh's frame;
+// what has no triangle is no start. With none at all every cut is looked for.
 using ChainSeed = std::array<GraphPoint, 2>;
 
 struct ChainFitSettings {

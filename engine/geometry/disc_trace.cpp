@@ -81,7 +81,7 @@ class CrossingSearcher {
                      TraceScratch& scratch)
         : graph_(graph), disc_(disc), order_(order), open_(scratch.open), seen_(scratch.seen) {
         open_.clear();
-        open_.reserve(3 * k_most_pops + 1);
+        open_.reserve(3 * k_most_pops + k_most_starts);
     }
 
     CrossingSearch run(std::span<const GraphPoint> starts) {
@@ -139,7 +139,7 @@ class CrossingSearcher {
     SearchOrder order_;
     std::vector<TraceScratch::Node>& open_;
     TriangleSet<1024> seen_;
-    static_assert(1024 > 2 * 3 * k_most_pops);
+    static_assert(1024 >= 2 * (3 * k_most_pops + k_most_starts));
     std::uint32_t pushed_ = 0;
 };
 

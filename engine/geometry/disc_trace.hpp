@@ -60,14 +60,15 @@ struct TraceScratch {
 };
 
 inline constexpr std::uint32_t k_most_pops = 128;
+inline constexpr std::uint32_t k_most_starts = 16;
 inline constexpr std::uint32_t k_most_steps = 512;
 
 // From all `starts` at once over neighbours to the first triangle that the disc cuts. Its distance
 // is that of a path over the closest points of the edges in between, from its own start; what is
-// left is guessed as twice the distance to the plane. Gives up after k_most_pops, or where all that
-// is left is farther than 30 mm outside of the disc. A flood finds the same as breadth_first, but
-// looks at the rest as well; what it has seen takes memory by the surface's size.
-// Precondition: triangles are the graph's, or none.
+// left is guessed as twice the distance to the plane. Gives up after k_most_pops, which all starts
+// share, or where all that is left is farther than 30 mm outside of the disc. A flood finds the
+// same as breadth_first, but looks at the rest as well; what it has seen takes memory by the
+// surface's size. Preconditions: at most k_most_starts, their triangles the graph's, or none.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
                              std::span<const GraphPoint> starts, SearchOrder order,
                              TraceScratch& scratch);

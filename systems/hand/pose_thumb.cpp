@@ -343,7 +343,9 @@ class ThumbPoser {
                       std::uint32_t last_triangle) const {
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
-        const ChainSeed seed = chain_seed(hand, io_.surface.at(hand.hand), last_triangle, chain);
+        const ChainSeed seed =
+            settings_.searches ? chain_seed(hand, io_.surface.at(hand.hand), last_triangle, chain)
+                               : ChainSeed{};
         ThumbFit closed;
         closed.opposition_rad = opposition_rad;
         closed.fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);

@@ -284,8 +284,9 @@ class HandCloser {
     ChainFit close_anew(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                         FingerPose& pose) {
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
-        const ChainSeed seed =
-            chain_seed(hand, io_.surface.at(hand.hand), pose.seed_triangle[f], chain);
+        const ChainSeed seed = settings_.searches ? chain_seed(hand, io_.surface.at(hand.hand),
+                                                               pose.seed_triangle[f], chain)
+                                                  : ChainSeed{};
         const ChainFit fit = fit_chain(chain, hand.meshes, seed, settings_, io_.scratch);
         if (fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = fit.contact_triangle;

@@ -275,10 +275,11 @@ TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
 }
 
 // Two floors, one above the other, and a disc that cuts the upper one only: from the lower one no
-// neighbour leads there, however many are looked at. Neither order of the starts matters to what is
-// found, a start without a triangle is none, and one that is given twice is looked at once.
+// neighbour leads there, though much of it is near enough to be looked at. As only one start leads
+// anywhere their order does not matter to what is found; a start without a triangle is none, and
+// one that is given twice is looked at once.
 TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
-    constexpr double k_up_m = 0.3;
+    constexpr double k_up_m = 0.14;
     Mesh floors = *test::make_floor(1.0, 50);
     const auto lower_count = static_cast<std::uint32_t>(floors.positions.size());
     const std::size_t triangle_count = floors.triangles.size();
@@ -294,6 +295,8 @@ TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
     const TriangleBvh bvh(graph.positions, graph.triangles);
     Random random(1507);
     TraceScratch scratch;
+    std::uint32_t most_in_vain = 0;
+    int compared = 0;
     for (int i = 0; i < 100; ++i) {
         Disc disc = test::random_disc(Vec3(0.0, k_up_m, 0.0) + random.vector(0.02), 0.1, random);
         if (std::abs(disc.normal.y()) > 0.9) {
@@ -309,14 +312,20 @@ TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
             const CrossingSearch alone = search(lower);
             const CrossingSearch there = search(upper);
             EXPECT_EQ(alone.triangle, k_no_triangle);
+            most_in_vain = std::max(most_in_vain, alone.pops);
             ASSERT_NE(there.triangle, k_no_triangle);
             EXPECT_EQ(search(upper, upper).pops, there.pops);
             EXPECT_EQ(search({}, upper).point, there.point);
             EXPECT_EQ(search({}).pops, 0U);
-            EXPECT_EQ(search(lower, upper).point, there.point);
-            EXPECT_EQ(search(upper, lower).point, there.point);
+            if (alone.pops + there.pops <= k_most_pops) {  // which both share
+                ++compared;
+                EXPECT_EQ(search(lower, upper).point, there.point);
+                EXPECT_EQ(search(upper, lower).point, there.point);
+            }
         }
     }
+    EXPECT_GT(most_in_vain, 10U);
+    EXPECT_GT(compared, 100);
 }
 
 TEST(FindCrossing, GivesUpWhereNothingIsInReach) {

@@ -102,6 +102,19 @@ TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {
         }
     }
     EXPECT_EQ(pose.shown[k_middle].curl_rad, pose.target[k_middle].curl_rad);
+
+    // The hand lets go and becomes a fist: what was left to open is not to be closed beyond it.
+    pose.shown[k_index].curl_rad = {1.6, 1.6, 1.6};
+    begin_change({0.2, 0.2, 0.2}, k_index, pose);
+    pose.target[k_index].curl_rad = {1.36, 1.36, 1.36};
+    double last_rad = 1.6;
+    for (int frame = 0; frame < 20; ++frame) {
+        follow_target(k_index, k_dt_s, tuning, pose);
+        EXPECT_LE(pose.shown[k_index].curl_rad[1], last_rad) << "frame " << frame;
+        last_rad = pose.shown[k_index].curl_rad[1];
+    }
+    EXPECT_EQ(last_rad, 1.36);
+
     begin_change({0.0, 0.0, 0.0}, k_index, pose);
     pose.target[k_index].curl_rad = {0.0, 0.0, 0.0};
     follow_target(k_index, k_at_once_s, tuning, pose);

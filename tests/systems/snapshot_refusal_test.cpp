@@ -204,6 +204,8 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
         w.arm_memory.rows()[0].look_ps = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
+    break_world("].behind_rad", [](World& w) { w.finger_pose.rows()[1].behind_rad[2][1] = 1e9; });
+    break_world("].behind_rad", [](World& w) { w.finger_pose.rows()[0].behind_rad[0][0] = -0.1; });
     break_world("].retry", [](World& w) { w.finger_pose.rows()[1].retry[2].wait_m = 1e9; });
     break_world("].outlook", [](World& w) { w.finger_pose.rows()[1].outlook[2].since_m = -1.0; });
     break_world("].look_in_m", [](World& w) { w.grip_surface.rows()[0].look_in_m = 1e9; });

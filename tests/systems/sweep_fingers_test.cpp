@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "components/finger_chain.hpp"
+#include "engine/geometry/chain_refit.hpp"
 #include "fitted_hand.hpp"
 
 namespace handhold::sweep_fingers_test {
@@ -109,12 +110,18 @@ TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
     }
 }
 
-// A hand that grips pays for a few fingers in each frame; the thumb comes when they are closed.
 // A hand that slides back and forth over a beam, now beyond its edge, turning: fingers that are
 // sunk change from under the beam to over it and back. What opens a finger by following its surface
-// opens it by less than 7 degrees in a frame; a change adds what its rate allows.
+// opens a hinge by a share of its range in a frame; a change adds what its rate allows.
 TEST_F(SweepFingers, ChangesFromFitToFitAreNotShownInOneFrame) {
-    constexpr double k_followed_rad = 0.125;
+    const ChainRefitSettings refit;
+    double range_rad = 0.0;
+    for (const FingerRig& finger : rig.fingers) {
+        for (std::size_t i = 0; i < finger.link_count; ++i) {
+            range_rad = std::max(range_rad, finger.upper_rad[i] - finger.lower_rad[i]);
+        }
+    }
+    const double followed_rad = refit.open_share * refit.open_steps * range_rad;
     const auto most_opened_rad = [&](double change_radps) {
         FittedHand hand(beam, on_beam);
         hand.tuning.finger.change_radps = change_radps;
@@ -137,10 +144,11 @@ TEST_F(SweepFingers, ChangesFromFitToFitAreNotShownInOneFrame) {
         return most_rad;
     };
     const double change_radps = FingerTuning{}.change_radps;
-    EXPECT_LE(most_opened_rad(change_radps), change_radps * k_dt_s + k_followed_rad);
-    EXPECT_GT(most_opened_rad(1e6), 2.0 * (change_radps * k_dt_s + k_followed_rad));
+    EXPECT_LE(most_opened_rad(change_radps), change_radps * k_dt_s + followed_rad);
+    EXPECT_GT(most_opened_rad(1e6), 2.0 * (change_radps * k_dt_s + followed_rad));
 }
 
+// A hand that grips pays for a few fingers in each frame; the thumb comes when they are closed.
 TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
     FittedHand hand(beam, on_beam);
     const auto most = static_cast<std::size_t>(hand.tuning.finger.closings_per_frame);
