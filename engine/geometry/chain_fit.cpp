@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace handhold {
 namespace {
@@ -203,37 +204,62 @@ class ChainFitter {
         }
     }
 
-    // Straight, it reaches into what is before it, and may be clear when it is bent: at the first
-    // hinge, at the others, or at all. Closes from the first pose that is clear, the straightest
-    // first; where none is, stays at the one that is sunk least.
+    // Straight, it reaches into what is before it, or closes onto what it only grazes, and may be
+    // clear when it is bent: at the first hinge, at the others, or at all. Closes from poses that
+    // are clear, the straightest first, until it touches something and is clear still. Where that
+    // is in vain, stays at the clear pose that is most at ease; where none is clear, at the one
+    // that is sunk least.
     void bend_clear() {
         const ChainFit before = fit_;
-        DiscChain bent = flat_;
+        const int most_closings = settings_.searches ? k_bends * k_bends : k_closings_in_a_slide;
         ChainDepths depths(chain_, scratch_.patch);
-        double least_m = fit_.depth_m;
-        constexpr int k_bends = 5;
-        for (int sum = 0; sum <= 2 * (k_bends - 1); ++sum) {
-            for (int first = std::max(0, sum - k_bends + 1); first <= std::min(sum, k_bends - 1);
-                 ++first) {
+        double least_m = before.depth_m;
+        std::optional<Angles> least_sunk;
+        std::optional<Angles> most_at_ease;
+        int closings = 0;
+        for (int sum = 0; sum <= 2 * (k_bends - 1) && closings < most_closings; ++sum) {
+            for (int first = std::max(0, sum - k_bends + 1);
+                 first <= std::min(sum, k_bends - 1) && closings < most_closings; ++first) {
                 const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
                                               static_cast<double>(sum - first) / (k_bends - 1));
-                const double depth_m = depths.depth_m(angle_rad, least_m);
-                if (depth_m < least_m) {
-                    least_m = depth_m;
-                    bent.open_rad = angle_rad;
-                }
+                const double depth_m =
+                    depths.depth_m(angle_rad, std::max(least_m, settings_.open_depth_m));
                 if (depth_m <= settings_.open_depth_m) {
-                    bent.open_rad = angle_rad;
-                    close_bent(bent, before);
-                    return;
+                    if (close_bent(angle_rad)) {
+                        return;
+                    }
+                    ++closings;
+                    if (!most_at_ease || off_ease_rad(angle_rad) < off_ease_rad(*most_at_ease)) {
+                        most_at_ease = angle_rad;
+                    }
+                } else if (depth_m < least_m) {
+                    least_m = depth_m;
+                    least_sunk = angle_rad;
                 }
             }
         }
-        if (least_m < before.depth_m) {
-            fit_.angle_rad = bent.open_rad;
-            fit_.depth_m = least_m;
+        fit_ = before;
+        if (most_at_ease || least_sunk) {
+            bend_to(most_at_ease ? *most_at_ease : *least_sunk);
             fit_.fallback = ChainFallback::bent;
         }
+    }
+
+    // True where it touches something from there, and is not sunk.
+    bool close_bent(const Angles& open_rad) {
+        DiscChain bent = flat_;
+        bent.open_rad = open_rad;
+        close_from(bent);
+        fit_.fallback = ChainFallback::bent;
+        return fit_.contact_link != DiscClosure::k_none && fit_.depth_m <= settings_.open_depth_m;
+    }
+
+    double off_ease_rad(const Angles& angle_rad) const {
+        double off_rad = 0.0;
+        for (std::size_t i = 0; i < chain_.link_count; ++i) {
+            off_rad += std::abs(angle_rad[i] - chain_.relaxed_rad[i]);
+        }
+        return off_rad;
     }
 
     Angles bend(double first, double others) const {
@@ -243,14 +269,6 @@ class ChainFitter {
                            (i == 0 ? first : others) * (chain_.closed_rad[i] - chain_.open_rad[i]);
         }
         return angle_rad;
-    }
-
-    void close_bent(const DiscChain& bent, const ChainFit& before) {
-        close_from(bent);
-        fit_.fallback = ChainFallback::bent;
-        if (fit_.contact_link == DiscClosure::k_none || fit_.depth_m >= before.depth_m) {
-            bend_to(bent.open_rad);
-        }
     }
 
     ChainDepth depth_of(const Angles& angle_rad) const {
@@ -286,6 +304,8 @@ class ChainFitter {
         fit_.fallback = ChainFallback::relaxed;
     }
 
+    static constexpr int k_bends = 5;                 // of the first hinge, and of the others
+    static constexpr int k_closings_in_a_slide = 2;   // what is tried anew has to be cheap
     static constexpr double k_detail_apart_m = 0.02;  // the search detail never errs so much
 
     const HingeChain& chain_;

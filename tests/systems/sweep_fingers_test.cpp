@@ -295,7 +295,7 @@ TEST_F(SweepFingers, OneFingerInAFrameLooksAheadAgain) {
         EXPECT_LE(looked, 1) << frame;
         looks += looked;
     }
-    EXPECT_GT(looks, 10);
+    EXPECT_GT(looks, 5);
     EXPECT_LT(longest_m, 0.015);
 }
 
