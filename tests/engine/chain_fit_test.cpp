@@ -227,6 +227,29 @@ TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
     }
 }
 
+// A finger that closes beside a box and grazes it: it does not stay straight where it could be at
+// ease. Whether it could is measured by find_sunk.
+TEST(FitChain, BesideAnEdgeThatItGrazesIsNotLeftStraight) {
+    const Scene scene(lowered(*test::make_box_mesh({0.03, 0.02, 0.1}), 0.03));
+    Random random(1721);
+    int bent = 0;
+    for (int i = 0; i < 400; ++i) {
+        const HingeChain chain =
+            finger_at({Vec3(0.03 + random.between(0.003, 0.012), random.between(0.0, 0.02), 0.0),
+                       rotation_about(Vec3::UnitY(), random.between(-0.15, 0.15))});
+        const ChainFit fitted = fit(chain, scene.placed);
+        ChainFit at_ease;
+        at_ease.angle_rad = chain.relaxed_rad;
+        const bool is_straight = fitted.angle_rad == chain.open_rad;
+        const bool was_mended =
+            fitted.fallback == ChainFallback::bent || fitted.fallback == ChainFallback::opened;
+        bent += was_mended && !is_straight ? 1 : 0;
+        EXPECT_FALSE(was_mended && is_straight && chain_gap_m(chain, at_ease, scene.placed) > 0.0)
+            << "case " << i;
+    }
+    EXPECT_GT(bent, 40);
+}
+
 // Where no search is asked for, what is sunk before it closes is bent clear from there: hardly
 // deeper than what is closed first. The bends are the same, but not what they are measured against.
 TEST(FitChain, WithoutSearchesIsHardlyDeeperThanWithThem) {
