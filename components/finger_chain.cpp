@@ -21,10 +21,10 @@ GraphPoint under_palm(const PlacedMesh& placed, const GripSurface& surface) {
 }
 
 GraphPoint before_finger(const PlacedMesh& placed, const HingeChain& chain) {
-    const double reach = reach_m(chain);
-    const Vec3 half_closed(0.0, -0.2 * reach, -0.4 * reach);  // about its middle
+    const double radius_m = reach_m(chain);
+    const Vec3 half_closed(0.0, -0.2 * radius_m, -0.4 * radius_m);  // about its middle
     const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed);
-    const auto near = placed.mesh->search_bvh.closest_point(middle, reach);
+    const auto near = placed.mesh->search_bvh.closest_point(middle, radius_m);
     return near ? GraphPoint{near->triangle, near->point} : GraphPoint{};
 }
 

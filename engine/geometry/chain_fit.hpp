@@ -33,8 +33,8 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
-                           // it closes is not closed from there
+    bool searches = true;  // false: all cuts at once, none is searched for, what is sunk before it
+                           // closes is not closed from there, and few bends are closed from: cheap
     bool mends = true;     // false: neither bends nor opens what is sunk
 };
 
@@ -42,7 +42,8 @@ enum class ChainFallback : std::uint8_t {
     none,
     all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
     relaxed,   // nothing to touch
-    bent,      // sunk where it is straight: closed from where it is clear
+    bent,      // sunk where it is straight, or as it closes from there: closed from where it is
+               // clear, or, where that is in vain, at ease there
     opened,    // and still sunk: opened a little
 };
 

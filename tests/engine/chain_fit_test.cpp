@@ -228,7 +228,7 @@ TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
 }
 
 // A finger that closes beside a box and grazes it: it does not stay straight where it could be at
-// ease. Whether it could is measured by find_sunk.
+// ease. Whether it could is measured by the oracle's gaps.
 TEST(FitChain, BesideAnEdgeThatItGrazesIsNotLeftStraight) {
     const Scene scene(lowered(*test::make_box_mesh({0.03, 0.02, 0.1}), 0.03));
     Random random(1721);

@@ -16,13 +16,13 @@ constexpr std::size_t k_index = 1;
 constexpr std::size_t k_middle = 2;
 
 // Two floors in the plane y = 0 with a slot of 1 mm between them, too wide to be sewn together.
-Mesh make_slotted_floor(double slot_x) {
+Mesh make_slotted_floor(double slot_x_m) {
     Mesh mesh;
     for (const double side : {-1.0, 1.0}) {
         const Mesh half = test::make_floor_mesh();
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (const Vec3& position : half.positions) {
-            mesh.positions.emplace_back(position + Vec3(slot_x + 0.5005 * side, 0.0, 0.0));
+            mesh.positions.emplace_back(position + Vec3(slot_x_m + 0.5005 * side, 0.0, 0.0));
         }
         for (const auto& [a, b, c] : half.triangles) {
             mesh.triangles.push_back({a + first, b + first, c + first});
@@ -34,14 +34,14 @@ Mesh make_slotted_floor(double slot_x) {
 // A flat hand over the slot: its palm is over one floor, its index finger over the other.
 struct FingerChain : testing::Test {
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    const double slot_x =
+    const double slot_x_m =
         0.5 * (rig.fingers[k_index].base_hs.position + rig.fingers[k_middle].base_hs.position).x() -
         rig.palm_center_hs.x();
-    const GripMesh floors = build_grip_mesh(make_slotted_floor(slot_x));
+    const GripMesh floors = build_grip_mesh(make_slotted_floor(slot_x_m));
     FittedHand hand{floors, wrist_with_palm_at(rig, {0.0, 0.012, 0.0}, Vec3::UnitY())};
 
     bool is_under_palm(const GraphPoint& point) const {
-        return (corners_of(floors.search, point.triangle)[0].x() > slot_x) == (slot_x < 0.0);
+        return (corners_of(floors.search, point.triangle)[0].x() > slot_x_m) == (slot_x_m < 0.0);
     }
     ChainSeed seed_of_index(std::uint32_t last_triangle) {
         return chain_seed(hand.hands.front(), hand.surface.at(k_right), last_triangle,
