@@ -54,6 +54,12 @@ ChainFitSettings chain_settings(const FingerTuning& tuning) {
     return settings;
 }
 
+ChainFitSettings in_a_slide(ChainFitSettings settings) {
+    settings.searches = false;
+    settings.comes_back = false;
+    return settings;
+}
+
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
                      std::uint32_t last_triangle, const HingeChain& chain) {
     const PlacedMesh& placed = hand.meshes.front();
@@ -117,6 +123,10 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
     const std::uint32_t rounds = in_vain ? std::min(retry.tries - 1, k_most_rounds) : 0;
     retry.wait_m = k_first_m * (1U << rounds);
     retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
+}
+
+bool is_bent_away(const ChainFit& fit) {
+    return fit.fallback == ChainFallback::bent && fit.contact_link == DiscClosure::k_none;
 }
 
 void age(FingerOutlook& outlook, double way_m, double dt_s) {

@@ -16,6 +16,8 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
+// For what a sliding hand tries anew beside the fit that it has: cheap.
+ChainFitSettings in_a_slide(ChainFitSettings settings);
 
 // Where a finger's searches begin: at the triangle where they ended last time, nearest to the
 // finger's base. Where that is none, under the palm, and, as the palm may lie on another part than
@@ -49,6 +51,8 @@ void age(FingerRetry& retry, double way_m, double dt_s);
 bool may_retry(const FingerRetry& retry);
 // After a try, of `most` things that there are to try.
 void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
+// Clear of what it was sunk in, but only because it was bent out of it: it touches nothing there.
+bool is_bent_away(const ChainFit& fit);
 
 // FingerOutlook's frame: the wrist shown went `way_m`.
 void age(FingerOutlook& outlook, double way_m, double dt_s);

@@ -187,6 +187,14 @@ class ChainFitter {
         bend_to(closure.angle_rad);
     }
 
+    // What is sunk there touches.
+    void stay_at(const Angles& angle_rad, const ChainDepth& depth) {
+        fit_.angle_rad = angle_rad;
+        fit_.depth_m = depth.depth_m;
+        fit_.contact_link =
+            depth.depth_m > 0.0 ? static_cast<std::int32_t>(depth.link) : DiscClosure::k_none;
+    }
+
     void bend_to(const Angles& angle_rad) {
         fit_.angle_rad = angle_rad;
         fit_.depth_m = depth_of(angle_rad).depth_m;
@@ -204,54 +212,69 @@ class ChainFitter {
         }
     }
 
+    // Poses that it may stay in when it is bent out of what it is sunk in.
+    struct BentPoses {
+        std::optional<Angles> touching;    // clear, the most at ease of those that touch
+        std::optional<Angles> at_ease;     // clear, the most at ease of all
+        std::optional<Angles> least_sunk;  // where none is clear
+        double least_m = 0.0;              // how deep that is
+    };
+
     // Straight, it reaches into what is before it, or closes onto what it only grazes, and may be
-    // clear when it is bent: at the first hinge, at the others, or at all. Closes from poses that
-    // are clear, the straightest first, until it touches something and is clear still. Where that
-    // is in vain, stays at the clear pose that is most at ease; where none is clear, at the one
-    // that is sunk least.
+    // clear when it is bent: at the first hinge, at the others, or at all. Stays where it is clear
+    // and touches something; else it comes back from where it is clear until it touches; where no
+    // pose is clear, it stays where it is sunk least.
     void bend_clear() {
-        const ChainFit before = fit_;
-        const int most_closings = settings_.searches ? k_bends * k_bends : k_closings_in_a_slide;
-        ChainDepths depths(chain_, scratch_.patch);
-        double least_m = before.depth_m;
-        std::optional<Angles> least_sunk;
-        std::optional<Angles> most_at_ease;
-        int closings = 0;
-        for (int sum = 0; sum <= 2 * (k_bends - 1) && closings < most_closings; ++sum) {
-            for (int first = std::max(0, sum - k_bends + 1);
-                 first <= std::min(sum, k_bends - 1) && closings < most_closings; ++first) {
-                const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
-                                              static_cast<double>(sum - first) / (k_bends - 1));
-                const double depth_m =
-                    depths.depth_m(angle_rad, std::max(least_m, settings_.open_depth_m));
-                if (depth_m <= settings_.open_depth_m) {
-                    if (close_bent(angle_rad)) {
-                        return;
-                    }
-                    ++closings;
-                    if (!most_at_ease || off_ease_rad(angle_rad) < off_ease_rad(*most_at_ease)) {
-                        most_at_ease = angle_rad;
-                    }
-                } else if (depth_m < least_m) {
-                    least_m = depth_m;
-                    least_sunk = angle_rad;
-                }
+        const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
+        const Angles sunk_rad = fit_.angle_rad;
+        const BentPoses poses = look_at_bends(clear_m);
+        if (poses.touching) {
+            stay_bent(*poses.touching);
+        } else if (poses.at_ease) {
+            const bool is_clear = depth_of(chain_.relaxed_rad).depth_m <= clear_m;
+            stay_bent(is_clear ? chain_.relaxed_rad : *poses.at_ease);
+            if (settings_.comes_back && fit_.depth_m <= 0.0) {
+                touch_between(fit_.angle_rad, sunk_rad);
             }
-        }
-        fit_ = before;
-        if (most_at_ease || least_sunk) {
-            bend_to(most_at_ease ? *most_at_ease : *least_sunk);
-            fit_.fallback = ChainFallback::bent;
+        } else if (poses.least_sunk) {
+            stay_bent(*poses.least_sunk);
         }
     }
 
-    // True where it touches something from there, and is not sunk.
-    bool close_bent(const Angles& open_rad) {
-        DiscChain bent = flat_;
-        bent.open_rad = open_rad;
-        close_from(bent);
+    BentPoses look_at_bends(double clear_m) {
+        BentPoses poses;
+        poses.least_m = fit_.depth_m;
+        ChainDepths depths(chain_, scratch_.patch);
+        for (int first = 0; first < k_bends; ++first) {
+            for (int others = 0; others < k_bends; ++others) {
+                const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
+                                              static_cast<double>(others) / (k_bends - 1));
+                const double depth_m = depths.depth_m(angle_rad, std::max(poses.least_m, clear_m));
+                if (depth_m <= clear_m) {
+                    keep_easier(angle_rad, poses.at_ease);
+                    // Straight it touched as it began, and was sunk as it closed.
+                    const bool is_straight = angle_rad == chain_.open_rad;
+                    if (depth_m > 0.0 && !is_straight) {
+                        keep_easier(angle_rad, poses.touching);
+                    }
+                } else if (depth_m < poses.least_m) {
+                    poses.least_m = depth_m;
+                    poses.least_sunk = angle_rad;
+                }
+            }
+        }
+        return poses;
+    }
+
+    void stay_bent(const Angles& angle_rad) {
+        stay_at(angle_rad, depth_of(angle_rad));
         fit_.fallback = ChainFallback::bent;
-        return fit_.contact_link != DiscClosure::k_none && fit_.depth_m <= settings_.open_depth_m;
+    }
+
+    void keep_easier(const Angles& angle_rad, std::optional<Angles>& kept) const {
+        if (!kept || off_ease_rad(angle_rad) < off_ease_rad(*kept)) {
+            kept = angle_rad;
+        }
     }
 
     double off_ease_rad(const Angles& angle_rad) const {
@@ -275,7 +298,8 @@ class ChainFitter {
         return chain_depth(chain_, angle_rad, scratch_.patch);
     }
 
-    // Opens the hinges up to the deepest link, step by step, as far as that helps.
+    // Opens the hinges up to the deepest link, step by step, as far as that helps; what comes clear
+    // goes back to where it just touches.
     void open() {
         Angles angle_rad = fit_.angle_rad;
         ChainDepth depth = depth_of(angle_rad);
@@ -289,14 +313,41 @@ class ChainFitter {
             }
             depth = depth_of(angle_rad);
             if (depth.depth_m < fit_.depth_m) {
-                fit_.angle_rad = angle_rad;
-                fit_.depth_m = depth.depth_m;
+                stay_at(angle_rad, depth);
                 fit_.fallback = ChainFallback::opened;
             }
             if (depth.depth_m <= settings_.open_depth_m) {
+                if (depth.depth_m <= 0.0) {
+                    touch_between(angle_rad, before_rad);
+                }
                 break;
             }
         }
+    }
+
+    // On the way from a pose that is clear to one that is sunk.
+    void touch_between(Angles clear_rad, Angles sunk_rad) {
+        constexpr int k_halvings = 7;
+        constexpr double k_touches_m = 2e-4;
+        ChainDepth depth;
+        std::size_t link = 0;
+        for (int i = 0; i < k_halvings && depth.depth_m <= 0.0; ++i) {
+            Angles middle_rad = {};
+            for (std::size_t k = 0; k < chain_.link_count; ++k) {
+                middle_rad[k] = 0.5 * (clear_rad[k] + sunk_rad[k]);
+            }
+            const ChainDepth middle = depth_of(middle_rad);
+            link = middle.depth_m > 0.0 ? middle.link : link;
+            if (middle.depth_m <= k_touches_m) {
+                clear_rad = middle_rad;
+                depth = middle;
+            } else {
+                sunk_rad = middle_rad;
+            }
+        }
+        fit_.angle_rad = clear_rad;
+        fit_.depth_m = depth.depth_m;
+        fit_.contact_link = static_cast<std::int32_t>(link);
     }
 
     void relax() {
@@ -305,7 +356,6 @@ class ChainFitter {
     }
 
     static constexpr int k_bends = 5;                 // of the first hinge, and of the others
-    static constexpr int k_closings_in_a_slide = 2;   // what is tried anew has to be cheap
     static constexpr double k_detail_apart_m = 0.02;  // the search detail never errs so much
 
     const HingeChain& chain_;

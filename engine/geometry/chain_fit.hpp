@@ -33,8 +33,9 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool searches = true;  // false: all cuts at once, none is searched for, what is sunk before it
-                           // closes is not closed from there, and few bends are closed from: cheap
+    bool comes_back = true;  // what was bent clear and touches nothing there, until it touches
+    bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
+                           // it closes is not closed from there: cheap
     bool mends = true;     // false: neither bends nor opens what is sunk
 };
 
@@ -43,13 +44,13 @@ enum class ChainFallback : std::uint8_t {
     all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
     relaxed,   // nothing to touch
     bent,      // sunk where it is straight, or as it closes from there: closed from where it is
-               // clear, or, where that is in vain, at ease there
+               // clear; or, where that is in vain, where it is clear, or at least sunk least
     opened,    // and still sunk: opened a little
 };
 
 struct ChainFit {
     std::array<double, k_most_disc_links> angle_rad = {};
-    std::int32_t contact_link = DiscClosure::k_none;
+    std::int32_t contact_link = DiscClosure::k_none;  // the last that touches, or that is sunk
     std::uint32_t contact_triangle =
         k_no_triangle;     // of the first mesh's search detail, where the
                            // middle plane's search ended: next time's seed

@@ -129,7 +129,8 @@ class ThumbPoser {
 
     // As a thumb of a sliding hand should be: else another opposition may do better.
     bool is_well(const ChainFit& fit) const {
-        return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::relaxed;
+        return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::relaxed &&
+               !is_bent_away(fit);
     }
 
     void lift(const HandSurroundings& hand, std::size_t f, double depth_m, FingerPose& pose) {
@@ -226,10 +227,10 @@ class ThumbPoser {
         const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
         const std::uint32_t step =
             step_beside(step_at(thumb, kept.opposition_rad), pose.retry[f].tries % most);
-        settings_.searches = false;
+        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_));
         const ThumbFit anew =
             close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
-        settings_.searches = true;
+        settings_ = usual;
         const bool changes =
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
         note_try(pose.retry[f], !is_well(anew.fit), most);

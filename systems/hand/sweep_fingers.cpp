@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "components/finger_chain.hpp"
 #include "engine/geometry/chain_refit.hpp"
@@ -155,7 +156,7 @@ class HandCloser {
             }
             fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
-            if (fits_[f].depth_m > settings_.open_depth_m) {
+            if (fits_[f].depth_m > settings_.search_depth_m) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
                 neediest = may_retry(retry) && is_first ? f : neediest;
@@ -258,9 +259,9 @@ class HandCloser {
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                           FingerPose& pose) {
-        settings_.searches = false;
+        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_));
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
-        settings_.searches = true;
+        settings_ = usual;
         if (is_clearly_better(anew, fits_[f], settings_)) {
             begin_change(anew.angle_rad, f, pose);
             fits_[f] = anew;
@@ -293,7 +294,7 @@ class HandCloser {
         }
         pose.outlook[f] = {};
         count_fallback(fit.fallback, stats_);
-        note_try(pose.retry[f], fit.depth_m > settings_.open_depth_m);
+        note_try(pose.retry[f], fit.depth_m > settings_.open_depth_m || is_bent_away(fit));
         return fit;
     }
 

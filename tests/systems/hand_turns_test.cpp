@@ -36,6 +36,7 @@ TEST(HandTurns, SlidingHandDoesOneDearThingAFrame) {
     constexpr double k_dt_s = 1.0 / 90.0;
     constexpr double k_step_m = 0.002;
     constexpr int k_settling = 30;
+    constexpr int k_frames = 600;
     const GripMesh ring = build_grip_mesh(test::make_torus(0.035, 0.008, 40, 16));
     const HandRig rig = builtin_hand_rig(HandSide::right);
     Dear all;
@@ -43,7 +44,7 @@ TEST(HandTurns, SlidingHandDoesOneDearThingAFrame) {
         const Pose from = test::wrist_with_palm_at(rig, {0.0, 0.02, z}, Vec3::UnitY());
         FittedHand hand(ring, from);
         bool was_judged = false;
-        for (int frame = 0; frame < 200; ++frame) {
+        for (int frame = 0; frame < k_frames; ++frame) {
             const int slid = std::max(0, frame - k_settling) % 40;
             hand.wrist_bs().position.x() = from.position.x() + k_step_m * std::min(slid, 40 - slid);
             const FingerPose before = hand.pose();
