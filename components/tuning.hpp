@@ -218,7 +218,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
         "outer planes of a finger from its middle, in its radius");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
-        "a finger sunk deeper looks at every surface within its reach");
+        "a finger sunk deeper looks at every surface within its reach, and sliding for another "
+        "fit");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
         "a finger that is still sunk deeper opens");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0, "by this at a time");

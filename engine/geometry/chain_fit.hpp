@@ -43,8 +43,8 @@ enum class ChainFallback : std::uint8_t {
     none,
     all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
     relaxed,   // nothing to touch
-    bent,      // sunk where it is straight, or as it closes from there: closed from where it is
-               // clear; or, where that is in vain, where it is clear, or at least sunk least
+    bent,      // sunk where it is straight, or as it closes from there: bent until it is clear, or
+               // sunk least; it may touch nothing then
     opened,    // and still sunk: opened a little
 };
 

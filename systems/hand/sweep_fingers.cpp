@@ -156,7 +156,7 @@ class HandCloser {
             }
             fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
-            if (fits_[f].depth_m > settings_.search_depth_m) {
+            if (is_sunk(fits_[f])) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
                 neediest = may_retry(retry) && is_first ? f : neediest;
@@ -224,6 +224,9 @@ class HandCloser {
         return is_finger ? pose.retry[f].queued : 0;
     }
 
+    // So deep that another fit is worth the change.
+    bool is_sunk(const ChainFit& fit) const { return fit.depth_m > settings_.search_depth_m; }
+
     std::size_t most_closings() const {
         return std::isinf(io_.dt_s)
                    ? k_finger_count
@@ -272,8 +275,7 @@ class HandCloser {
         const ChainFit& fit = fits_[f];
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
-        const bool is_sunk = fit.depth_m > settings_.open_depth_m;
-        const bool goes_on = is_sunk ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
+        const bool goes_on = is_sunk(fit) ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
         pose.arrived = pose.arrived && !goes_on;
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
@@ -294,7 +296,7 @@ class HandCloser {
         }
         pose.outlook[f] = {};
         count_fallback(fit.fallback, stats_);
-        note_try(pose.retry[f], fit.depth_m > settings_.open_depth_m || is_bent_away(fit));
+        note_try(pose.retry[f], is_sunk(fit) || is_bent_away(fit));
         return fit;
     }
 
