@@ -50,7 +50,7 @@ enum class ChainFallback : std::uint8_t {
 
 struct ChainFit {
     std::array<double, k_most_disc_links> angle_rad = {};
-    std::int32_t contact_link = DiscClosure::k_none;  // the last that touches, or that is sunk
+    std::int32_t contact_link = DiscClosure::k_none;  // the last that touches, or the deepest
     std::uint32_t contact_triangle =
         k_no_triangle;     // of the first mesh's search detail, where the
                            // middle plane's search ended: next time's seed
