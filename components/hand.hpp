@@ -85,8 +85,9 @@ struct PalmPose {
     Pose pose_ws;
 };
 
-// When a finger that stays sunk, or a thumb that touches nothing, is closed anew: what was in vain
-// at one place is mostly in vain a little farther on. By the way of the wrist shown.
+// When a finger that is sunk, or was bent away from what it was sunk in, or a thumb that touches
+// nothing, is closed anew: what was in vain at one place is mostly in vain a little farther on. By
+// the way of the wrist shown.
 struct FingerRetry {
     double wait_m = 0.0;      // still to go until then, at least -1; time counts as a way too
     double since_m = 0.0;     // gone since all was tried; 0: nothing has changed since

@@ -65,9 +65,9 @@ enum class Fallback : std::uint8_t {
     object_speed_clamped,
     head_ignores_full,
     finger_searched_all,     // a finger whose searches did not do looked at all within its reach
-    finger_bent,             // sunk where it was straight: closed from where it was clear
+    finger_bent,             // sunk straight or as it closed: bent until it was clear
     finger_opened,           // and opened a little, since it was sunk still
-    finger_touches_nothing,  // a finger or thumb of a gripping hand rests in the air
+    finger_touches_nothing,  // a finger or thumb of a gripping hand met nothing: in the air
     palm_lifted,             // a hand was lifted off its surface, since its fingers did not fit
     body_no_surface,         // a gripped body without a grip mesh: the hand is shown as tracked
     palm_no_surface,         // a gripping hand with nothing under its palm is shown as tracked

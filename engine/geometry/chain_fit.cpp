@@ -92,7 +92,6 @@ class ChainFitter {
         fit_.depth_m = depth.depth_m;
         fit_.contact_link = static_cast<std::int32_t>(depth.link);
         fit_.fallback = ChainFallback::all_cuts;
-        scratch_.segments.assign(scratch_.cuts.begin(), scratch_.cuts.end());
         return true;
     }
 
@@ -179,10 +178,8 @@ class ChainFitter {
             walk_crossing(mesh.contact, disc, onto.triangle, scratch_.trace, scratch_.segments);
     }
 
-    void close() { close_from(flat_); }
-
-    void close_from(const DiscChain& chain) {
-        const DiscClosure closure = close_chain(chain, scratch_.segments, {}, scratch_.disc);
+    void close() {
+        const DiscClosure closure = close_chain(flat_, scratch_.segments, {}, scratch_.disc);
         fit_.contact_link = closure.contact_link;
         bend_to(closure.angle_rad);
     }
@@ -325,7 +322,8 @@ class ChainFitter {
         }
     }
 
-    // On the way from a pose that is clear to one that is sunk.
+    // On the way from a pose that is clear to one that is sunk: where it just touches, or else the
+    // last that is clear.
     void touch_between(Angles clear_rad, Angles sunk_rad) {
         constexpr int k_halvings = 7;
         constexpr double k_touches_m = 2e-4;

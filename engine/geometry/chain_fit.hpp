@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,7 +32,7 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    bool comes_back = true;  // what was bent clear and touches nothing there, until it touches
+    bool comes_back = true;  // of what is bent clear and touches nothing there: until it touches
     bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
                            // it closes is not closed from there: cheap
     bool mends = true;     // false: neither bends nor opens what is sunk
@@ -50,7 +49,9 @@ enum class ChainFallback : std::uint8_t {
 
 struct ChainFit {
     std::array<double, k_most_disc_links> angle_rad = {};
-    std::int32_t contact_link = DiscClosure::k_none;  // the last that touches, or the deepest
+    // The last that touches; of what is bent or opened, the deepest. None where nothing is touched,
+    // and of what is relaxed, sunk or not.
+    std::int32_t contact_link = DiscClosure::k_none;
     std::uint32_t contact_triangle =
         k_no_triangle;     // of the first mesh's search detail, where the
                            // middle plane's search ended: next time's seed

@@ -116,8 +116,8 @@ const char* meaning_of(Fallback reason) {
         case Fallback::finger_searched_all:
             return "A finger looked at every surface within its reach: its searches did not do.";
         case Fallback::finger_bent:
-            return "A finger would have reached into something straight; it closed from where it "
-                   "was clear, bent.";
+            return "A finger would have reached into something, straight or as it closed; it was "
+                   "bent until it was clear.";
         case Fallback::finger_opened:
             return "A finger was still sunk and opened a little.";
         case Fallback::finger_touches_nothing:
