@@ -54,9 +54,14 @@ ChainFitSettings chain_settings(const FingerTuning& tuning) {
     return settings;
 }
 
-ChainFitSettings in_a_slide(ChainFitSettings settings) {
+bool is_slow(double way_m, double dt_s) {
+    constexpr double k_slow_mps = 0.05;
+    return way_m <= k_slow_mps * dt_s;
+}
+
+ChainFitSettings in_a_slide(ChainFitSettings settings, bool is_slow) {
     settings.searches = false;
-    settings.comes_back = false;
+    settings.comes_back = is_slow;
     return settings;
 }
 
@@ -125,8 +130,12 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
     retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
 }
 
+bool touches(const ChainFit& fit) {
+    return fit.contact_link != DiscClosure::k_none && fit.fallback != ChainFallback::relaxed;
+}
+
 bool is_bent_away(const ChainFit& fit) {
-    return fit.fallback == ChainFallback::bent && fit.contact_link == DiscClosure::k_none;
+    return fit.fallback == ChainFallback::bent && !touches(fit);
 }
 
 void age(FingerOutlook& outlook, double way_m, double dt_s) {
@@ -143,7 +152,7 @@ void note_outlook(ChainFit& fit, FingerOutlook& outlook) {
     constexpr double k_look_again_m = 0.004;
     if (fit.has_looked_ahead) {
         outlook = {k_look_again_m, 0.0, fit.is_ahead, true};
-    } else if (fit.fallback != ChainFallback::relaxed && fit.contact_link != DiscClosure::k_none) {
+    } else if (touches(fit)) {
         outlook = {};
     } else if (outlook.since_m > 0.0) {
         fit.is_on_its_way = true;

@@ -16,8 +16,11 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// For what a sliding hand tries anew beside the fit that it has: cheap.
-ChainFitSettings in_a_slide(ChainFitSettings settings);
+// The wrist shown went `way_m` in a frame of `dt_s` seconds: it hardly slides, or trembles.
+bool is_slow(double way_m, double dt_s);
+// For what a sliding hand tries anew beside the fit that it has: cheap. A digit of a fast one does
+// not come back from where it is bent clear: it would be sunk again a few frames later.
+ChainFitSettings in_a_slide(ChainFitSettings settings, bool is_slow);
 
 // Where a finger's searches begin: at the triangle where they ended last time, nearest to the
 // finger's base. Where that is none, under the palm, and, as the palm may lie on another part than
@@ -51,6 +54,7 @@ void age(FingerRetry& retry, double way_m, double dt_s);
 bool may_retry(const FingerRetry& retry);
 // After a try, of `most` things that there are to try.
 void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
+bool touches(const ChainFit& fit);
 // Clear of what it was sunk in, but only because it was bent out of it: it touches nothing there.
 bool is_bent_away(const ChainFit& fit);
 

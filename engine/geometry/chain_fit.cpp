@@ -224,6 +224,7 @@ class ChainFitter {
     void bend_clear() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
         const Angles sunk_rad = fit_.angle_rad;
+        const std::size_t sunk_link = depth_of(sunk_rad).link;
         const BentPoses poses = look_at_bends(clear_m);
         if (poses.touching) {
             stay_bent(*poses.touching);
@@ -231,7 +232,7 @@ class ChainFitter {
             const bool is_clear = depth_of(chain_.relaxed_rad).depth_m <= clear_m;
             stay_bent(is_clear ? chain_.relaxed_rad : *poses.at_ease);
             if (settings_.comes_back && fit_.depth_m <= 0.0) {
-                touch_between(fit_.angle_rad, sunk_rad);
+                touch_between(fit_.angle_rad, sunk_rad, sunk_link);
             }
         } else if (poses.least_sunk) {
             stay_bent(*poses.least_sunk);
@@ -247,7 +248,7 @@ class ChainFitter {
                 const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
                                               static_cast<double>(others) / (k_bends - 1));
                 const double depth_m = depths.depth_m(angle_rad, std::max(poses.least_m, clear_m));
-                if (depth_m <= clear_m) {
+                if (depth_m <= clear_m && depth_m < fit_.depth_m) {
                     keep_easier(angle_rad, poses.at_ease);
                     // Straight it touched as it began, and was sunk as it closed.
                     const bool is_straight = angle_rad == chain_.open_rad;
@@ -302,7 +303,8 @@ class ChainFitter {
         ChainDepth depth = depth_of(angle_rad);
         for (std::int32_t step = 0; step < settings_.open_steps; ++step) {
             const Angles before_rad = angle_rad;
-            for (std::size_t i = 0; i <= depth.link; ++i) {
+            const std::size_t before_link = depth.link;
+            for (std::size_t i = 0; i <= before_link; ++i) {
                 angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
             }
             if (angle_rad == before_rad) {
@@ -315,7 +317,7 @@ class ChainFitter {
             }
             if (depth.depth_m <= settings_.open_depth_m) {
                 if (depth.depth_m <= 0.0) {
-                    touch_between(angle_rad, before_rad);
+                    touch_between(angle_rad, before_rad, before_link);
                 }
                 break;
             }
@@ -324,18 +326,17 @@ class ChainFitter {
 
     // On the way from a pose that is clear to one that is sunk: where it just touches, or else the
     // last that is clear.
-    void touch_between(Angles clear_rad, Angles sunk_rad) {
+    void touch_between(Angles clear_rad, Angles sunk_rad, std::size_t sunk_link) {
         constexpr int k_halvings = 7;
         constexpr double k_touches_m = 2e-4;
         ChainDepth depth;
-        std::size_t link = 0;
         for (int i = 0; i < k_halvings && depth.depth_m <= 0.0; ++i) {
             Angles middle_rad = {};
             for (std::size_t k = 0; k < chain_.link_count; ++k) {
                 middle_rad[k] = 0.5 * (clear_rad[k] + sunk_rad[k]);
             }
             const ChainDepth middle = depth_of(middle_rad);
-            link = middle.depth_m > 0.0 ? middle.link : link;
+            sunk_link = middle.depth_m > 0.0 ? middle.link : sunk_link;
             if (middle.depth_m <= k_touches_m) {
                 clear_rad = middle_rad;
                 depth = middle;
@@ -345,7 +346,7 @@ class ChainFitter {
         }
         fit_.angle_rad = clear_rad;
         fit_.depth_m = depth.depth_m;
-        fit_.contact_link = static_cast<std::int32_t>(link);
+        fit_.contact_link = static_cast<std::int32_t>(sunk_link);
     }
 
     void relax() {

@@ -217,24 +217,36 @@ class ThumbPoser {
         }
         // A judged surface takes the turn of both: whose it was stays.
         pose.thumb_waits = may_retry(retry) && !is_turn && (pose.finger_tried || waited);
-        return may_retry(retry) && is_turn ? change_if_better(hand, thumb, f, kept, pose) : kept;
+        if (!may_retry(retry) || !is_turn) {
+            return kept;
+        }
+        return change_if_better(hand, thumb, f, kept, is_slow(way_m, io_.dt_s), pose);
     }
 
     // One opposition at a time: a hand that slides never pays for more in one frame.
     ThumbFit change_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                              const ThumbFit& kept, FingerPose& pose) {
+                              const ThumbFit& kept, bool slow, FingerPose& pose) {
         const bool is_sunk = kept.fit.depth_m > settings_.open_depth_m;
         const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
-        const std::uint32_t step =
-            step_beside(step_at(thumb, kept.opposition_rad), pose.retry[f].tries % most);
-        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_));
+        FingerRetry& retry = pose.retry[f];
+        const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
+        const std::uint32_t step = step_beside(kept_step, retry.tries % most);
+        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_, slow));
         const ThumbFit anew =
             close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
         settings_ = usual;
         const bool changes =
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
-        note_try(pose.retry[f], !is_well(anew.fit), most);
+        const double since_m = retry.since_m;
+        note_try(retry, !is_well(anew.fit), most);
+        if (!slow) {
+            retry.since_m = since_m;  // not all was tried
+        }
         if (changes) {
+            if (!is_well(anew.fit) && step != kept_step) {
+                retry.tries = 1;  // those beside it come next
+                retry.since_m = since_m;
+            }
             begin_change(anew.fit.angle_rad, f, pose);
             pose.outlook[f] = {};
         }

@@ -139,6 +139,7 @@ class HandCloser {
         std::size_t closings = most_closings();
         FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
         const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        const bool slow = is_slow(way_m, io_.dt_s);
         FingerSet is_kept = {};
         for (std::size_t f = 0; f < k_finger_count; ++f) {
             is_kept[f] = is_free[f] && !is_fitted[f] && pose.retry[f].queued == 0;
@@ -156,11 +157,11 @@ class HandCloser {
             }
             fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
-            if (is_sunk(fits_[f])) {
+            if (is_sunk(fits_[f]) || (slow && hangs(fits_[f], f, pose))) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
                 neediest = may_retry(retry) && is_first ? f : neediest;
-            } else if (retry.wait_m <= 0.0) {
+            } else if (retry.wait_m <= 0.0 && touches(fits_[f])) {
                 retry.tries = 0;
             }
         }
@@ -168,7 +169,7 @@ class HandCloser {
             std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.thumb_waits);
         pose.finger_tried = neediest != k_finger_count && closings > 0 && is_turn;
         if (pose.finger_tried) {
-            change_if_better(hand, wrist_bs, neediest, pose);
+            change_if_better(hand, wrist_bs, neediest, slow, pose);
         }
         double depth_m = 0.0;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
@@ -227,6 +228,13 @@ class HandCloser {
     // So deep that another fit is worth the change.
     bool is_sunk(const ChainFit& fit) const { return fit.depth_m > settings_.search_depth_m; }
 
+    // In the air, and not on its way to anything, since it was bent out of what it was sunk in: it
+    // may come back when the hand is slow.
+    static bool hangs(const ChainFit& fit, std::size_t f, const FingerPose& pose) {
+        const FingerOutlook& outlook = pose.outlook[f];
+        return !touches(fit) && pose.retry[f].tries > 0 && !(outlook.is_known && outlook.is_ahead);
+    }
+
     std::size_t most_closings() const {
         return std::isinf(io_.dt_s)
                    ? k_finger_count
@@ -261,11 +269,15 @@ class HandCloser {
     }
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
-                          FingerPose& pose) {
-        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_));
+                          bool slow, FingerPose& pose) {
+        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_, slow));
+        const double since_m = pose.retry[f].since_m;
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
         settings_ = usual;
-        if (is_clearly_better(anew, fits_[f], settings_)) {
+        if (!slow) {
+            pose.retry[f].since_m = since_m;  // not all was tried
+        }
+        if (is_clearly_better(anew, fits_[f], settings_) && (is_sunk(fits_[f]) || touches(anew))) {
             begin_change(anew.angle_rad, f, pose);
             fits_[f] = anew;
         }
@@ -275,13 +287,15 @@ class HandCloser {
         const ChainFit& fit = fits_[f];
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
-        const bool goes_on = is_sunk(fit) ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
+        const bool wants_more = is_sunk(fit) || hangs(fit, f, pose);
+        const bool goes_on = wants_more ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
         pose.arrived = pose.arrived && !goes_on;
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
                                     fit.contact_link, fit.fallback, fit.depth_m};
         }
-        return pose.retry[f].wait_m > 0.0 ? fit.depth_m : 0.0;
+        const bool has_its_turn_first = is_sunk(fit) && pose.retry[f].wait_m <= 0.0;
+        return has_its_turn_first ? 0.0 : fit.depth_m;
     }
 
     ChainFit close_anew(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
