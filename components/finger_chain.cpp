@@ -54,14 +54,14 @@ ChainFitSettings chain_settings(const FingerTuning& tuning) {
     return settings;
 }
 
-bool is_slow(double way_m, double dt_s) {
-    constexpr double k_slow_mps = 0.05;
-    return way_m <= k_slow_mps * dt_s;
+bool is_slow(double way_m, double dt_s, const FingerTuning& tuning) {
+    return way_m <= tuning.slow_mps * dt_s;
 }
 
-ChainFitSettings in_a_slide(ChainFitSettings settings, bool is_slow) {
+ChainFitSettings in_a_slide(ChainFitSettings settings, const ChainAngles& last_rad, bool is_slow) {
     settings.searches = false;
     settings.comes_back = is_slow;
+    settings.at_ease_rad = last_rad;
     return settings;
 }
 
@@ -84,8 +84,8 @@ double hand_way_m(const Pose& from, const Pose& to) {
 
 bool is_clearly_better(const ChainFit& fit, const ChainFit& than,
                        const ChainFitSettings& settings) {
-    constexpr double k_clearly_m = 1e-3;
-    return fit.depth_m <= settings.open_depth_m || fit.depth_m < than.depth_m - k_clearly_m;
+    constexpr double k_clearly = 0.5;
+    return fit.depth_m <= settings.open_depth_m || fit.depth_m < k_clearly * than.depth_m;
 }
 
 bool is_moment_later(const Pose& from, const Pose& to) {
@@ -118,7 +118,7 @@ void age(FingerRetry& retry, double way_m, double dt_s) {
 bool may_retry(const FingerRetry& retry) { return retry.wait_m <= 0.0 && retry.since_m > 0.0; }
 
 void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
-    constexpr double k_first_m = 0.004;
+    constexpr double k_first_m = 0.006;
     constexpr std::uint32_t k_most_rounds = 2;
     constexpr std::uint32_t k_most_tries = 1000;
     retry.tries = in_vain ? retry.tries + 1 : 0;

@@ -16,11 +16,11 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// The wrist shown went `way_m` in a frame of `dt_s` seconds: it hardly slides, or trembles.
-bool is_slow(double way_m, double dt_s);
-// For what a sliding hand tries anew beside the fit that it has: cheap. A digit of a fast one does
-// not come back from where it is bent clear: it would be sunk again a few frames later.
-ChainFitSettings in_a_slide(ChainFitSettings settings, bool is_slow);
+// The wrist shown went `way_m` in a frame: it stands, trembles or hardly slides.
+bool is_slow(double way_m, double dt_s, const FingerTuning& tuning);
+// For what a sliding hand tries anew beside the fit that it has: cheap, and near to that. A digit
+// of a fast hand does not come back from where it is bent clear: it would soon be sunk again.
+ChainFitSettings in_a_slide(ChainFitSettings settings, const ChainAngles& last_rad, bool is_slow);
 
 // Where a finger's searches begin: at the triangle where they ended last time, nearest to the
 // finger's base. Where that is none, under the palm, and, as the palm may lie on another part than

@@ -60,6 +60,8 @@ struct FingerTuning {
     std::int32_t open_steps = 6;
     double close_radps = 9.42;
     double change_radps = 15.0;
+    double slow_mps = 0.05;
+    double slide_depth_m = 2e-3;
     double stroll_m = 1e-6;
     std::int32_t closings_per_frame = 2;
 };
@@ -218,8 +220,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.plane_offset", t.finger.plane_offset, "", 0.0, 0.99,
         "outer planes of a finger from its middle, in its radius");
     see("finger.search_depth_m", t.finger.search_depth_m, "m", 0.0, 0.1,
-        "a finger sunk deeper looks at every surface within its reach, and sliding for another "
-        "fit");
+        "a finger sunk deeper looks at every surface within its reach, and in a slow hand for "
+        "another fit");
     see("finger.open_depth_m", t.finger.open_depth_m, "m", 0.0, 0.1,
         "a finger that is still sunk deeper opens");
     see("finger.open_step_rad", t.finger.open_step_rad, "rad", 1e-3, 1.0, "by this at a time");
@@ -228,6 +230,10 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "fingers are shown closing no faster; they open at once,");
     see("finger.change_radps", t.finger.change_radps, "rad/s", 0.1, 1e6,
         "but no faster where a digit of a sliding hand changes from one fit to another");
+    see("finger.slow_mps", t.finger.slow_mps, "m/s", 0.0, 10.0,
+        "a hand that slides no faster may change to fits that would not last in a fast one");
+    see("finger.slide_depth_m", t.finger.slide_depth_m, "m", 0.0, 0.1,
+        "a digit of a faster hand looks for another fit where it is sunk deeper");
     see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
         "a hand that moved less on its surface keeps its fingers");
     see("finger.closings_per_frame", t.finger.closings_per_frame, "", 1.0, 5.0,

@@ -276,9 +276,11 @@ class ChainFitter {
     }
 
     double off_ease_rad(const Angles& angle_rad) const {
+        const Angles& ease_rad =
+            settings_.at_ease_rad ? *settings_.at_ease_rad : chain_.relaxed_rad;
         double off_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            off_rad += std::abs(angle_rad[i] - chain_.relaxed_rad[i]);
+            off_rad += std::abs(angle_rad[i] - ease_rad[i]);
         }
         return off_rad;
     }

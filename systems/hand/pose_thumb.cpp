@@ -127,7 +127,7 @@ class ThumbPoser {
         return waits;
     }
 
-    // As a thumb of a sliding hand should be: else another opposition may do better.
+    // As a thumb should be: else another opposition may do better.
     bool is_well(const ChainFit& fit) const {
         return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::relaxed &&
                !is_bent_away(fit);
@@ -211,7 +211,9 @@ class ThumbPoser {
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
                                last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
         note_outlook(kept.fit, pose.outlook[f]);
-        if (is_well(kept.fit)) {
+        const bool slow = is_slow(way_m, io_.dt_s, tuning_.finger);
+        const bool will_do = touches(kept.fit) && kept.fit.depth_m <= tuning_.finger.slide_depth_m;
+        if (is_well(kept.fit) || (!slow && will_do)) {
             retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
         }
@@ -220,7 +222,7 @@ class ThumbPoser {
         if (!may_retry(retry) || !is_turn) {
             return kept;
         }
-        return change_if_better(hand, thumb, f, kept, is_slow(way_m, io_.dt_s), pose);
+        return change_if_better(hand, thumb, f, kept, slow, pose);
     }
 
     // One opposition at a time: a hand that slides never pays for more in one frame.
@@ -231,7 +233,8 @@ class ThumbPoser {
         FingerRetry& retry = pose.retry[f];
         const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
         const std::uint32_t step = step_beside(kept_step, retry.tries % most);
-        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_, slow));
+        const ChainFitSettings usual =
+            std::exchange(settings_, in_a_slide(settings_, kept.fit.angle_rad, slow));
         const ThumbFit anew =
             close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
         settings_ = usual;

@@ -139,7 +139,7 @@ class HandCloser {
         std::size_t closings = most_closings();
         FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
         const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
-        const bool slow = is_slow(way_m, io_.dt_s);
+        const bool slow = is_slow(way_m, io_.dt_s, tuning_.finger);
         FingerSet is_kept = {};
         for (std::size_t f = 0; f < k_finger_count; ++f) {
             is_kept[f] = is_free[f] && !is_fitted[f] && pose.retry[f].queued == 0;
@@ -157,7 +157,8 @@ class HandCloser {
             }
             fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
-            if (is_sunk(fits_[f]) || (slow && hangs(fits_[f], f, pose))) {
+            if (slow ? is_sunk(fits_[f]) || hangs(fits_[f], f, pose)
+                     : fits_[f].depth_m > tuning_.finger.slide_depth_m) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
                 neediest = may_retry(retry) && is_first ? f : neediest;
@@ -270,7 +271,8 @@ class HandCloser {
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                           bool slow, FingerPose& pose) {
-        const ChainFitSettings usual = std::exchange(settings_, in_a_slide(settings_, slow));
+        const ChainFitSettings usual =
+            std::exchange(settings_, in_a_slide(settings_, fits_[f].angle_rad, slow));
         const double since_m = pose.retry[f].since_m;
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
         settings_ = usual;

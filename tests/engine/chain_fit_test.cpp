@@ -314,6 +314,55 @@ TEST(FitChain, BentClearInASlideTouchesOrIsAtEase) {
     EXPECT_GE(std::min(beside.away, about.away), 20);
 }
 
+// Of those that came to touch by bending, how far they are from where they were to be near to.
+double off_near_rad(const Scene& scene, const ChainAngles& near_rad, const ChainFitSettings& how) {
+    Random random(1723);
+    double off_rad = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        const ChainFit fitted = fit(finger_about_a_tube(random), scene.placed, how);
+        if (fitted.fallback == ChainFallback::bent && fitted.depth_m <= how.open_depth_m) {
+            for (std::size_t link = 0; link < near_rad.size(); ++link) {
+                off_rad += std::abs(fitted.angle_rad[link] - near_rad[link]);
+            }
+        }
+    }
+    return off_rad;
+}
+
+TEST(FitChain, BentClearIsNearToWhereItIsToBe) {
+    const Scene tube(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
+    const ChainFitSettings at_ease;
+    for (const double curl_rad : {0.0, 1.2}) {
+        ChainFitSettings near = at_ease;
+        near.at_ease_rad.emplace().fill(curl_rad);
+        EXPECT_LT(off_near_rad(tube, *near.at_ease_rad, near),
+                  0.95 * off_near_rad(tube, *near.at_ease_rad, at_ease))
+            << curl_rad;
+    }
+}
+
+// A designer may have digits mended that are not sunk so deep as to be opened: what does not move
+// is not bent.
+TEST(FitChain, WhatIsMendedIsLessSunkOrSaysThatItStayed) {
+    const Scene tube(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
+    ChainFitSettings settings;
+    settings.search_depth_m = 1e-4;
+    settings.open_depth_m = 2e-3;
+    ChainFitSettings as_closed = settings;
+    as_closed.mends = false;
+    Random random(1724);
+    int bent = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const HingeChain chain = finger_about_a_tube(random);
+        const ChainFit mended = fit(chain, tube.placed, settings);
+        if (mended.fallback == ChainFallback::bent) {
+            ++bent;
+            EXPECT_LT(mended.depth_m, fit(chain, tube.placed, as_closed).depth_m) << "case " << i;
+        }
+    }
+    EXPECT_GE(bent, 100);
+}
+
 // Where no search is asked for, what is sunk before it closes is bent clear from there: hardly
 // deeper than what is closed first. The bends are the same, but not what they are measured against.
 TEST(FitChain, WithoutSearchesIsHardlyDeeperThanWithThem) {

@@ -78,6 +78,19 @@ TEST_F(FingerChain, FingersOverAnotherPartThanThePalmFindIt) {
     EXPECT_EQ(hand.stats.fallbacks[static_cast<std::size_t>(Fallback::finger_searched_all)], 0U);
 }
 
+TEST(IsClearlyBetter, WhatIsClearOrHalfAsDeepIs) {
+    const ChainFitSettings settings;
+    const auto sunk = [](double depth_m) {
+        ChainFit fit;
+        fit.depth_m = depth_m;
+        return fit;
+    };
+    EXPECT_TRUE(is_clearly_better(sunk(settings.open_depth_m), sunk(1e-3), settings));
+    EXPECT_TRUE(is_clearly_better(sunk(4e-3), sunk(9e-3), settings));
+    EXPECT_FALSE(is_clearly_better(sunk(5e-3), sunk(9e-3), settings));
+    EXPECT_FALSE(is_clearly_better(sunk(1.5e-3), sunk(2e-3), settings));
+}
+
 // What is shown opens by the rate on its way to another fit, and at once where its target opens
 // besides.
 TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {

@@ -14,7 +14,7 @@ TEST(FingerRetry, RoundsGoOnForEver) {
         for (int round = 0; round < 2000; ++round) {
             std::set<std::uint32_t> places;
             for (std::uint32_t i = 0; i < most; ++i) {
-                age(retry, 0.02, 0.011);
+                age(retry, 0.03, 0.011);
                 ASSERT_TRUE(may_retry(retry)) << round;
                 places.insert(retry.tries % most);
                 note_try(retry, true, most);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "components/finger_chain.hpp"
 #include "fitted_hand.hpp"
 #include "tests/engine/surface_cuts.hpp"
 
@@ -69,6 +70,69 @@ TEST(HandTurns, SlidingHandDoesOneDearThingAFrame) {
     EXPECT_GT(all.surfaces, 10);  // and each kind has its turn
     EXPECT_GT(all.fingers, 10);
     EXPECT_GT(all.thumbs, 10);
+}
+
+// Fingers of the hand as it is that are in the air, though one closed anew from there would touch
+// something and be clear.
+int count_hanging(FittedHand& hand) {
+    constexpr double k_touches_m = 1e-3;
+    const HandSurroundings& around = hand.hands.front();
+    ChainFitSettings settings = chain_settings(hand.tuning.finger);
+    settings.searches = false;
+    int hanging = 0;
+    for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig.fingers[f];
+        if (finger.name == FingerName::thumb) {
+            continue;
+        }
+        const HingeChain chain = finger_chain(finger, 0.0, hand.shown_bs());
+        const ChainFit anew = fit_chain(chain, around.meshes, {}, settings, hand.fit_scratch);
+        const bool could = anew.fallback == ChainFallback::bent && touches(anew) &&
+                           anew.depth_m <= settings.open_depth_m;
+        double deepest_m = 0.0;
+        for (Capsule capsule : chain_capsules(chain, hand.pose().target[f].curl_rad)) {
+            if (capsule.radius_m <= 0.0) {
+                continue;
+            }
+            capsule.radius_m += k_touches_m;
+            deepest_m = std::max(deepest_m, find_sunk(capsule, around.meshes).depth_m);
+        }
+        hanging += could && deepest_m <= 0.0 ? 1 : 0;
+    }
+    return hanging;
+}
+
+// What was bent out of something while the hand slid comes back to it when the hand stops. A finger
+// that slid off something and is at ease stays so: it would close on nothing from there.
+TEST(HandTurns, FingersOfAHandThatStopsComeBackToWhatTheyTouch) {
+    constexpr double k_dt_s = 1.0 / 90.0;
+    constexpr int k_stops = 600;
+    constexpr int k_slide_frames = 12;
+    constexpr int k_rest_frames = 90;
+    const GripMesh ring = build_grip_mesh(test::make_torus(0.035, 0.008, 40, 16));
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    test::Random random(4201);
+    const Pose from = test::wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
+    FittedHand hand(ring, from);
+    int hanging_in_slides = 0;
+    int hanging_at_rest = 0;
+    for (int stop = 0; stop < k_stops; ++stop) {
+        const Pose to = from * Pose{random.vector(0.05), rotation_from_vector(random.vector(0.6))};
+        const Pose start = hand.wrist_bs();
+        for (int frame = 1; frame <= k_slide_frames; ++frame) {
+            const double share = static_cast<double>(frame) / k_slide_frames;
+            hand.wrist_bs().position = start.position + share * (to.position - start.position);
+            hand.wrist_bs().rotation = start.rotation.slerp(share, to.rotation);
+            hand.frame(k_dt_s);
+        }
+        hanging_in_slides += count_hanging(hand);
+        for (int frame = 0; frame < k_rest_frames; ++frame) {
+            hand.frame(k_dt_s);
+        }
+        hanging_at_rest += count_hanging(hand);
+    }
+    EXPECT_GE(hanging_in_slides, 10);
+    EXPECT_LE(hanging_at_rest, hanging_in_slides / 10);
 }
 
 }  // namespace

@@ -409,6 +409,23 @@ TEST_F(SweepFingers, FingersThatStaySunkLiftThePalmByTheNextFrame) {
     EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_lifted), 3U);
 }
 
+// Fingers that are not sunk so deep as to be tried anew have no turn to wait for.
+TEST_F(SweepFingers, FingersHardlySunkLiftThePalmWhereADesignerWantsIt) {
+    FittedHand hand(beam, on_beam);
+    hand.tuning.finger.search_depth_m = 0.1;
+    hand.frame(k_at_once_s);
+    for (int frame = 0; frame < 180; ++frame) {
+        if (frame == 60) {  // long after they were closed
+            ASSERT_EQ(hand.offset.at(k_right).lift_m, 0.0);
+            hand.tuning.palm.lift_from_depth_m = 1e-6;
+        }
+        hand.wrist_bs() =
+            on_beam * Pose{Vec3(0.0, 0.0, 0.01 * std::sin(0.05 * frame)), Quat::Identity()};
+        hand.frame(k_dt_s);
+    }
+    EXPECT_GT(hand.offset.at(k_right).lift_m, 0.0);
+}
+
 TEST_F(SweepFingers, ThumbsOppositionStaysWithinItsRange) {
     Random random(2302);
     const FingerRig& thumb = rig.fingers[0];
