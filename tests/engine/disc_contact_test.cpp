@@ -247,6 +247,7 @@ TEST(CloseChain, StopsWhereSmallStepsAndHalvingStopAndMissesNothing) {
               << " mm; firm ones " << 1e3 * tally.worst_tip_m << " mm; sunk "
               << 1e3 * tally.worst_sunk_m << " mm, early " << 1e3 * tally.worst_early_m
               << " mm, missed " << tally.missed << "\n";
+    RecordProperty("worst_tip_mm", std::to_string(1e3 * tally.worst_tip_m));
     EXPECT_GT(tally.firm, case_count() / 4);
     EXPECT_EQ(tally.missed, 0);
     EXPECT_LT(tally.worst_sunk_m, k_promised_m);

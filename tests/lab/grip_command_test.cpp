@@ -116,6 +116,24 @@ TEST_F(GripCommand, WritesEveryFieldOfItsFormat) {
     EXPECT_GT(hand["capsules"].size(), finger_capsules);
 }
 
+TEST_F(GripCommand, WritesEveryWarmFrame) {
+    ASSERT_EQ(run(files() + " --warm-frames 20 --speed-mps 0.3 --warm-json " + path("warm.json")),
+              0)
+        << err_;
+    const Json warm = Json::parse(text_of(folder_ / "warm.json"));
+    // One of the two hands grips: four fingers and a thumb of three hinges.
+    for (const char* const name : {"slide_us", "stand_us"}) {
+        ASSERT_EQ(warm[name].size(), 20U) << name;
+        for (const Json& us : warm[name]) {
+            EXPECT_GT(us.get<double>(), 0.0) << name;
+        }
+    }
+    EXPECT_EQ(warm["joint_frames"], 20 * 15);
+    EXPECT_TRUE(warm["pops_a_disc"].is_array());
+    EXPECT_LE(warm["jumps"].get<int>(), 20 * 15);
+    EXPECT_LE(warm["shown_jumps"].get<int>(), 20 * 15);
+}
+
 TEST_F(GripCommand, HandsWithNothingInReachSayWhy) {
     ASSERT_EQ(run(files()), 0) << err_;
     const Json hand = hands()[1];

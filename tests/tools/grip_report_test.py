@@ -2,6 +2,7 @@
 import argparse
 import importlib.machinery
 import importlib.util
+import json
 import math
 import subprocess
 import sys
@@ -13,8 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
-from grips import glb, primitives, report
-from pages import svg
+from grips import glb, primitives, report, warm
+from pages import files, svg
 from pages.goals import judged
 
 
@@ -27,16 +28,42 @@ class Goals(unittest.TestCase):
 
     def test_what_was_not_measured_was_not_run(self):
         self.assertEqual(judged("x", math.nan, 3, "%").verdict(), "not run")
-        self.assertEqual({goal.verdict() for goal in report.goals(None, None, None)}, {"not run"})
+        self.assertEqual({goal.verdict() for goal in report.goals(None, None, None, None, None)}, {"not run"})
 
     def test_each_goal_reads_its_own_figure(self):
         whole = {"deep_share": {"any_finger_or_thumb": 0.04, "any_finger": 0.02, "thumb": 0.016}, "sync_mm_near": {"median": 4.5},
-                 "penetration_mm": {"mean_of_fingers": 0.2, "mean_of_deepest": 0.4}, "us": {"total": {"median": 70, "p99": 260}},
+                 "penetration_mm": {"mean_of_fingers": 0.2, "mean_of_deepest": 0.4},
                  "visited_per_disc": {"median": 2, "p95": 9}, "of_reference": {"four": {"touching": 0.96}, "all": {"touching": 0.94}},
                  "not_finite": 0}
-        verdicts = [goal.verdict() for goal in report.goals(whole, None, None)]
-        self.assertEqual(verdicts[:14], ["met", "MISSED", "MISSED", "met", "not run", "MISSED", "met", "MISSED", "met", "MISSED", "MISSED",
-                                         "met", "MISSED", "met"])
+        slid = {"slide_us": {"median": 70, "p99": 260, "p99_of_meshes": 240}, "stand_us": {"median": 2.1}, "shown_jumps": 0.002, "jumps": 0.011}
+        verdicts = [goal.verdict() for goal in report.goals(whole, None, None, slid, 0.051)]
+        self.assertEqual(verdicts[:18] + verdicts[-1:], ["met", "MISSED", "MISSED", "met", "not run", "MISSED", "met", "MISSED", "met", "MISSED", "MISSED",
+                                         "met", "MISSED", "met", "MISSED", "met", "MISSED", "met", "MISSED"])
+
+
+class Warm(unittest.TestCase):
+    def write(self, folder, **figures):
+        path = Path(folder) / "warm.json"
+        path.write_text(json.dumps({"slide_us": [], "stand_us": [], "pops_a_disc": [], "joint_frames": 0, "jumps": 0, "shown_jumps": 0, **figures}))
+        return path
+
+    def test_percentiles_are_of_all_frames_and_shares_of_all_joints(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one = warm.read(self.write(folder, slide_us=[10.0] * 300, stand_us=[1.0, 3.0, 3.0], joint_frames=300, jumps=6, shown_jumps=3))
+            other = warm.read(self.write(folder, slide_us=[30.0] * 100, joint_frames=100, jumps=2))
+            empty = warm.read(self.write(folder))
+        figures = warm.figures([[one], [other, empty], [empty]])
+        self.assertEqual(figures["slide_us"], {"median": 10.0, "p99": 30.0, "p99_of_meshes": 20.0})
+        self.assertEqual((figures["stand_us"]["median"], figures["jumps"], figures["shown_jumps"]), (3.0, 0.02, 0.0075))
+        self.assertIsNone(warm.figures([[empty]]))
+        self.assertIsNone(warm.figures([]))
+
+    def test_what_is_not_such_a_file_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "warm.json"
+            for text in ("{", "[]", '{"slide_us": ["x"]}'):
+                path.write_text(text)
+                self.assertRaisesRegex(files.FormatError, "warm.json: expected", warm.read, path)
 
 
 class Plots(unittest.TestCase):
@@ -78,7 +105,7 @@ class Refusals(unittest.TestCase):
             glb.write_triangles(mesh, *primitives.make("box", 0.02))
             lab.write_text(f"#!/bin/sh\nprintf '{said}' >&2\nexit 2\n")
             lab.chmod(0o700)
-            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, variants=["handhold"]))
+            return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, warm_frames=0, variants=["handhold"]))
 
     def test_a_broken_mesh_may_be_refused_in_one_line(self):
         result = self.run_case("nasty/nan", "mesh.glb: expected finite positions\\n")

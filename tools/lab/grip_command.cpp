@@ -107,26 +107,36 @@ void append(const WarmHand& one, WarmHand& all) {
     all.shown_jumps += one.shown_jumps;
 }
 
-// Prints the figures; returns the hands as they are at the end of their slide.
-std::string slide_all(const GripOptions& options, const GripMesh& mesh, const HandRig& rig,
-                      const std::vector<Placement>& placements) {
-    WarmHand all;
-    std::string text;
-    Progress progress("warm");
-    for (std::size_t i = 0; i < placements.size(); ++i) {
-        const WarmHand one = slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
-                                        {options.warm_frames, options.speed_mps});
-        append(one, all);
-        text += posed_hand_line(placements[i].id, rig, one.slid);
-        progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
-    }
+void print_figures(const WarmHand& all) {
     std::printf("slide_us median %.1f p99 %.1f\nstand_us median %.2f p99 %.2f\n",
                 quantile(all.slide_us, 0.5), quantile(all.slide_us, 0.99),
                 quantile(all.stand_us, 0.5), quantile(all.stand_us, 0.99));
     std::printf("pops_a_disc median %u p95 %u\njumps %u of %u joint-frames, shown %u\n",
                 quantile(all.pops, 0.5), quantile(all.pops, 0.95), all.jumps, all.joint_frames,
                 all.shown_jumps);
-    return text;
+}
+
+std::optional<FileError> slide_all(const GripOptions& options, const GripMesh& mesh,
+                                   const HandRig& rig, const std::vector<Placement>& placements) {
+    WarmHand all;
+    std::string slid;
+    Progress progress("warm");
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const WarmHand one = slide_hand(mesh, rig, placements[i].wrist, {}, variant_of(options),
+                                        {options.warm_frames, options.speed_mps});
+        append(one, all);
+        slid += posed_hand_line(placements[i].id, rig, one.slid);
+        progress.show(static_cast<double>(i + 1) / static_cast<double>(placements.size()));
+    }
+    print_figures(all);
+    if (!options.slid_out.empty()) {
+        if (auto error = write_file_atomically(options.slid_out, slid)) {
+            return error;
+        }
+    }
+    return options.warm_json.empty()
+               ? std::nullopt
+               : write_file_atomically(options.warm_json, warm_hands_json(all));
 }
 
 }  // namespace
@@ -159,11 +169,8 @@ int grip_command(const GripOptions& options) {
         return refuse(*error);
     }
     if (options.warm_frames > 0) {
-        const std::string slid = slide_all(options, grip_mesh, rig.value(), placements.value());
-        if (!options.slid_out.empty()) {
-            if (const auto error = write_file_atomically(options.slid_out, slid)) {
-                return refuse(*error);
-            }
+        if (const auto error = slide_all(options, grip_mesh, rig.value(), placements.value())) {
+            return refuse(*error);
         }
     }
     return 0;

@@ -21,6 +21,7 @@ struct GripOptions {
     int warm_frames = 0;             // sliding, and standing still, of each hand; 0: none
     double speed_mps = 0.2;          // sliding
     std::filesystem::path slid_out;  // the hands as they are at the end of that; empty: not written
+    std::filesystem::path warm_json;  // every frame's figures; empty: not written
 };
 
 // Exit status: 0; 2 for a file that cannot be read or written. One line on standard error says why;

@@ -143,6 +143,13 @@ std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand
     return line.dump() + "\n";
 }
 
+std::string warm_hands_json(const WarmHand& all) {
+    const Json json = {{"slide_us", all.slide_us}, {"stand_us", all.stand_us},
+                       {"pops_a_disc", all.pops},  {"joint_frames", all.joint_frames},
+                       {"jumps", all.jumps},       {"shown_jumps", all.shown_jumps}};
+    return json.dump() + "\n";
+}
+
 std::string hand_rig_json(const HandRig& rig) {
     Json fingers = Json::array();
     for (const FingerRig& finger : rig.fingers) {

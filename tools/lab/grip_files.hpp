@@ -24,6 +24,9 @@ Result<std::vector<Placement>> load_placements(const std::filesystem::path& path
 // One line of the output, with its line break.
 std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand& posed);
 
+// What warm hands took, and how often their hinges jumped; every frame of every hand.
+std::string warm_hands_json(const WarmHand& all);
+
 // The rig as JSON, for those who measure: every field of HandRig but its skin's joints.
 std::string hand_rig_json(const HandRig& rig);
 

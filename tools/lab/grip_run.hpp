@@ -63,8 +63,8 @@ struct WarmHand {
     std::vector<double> slide_us;
     std::vector<double> stand_us;
     std::vector<std::uint32_t> pops;  // a searched disc, in the mean of a finger and a frame
-    std::uint32_t joint_frames = 0;   // sliding: hinges of all fingers, times frames
     PosedHand slid;                   // in the last frame of these; without times
+    std::uint32_t joint_frames = 0;   // sliding: hinges of all fingers, times frames
     std::uint32_t jumps = 0;          // of these, bound for 10 degrees away or more in one frame
     std::uint32_t shown_jumps = 0;    // of these, shown 10 degrees away or more: opened
 };

@@ -71,6 +71,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
         ->check(CLI::Range(0, 100000));
     grip.add_option("--slid-out", options.slid_out,
                     "Hands as they are at the end of their slide, JSON lines");
+    grip.add_option("--warm-json", options.warm_json, "Every warm frame's figures, JSON");
     grip.add_option("--speed-mps", options.speed_mps, "Of hands that slide")
         ->check(CLI::Range(0.0, 10.0));
 }
