@@ -225,6 +225,7 @@ void visit_fields(const FingerRetry& c, V&& visit) {
     visit("wait_m", c.wait_m);
     visit("since_m", c.since_m);
     visit("tries", c.tries);
+    visit("was_fast", c.was_fast);
     visit("queued", c.queued);
 }
 template <typename V>
@@ -461,6 +462,7 @@ void visit_fields(const FingerPose& c, V&& visit) {
     visit("solved_body", c.solved_body);
     visit("solved_wrist_bs", c.solved_wrist_bs);
     visit("solved_surroundings", c.solved_surroundings);
+    visit("slow_s", c.slow_s);
     visit("solved", c.solved);
     visit("arrived", c.arrived);
     visit("thumb_wrist_bs", c.thumb_wrist_bs);

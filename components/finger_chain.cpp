@@ -9,6 +9,7 @@ namespace {
 
 constexpr double k_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
 constexpr double k_most_way_m = 1.0;
+constexpr double k_look_again_m = 0.004;
 
 // In the mesh's frame.
 GraphPoint under_palm(const PlacedMesh& placed, const GripSurface& surface) {
@@ -54,14 +55,21 @@ ChainFitSettings chain_settings(const FingerTuning& tuning) {
     return settings;
 }
 
-bool is_slow(double way_m, double dt_s, const FingerTuning& tuning) {
-    return way_m <= tuning.slow_mps * dt_s;
+void note_speed(double way_m, double dt_s, const FingerTuning& tuning, FingerPose& pose) {
+    constexpr double k_most_s = 1.0;
+    const bool is_fast = way_m > tuning.slow_mps * dt_s;
+    pose.slow_s = is_fast ? 0.0 : std::min(pose.slow_s + dt_s, k_most_s);
+}
+
+bool is_slow(const FingerPose& pose) {
+    constexpr double k_moment_s = 0.1;
+    return pose.slow_s >= k_moment_s;
 }
 
 ChainFitSettings in_a_slide(ChainFitSettings settings, const ChainAngles& last_rad, bool is_slow) {
     settings.searches = false;
     settings.comes_back = is_slow;
-    settings.at_ease_rad = last_rad;
+    settings.near_rad = last_rad;
     return settings;
 }
 
@@ -117,7 +125,7 @@ void age(FingerRetry& retry, double way_m, double dt_s) {
 
 bool may_retry(const FingerRetry& retry) { return retry.wait_m <= 0.0 && retry.since_m > 0.0; }
 
-void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
+void note_try(FingerRetry& retry, bool in_vain, bool is_fast, std::uint32_t most) {
     constexpr double k_first_m = 0.006;
     constexpr std::uint32_t k_most_rounds = 2;
     constexpr std::uint32_t k_most_tries = 1000;
@@ -127,7 +135,8 @@ void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most) {
     }
     const std::uint32_t rounds = in_vain ? std::min(retry.tries - 1, k_most_rounds) : 0;
     retry.wait_m = k_first_m * (1U << rounds);
-    retry.since_m = retry.tries % most == 0 ? 0.0 : retry.since_m;
+    retry.since_m = !is_fast && retry.tries % most == 0 ? 0.0 : retry.since_m;
+    retry.was_fast = is_fast;
 }
 
 bool touches(const ChainFit& fit) {
@@ -139,6 +148,9 @@ bool is_bent_away(const ChainFit& fit) {
 }
 
 void age(FingerOutlook& outlook, double way_m, double dt_s) {
+    if (way_m > 0.0) {
+        outlook.wait_m = std::min(outlook.wait_m, k_look_again_m);
+    }
     outlook.since_m = std::min(outlook.since_m + way_m, k_most_way_m);
     outlook.wait_m = std::max(outlook.wait_m - way_m - k_time_mps * dt_s, 0.0);
 }
@@ -149,9 +161,12 @@ std::optional<bool> is_ahead(const FingerOutlook& outlook, bool may_look) {
 }
 
 void note_outlook(ChainFit& fit, FingerOutlook& outlook) {
-    constexpr double k_look_again_m = 0.004;
     if (fit.has_looked_ahead) {
-        outlook = {k_look_again_m, 0.0, fit.is_ahead, true};
+        // What a hand that stands saw from one pose and not from the next, it would see again from
+        // the first: it goes to and fro no more.
+        const bool is_gone = outlook.is_known && outlook.is_ahead && !fit.is_ahead;
+        const bool is_still = outlook.since_m <= 0.0;
+        outlook = {is_gone && is_still ? k_most_way_m : k_look_again_m, 0.0, fit.is_ahead, true};
     } else if (touches(fit)) {
         outlook = {};
     } else if (outlook.since_m > 0.0) {

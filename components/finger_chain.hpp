@@ -16,8 +16,11 @@ namespace handhold {
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// The wrist shown went `way_m` in a frame: it stands, trembles or hardly slides.
-bool is_slow(double way_m, double dt_s, const FingerTuning& tuning);
+// FingerPose::slow_s' frame: the wrist shown went `way_m`.
+void note_speed(double way_m, double dt_s, const FingerTuning& tuning, FingerPose& pose);
+// The wrist shown stands, trembles or hardly slides, and has so for a moment: hands whose samples
+// come at half the frames' rate stand in every second frame.
+bool is_slow(const FingerPose& pose);
 // For what a sliding hand tries anew beside the fit that it has: cheap, and near to that. A digit
 // of a fast hand does not come back from where it is bent clear: it would soon be sunk again.
 ChainFitSettings in_a_slide(ChainFitSettings settings, const ChainAngles& last_rad, bool is_slow);
@@ -52,8 +55,8 @@ void count_refusal(const PalmOffset& offset, std::size_t finger, FingerPose& pos
 // FingerRetry's frame: the wrist shown went `way_m`.
 void age(FingerRetry& retry, double way_m, double dt_s);
 bool may_retry(const FingerRetry& retry);
-// After a try, of `most` things that there are to try.
-void note_try(FingerRetry& retry, bool in_vain, std::uint32_t most = 1);
+// After a try, of `most` things that there are to try. A fast hand's is not all that there is.
+void note_try(FingerRetry& retry, bool in_vain, bool is_fast, std::uint32_t most = 1);
 bool touches(const ChainFit& fit);
 // Clear of what it was sunk in, but only because it was bent out of it: it touches nothing there.
 bool is_bent_away(const ChainFit& fit);

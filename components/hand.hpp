@@ -92,6 +92,7 @@ struct FingerRetry {
     double wait_m = 0.0;      // still to go until then, at least -1; time counts as a way too
     double since_m = 0.0;     // gone since all was tried; 0: nothing has changed since
     std::uint32_t tries = 0;  // in vain, in a row: the wait grows with them
+    bool was_fast = false;    // the last try was a fast hand's: it tries less than a slow one
     // Frames since it was to be closed anew: a hand closes a few fingers in each. 0: it has a fit.
     std::uint32_t queued = 0;
 };
@@ -132,6 +133,8 @@ struct FingerPose {
     Entity solved_body = k_no_entity;
     Pose solved_wrist_bs;
     std::uint64_t solved_surroundings = 0;
+    double slow_s =
+        0.0;  // the wrist shown was slow for so long (FingerTuning::slow_mps), at most 1
     bool solved = false;
     bool arrived = false;  // no target is on its way to where it turns, none may be closed anew
     Pose thumb_wrist_bs;   // the same of the thumb

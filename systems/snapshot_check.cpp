@@ -239,6 +239,9 @@ class BreachFinder {
                           w_.finger_pose.owners()[row], ".behind_rad", "angles in [0, 2 pi]");
                 }
             }
+            const double slow_s = w_.finger_pose.rows()[row].slow_s;
+            check(slow_s >= 0.0 && slow_s <= 1.0, "finger_pose", w_.finger_pose.owners()[row],
+                  ".slow_s", "at most 1 s");
             for (const FingerRetry& retry : w_.finger_pose.rows()[row].retry) {
                 check(std::abs(retry.wait_m) <= k_most_m && retry.since_m >= 0.0 &&
                           retry.since_m <= k_most_m && retry.tries <= k_most_tries &&

@@ -211,8 +211,9 @@ class ChainFitter {
 
     // Poses that it may stay in when it is bent out of what it is sunk in.
     struct BentPoses {
-        std::optional<Angles> touching;    // clear, the most at ease of those that touch
-        std::optional<Angles> at_ease;     // clear, the most at ease of all
+        std::optional<Angles>
+            touching;                 // clear, the nearest to where it is to be of those that touch
+        std::optional<Angles> clear;  // the nearest of all that are clear
         std::optional<Angles> least_sunk;  // where none is clear
         double least_m = 0.0;              // how deep that is
     };
@@ -224,15 +225,14 @@ class ChainFitter {
     void bend_clear() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
         const Angles sunk_rad = fit_.angle_rad;
-        const std::size_t sunk_link = depth_of(sunk_rad).link;
         const BentPoses poses = look_at_bends(clear_m);
         if (poses.touching) {
             stay_bent(*poses.touching);
-        } else if (poses.at_ease) {
+        } else if (poses.clear) {
             const bool is_clear = depth_of(chain_.relaxed_rad).depth_m <= clear_m;
-            stay_bent(is_clear ? chain_.relaxed_rad : *poses.at_ease);
+            stay_bent(is_clear ? chain_.relaxed_rad : *poses.clear);
             if (settings_.comes_back && fit_.depth_m <= 0.0) {
-                touch_between(fit_.angle_rad, sunk_rad, sunk_link);
+                touch_between(fit_.angle_rad, sunk_rad, depth_of(sunk_rad).link);
             }
         } else if (poses.least_sunk) {
             stay_bent(*poses.least_sunk);
@@ -249,11 +249,11 @@ class ChainFitter {
                                               static_cast<double>(others) / (k_bends - 1));
                 const double depth_m = depths.depth_m(angle_rad, std::max(poses.least_m, clear_m));
                 if (depth_m <= clear_m && depth_m < fit_.depth_m) {
-                    keep_easier(angle_rad, poses.at_ease);
+                    keep_nearer(angle_rad, poses.clear);
                     // Straight it touched as it began, and was sunk as it closed.
                     const bool is_straight = angle_rad == chain_.open_rad;
                     if (depth_m > 0.0 && !is_straight) {
-                        keep_easier(angle_rad, poses.touching);
+                        keep_nearer(angle_rad, poses.touching);
                     }
                 } else if (depth_m < poses.least_m) {
                     poses.least_m = depth_m;
@@ -269,18 +269,17 @@ class ChainFitter {
         fit_.fallback = ChainFallback::bent;
     }
 
-    void keep_easier(const Angles& angle_rad, std::optional<Angles>& kept) const {
-        if (!kept || off_ease_rad(angle_rad) < off_ease_rad(*kept)) {
+    void keep_nearer(const Angles& angle_rad, std::optional<Angles>& kept) const {
+        if (!kept || off_near_rad(angle_rad) < off_near_rad(*kept)) {
             kept = angle_rad;
         }
     }
 
-    double off_ease_rad(const Angles& angle_rad) const {
-        const Angles& ease_rad =
-            settings_.at_ease_rad ? *settings_.at_ease_rad : chain_.relaxed_rad;
+    double off_near_rad(const Angles& angle_rad) const {
+        const Angles& near_rad = settings_.near_rad ? *settings_.near_rad : chain_.relaxed_rad;
         double off_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            off_rad += std::abs(angle_rad[i] - ease_rad[i]);
+            off_rad += std::abs(angle_rad[i] - near_rad[i]);
         }
         return off_rad;
     }

@@ -184,8 +184,8 @@ class ThumbPoser {
         return static_cast<std::uint32_t>(std::max(1, tuning_.thumb.opposition_steps));
     }
 
-    // As long as it touches there and is not sunk, a thumb keeps its opposition; and where another
-    // was looked for in vain, for a while.
+    // As long as it touches there and is hardly sunk, a thumb keeps its opposition; and where
+    // another was looked for in vain, for a while.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                        bool waited, FingerPose& pose) {
         FingerRetry& retry = pose.retry[f];
@@ -211,9 +211,8 @@ class ThumbPoser {
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
                                last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
         note_outlook(kept.fit, pose.outlook[f]);
-        const bool slow = is_slow(way_m, io_.dt_s, tuning_.finger);
         const bool will_do = touches(kept.fit) && kept.fit.depth_m <= tuning_.finger.slide_depth_m;
-        if (is_well(kept.fit) || (!slow && will_do)) {
+        if (is_well(kept.fit) || (!is_slow(pose) && will_do)) {
             retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
             return kept;
         }
@@ -222,29 +221,29 @@ class ThumbPoser {
         if (!may_retry(retry) || !is_turn) {
             return kept;
         }
-        return change_if_better(hand, thumb, f, kept, slow, pose);
+        return change_if_better(hand, thumb, f, kept, pose);
     }
 
     // One opposition at a time: a hand that slides never pays for more in one frame.
     ThumbFit change_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                              const ThumbFit& kept, bool slow, FingerPose& pose) {
+                              const ThumbFit& kept, FingerPose& pose) {
         const bool is_sunk = kept.fit.depth_m > settings_.open_depth_m;
         const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
         FingerRetry& retry = pose.retry[f];
+        const bool slow = is_slow(pose);
+        if (slow && retry.was_fast) {
+            retry.tries = 0;  // all of them once more
+        }
         const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
         const std::uint32_t step = step_beside(kept_step, retry.tries % most);
         const ChainFitSettings usual =
             std::exchange(settings_, in_a_slide(settings_, kept.fit.angle_rad, slow));
-        const ThumbFit anew =
-            close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
+        ThumbFit anew = close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
         settings_ = usual;
         const bool changes =
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
         const double since_m = retry.since_m;
-        note_try(retry, !is_well(anew.fit), most);
-        if (!slow) {
-            retry.since_m = since_m;  // not all was tried
-        }
+        note_try(retry, !is_well(anew.fit), !slow, most);
         if (changes) {
             if (!is_well(anew.fit) && step != kept_step) {
                 retry.tries = 1;  // those beside it come next
@@ -253,7 +252,11 @@ class ThumbPoser {
             begin_change(anew.fit.angle_rad, f, pose);
             pose.outlook[f] = {};
         }
-        return changes ? anew : kept;
+        if (!changes) {
+            return kept;
+        }
+        anew.fit.is_on_its_way = true;  // hinges that it was stopped by nothing at close on
+        return anew;
     }
 
     // Of all steps the one that is `rank`th nearest to `step`, from 0.
@@ -314,7 +317,7 @@ class ThumbPoser {
             add_visits(best.fit, mended.fit);
             best = mended;
         }
-        note_try(pose.retry[f], !is_well(best.fit));  // all oppositions
+        note_try(pose.retry[f], !is_well(best.fit), false);  // all oppositions
         return best;
     }
 
@@ -375,11 +378,9 @@ class ThumbPoser {
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
         const auto capsules = chain_capsules(chain, tried.fit.angle_rad);
-        const bool touches = tried.fit.contact_link != DiscClosure::k_none &&
-                             tried.fit.fallback != ChainFallback::relaxed;
         tried.cost_m =
             tuning_.thumb.sunk_cost * tried.fit.depth_m +
-            (touches ? 0.0 : tuning_.thumb.open_cost_m) +
+            (touches(tried.fit) ? 0.0 : tuning_.thumb.open_cost_m) +
             tuning_.thumb.gap_cost * tip_gap_m(capsules[chain.link_count - 1], hand.meshes) +
             tuning_.thumb.turn_cost_m_per_rad * std::abs(opposition_rad - rest_opposition(thumb));
         return tried;

@@ -66,6 +66,8 @@ class HandCloser {
             return;
         }
         const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
+        note_speed(pose.solved ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0, io_.dt_s,
+                   tuning_.finger, pose);
         if (stands(pose, hand, wrist_bs, tuning_.finger.stroll_m)) {
             return;
         }
@@ -139,7 +141,6 @@ class HandCloser {
         std::size_t closings = most_closings();
         FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
         const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
-        const bool slow = is_slow(way_m, io_.dt_s, tuning_.finger);
         FingerSet is_kept = {};
         for (std::size_t f = 0; f < k_finger_count; ++f) {
             is_kept[f] = is_free[f] && !is_fitted[f] && pose.retry[f].queued == 0;
@@ -157,8 +158,7 @@ class HandCloser {
             }
             fits_[f] = keep(hand, wrist_bs, f, std::isinf(io_.dt_s) || f == looking, pose);
             is_fitted[f] = true;
-            if (slow ? is_sunk(fits_[f]) || hangs(fits_[f], f, pose)
-                     : fits_[f].depth_m > tuning_.finger.slide_depth_m) {
+            if (wants_another(fits_[f], f, pose)) {
                 const bool is_first =
                     neediest == k_finger_count || retry.wait_m < pose.retry[neediest].wait_m;
                 neediest = may_retry(retry) && is_first ? f : neediest;
@@ -170,7 +170,7 @@ class HandCloser {
             std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.thumb_waits);
         pose.finger_tried = neediest != k_finger_count && closings > 0 && is_turn;
         if (pose.finger_tried) {
-            change_if_better(hand, wrist_bs, neediest, slow, pose);
+            change_if_better(hand, wrist_bs, neediest, pose);
         }
         double depth_m = 0.0;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
@@ -236,6 +236,12 @@ class HandCloser {
         return !touches(fit) && pose.retry[f].tries > 0 && !(outlook.is_known && outlook.is_ahead);
     }
 
+    // For a slow hand another fit is worth the change where for a fast one it is not.
+    bool wants_another(const ChainFit& fit, std::size_t f, const FingerPose& pose) const {
+        return is_slow(pose) ? is_sunk(fit) || hangs(fit, f, pose)
+                             : fit.depth_m > tuning_.finger.slide_depth_m;
+    }
+
     std::size_t most_closings() const {
         return std::isinf(io_.dt_s)
                    ? k_finger_count
@@ -270,18 +276,15 @@ class HandCloser {
     }
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
-                          bool slow, FingerPose& pose) {
+                          FingerPose& pose) {
         const ChainFitSettings usual =
-            std::exchange(settings_, in_a_slide(settings_, fits_[f].angle_rad, slow));
-        const double since_m = pose.retry[f].since_m;
+            std::exchange(settings_, in_a_slide(settings_, fits_[f].angle_rad, is_slow(pose)));
         const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
         settings_ = usual;
-        if (!slow) {
-            pose.retry[f].since_m = since_m;  // not all was tried
-        }
         if (is_clearly_better(anew, fits_[f], settings_) && (is_sunk(fits_[f]) || touches(anew))) {
             begin_change(anew.angle_rad, f, pose);
             fits_[f] = anew;
+            fits_[f].is_on_its_way = true;  // hinges that it was stopped by nothing at close on
         }
     }
 
@@ -290,13 +293,14 @@ class HandCloser {
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
         const bool wants_more = is_sunk(fit) || hangs(fit, f, pose);
-        const bool goes_on = wants_more ? pose.retry[f].since_m > 0.0 : fit.is_on_its_way;
+        const bool goes_on =
+            (wants_more && pose.retry[f].since_m > 0.0) || (!is_sunk(fit) && fit.is_on_its_way);
         pose.arrived = pose.arrived && !goes_on;
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
                                     fit.contact_link, fit.fallback, fit.depth_m};
         }
-        const bool has_its_turn_first = is_sunk(fit) && pose.retry[f].wait_m <= 0.0;
+        const bool has_its_turn_first = wants_another(fit, f, pose) && pose.retry[f].wait_m <= 0.0;
         return has_its_turn_first ? 0.0 : fit.depth_m;
     }
 
@@ -312,7 +316,7 @@ class HandCloser {
         }
         pose.outlook[f] = {};
         count_fallback(fit.fallback, stats_);
-        note_try(pose.retry[f], is_sunk(fit) || is_bent_away(fit));
+        note_try(pose.retry[f], is_sunk(fit) || is_bent_away(fit), !settings_.comes_back);
         return fit;
     }
 

@@ -334,9 +334,9 @@ TEST(FitChain, BentClearIsNearToWhereItIsToBe) {
     const ChainFitSettings at_ease;
     for (const double curl_rad : {0.0, 1.2}) {
         ChainFitSettings near = at_ease;
-        near.at_ease_rad.emplace().fill(curl_rad);
-        EXPECT_LT(off_near_rad(tube, *near.at_ease_rad, near),
-                  0.95 * off_near_rad(tube, *near.at_ease_rad, at_ease))
+        near.near_rad.emplace().fill(curl_rad);
+        EXPECT_LT(off_near_rad(tube, *near.near_rad, near),
+                  0.95 * off_near_rad(tube, *near.near_rad, at_ease))
             << curl_rad;
     }
 }
