@@ -10,10 +10,9 @@
 namespace handhold {
 namespace {
 
-bool stands(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs,
-            double stroll_m) {
+bool stands(const FingerPose& pose, const HandSurroundings& hand, double way_m, double stroll_m) {
     return pose.solved && pose.arrived && pose.solved_surroundings == hand.signature &&
-           hand_way_m(pose.solved_wrist_bs, wrist_bs) < stroll_m;
+           way_m < stroll_m;
 }
 
 void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
@@ -66,9 +65,9 @@ class HandCloser {
             return;
         }
         const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
-        note_speed(pose.solved ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0, io_.dt_s,
-                   tuning_.finger, pose);
-        if (stands(pose, hand, wrist_bs, tuning_.finger.stroll_m)) {
+        const double way_m = pose.solved ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        note_speed(way_m, io_.dt_s, tuning_.finger, pose);
+        if (stands(pose, hand, way_m, tuning_.finger.stroll_m)) {
             return;
         }
         if (!pose.solved || pose.solved_body != hand.body) {
