@@ -57,6 +57,7 @@ void age(FingerRetry& retry, double way_m, double dt_s);
 bool may_retry(const FingerRetry& retry);
 // After a try, of `most` things that there are to try. A fast hand's is not all that there is.
 void note_try(FingerRetry& retry, bool in_vain, bool is_fast, std::uint32_t most = 1);
+// Something is in its way where it is; false of what is relaxed, sunk or not.
 bool touches(const ChainFit& fit);
 // Clear of what it was sunk in, but only because it was bent out of it: it touches nothing there.
 bool is_bent_away(const ChainFit& fit);

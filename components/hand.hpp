@@ -133,8 +133,7 @@ struct FingerPose {
     Entity solved_body = k_no_entity;
     Pose solved_wrist_bs;
     std::uint64_t solved_surroundings = 0;
-    double slow_s =
-        0.0;  // the wrist shown was slow for so long (FingerTuning::slow_mps), at most 1
+    double slow_s = 0.0;  // since the wrist shown was faster than FingerTuning::slow_mps, at most 1
     bool solved = false;
     bool arrived = false;  // no target is on its way to where it turns, none may be closed anew
     Pose thumb_wrist_bs;   // the same of the thumb

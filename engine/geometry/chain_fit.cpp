@@ -211,9 +211,8 @@ class ChainFitter {
 
     // Poses that it may stay in when it is bent out of what it is sunk in.
     struct BentPoses {
-        std::optional<Angles>
-            touching;                 // clear, the nearest to where it is to be of those that touch
-        std::optional<Angles> clear;  // the nearest of all that are clear
+        std::optional<Angles> touching;    // clear, the nearest to near_rad of those that touch
+        std::optional<Angles> clear;       // the nearest to it of all that are clear
         std::optional<Angles> least_sunk;  // where none is clear
         double least_m = 0.0;              // how deep that is
     };

@@ -33,7 +33,8 @@ struct ChainFitSettings {
     double open_step_rad = 0.0436;   // at a time
     std::int32_t open_steps = 6;
     SearchOrder order = SearchOrder::best_first;
-    // Of several bends that are clear the one nearest to this is taken; none: to the relaxed pose.
+    // Of several bends that are clear the one nearest to this is taken; none: to the relaxed pose,
+    // which comes first in any case where no bend touches.
     std::optional<ChainAngles> near_rad;
     bool comes_back = true;  // of what is bent clear and touches nothing there: until it touches
     bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before

@@ -81,7 +81,7 @@ class HandCloser {
         // On its way into its grip a hand is solved in every frame, however slow it is: what is
         // sunk there is not in the grip.
         pose.arrived = hand.authored == nullptr || has_arrived(offset);
-        const double depth_m = close_fingers(place, wrist_bs, pose);
+        const double depth_m = close_fingers(place, wrist_bs, way_m, pose);
         pose.solved = true;
         pose.solved_body = hand.body;
         pose.solved_surroundings = hand.signature;
@@ -133,13 +133,14 @@ class HandCloser {
     // Fingers stay with the fits that they have, but for a few: those that have none have their
     // turn to close anew, or one of those that are sunk. A hand never pays for more in one frame.
     // Returns how deep the fingers are, but for what is yet to be closed anew.
-    double close_fingers(std::size_t place, const Pose& wrist_bs, FingerPose& pose) {
+    double close_fingers(std::size_t place, const Pose& wrist_bs, double solved_way_m,
+                         FingerPose& pose) {
         const HandSurroundings& hand = io_.hands[place];
         const bool keeps = keeps_fit(pose, hand, wrist_bs);
         const FingerSet is_free = queue(hand, wrist_bs, keeps, pose);
         std::size_t closings = most_closings();
         FingerSet is_fitted = close_queued(hand, wrist_bs, closings, pose);
-        const double way_m = keeps ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        const double way_m = keeps ? solved_way_m : 0.0;
         FingerSet is_kept = {};
         for (std::size_t f = 0; f < k_finger_count; ++f) {
             is_kept[f] = is_free[f] && !is_fitted[f] && pose.retry[f].queued == 0;

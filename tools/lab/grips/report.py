@@ -8,6 +8,9 @@ from pages.goals import STYLE, figure, goals_html, judged, percent, table_html, 
 from . import scoring
 
 
+MOST_TIP_MM = 0.05
+
+
 def goals(whole, flat, nasty, warm, worst_tip_mm):
     """whole: figures of objects, level and primitives; flat: of boxes, plates, rails; nasty: of broken meshes;
     warm: of hands that slide and stand (warm.py); worst_tip_mm: of chains against the oracle. None: not run."""
@@ -32,7 +35,7 @@ def goals(whole, flat, nasty, warm, worst_tip_mm):
         judged("fingers bound for as far away, sliding", percent(figure(warm, "jumps")), 1, "%"),
         judged("hands with a number that is not finite", float(figure(whole, "not_finite")), 0, ""),
         judged("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
-        judged("tip of a closed chain, from the oracle's: worst", worst_tip_mm, 0.05, "mm"),
+        judged("tip of a closed chain, from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
     ]
 
 
