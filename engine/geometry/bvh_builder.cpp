@@ -168,34 +168,33 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
 void BvhBuilder::make_leaf(const Work& work) {
     std::sort(items_.begin() + work.first, items_.begin() + work.last,
               [](const Item& a, const Item& b) { return a.triangle < b.triangle; });
-    bvh_.nodes_[work.node].first = work.first;
-    bvh_.nodes_[work.node].count = work.last - work.first;
+    pairs_[work.pair].first = work.first;
+    pairs_[work.pair].count = work.last - work.first;
 }
 
 // Each leaf's triangles are made four: what is beyond its count repeats its last one.
 void BvhBuilder::fill_leaves() {
     std::vector<std::uint32_t> leaves;
-    for (std::uint32_t i = 0; i < bvh_.nodes_.size(); ++i) {
-        if (bvh_.nodes_[i].count > 0) {
+    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+        if (pairs_[i].count > 0) {
             leaves.push_back(i);
         }
     }
-    std::sort(leaves.begin(), leaves.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return bvh_.nodes_[a].first < bvh_.nodes_[b].first;
-    });
+    std::sort(leaves.begin(), leaves.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return pairs_[a].first < pairs_[b].first; });
     bvh_.slots_.reserve(k_leaf * leaves.size());
     bvh_.numbers_.reserve(k_leaf * leaves.size());
     bvh_.fours_.reserve(leaves.size());
     for (const std::uint32_t leaf : leaves) {
-        TriangleBvh::Node& node = bvh_.nodes_[leaf];
-        const std::uint32_t first_item = node.first;
-        node.first = static_cast<std::uint32_t>(bvh_.slots_.size());
+        Pair& pair = pairs_[leaf];
+        const std::uint32_t first_item = pair.first;
+        pair.first = static_cast<std::uint32_t>(bvh_.slots_.size());
         for (std::uint32_t i = 0; i < k_leaf; ++i) {
-            const Item& item = items_[first_item + std::min(i, node.count - 1)];
+            const Item& item = items_[first_item + std::min(i, pair.count - 1)];
             bvh_.slots_.push_back(copy_corners(item.triangle));
             bvh_.numbers_.push_back(item.triangle);
         }
-        add_four(node.first);
+        add_four(pair.first);
     }
 }
 
@@ -239,12 +238,8 @@ void BvhBuilder::add_four(std::uint32_t first_slot) {
     bvh_.fours_.push_back(four);
 }
 
-void BvhBuilder::build() {
-    gather();
-    if (items_.empty()) {
-        return;
-    }
-    bvh_.nodes_.emplace_back();
+void BvhBuilder::divide() {
+    pairs_.emplace_back();
     std::vector<Work> open = {{0, 0, static_cast<std::uint32_t>(items_.size()), 0}};
     while (!open.empty()) {
         const Work work = open.back();
@@ -260,22 +255,90 @@ void BvhBuilder::build() {
                 middles.high[axis] = std::max(middles.high[axis], middle);
             }
         }
-        bvh_.nodes_[work.node].low = box.low;
-        bvh_.nodes_[work.node].high = box.high;
+        pairs_[work.pair].box = box;
         if (count <= k_leaf) {
             make_leaf(work);
             continue;
         }
         const Split split = count > 2 * k_leaf ? best_split(work, middles) : Split{};
         const std::uint32_t middle = part(work, split, middles);
-        const auto child = static_cast<std::uint32_t>(bvh_.nodes_.size());
-        bvh_.nodes_[work.node].first = child;
-        bvh_.nodes_.resize(child + 2);
+        const auto child = static_cast<std::uint32_t>(pairs_.size());
+        pairs_[work.pair].first = child;
+        pairs_.resize(child + 2);
         open.push_back({child + 1, middle, work.last, work.depth + 1});
         open.push_back({child, work.first, middle, work.depth + 1});
     }
-    bvh_.triangle_count_ = items_.size();
+}
+
+// Up to four, in the tree's order, in place of one: those that are met most are opened first.
+std::vector<std::uint32_t> BvhBuilder::four_below(std::uint32_t pair) const {
+    std::vector<std::uint32_t> below = {pair};
+    while (below.size() < 4) {
+        auto widest = below.end();
+        for (auto it = below.begin(); it != below.end(); ++it) {
+            const bool is_inner = pairs_[*it].count == 0;
+            if (is_inner && (widest == below.end() ||
+                             pairs_[*it].box.half_area() > pairs_[*widest].box.half_area())) {
+                widest = it;
+            }
+        }
+        if (widest == below.end()) {
+            break;
+        }
+        const std::uint32_t first = pairs_[*widest].first;
+        *widest = first;
+        below.insert(widest + 1, first + 1);
+    }
+    return below;
+}
+
+void BvhBuilder::make_nodes() {
+    struct Open {
+        std::uint32_t pair;
+        std::uint32_t node;
+    };
+    const Box none = Box::none();
+    std::vector<Open> open = {{0, 0}};
+    bvh_.nodes_.emplace_back();
+    while (!open.empty()) {
+        const auto [pair, place] = open.back();
+        open.pop_back();
+        const std::vector<std::uint32_t> below = four_below(pair);
+        TriangleBvh::Node node;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Box& box = i < below.size() ? pairs_[below[i]].box : none;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                node.box.low[axis][i] = box.low[axis];
+                node.box.high[axis][i] = box.high[axis];
+            }
+        }
+        for (std::size_t i = 0; i < below.size(); ++i) {
+            const Pair& child = pairs_[below[i]];
+            node.child[i] = {child.first, child.count};
+            if (child.count == 0) {
+                node.child[i].place = static_cast<std::uint32_t>(bvh_.nodes_.size());
+                bvh_.nodes_.emplace_back();
+                open.push_back({below[i], node.child[i].place});
+            }
+        }
+        bvh_.nodes_[place] = node;
+    }
+}
+
+void BvhBuilder::build() {
+    gather();
+    if (items_.empty()) {
+        return;
+    }
+    divide();
     fill_leaves();
+    make_nodes();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<Eigen::Index>(axis);
+        bvh_.low_[at] = static_cast<double>(pairs_[0].box.low[axis]);
+        bvh_.high_[at] = static_cast<double>(pairs_[0].box.high[axis]);
+    }
+    bvh_.triangle_count_ = items_.size();
     bvh_.nodes_.shrink_to_fit();
     bvh_.positions_.shrink_to_fit();
 }

@@ -8,9 +8,10 @@
 
 namespace handhold {
 
-// Builds the nodes of a TriangleBvh: top down, each time the cheapest of k_bins planes along each
-// axis by the surface area heuristic. Order of the triangles within a set decides nothing, so the
-// tree is the same on every compiler and library.
+// Builds the nodes of a TriangleBvh: top down with two children to a node, each time the cheapest
+// of k_bins planes along each axis by the surface area heuristic; then nodes take in those of their
+// children that are met most, until they have four. Order of the triangles within a set decides
+// nothing, so the tree is the same on every compiler and library.
 class BvhBuilder {
   public:
     BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
@@ -30,8 +31,14 @@ class BvhBuilder {
         Box box;
         std::uint32_t triangle;
     };
+    // Children of an inner one lie side by side.
+    struct Pair {
+        Box box;
+        std::uint32_t first = 0;  // inner: its first child; leaf: its first item, then slot
+        std::uint32_t count = 0;  // of the leaf's; 0: inner
+    };
     struct Work {
-        std::uint32_t node;
+        std::uint32_t pair;
         std::uint32_t first;
         std::uint32_t last;
         std::uint32_t depth;
@@ -45,6 +52,7 @@ class BvhBuilder {
     static constexpr std::size_t k_bins = 16;
 
     void gather();
+    void divide();
     static std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis);
     Split best_split(const Work& work, const Box& middles) const;
     Split best_split_along(std::size_t axis, const Work& work, const Box& middles) const;
@@ -53,12 +61,15 @@ class BvhBuilder {
     void fill_leaves();
     std::array<std::uint32_t, 3> copy_corners(std::uint32_t triangle);
     void add_four(std::uint32_t first_slot);
+    void make_nodes();
+    std::vector<std::uint32_t> four_below(std::uint32_t pair) const;
 
     TriangleBvh& bvh_;
     std::span<const Vec3> positions_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
     float padding_ = 0.0F;
     std::vector<Item> items_;
+    std::vector<Pair> pairs_;            // the root first
     std::vector<std::uint32_t> copied_;  // by position: where in the tree it is
 };
 

@@ -6,6 +6,8 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/bvh_builder.hpp"
+#include "engine/geometry/least_distance.hpp"
+#include "engine/math/four.hpp"
 
 namespace handhold {
 namespace {
@@ -56,57 +58,75 @@ double bounded_inverse(double x) {
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
 
-// No more than the distances of boxes and triangles from a point, squared; in floats.
-class LeastDistance {
+// Where a ray comes into boxes.
+class RayEntry {
   public:
-    // `point` about the tree's origin; no corner is beyond `reach_m`.
-    LeastDistance(const Vec3& point, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // more than ten roundings
+    // `start` about the tree's origin.
+    RayEntry(const Vec3& start, const Vec3& way) {
         for (std::size_t i = 0; i < 3; ++i) {
-            point_[i] = four_times(point[static_cast<Eigen::Index>(i)]);
-            flat_[i] = point_[i][0];
+            const auto axis = static_cast<Eigen::Index>(i);
+            start_[i] = same_four(start[axis]);
+            inverse_[i] = same_four(bounded_inverse(way[axis]));
         }
-        spare_ = four_times(k_rounding * (reach_m + point.norm()));
     }
 
-    float squared(const std::array<float, 3>& low, const std::array<float, 3>& high) const {
-        const FourFloats zero = {};
-        const FourFloats below = FourFloats{low[0], low[1], low[2], 0.0F} - flat_;
-        const FourFloats above = flat_ - FourFloats{high[0], high[1], high[2], 0.0F};
-        const FourFloats gap = higher(higher(below, above) - spare_, zero);
-        const FourFloats square = gap * gap;
-        return square[0] + square[1] + square[2];
-    }
-
-    // Above a triangle's plane, and from there, in the plane, to a box around the triangle.
-    FourFloats squared(const FourTriangles& four) const {
-        const FourFloats zero = {};
-        std::array<FourFloats, 3> low;
-        std::array<FourFloats, 3> high;
-        FourFloats height = zero;
+    // As a fraction of the way; infinity where it does not come in before `most`.
+    Four of(const FourBoxes& boxes, double most) const {
+        Four enter = zero_four();
+        Four leave = same_four(most);
         for (std::size_t i = 0; i < 3; ++i) {
-            const FourFloats a = four.corner[0][i] - point_[i];
-            const FourFloats b = four.corner[1][i] - point_[i];
-            const FourFloats c = four.corner[2][i] - point_[i];
-            low[i] = lower(lower(a, b), c);
-            high[i] = higher(higher(a, b), c);
-            height += four.normal[i] * a;
+            const Four a = (__builtin_convertvector(boxes.low[i], Four) - start_[i]) * inverse_[i];
+            const Four b = (__builtin_convertvector(boxes.high[i], Four) - start_[i]) * inverse_[i];
+            const Four first = b < a ? b : a;
+            const Four last = b < a ? a : b;
+            enter = enter < first ? first : enter;
+            leave = last < leave ? last : leave;
         }
-        const FourFloats clear = higher(higher(height, -height) - spare_, zero);
-        FourFloats sum = clear * clear;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const FourFloats foot = height * four.normal[i];
-            const FourFloats gap = higher(higher(low[i] - foot, foot - high[i]) - spare_, zero);
-            sum += gap * gap;
-        }
-        return sum;
+        return enter <= leave ? enter : same_four(std::numeric_limits<double>::infinity());
     }
 
   private:
-    std::array<FourFloats, 3> point_ = {};  // each coordinate four times
-    FourFloats flat_ = {};                  // the three, and 0
-    FourFloats spare_ = {};
+    static Four same_four(double value) { return Four{value, value, value, value}; }
+
+    Four start_[3];    // NOLINT(*-avoid-c-arrays): of vector types, as four.hpp's
+    Four inverse_[3];  // NOLINT(*-avoid-c-arrays)
 };
+
+// What is still to be looked at. Of what was put there together the nearest is taken first.
+template <typename Item, typename Distance, std::size_t k_most>
+class NearestFirst {
+  public:
+    struct Open {
+        Item item;
+        Distance distance;
+    };
+
+    bool is_empty() const { return count_ == 0; }
+    Open take() { return open_[--count_]; }
+
+    void begin() { first_ = count_; }
+    void put(const Item& item, Distance distance) {
+        std::size_t place = count_++;
+        for (; place > first_ && open_[place - 1].distance < distance; --place) {
+            open_[place] = open_[place - 1];
+        }
+        open_[place] = {item, distance};
+    }
+
+  private:
+    std::array<Open, k_most> open_;  // NOLINT(*-member-init): filled as it grows
+    std::size_t count_ = 0;
+    std::size_t first_ = 0;  // of those that are put there together
+};
+
+// The place of the least of the first `count` of four.
+std::uint32_t least_of(const FourFloats& values, std::uint32_t count) {
+    std::uint32_t least = 0;
+    for (std::uint32_t i = 1; i < count; ++i) {
+        least = values[i] < values[least] ? i : least;
+    }
+    return least;
+}
 
 // Normals of what looks towards a side, as long as twice the triangles' areas.
 class TowardsSide {
@@ -152,7 +172,6 @@ double box_squared(const Vec3& point, const Corners& corners) {
     const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
     return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
 }
-constexpr double k_bound_slack = 1.0 + 1e-5;  // floats round off less
 
 }  // namespace
 
@@ -167,53 +186,33 @@ std::size_t TriangleBvh::memory_bytes() const {
            fours_.capacity() * sizeof(fours_[0]);
 }
 
-double TriangleBvh::reach_m() const {
-    float most = 0.0F;
-    for (std::size_t i = 0; i < 3 && !nodes_.empty(); ++i) {
-        most = std::max({most, nodes_[0].high[i], -nodes_[0].low[i]});
-    }
-    return static_cast<double>(most);
-}
-
 Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                                   double most_m2) const {
     Vec3 sum = Vec3::Zero();
-    if (nodes_.empty() || !is_finite(center) || !(radius_m >= 0.0)) {
+    if (!is_finite(center) || !(radius_m >= 0.0)) {
         return sum;
     }
-    const Vec3 local = center - origin_;
-    const LeastDistance least(local, reach_m());
-    const auto most = static_cast<float>(radius_m * radius_m);
+    const LeastDistance least(center - origin_, reach_m());
+    const FourFloats most = four_times(LeastDistance::limit(radius_m * radius_m));
     const TowardsSide towards(side, most_m2);
-    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const Node& node = nodes_[stack[--depth]];
-        if (least.squared(node.low, node.high) > most) {
-            continue;
-        }
-        if (node.count == 0) {
-            stack[depth++] = node.first + 1;
-            stack[depth++] = node.first;
-            continue;
-        }
-        const FourTriangles& four = fours_[node.first / 4];
-        sum += towards.areas_of(four, least.squared(four) <= four_times(radius_m * radius_m),
-                                node.count);
-    }
+    visit_leaves([&](const FourBoxes& boxes) -> FourInts { return least.squared(boxes) <= most; },
+                 [&](std::uint32_t first_slot, std::uint32_t count) {
+                     const FourTriangles& four = fours_[first_slot / 4];
+                     sum += towards.areas_of(four, least.squared(four) <= most, count);
+                 });
     return sum;
 }
 
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
                                double squared_radius) const {
+    constexpr double k_slack = 1.0 + 1e-5;
     const Corners triangle = corners_at(slot);
     for (const Vec3& corner : triangle) {
         if ((corner - center).squaredNorm() <= squared_radius) {
             return true;
         }
     }
-    return box_squared(center, triangle) <= squared_radius * k_bound_slack &&
+    return box_squared(center, triangle) <= squared_radius * k_slack &&
            (closest_on_triangle(center, triangle) - center).squaredNorm() <= squared_radius;
 }
 
@@ -223,48 +222,29 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
         return std::nullopt;
     }
     const ShearedRay ray = shear(from, way);
-    const Vec3 start = from - origin_;
-    const Vec3 inverse(bounded_inverse(way.x()), bounded_inverse(way.y()),
-                       bounded_inverse(way.z()));
+    const RayEntry entry(from - origin_, way);
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t best_number = 0;
-    // Where the ray enters the box, as a fraction; infinity where it does not before `best`.
-    const auto entry = [&](const Node& node) -> double {
-        double enter = 0.0;
-        double leave = std::min(1.0, best);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            const double a = (static_cast<double>(node.low[i]) - start[axis]) * inverse[axis];
-            const double b = (static_cast<double>(node.high[i]) - start[axis]) * inverse[axis];
-            enter = std::max(enter, std::min(a, b));
-            leave = std::min(leave, std::max(a, b));
-        }
-        return enter <= leave ? enter : std::numeric_limits<double>::infinity();
-    };
-    struct Open {
-        std::uint32_t node;
-        double entry;
-    };
-    std::array<Open, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
-    std::size_t depth = 0;
-    stack[depth++] = {0, entry(nodes_[0])};
-    while (depth > 0) {
-        const Open open = stack[--depth];
-        if (!(open.entry <= std::min(1.0, best))) {
+    NearestFirst<Child, double, k_most_open> open;
+    open.put({0, 0}, 0.0);
+    while (!open.is_empty()) {
+        const auto [next, enters] = open.take();
+        if (!(enters <= std::min(1.0, best))) {
             continue;
         }
-        const Node& node = nodes_[open.node];
-        if (node.count == 0) {
-            Open near = {node.first, entry(nodes_[node.first])};
-            Open far = {node.first + 1, entry(nodes_[node.first + 1])};
-            if (far.entry < near.entry) {
-                std::swap(near, far);
+        if (!next.is_leaf()) {
+            const Node& node = nodes_[next.place];
+            const double most = std::min(1.0, best);
+            const Four fraction = entry.of(node.box, most);
+            open.begin();
+            for (std::size_t i = 0; i < 4; ++i) {
+                if (fraction[i] <= most && node.child[i].is_there()) {
+                    open.put(node.child[i], fraction[i]);
+                }
             }
-            stack[depth++] = far;
-            stack[depth++] = near;
             continue;
         }
-        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+        for (std::uint32_t slot = next.place; slot < next.place + next.count; ++slot) {
             const double fraction = meet_fraction(ray, corners_at(slot));
             if (fraction >= 0.0 &&
                 (fraction < best || (fraction == best && numbers_[slot] < best_number))) {
@@ -284,51 +264,46 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
     if (nodes_.empty() || !is_finite(point) || !(max_distance_m >= 0.0)) {
         return std::nullopt;
     }
-    const Vec3 local = point - origin_;
-    const LeastDistance least(local, reach_m());
+    const LeastDistance least(point - origin_, reach_m());
     double best = max_distance_m * max_distance_m;
     TriangleHit hit;
     bool found = false;
-    const auto limit = [&]() -> float { return static_cast<float>(best * k_bound_slack); };
-    float most = limit();
-    struct Open {
-        std::uint32_t node;
-        float least;
-    };
-    const auto open_node = [&](std::uint32_t node) -> Open {
-        return {node, least.squared(nodes_[node].low, nodes_[node].high)};
-    };
-    std::array<Open, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
-    std::size_t depth = 0;
-    stack[depth++] = open_node(0);
-    while (depth > 0) {
-        const Open open = stack[--depth];
-        if (open.least > most) {
+    float most = LeastDistance::limit(best);
+    NearestFirst<Child, float, k_most_open> open;
+    open.put({0, 0}, 0.0F);
+    while (!open.is_empty()) {
+        const auto [next, least_squared] = open.take();
+        if (least_squared > most) {
             continue;
         }
-        const Node& node = nodes_[open.node];
-        if (node.count == 0) {
-            Open near = open_node(node.first);
-            Open far = open_node(node.first + 1);
-            if (far.least < near.least) {
-                std::swap(near, far);
+        if (!next.is_leaf()) {
+            const Node& node = nodes_[next.place];
+            const FourFloats squared = least.squared(node.box);
+            open.begin();
+            for (std::size_t i = 0; i < 4; ++i) {
+                if (squared[i] <= most && node.child[i].is_there()) {
+                    open.put(node.child[i], squared[i]);
+                }
             }
-            stack[depth++] = far;
-            stack[depth++] = near;
             continue;
         }
-        const FourFloats squared_least = least.squared(fours_[node.first / 4]);
-        for (std::uint32_t i = 0; i < node.count; ++i) {
+        const FourTriangles& four = fours_[next.place / 4];
+        if (!any_of(least.squared(four) <= four_times(most))) {
+            continue;
+        }
+        FourFloats squared_least = least.squared_closely(four);
+        for (std::uint32_t tried = 0; tried < next.count; ++tried) {
+            const std::uint32_t i = least_of(squared_least, next.count);
             if (squared_least[i] > most) {
-                continue;
+                break;
             }
-            const std::uint32_t slot = node.first + i;
-            const Corners triangle = corners_at(slot);
-            const Vec3 on_triangle = closest_on_triangle(point, triangle);
+            squared_least[i] = std::numeric_limits<float>::infinity();
+            const std::uint32_t slot = next.place + i;
+            const Vec3 on_triangle = closest_on_triangle(point, corners_at(slot));
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;
-                most = limit();
+                most = LeastDistance::limit(best);
                 hit = {numbers_[slot], on_triangle, 0.0};
                 found = true;
             }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/four_shapes.hpp"
+#include "engine/geometry/least_distance.hpp"
 #include "engine/geometry/turned_box.hpp"
 #include "engine/math/four_floats.hpp"
 #include "engine/math/math.hpp"
@@ -15,6 +17,7 @@
 // Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:
 // every answer comes from a closed form in double precision on the triangle itself.
 // Sources: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (the build);
+// Dammertz, Hanika, Keller, Shallow Bounding Volume Hierarchies, 2008 (four children to a node);
 // Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013 (rays slip through no shared
 // edge); closest_point.hpp.
 namespace handhold {
@@ -23,12 +26,6 @@ struct TriangleHit {
     std::uint32_t triangle = 0;  // as numbered at construction
     Vec3 point = Vec3::Zero();   // on the triangle
     double distance_m = 0.0;     // from the ray's start, or from the query point
-};
-
-// Four triangles side by side, in floats: for what only has to tell far from near.
-struct FourTriangles {
-    FourCorners corner = {};
-    std::array<FourFloats, 3> normal = {};  // by coordinate: unit, or zero where there is none
 };
 
 // Refers to nothing outside of itself, copies what it needs. No query allocates; all may run on any
@@ -66,7 +63,7 @@ class TriangleBvh {
     void visit_near_box(const TurnedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
     // No coordinate of a corner about the origin is beyond.
-    double reach_m() const;
+    double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
 
     // A triangle of a visited leaf: its number at construction, and its corners in doubles.
     // Precondition: slot < 4 * leaves.
@@ -77,8 +74,9 @@ class TriangleBvh {
     }
     // False where surely no triangle is as near as radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
-        return !nodes_.empty() &&
-               squared_distance(nodes_.front(), point - origin_) <= radius_m * radius_m;
+        const Vec3 local = point - origin_;
+        const Vec3 out = (low_ - local).cwiseMax(local - high_).cwiseMax(0.0);
+        return triangle_count_ > 0 && out.squaredNorm() <= radius_m * radius_m;
     }
 
     std::size_t triangle_count() const { return triangle_count_; }  // that can be found
@@ -87,42 +85,33 @@ class TriangleBvh {
   private:
     friend class BvhBuilder;
 
-    // Children of an inner node lie side by side. Boxes are about origin_, with k_padding of the
-    // mesh's reach to spare, so that rounding hides nothing.
+    // A node of the tree, or a leaf.
+    struct Child {
+        std::uint32_t place;  // of the node; of the leaf's first slot
+        std::uint32_t count;  // of the leaf's slots; 0: a node
+
+        bool is_there() const { return place != k_no_child.place; }
+        bool is_leaf() const { return count > 0; }
+    };
+    static constexpr Child k_no_child = {0xffffffff, 0};
+    // Up to four children side by side. Boxes are about origin_, with k_padding of the mesh's reach
+    // to spare, so that rounding hides nothing. That of a child that is not there is empty.
     struct Node {
-        std::array<float, 3> low = {};
-        std::uint32_t first = 0;  // inner: its first child; leaf: its first slot
-        std::array<float, 3> high = {};
-        std::uint32_t count = 0;  // of the leaf's slots; 0: inner
+        FourBoxes box;
+        std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
     static constexpr std::size_t k_most_depth = 64;
+    static constexpr std::size_t k_most_open = 3 * k_most_depth + 1;
 
-    static double squared_distance(const Node& node, const Vec3& point_about_origin) {
-        double sum = 0.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            const double below = static_cast<double>(node.low[i]) - point_about_origin[axis];
-            const double above = point_about_origin[axis] - static_cast<double>(node.high[i]);
-            const double out = below > above ? below : above;
-            sum += out > 0.0 ? out * out : 0.0;
-        }
-        return sum;
-    }
-    // Of the box's farthest corner.
-    static double farthest_squared(const Node& node, const Vec3& point_about_origin) {
-        double sum = 0.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            const double below = point_about_origin[axis] - static_cast<double>(node.low[i]);
-            const double above = static_cast<double>(node.high[i]) - point_about_origin[axis];
-            const double out = below > above ? below : above;
-            sum += out * out;
-        }
-        return sum;
-    }
+    // visit(first_slot, count) for the leaves of nodes that may be met: may_meet(boxes) tells
+    // which. In the tree's order.
+    template <typename MayMeet, typename Visit>
+    void visit_leaves(const MayMeet& may_meet, Visit&& visit) const;
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
+    Vec3 low_ = Vec3::Zero();  // of the box of all, about origin_
+    Vec3 high_ = Vec3::Zero();
     std::vector<Node> nodes_;  // the root first
     std::vector<Vec3> positions_;
     // In leaf order. Each leaf has four slots; those beyond its count repeat its last one.
@@ -132,61 +121,55 @@ class TriangleBvh {
     std::size_t triangle_count_ = 0;
 };
 
-template <typename Visit>
-void TriangleBvh::visit_near_box(const TurnedBox& box, Visit&& visit) const {
+template <typename MayMeet, typename Visit>
+void TriangleBvh::visit_leaves(const MayMeet& may_meet, Visit&& visit) const {
     if (nodes_.empty()) {
         return;
     }
-    const TurnedBoxTest test(box, reach_m());
-    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
-    std::size_t depth = 0;
-    if (test.may_meet(nodes_[0].low, nodes_[0].high)) {
-        stack[depth++] = 0;
-    }
-    while (depth > 0) {
-        const Node& node = nodes_[stack[--depth]];
-        if (node.count == 0) {
-            const std::uint32_t left = node.first;
-            const std::uint32_t right = left + 1;
-            if (test.may_meet(nodes_[right].low, nodes_[right].high)) {
-                stack[depth++] = right;
-            }
-            if (test.may_meet(nodes_[left].low, nodes_[left].high)) {
-                stack[depth++] = left;
-            }
+    std::array<Child, k_most_open> open;  // NOLINT(*-member-init): filled as it grows
+    std::size_t count = 0;
+    open[count++] = {0, 0};
+    while (count > 0) {
+        const Child next = open[--count];
+        if (next.is_leaf()) {
+            visit(next.place, next.count);
             continue;
         }
-        visit(node.first, node.count, fours_[node.first / 4]);
+        const Node& node = nodes_[next.place];
+        const FourInts is_met = may_meet(node.box);
+        for (std::size_t i = 4; i-- > 0;) {
+            if (is_met[i] != 0 && node.child[i].is_there()) {
+                open[count++] = node.child[i];
+            }
+        }
     }
 }
 
 template <typename Visit>
+void TriangleBvh::visit_near_box(const TurnedBox& box, Visit&& visit) const {
+    const TurnedBoxTest test(box, reach_m());
+    visit_leaves([&](const FourBoxes& boxes) { return test.may_meet(boxes); },
+                 [&](std::uint32_t first_slot, std::uint32_t count) {
+                     visit(first_slot, count, fours_[first_slot / 4]);
+                 });
+}
+
+template <typename Visit>
 void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const {
-    const double squared_radius = radius_m * radius_m;
-    if (nodes_.empty() || !is_finite(center) || !(radius_m >= 0.0)) {
+    if (!is_finite(center) || !(radius_m >= 0.0)) {
         return;
     }
-    const Vec3 local = center - origin_;
-    std::array<std::uint32_t, k_most_depth + 1> stack;  // NOLINT(*-member-init): filled as it grows
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const Node& node = nodes_[stack[--depth]];
-        if (!(squared_distance(node, local) <= squared_radius)) {
-            continue;
-        }
-        if (node.count == 0) {
-            stack[depth++] = node.first + 1;
-            stack[depth++] = node.first;
-            continue;
-        }
-        const bool is_within = farthest_squared(node, local) <= squared_radius;
-        for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
-            if (is_within || meets_sphere(slot, center, squared_radius)) {
-                visit(numbers_[slot]);
-            }
-        }
-    }
+    const LeastDistance least(center - origin_, reach_m());
+    const double squared_radius = radius_m * radius_m;
+    const FourFloats most = four_times(LeastDistance::limit(squared_radius));
+    visit_leaves([&](const FourBoxes& boxes) -> FourInts { return least.squared(boxes) <= most; },
+                 [&](std::uint32_t first_slot, std::uint32_t count) {
+                     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
+                         if (meets_sphere(slot, center, squared_radius)) {
+                             visit(numbers_[slot]);
+                         }
+                     }
+                 });
 }
 
 }  // namespace handhold

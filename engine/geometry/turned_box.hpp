@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
+#include "engine/geometry/four_shapes.hpp"
 #include "engine/math/four_floats.hpp"
 #include "engine/math/math.hpp"
 
@@ -22,34 +24,45 @@ class TurnedBoxTest {
     // `reach_m`: no upright box has a coordinate beyond it.
     TurnedBoxTest(const TurnedBox& box, double reach_m) {
         constexpr double k_rounding = 0x1p-20;  // sixteen times what one operation rounds off
-        for (int i = 0; i < 3; ++i) {
-            const Vec3& axis = box.axis[static_cast<std::size_t>(i)];
-            for (int along = 0; along < 3; ++along) {
-                const auto part = static_cast<float>(axis[along]);
-                axis_[static_cast<std::size_t>(along)][i] = part;
-                steepness_[static_cast<std::size_t>(along)][i] = part < 0.0F ? -part : part;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t along = 0; along < 3; ++along) {
+                const double part = box.axis[i][static_cast<Eigen::Index>(along)];
+                axis_[i][along] = four_times(part);
+                steepness_[i][along] = four_times(std::abs(part));
             }
+            const auto at = static_cast<Eigen::Index>(i);
             const double spare_m =
-                k_rounding * (reach_m + std::abs(box.middle[i]) + std::abs(box.half[i]));
-            middle_twice_[i] = static_cast<float>(2.0 * box.middle[i]);
-            half_twice_[i] = static_cast<float>(2.0 * (box.half[i] + spare_m));
+                k_rounding * (reach_m + std::abs(box.middle[at]) + std::abs(box.half[at]));
+            middle_twice_[i] = four_times(2.0 * box.middle[at]);
+            half_twice_[i] = four_times(2.0 * (box.half[at] + spare_m));
         }
     }
 
-    bool may_meet(const std::array<float, 3>& low, const std::array<float, 3>& high) const {
-        const FourFloats away = axis_[0] * (low[0] + high[0]) + axis_[1] * (low[1] + high[1]) +
-                                axis_[2] * (low[2] + high[2]) - middle_twice_;
-        const FourFloats most = steepness_[0] * (high[0] - low[0]) +
-                                steepness_[1] * (high[1] - low[1]) +
-                                steepness_[2] * (high[2] - low[2]) + half_twice_;
-        return !any_beyond(away, most) && !any_beyond(-away, most);
+    // Of four boxes at once.
+    FourInts may_meet(const FourBoxes& boxes) const {
+        std::array<FourFloats, 3> middle_twice;
+        std::array<FourFloats, 3> size;
+        for (std::size_t along = 0; along < 3; ++along) {
+            middle_twice[along] = boxes.low[along] + boxes.high[along];
+            size[along] = boxes.high[along] - boxes.low[along];
+        }
+        FourInts is_apart = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const FourFloats away = axis_[i][0] * middle_twice[0] + axis_[i][1] * middle_twice[1] +
+                                    axis_[i][2] * middle_twice[2] - middle_twice_[i];
+            const FourFloats most = steepness_[i][0] * size[0] + steepness_[i][1] * size[1] +
+                                    steepness_[i][2] * size[2] + half_twice_[i];
+            is_apart |= higher(away, -away) > most;
+        }
+        return ~is_apart;
     }
 
   private:
-    std::array<FourFloats, 3> axis_ = {};  // by coordinate, of each axis
-    std::array<FourFloats, 3> steepness_ = {};
-    FourFloats middle_twice_ = {};
-    FourFloats half_twice_ = {};
+    // By axis, and by coordinate where there are two; each number four times.
+    std::array<std::array<FourFloats, 3>, 3> axis_;
+    std::array<std::array<FourFloats, 3>, 3> steepness_;
+    std::array<FourFloats, 3> middle_twice_;
+    std::array<FourFloats, 3> half_twice_;
 };
 
 }  // namespace handhold

@@ -300,21 +300,20 @@ TEST(ChainPatch, CutsFarFromTheMeshsMiddleToo) {
     }
 }
 
-// Floats that hold the box: a mesh's tree rounds its own outwards too.
-std::array<float, 3> rounded(const Vec3& corner, float towards) {
-    std::array<float, 3> out = {};
-    for (int axis = 0; axis < 3; ++axis) {
-        out[static_cast<std::size_t>(axis)] =
-            std::nextafter(static_cast<float>(corner[axis]), towards);
+// Lanes of floats that hold the boxes: a mesh's tree rounds its own outwards too.
+void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, FourBoxes& boxes) {
+    constexpr float k_infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<Eigen::Index>(axis);
+        boxes.low[axis][lane] = std::nextafter(static_cast<float>(low[at]), -k_infinity);
+        boxes.high[axis][lane] = std::nextafter(static_cast<float>(high[at]), k_infinity);
     }
-    return out;
 }
 
 // A corner of the upright box lies on a face of the turned one, and all the rest of it beyond: the
 // least rounding the wrong way would take them for apart. 4 cm further they are.
 TEST(TurnedBoxTest, NeverTellsBoxesApartThatTouch) {
     Random random(1508);
-    constexpr float k_infinity = std::numeric_limits<float>::infinity();
     int apart = 0;
     constexpr int k_boxes = 20000;
     for (int i = 0; i < k_boxes; ++i) {
@@ -334,13 +333,20 @@ TEST(TurnedBoxTest, NeverTellsBoxesApartThatTouch) {
         const Vec3 high = low + size;
         const double reach_m = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
         const TurnedBoxTest test(box, reach_m + 0.1);
-        ASSERT_TRUE(test.may_meet(rounded(low, -k_infinity), rounded(high, k_infinity))) << i;
         const Vec3 away = 0.04 * outwards;
-        const bool meets =
-            test.may_meet(rounded(low + away, -k_infinity), rounded(high + away, k_infinity));
-        apart += meets ? 0 : 1;
+        FourBoxes boxes;
+        const auto touching = static_cast<std::size_t>(i % 4);
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const Vec3 off = lane == touching ? Vec3(Vec3::Zero()) : away;
+            put_rounded(low + off, high + off, lane, boxes);
+        }
+        const FourInts is_met = test.may_meet(boxes);
+        ASSERT_NE(is_met[touching], 0) << i;
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            apart += is_met[lane] == 0 ? 1 : 0;
+        }
     }
-    EXPECT_EQ(apart, k_boxes);
+    EXPECT_EQ(apart, 3 * k_boxes);
 }
 
 // A thicker chain's depth says what the chain itself would be asked for.
