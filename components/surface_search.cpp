@@ -44,11 +44,13 @@ SurfaceSearch::SurfaceSearch(const SurfaceGraph& graph, const PalmPlace& palm,
       tuning_(tuning),
       open_(scratch.open),
       seen_(scratch.seen),
-      found_(scratch.found) {
+      found_(scratch.found),
+      left_(scratch.left) {
     open_.clear();
     open_.reserve(3 * k_most_pops + 16);
     found_.clear();
     found_.reserve(k_most_pops);
+    left_.reserve(k_most_pops);
 }
 
 void SurfaceSearch::add_seed(std::uint32_t triangle) {
@@ -83,14 +85,33 @@ std::optional<SurfaceSearch::Found> SurfaceSearch::cheapest_beside(
     std::optional<Found> best;
     for (const Found& found : found_) {
         const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Found& other) {
-            return is_beside(found.point, graph_.normals[found.triangle], other.point,
-                             graph_.normals[other.triangle]);
+            return is_beside_of(found, other);
         });
         if (is_new && (!best || found.cost_m < best->cost_m)) {
             best = found;
         }
     }
     return best;
+}
+
+std::size_t SurfaceSearch::add_cheapest_beside(std::span<Found> tried, std::size_t count,
+                                               double most_m) const {
+    left_.assign(found_.begin(), found_.end());
+    std::erase_if(left_, [&](const Found& found) { return !(found.cost_m < most_m); });
+    const auto drop_beside = [&](const Found& other) {
+        std::erase_if(left_, [&](const Found& found) { return is_beside_of(found, other); });
+    };
+    for (const Found& other : tried.first(count)) {
+        drop_beside(other);
+    }
+    while (count < tried.size() && !left_.empty()) {
+        tried[count] =
+            *std::min_element(left_.begin(), left_.end(),
+                              [](const Found& a, const Found& b) { return a.cost_m < b.cost_m; });
+        drop_beside(tried[count]);
+        ++count;
+    }
+    return count;
 }
 
 std::optional<SurfaceSearch::Found> SurfaceSearch::cheapest_near(
@@ -104,6 +125,11 @@ std::optional<SurfaceSearch::Found> SurfaceSearch::cheapest_near(
         }
     }
     return best;
+}
+
+bool SurfaceSearch::is_beside_of(const Found& found, const Found& other) const {
+    return is_beside(found.point, graph_.normals[found.triangle], other.point,
+                     graph_.normals[other.triangle]);
 }
 
 void SurfaceSearch::push(std::uint32_t triangle) {

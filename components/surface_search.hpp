@@ -52,11 +52,15 @@ class SurfaceSearch {
     // The cheapest of those found that is not near any of `tried` and alike; none where there is
     // none.
     std::optional<Found> cheapest_beside(std::span<const Found> tried) const;
+    // Adds to the first `count` of `tried` what cheapest_beside would, one after the other, as long
+    // as it costs less than most_m and there is room. Returns how many there are then.
+    std::size_t add_cheapest_beside(std::span<Found> tried, std::size_t count, double most_m) const;
     // The cheapest of those found that is near `other` and alike.
     std::optional<Found> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const;
 
   private:
     void push(std::uint32_t triangle);
+    bool is_beside_of(const Found& found, const Found& other) const;
 
     const SurfaceGraph& graph_;
     const PalmPlace& palm_;
@@ -65,6 +69,7 @@ class SurfaceSearch {
     TriangleSet<2048> seen_;
     std::uint32_t pushed_ = 0;
     std::vector<Found>& found_;
+    std::vector<Found>& left_;
     double best_m_ = 0.0;
     std::uint32_t pops_ = 0;
 };

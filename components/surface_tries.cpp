@@ -157,23 +157,15 @@ bool SurfaceTries::may_try(const Found& way) const {
 // All around, what may be cheaper than the best.
 void SurfaceTries::list_others() {
     look_around();
-    const std::size_t count = count_;
-    while (!is_full()) {
-        const auto way = searcher_.cheapest_beside(so_far());
-        if (!way || !is_cheaper(way->cost_m)) {
-            break;
-        }
-        tried_[count_++] = *way;
-    }
+    const std::size_t count = searcher_.add_cheapest_beside(tried_, count_, best_.surface.cost_m);
     was_judged_ = true;
-    listed_ = count;
-    for (std::size_t i = count; i < count_; ++i) {
+    listed_ = count_;
+    for (std::size_t i = count_; i < count; ++i) {
         const Found& way = tried_[i];
         if (may_try(way)) {
             tried_[listed_++] = way;
         }
     }
-    count_ = count;
 }
 
 // From the nearest triangles to places around the palm, as long as there is anything to see.
