@@ -346,5 +346,39 @@ TEST(TriangleBvh, SumsNoAreasBeyondTheSphere) {
     EXPECT_LT(nearer.z(), 0.9 * hardly_farther.z());
 }
 
+// Of all triangles of a soup, slivers, lines and points among them, four by four, from points near
+// and far: neither bound is more than the distance, and the close one is hardly less.
+TEST(LeastDistance, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
+    Random random(806);
+    const Mesh mesh = make_soup(random, 400);
+    const TriangleBvh bvh(mesh.positions, mesh.triangles);
+    TurnedBox everything;
+    everything.half = Vec3::Constant(10.0);
+    constexpr double k_room = 1e-5;  // ten times what is left for rounding
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 local = random.vector(std::pow(10.0, random.between(-2.0, 1.0)));
+        const LeastDistance least(local, bvh.reach_m());
+        const double room_m = k_room * (bvh.reach_m() + local.norm());
+        std::size_t seen = 0;
+        bvh.visit_near_box(everything, [&](std::uint32_t first_slot, std::uint32_t count,
+                                           const FourTriangles& four) {
+            const FourFloats roughly = least.squared(four);
+            const FourFloats closely = least.squared_closely(four);
+            for (std::uint32_t lane = 0; lane < count; ++lane) {
+                const Corners corners = bvh.corners_at(first_slot + lane);
+                const Vec3 point = local + bvh.origin();
+                const double distance_m = (closest_on_triangle(point, corners) - point).norm();
+                const double roughly_m = std::sqrt(static_cast<double>(roughly[lane]));
+                const double closely_m = std::sqrt(static_cast<double>(closely[lane]));
+                ASSERT_LE(roughly_m, distance_m * (1.0 + 1e-6)) << i;
+                ASSERT_LE(closely_m, distance_m * (1.0 + 1e-6)) << i;
+                ASSERT_GE(closely_m, distance_m - room_m) << i;
+            }
+            seen += count;
+        });
+        ASSERT_EQ(seen, mesh.triangles.size());
+    }
+}
+
 }  // namespace
 }  // namespace handhold::triangle_bvh_test

@@ -101,6 +101,40 @@ TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
     EXPECT_LE(missed, compared / 100);
 }
 
+// As cheapest_beside would, asked again and again.
+TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
+    const PalmTuning tuning;
+    Random random(2211);
+    std::size_t listed = 0;
+    for (int i = 0; i < 60; ++i) {
+        const GripMesh mesh = build_grip_mesh(make_dunes(random));
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+        const PalmPlace palm = {Vec3(0.0, random.between(0.0, 0.06), 0.0) + random.vector(0.05),
+                                up};
+        GripSearchScratch scratch;
+        SurfaceSearch search(mesh.search, palm, tuning, scratch);
+        search.add_seed(mesh.search_bvh.closest_point(palm.center, tuning.reach_m)->triangle);
+        search.run(SurfaceSearch::k_most_pops);
+        std::array<SurfaceSearch::Found, 5> tried = {*search.cheapest_beside({})};
+        const double most_m = random.between(1.0, 4.0) * tried[0].cost_m;
+        std::vector<SurfaceSearch::Found> expected = {tried[0]};
+        while (expected.size() < tried.size()) {
+            const auto next = search.cheapest_beside(expected);
+            if (!next || next->cost_m >= most_m) {
+                break;
+            }
+            expected.push_back(*next);
+        }
+        const std::size_t count = search.add_cheapest_beside(tried, 1, most_m);
+        ASSERT_EQ(count, expected.size()) << i;
+        for (std::size_t k = 0; k < count; ++k) {
+            EXPECT_EQ(tried[k].triangle, expected[k].triangle) << i;
+        }
+        listed += count - 1;
+    }
+    EXPECT_GT(listed, 60U);
+}
+
 // A slab with a top and a bottom, wound outwards: a hand that went into it is no nearer to what
 // there is to grip inside of it.
 TEST(SearchGrip, HoldsNoPalmInsideASolid) {
