@@ -127,6 +127,25 @@ bool PalmHolder::is_inside(const Found& found) const {
     return hit && mesh.search.normals[hit->triangle].dot(out) > 0.0;
 }
 
+bool PalmHolder::is_entering(const HeldPalm& held) const {
+    constexpr int k_most_crossed = 8;
+    constexpr double k_on_m = 1e-6;  // a surface is crossed once
+    const GripMesh& mesh = *placed_.mesh;
+    const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.held_bs).center;
+    const Vec3 way = (to - palm_.center).normalized();
+    Vec3 from = palm_.center;
+    int entered = 0;
+    for (int i = 0; i < k_most_crossed && (to - from).dot(way) > k_on_m; ++i) {
+        const auto hit = mesh.contact_bvh.cast_ray(from, to);
+        if (!hit) {
+            break;
+        }
+        entered += mesh.contact.normals[hit->triangle].dot(way) < 0.0 ? 1 : -1;
+        from = hit->point + k_on_m * way;
+    }
+    return entered > 0;
+}
+
 bool PalmHolder::is_near_last(const Found& found, const GripSurface& last) const {
     const SurfaceGraph& graph = placed_.mesh->search;
     return is_beside(found.point, graph.normals[found.triangle],

@@ -10,7 +10,7 @@ namespace {
 constexpr int k_most_pushes_tried = 2;    // of a palm that is taken only if it is better
 constexpr double k_far_m = 0.05;          // of sync: a palm that comes out farther went through
 constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
-constexpr double k_inside_cost_m = 0.05;
+constexpr double k_inside_cost_m = 0.3;
 constexpr double k_sunk_cost = 12.0;   // of a metre that a palm stays sunk
 constexpr double k_finger_cost = 9.0;  // and a finger
 
@@ -228,9 +228,12 @@ SurfaceTries::Judged SurfaceTries::judged(const Found& found, const HeldPalm& he
     Judged result = {held.surface,
                      held.sunk_m <= k_palm_has_room_m && fingers_m <= k_fingers_have_room_m};
     result.surface.cost_m = held.sync_m;
-    if (holder_.is_back(found)) {
-        result.surface.cost_m +=
-            tuning_.back_cost_m + (holder_.is_inside(found) ? k_inside_cost_m : 0.0);
+    const bool is_back = holder_.is_back(found);
+    if (is_back) {
+        result.surface.cost_m += tuning_.back_cost_m;
+    }
+    if ((is_back && holder_.is_inside(found)) || holder_.is_entering(held)) {
+        result.surface.cost_m += k_inside_cost_m;
     }
     if (result.has_room) {
         result.surface.has_room_m = k_way_between_looks_m;

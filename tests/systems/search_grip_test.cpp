@@ -159,6 +159,84 @@ TEST(SearchGrip, HoldsNoPalmInsideASolid) {
     }
 }
 
+// Four walls around a hole along y, wound outwards, with a groove around their outside.
+constexpr double k_hole_x_m = 0.05;
+constexpr double k_hole_z_m = 0.07;
+constexpr double k_wall_m = 0.047;
+constexpr double k_groove_m = 0.014;
+constexpr double k_groove_y_m = 0.068;
+constexpr double k_frame_y_m = 0.1;
+
+bool is_in_frame(const Vec3& point) {
+    const Vec3 at = point.cwiseAbs();
+    const double wall_m = at.y() < k_groove_y_m ? k_wall_m - k_groove_m : k_wall_m;
+    const bool is_beyond =
+        at.x() > k_hole_x_m + wall_m || at.z() > k_hole_z_m + wall_m || at.y() > k_frame_y_m;
+    const bool is_in_hole = at.x() < k_hole_x_m && at.z() < k_hole_z_m;
+    return !is_beyond && !is_in_hole;
+}
+
+GripMesh make_grooved_frame() {
+    struct Ring {
+        double y;
+        double wall_m;
+    };
+    // Down through the hole and up along the outside.
+    constexpr std::array<Ring, 8> k_rings = {{{k_frame_y_m, 0.0},
+                                              {-k_frame_y_m, 0.0},
+                                              {-k_frame_y_m, k_wall_m},
+                                              {-k_groove_y_m, k_wall_m},
+                                              {-k_groove_y_m, k_wall_m - k_groove_m},
+                                              {k_groove_y_m, k_wall_m - k_groove_m},
+                                              {k_groove_y_m, k_wall_m},
+                                              {k_frame_y_m, k_wall_m}}};
+    Mesh mesh;
+    for (const auto& [y, wall_m] : k_rings) {
+        const double x = k_hole_x_m + wall_m;
+        const double z = k_hole_z_m + wall_m;
+        mesh.positions.insert(mesh.positions.end(),
+                              {{-x, y, -z}, {-x, y, z}, {x, y, z}, {x, y, -z}});
+    }
+    const auto corners = static_cast<std::uint32_t>(mesh.positions.size());
+    for (std::uint32_t ring = 0; ring < corners; ring += 4) {
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const std::uint32_t a = ring + i;
+            const std::uint32_t b = ring + (i + 1) % 4;
+            const std::uint32_t c = (b + 4) % corners;
+            mesh.triangles.push_back({a, b, c});
+            mesh.triangles.push_back({a, c, (a + 4) % corners});
+        }
+    }
+    return build_grip_mesh(mesh);
+}
+
+// A hole too narrow for fingers that are straight: whatever a palm before its walls is held to, it
+// is not held inside of one.
+TEST(SearchGrip, HoldsNoPalmInTheWallsAroundAHole) {
+    const GripMesh mesh = make_grooved_frame();
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(2215);
+    for (int i = 0; i < 300; ++i) {
+        const double side = random.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+        const bool is_x = random.between(0.0, 1.0) < 0.5;
+        const Vec3 inwards = is_x ? Vec3(side * -Vec3::UnitX()) : Vec3(side * -Vec3::UnitZ());
+        const double half_m = (is_x ? k_hole_x_m : k_hole_z_m) - random.between(0.002, 0.02);
+        const Vec3 palm = Vec3(random.between(-0.03, 0.03), random.between(-0.06, 0.06),
+                               random.between(-0.05, 0.05))
+                              .cwiseProduct(is_x ? Vec3(0, 1, 1) : Vec3(1, 1, 0)) -
+                          half_m * inwards;
+        const Vec3 up = (inwards + random.vector(0.3)).normalized();
+        Pose wrist = wrist_with_palm_at(rig, Vec3::Zero(), up);
+        wrist.rotation = rotation_about(up, random.between(-3.14, 3.14)) * wrist.rotation;
+        wrist.position = palm - wrist.rotation * rig.palm_center_hs;
+        FittedHand hand(mesh, wrist);
+        hand.search();
+        hand.constrain(test::k_at_once_s);
+        const Vec3 center = hand.palm_center_bs();
+        EXPECT_FALSE(is_in_frame(center)) << i << ": " << center.transpose();
+    }
+}
+
 // A floor with a block on it before the fingers, which are sunk in it wherever they bend.
 GripMesh make_floor_and_block() {
     constexpr double k_front_m = -0.05;
