@@ -163,7 +163,7 @@ std::optional<bool> is_ahead(const FingerOutlook& outlook, bool may_look) {
 void note_outlook(ChainFit& fit, FingerOutlook& outlook) {
     if (fit.has_looked_ahead) {
         // What a hand that stands saw from one pose and not from the next, it would see again from
-        // the first: it goes to and fro no more.
+        // the first: it goes to and fro no more until the hand moves, or for ten seconds.
         const bool is_gone = outlook.is_known && outlook.is_ahead && !fit.is_ahead;
         const bool is_still = outlook.since_m <= 0.0;
         outlook = {is_gone && is_still ? k_most_way_m : k_look_again_m, 0.0, fit.is_ahead, true};

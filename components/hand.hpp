@@ -92,7 +92,7 @@ struct FingerRetry {
     double wait_m = 0.0;      // still to go until then, at least -1; time counts as a way too
     double since_m = 0.0;     // gone since all was tried; 0: nothing has changed since
     std::uint32_t tries = 0;  // in vain, in a row: the wait grows with them
-    bool was_fast = false;    // the last try was a fast hand's: it tries less than a slow one
+    bool was_fast = false;    // the last try was a fast hand's: a thumb tries all anew then
     // Frames since it was to be closed anew: a hand closes a few fingers in each. 0: it has a fit.
     std::uint32_t queued = 0;
 };

@@ -42,7 +42,7 @@ struct GripSearchScratch {
     };
     std::vector<Node> open;
     std::vector<Found> found;
-    std::vector<Found> left;  // of those, what may still be listed
+    std::vector<Found> unlisted;  // of those, what may still be listed
     std::vector<std::uint32_t> seen;
     ChainPatch patch;
 };

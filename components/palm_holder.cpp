@@ -27,6 +27,21 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
 
+constexpr double k_crossing_m = 1e-6;  // surfaces as near to each other are crossed together
+
+// What a way does at a place on a surface: 1 where it goes in, -1 where it comes out, 0 where it
+// does both: between two bodies that touch, through a sheet with two sides, along an edge.
+int crossing(const GripMesh& mesh, const Vec3& place, const Vec3& way) {
+    bool goes_in = false;
+    bool comes_out = false;
+    mesh.contact_bvh.visit_in_sphere(place, k_crossing_m, [&](std::uint32_t triangle) {
+        const double along = mesh.contact.normals[triangle].dot(way);
+        goes_in = goes_in || along < 0.0;
+        comes_out = comes_out || along > 0.0;
+    });
+    return (goes_in ? 1 : 0) - (comes_out ? 1 : 0);
+}
+
 }  // namespace
 
 PalmHolder::PalmHolder(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
@@ -128,20 +143,21 @@ bool PalmHolder::is_inside(const Found& found) const {
 }
 
 bool PalmHolder::is_entering(const HeldPalm& held) const {
-    constexpr int k_most_crossed = 8;
-    constexpr double k_on_m = 1e-6;  // a surface is crossed once
-    const GripMesh& mesh = *placed_.mesh;
+    constexpr int k_most_crossed = 32;  // what goes through more is as good as inside
     const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.held_bs).center;
     const Vec3 way = (to - palm_.center).normalized();
     Vec3 from = palm_.center;
     int entered = 0;
-    for (int i = 0; i < k_most_crossed && (to - from).dot(way) > k_on_m; ++i) {
-        const auto hit = mesh.contact_bvh.cast_ray(from, to);
+    for (int i = 0; (to - from).dot(way) > k_crossing_m; ++i) {
+        const auto hit = placed_.mesh->contact_bvh.cast_ray(from, to);
         if (!hit) {
             break;
         }
-        entered += mesh.contact.normals[hit->triangle].dot(way) < 0.0 ? 1 : -1;
-        from = hit->point + k_on_m * way;
+        if (i == k_most_crossed) {
+            return true;
+        }
+        entered += crossing(*placed_.mesh, hit->point, way);
+        from = hit->point + 2.0 * k_crossing_m * way;
     }
     return entered > 0;
 }

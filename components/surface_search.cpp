@@ -45,12 +45,12 @@ SurfaceSearch::SurfaceSearch(const SurfaceGraph& graph, const PalmPlace& palm,
       open_(scratch.open),
       seen_(scratch.seen),
       found_(scratch.found),
-      left_(scratch.left) {
+      unlisted_(scratch.unlisted) {
     open_.clear();
     open_.reserve(3 * k_most_pops + 16);
     found_.clear();
     found_.reserve(k_most_pops);
-    left_.reserve(k_most_pops);
+    unlisted_.reserve(k_most_pops);
 }
 
 void SurfaceSearch::add_seed(std::uint32_t triangle) {
@@ -96,17 +96,17 @@ std::optional<SurfaceSearch::Found> SurfaceSearch::cheapest_beside(
 
 std::size_t SurfaceSearch::add_cheapest_beside(std::span<Found> tried, std::size_t count,
                                                double most_m) const {
-    left_.assign(found_.begin(), found_.end());
-    std::erase_if(left_, [&](const Found& found) { return !(found.cost_m < most_m); });
+    unlisted_.assign(found_.begin(), found_.end());
+    std::erase_if(unlisted_, [&](const Found& found) { return !(found.cost_m < most_m); });
     const auto drop_beside = [&](const Found& other) {
-        std::erase_if(left_, [&](const Found& found) { return is_beside_of(found, other); });
+        std::erase_if(unlisted_, [&](const Found& found) { return is_beside_of(found, other); });
     };
     for (const Found& other : tried.first(count)) {
         drop_beside(other);
     }
-    while (count < tried.size() && !left_.empty()) {
+    while (count < tried.size() && !unlisted_.empty()) {
         tried[count] =
-            *std::min_element(left_.begin(), left_.end(),
+            *std::min_element(unlisted_.begin(), unlisted_.end(),
                               [](const Found& a, const Found& b) { return a.cost_m < b.cost_m; });
         drop_beside(tried[count]);
         ++count;

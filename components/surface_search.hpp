@@ -54,6 +54,7 @@ class SurfaceSearch {
     std::optional<Found> cheapest_beside(std::span<const Found> tried) const;
     // Adds to the first `count` of `tried` what cheapest_beside would, one after the other, as long
     // as it costs less than most_m and there is room. Returns how many there are then.
+    // Precondition: count <= tried.size().
     std::size_t add_cheapest_beside(std::span<Found> tried, std::size_t count, double most_m) const;
     // The cheapest of those found that is near `other` and alike.
     std::optional<Found> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const;
@@ -69,7 +70,7 @@ class SurfaceSearch {
     TriangleSet<2048> seen_;
     std::uint32_t pushed_ = 0;
     std::vector<Found>& found_;
-    std::vector<Found>& left_;
+    std::vector<Found>& unlisted_;
     double best_m_ = 0.0;
     std::uint32_t pops_ = 0;
 };

@@ -10,9 +10,9 @@ namespace {
 constexpr int k_most_pushes_tried = 2;    // of a palm that is taken only if it is better
 constexpr double k_far_m = 0.05;          // of sync: a palm that comes out farther went through
 constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
-constexpr double k_inside_cost_m = 0.3;
-constexpr double k_sunk_cost = 12.0;   // of a metre that a palm stays sunk
-constexpr double k_finger_cost = 9.0;  // and a finger
+constexpr double k_inside_cost_m = 0.3;   // as of a palm that is sunk 25 mm
+constexpr double k_sunk_cost = 12.0;      // of a metre that a palm stays sunk
+constexpr double k_finger_cost = 9.0;     // and a finger
 
 }  // namespace
 
@@ -188,11 +188,12 @@ void SurfaceTries::judge(const Found& way, const HeldPalm& held) {
         goes_through_ =
             holder_.is_back(way) || held.sunk_m > k_palm_has_room_m || held.sync_m > k_far_m;
     }
-    Judged result = judged(way, held, 0.0);
+    const double there_m = place_cost_m(way, held);
+    Judged result = judged(held, there_m, 0.0);
     if (is_cheaper(result.surface.cost_m)) {
         const FingerRoom room = find_finger_room(holder_.hand(), held.surface.held_bs, patch_);
         if (room.sunk_m > k_fingers_have_room_m) {
-            result = judged(way, held, room.sunk_m);
+            result = judged(held, there_m, room.sunk_m);
             to_clear_ = room.bends;
         }
     }
@@ -207,7 +208,7 @@ void SurfaceTries::judge_cleared(const GripSurface& last) {
         from_last.last = &last;
     }
     const HeldPalm held = holder_.hold_at(found, to_clear_, from_last);
-    take_better(judged(found, held, held.fingers_sunk_m));
+    take_better(judged(held, place_cost_m(found, held), held.fingers_sunk_m));
     to_clear_ = {};
 }
 
@@ -223,18 +224,18 @@ PalmEffort SurfaceTries::effort() const {
     return effort;
 }
 
-SurfaceTries::Judged SurfaceTries::judged(const Found& found, const HeldPalm& held,
+// What the place costs, wherever the fingers are.
+double SurfaceTries::place_cost_m(const Found& found, const HeldPalm& held) const {
+    const bool is_back = holder_.is_back(found);
+    const bool is_in = (is_back && holder_.is_inside(found)) || holder_.is_entering(held);
+    return (is_back ? tuning_.back_cost_m : 0.0) + (is_in ? k_inside_cost_m : 0.0);
+}
+
+SurfaceTries::Judged SurfaceTries::judged(const HeldPalm& held, double place_cost_m,
                                           double fingers_m) const {
     Judged result = {held.surface,
                      held.sunk_m <= k_palm_has_room_m && fingers_m <= k_fingers_have_room_m};
-    result.surface.cost_m = held.sync_m;
-    const bool is_back = holder_.is_back(found);
-    if (is_back) {
-        result.surface.cost_m += tuning_.back_cost_m;
-    }
-    if ((is_back && holder_.is_inside(found)) || holder_.is_entering(held)) {
-        result.surface.cost_m += k_inside_cost_m;
-    }
+    result.surface.cost_m = held.sync_m + place_cost_m;
     if (result.has_room) {
         result.surface.has_room_m = k_way_between_looks_m;
     } else {

@@ -29,19 +29,11 @@ class FourDistances {
     }
 
   private:
-    using FourVectors = std::array<FourFloats, 3>;
-
     static FourFloats four(float value) { return FourFloats{value, value, value, value}; }
     static FourFloats size_of(const FourFloats& value) { return higher(value, -value); }
     // No less than the length.
     static FourFloats size_of(const FourVectors& v) {
         return size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
-    }
-    static FourFloats dot(const FourVectors& a, const FourVectors& b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-    static FourVectors cross(const FourVectors& a, const FourVectors& b) {
-        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     }
     FourFloats on_segment(const FourFloats& along) const {
         return lower(higher(along, FourFloats{}), length_);

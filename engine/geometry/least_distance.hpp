@@ -31,7 +31,7 @@ class LeastDistance {
             const FourFloats gap = higher(out - spare_, zero);
             sum += gap * gap;
         }
-        return sum;
+        return lower(sum, k_most);
     }
 
     // Above a triangle's plane, and from there, in the plane, to a box around the triangle.
@@ -55,7 +55,7 @@ class LeastDistance {
             const FourFloats gap = higher(higher(low[i] - foot, foot - high[i]) - spare_, zero);
             sum += gap * gap;
         }
-        return sum;
+        return lower(sum, k_most);
     }
 
     // The distances themselves, but for roundings: dearer, and for what is left.
@@ -70,7 +70,7 @@ class LeastDistance {
         const FourFloats height = dot(four.normal, corner[0]);
         const FourFloats clear = higher(higher(height, -height) - spare_, zero);
         FourInts is_over = dot(four.normal, four.normal) > zero;
-        FourFloats least = four_times(LeastDistance::limit(k_any));
+        FourFloats least = k_most;
         for (std::size_t c = 0; c < 3; ++c) {
             const FourVectors& from = corner[c];
             const FourVectors& to = corner[(c + 1) % 3];
@@ -78,26 +78,22 @@ class LeastDistance {
             is_over &= dot(four.normal, cross(from, edge)) >= zero;
             least = lower(least, squared_to_edge(from, edge));
         }
-        return is_over ? clear * clear : least;
+        return lower(is_over ? clear * clear : least, k_most);
     }
 
-    // What is nearer than the root of `squared` is no more than this.
+    // What is nearer than the root of `squared` is no more than this: where that is infinite,
+    // nothing is.
     static float limit(double squared) {
-        constexpr double k_slack = 1.0 + 1e-5;  // floats round off less
-        constexpr double k_most = std::numeric_limits<float>::max();
-        return static_cast<float>(std::min(squared * k_slack, k_most));
+        return static_cast<float>(std::min(squared * k_slack, static_cast<double>(k_most[0])));
     }
+    static constexpr double k_slack = 1.0 + 1e-5;  // floats round off less
 
   private:
-    using FourVectors = std::array<FourFloats, 3>;
-    static constexpr double k_any = std::numeric_limits<double>::infinity();
+    // Nothing is said to be farther: squares of floats are infinite soon.
+    static constexpr FourFloats k_most = {
+        std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
+        std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
-    static FourFloats dot(const FourVectors& a, const FourVectors& b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-    static FourVectors cross(const FourVectors& a, const FourVectors& b) {
-        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
     FourFloats squared_to_edge(const FourVectors& from, const FourVectors& edge) const {
         const FourFloats zero = {};
         const FourFloats tiny = four_times(1e-30);

@@ -93,7 +93,7 @@ class RayEntry {
 };
 
 // What is still to be looked at. Of what was put there together the nearest is taken first.
-template <typename Item, typename Distance, std::size_t k_most>
+template <typename Item, typename Distance, std::size_t KMost>
 class NearestFirst {
   public:
     struct Open {
@@ -114,7 +114,7 @@ class NearestFirst {
     }
 
   private:
-    std::array<Open, k_most> open_;  // NOLINT(*-member-init): filled as it grows
+    std::array<Open, KMost> open_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
     std::size_t first_ = 0;  // of those that are put there together
 };
@@ -193,7 +193,7 @@ Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec
         return sum;
     }
     const LeastDistance least(center - origin_, reach_m());
-    const FourFloats most = four_times(LeastDistance::limit(radius_m * radius_m));
+    const FourFloats most = four_times(radius_m * radius_m);
     const TowardsSide towards(side, most_m2);
     visit_leaves([&](const FourBoxes& boxes) -> FourInts { return least.squared(boxes) <= most; },
                  [&](std::uint32_t first_slot, std::uint32_t count) {
@@ -205,14 +205,13 @@ Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec
 
 bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
                                double squared_radius) const {
-    constexpr double k_slack = 1.0 + 1e-5;
     const Corners triangle = corners_at(slot);
     for (const Vec3& corner : triangle) {
         if ((corner - center).squaredNorm() <= squared_radius) {
             return true;
         }
     }
-    return box_squared(center, triangle) <= squared_radius * k_slack &&
+    return box_squared(center, triangle) <= squared_radius * LeastDistance::k_slack &&
            (closest_on_triangle(center, triangle) - center).squaredNorm() <= squared_radius;
 }
 

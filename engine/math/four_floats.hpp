@@ -13,23 +13,24 @@ using FourFloats = float __attribute__((vector_size(16)));
 // What comparisons of them give: each 0 or -1.
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-// Four triangles side by side, by corner and coordinate.
-using FourCorners = std::array<std::array<FourFloats, 3>, 3>;
+// Four vectors side by side, by coordinate; and the corners of four triangles.
+using FourVectors = std::array<FourFloats, 3>;
+using FourCorners = std::array<FourVectors, 3>;
 
-inline FourFloats four_times(double value) {
-    const auto rounded = static_cast<float>(value);
-    return FourFloats{rounded, rounded, rounded, rounded};
-}
+inline FourFloats four_times(float value) { return FourFloats{value, value, value, value}; }
+inline FourFloats four_times(double value) { return four_times(static_cast<float>(value)); }
 inline FourFloats lower(const FourFloats& a, const FourFloats& b) { return a < b ? a : b; }
 inline FourFloats higher(const FourFloats& a, const FourFloats& b) { return a > b ? a : b; }
+
+inline FourFloats dot(const FourVectors& a, const FourVectors& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline FourVectors cross(const FourVectors& a, const FourVectors& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 inline bool any_of(const FourInts& is_so) {
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(is_so);
     return (halves[0] | halves[1]) != 0;
 }
-// True where any of four numbers is beyond its limit.
-inline bool any_beyond(const FourFloats& values, const FourFloats& limits) {
-    return any_of(values > limits);
-}
-
 }  // namespace handhold

@@ -244,17 +244,15 @@ class ThumbPoser {
             is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
         const double since_m = retry.since_m;
         note_try(retry, !is_well(anew.fit), !slow, most);
-        if (changes) {
-            if (!is_well(anew.fit) && step != kept_step) {
-                retry.tries = 1;  // those beside it come next
-                retry.since_m = since_m;
-            }
-            begin_change(anew.fit.angle_rad, f, pose);
-            pose.outlook[f] = {};
-        }
         if (!changes) {
             return kept;
         }
+        if (!is_well(anew.fit) && step != kept_step) {
+            retry.tries = 1;  // those beside it come next
+            retry.since_m = since_m;
+        }
+        begin_change(anew.fit.angle_rad, f, pose);
+        pose.outlook[f] = {};
         anew.fit.is_on_its_way = true;  // hinges that it was stopped by nothing at close on
         return anew;
     }

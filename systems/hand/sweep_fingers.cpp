@@ -29,6 +29,7 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
         pose.retry[f].queued = 0;
     }
     pose.solved = false;
+    pose.slow_s = 0.0;
     pose.pose_refused.fill(false);
 }
 
@@ -65,12 +66,13 @@ class HandCloser {
             return;
         }
         const Pose wrist_bs = inverse(hand.body_ws) * io_.palm.at(hand.hand).pose_ws;
-        const double way_m = pose.solved ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
+        const bool is_same = pose.solved && pose.solved_body == hand.body;
+        const double way_m = is_same ? hand_way_m(pose.solved_wrist_bs, wrist_bs) : 0.0;
         note_speed(way_m, io_.dt_s, tuning_.finger, pose);
         if (stands(pose, hand, way_m, tuning_.finger.stroll_m)) {
             return;
         }
-        if (!pose.solved || pose.solved_body != hand.body) {
+        if (!is_same) {
             pose.seed_triangle.fill(GripSurface::k_none);
             pose.thumb_solved = false;
             pose.thumb_search = {};
@@ -212,7 +214,7 @@ class HandCloser {
                 break;
             }
             pose.retry[next] = {};
-            fits_[next] = close_anew(hand, wrist_bs, next, pose);
+            fits_[next] = close_anew(hand, wrist_bs, next, false, pose);
             is_closed[next] = true;
         }
         return is_closed;
@@ -277,9 +279,10 @@ class HandCloser {
 
     void change_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                           FingerPose& pose) {
+        const bool slow = is_slow(pose);
         const ChainFitSettings usual =
-            std::exchange(settings_, in_a_slide(settings_, fits_[f].angle_rad, is_slow(pose)));
-        const ChainFit anew = close_anew(hand, wrist_bs, f, pose);
+            std::exchange(settings_, in_a_slide(settings_, fits_[f].angle_rad, slow));
+        const ChainFit anew = close_anew(hand, wrist_bs, f, !slow, pose);
         settings_ = usual;
         if (is_clearly_better(anew, fits_[f], settings_) && (is_sunk(fits_[f]) || touches(anew))) {
             begin_change(anew.angle_rad, f, pose);
@@ -305,7 +308,7 @@ class HandCloser {
     }
 
     ChainFit close_anew(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
-                        FingerPose& pose) {
+                        bool is_fast, FingerPose& pose) {
         const HingeChain chain = finger_chain(hand.rig->fingers[f], 0.0, wrist_bs);
         const ChainSeed seed = settings_.searches ? chain_seed(hand, io_.surface.at(hand.hand),
                                                                pose.seed_triangle[f], chain)
@@ -316,7 +319,7 @@ class HandCloser {
         }
         pose.outlook[f] = {};
         count_fallback(fit.fallback, stats_);
-        note_try(pose.retry[f], is_sunk(fit) || is_bent_away(fit), !settings_.comes_back);
+        note_try(pose.retry[f], is_sunk(fit) || is_bent_away(fit), is_fast);
         return fit;
     }
 

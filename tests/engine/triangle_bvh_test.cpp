@@ -380,5 +380,55 @@ TEST(LeastDistance, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
     }
 }
 
+// So are distances of boxes: of random ones, some of them flat, and some around the point.
+TEST(LeastDistance, IsNeverMoreThanTheDistanceOfABox) {
+    Random random(807);
+    for (int i = 0; i < 5000; ++i) {
+        const double scale = std::pow(10.0, random.between(-2.0, 2.0));
+        const Vec3 point = random.vector(scale);
+        FourBoxes boxes;
+        std::array<double, 4> distance_m = {};
+        double reach_m = 0.0;
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const Vec3 a = random.vector(scale);
+            Vec3 b = a + random.vector(random.between(0.0, 1.0) * scale);
+            b.x() = lane == 0 ? a.x() : b.x();
+            Vec3 low;
+            Vec3 high;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto at = static_cast<Eigen::Index>(axis);
+                boxes.low[axis][lane] = static_cast<float>(std::min(a[at], b[at]));
+                boxes.high[axis][lane] = static_cast<float>(std::max(a[at], b[at]));
+                low[at] = static_cast<double>(boxes.low[axis][lane]);
+                high[at] = static_cast<double>(boxes.high[axis][lane]);
+                reach_m = std::max({reach_m, -low[at], high[at]});
+            }
+            distance_m[lane] = (low - point).cwiseMax(point - high).cwiseMax(0.0).norm();
+        }
+        const LeastDistance least(point, reach_m);
+        const FourFloats squared = least.squared(boxes);
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const double least_m = std::sqrt(static_cast<double>(squared[lane]));
+            ASSERT_LE(least_m, distance_m[lane] * (1.0 + 1e-6)) << i;
+            ASSERT_GE(least_m, distance_m[lane] - 1e-5 * (reach_m + point.norm())) << i;
+        }
+    }
+}
+
+// Squares of floats are infinite from there on.
+TEST(TriangleBvh, FindsWhatIsNearestFromVeryFarAway) {
+    const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+    const TriangleBvh bvh(positions, triangles);
+    for (const double far_m : {1e10, 2e19, 1e20, 1e30, 1e38, 1e39, 1e60, 1e150}) {
+        const Vec3 point(0.0, 0.0, far_m);
+        const auto hit = bvh.closest_point(point, std::numeric_limits<double>::infinity());
+        EXPECT_TRUE(hit.has_value()) << far_m;
+        int visits = 0;
+        bvh.visit_in_sphere(point, 2.0 * far_m, [&](std::uint32_t) { ++visits; });
+        EXPECT_EQ(visits, 1) << far_m;
+    }
+}
+
 }  // namespace
 }  // namespace handhold::triangle_bvh_test

@@ -5,6 +5,7 @@
 #include "components/authored_grip.hpp"
 #include "components/finger_room.hpp"
 #include "components/palm_fit.hpp"
+#include "components/palm_holder.hpp"
 #include "components/surface_search.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
@@ -116,7 +117,7 @@ TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
         search.add_seed(mesh.search_bvh.closest_point(palm.center, tuning.reach_m)->triangle);
         search.run(SurfaceSearch::k_most_pops);
         std::array<SurfaceSearch::Found, 5> tried = {*search.cheapest_beside({})};
-        const double most_m = random.between(1.0, 4.0) * tried[0].cost_m;
+        const double most_m = 1e-6 + random.between(1.0, 4.0) * tried[0].cost_m;
         std::vector<SurfaceSearch::Found> expected = {tried[0]};
         while (expected.size() < tried.size()) {
             const auto next = search.cheapest_beside(expected);
@@ -125,6 +126,8 @@ TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
             }
             expected.push_back(*next);
         }
+        std::array<SurfaceSearch::Found, 5> from_none = {};
+        EXPECT_EQ(search.add_cheapest_beside(from_none, 0, most_m), expected.size()) << i;
         const std::size_t count = search.add_cheapest_beside(tried, 1, most_m);
         ASSERT_EQ(count, expected.size()) << i;
         for (std::size_t k = 0; k < count; ++k) {
@@ -157,6 +160,69 @@ TEST(SearchGrip, HoldsNoPalmInsideASolid) {
         EXPECT_GE(hand.palm_center_bs().y(), hand.tuning.palm.min_height_m - 1e-9) << deep_m;
         EXPECT_GT(hand.palm_up_bs().y(), 0.9) << deep_m;
     }
+}
+
+// Adds a box to a mesh, wound outwards.
+void add_box(const Vec3& middle, const Vec3& half, Mesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const double y : {-1.0, 1.0}) {
+        for (const auto& [x, z] : {std::array{-1.0, -1.0}, std::array{-1.0, 1.0},
+                                   std::array{1.0, 1.0}, std::array{1.0, -1.0}}) {
+            mesh.positions.push_back(middle + half.cwiseProduct(Vec3(x, y, z)));
+        }
+    }
+    constexpr std::array<std::array<std::uint32_t, 4>, 6> k_sides = {
+        {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}, {3, 2, 1, 0}}};
+    for (const auto& [a, b, c, d] : k_sides) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+        mesh.triangles.push_back({first + a, first + c, first + d});
+    }
+}
+
+// Whether a palm that is tracked at one place goes into something to be held at another.
+bool goes_in(const Mesh& mesh, const Vec3& tracked, const Vec3& held) {
+    const GripMesh grip = build_grip_mesh(mesh);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Tuning tuning;
+    FittedHand hand(grip, wrist_with_palm_at(rig, tracked, Vec3::UnitY()));
+    const HandSurroundings& surroundings = hand.hands.front();
+    const PalmHolder holder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm);
+    HeldPalm palm;
+    palm.surface.held_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
+    return holder.is_entering(palm);
+}
+
+TEST(PalmHolder, TellsWhatAPalmGoesInto) {
+    const Vec3 above(0.011, 0.2, 0.017);
+    const auto below = [&](double down_m) -> Vec3 { return above - Vec3(0.003, down_m, 0.001); };
+    const Vec3 half(0.1, 0.05, 0.1);
+    Mesh box;
+    add_box(Vec3::Zero(), half, box);
+    EXPECT_FALSE(goes_in(box, above, above));
+    EXPECT_FALSE(goes_in(box, above, below(0.1)));  // above it still
+    EXPECT_TRUE(goes_in(box, above, below(0.2)));   // in it
+    EXPECT_FALSE(goes_in(box, above, below(0.3)));  // through it
+    EXPECT_FALSE(goes_in(box, below(0.2), above));  // out of it
+    EXPECT_FALSE(goes_in(box, below(0.2), below(0.21)));
+
+    Mesh stack = box;  // another below, face on face
+    add_box(Vec3(0.0, -0.1, 0.0), half, stack);
+    EXPECT_TRUE(goes_in(stack, above, below(0.2)));
+    EXPECT_TRUE(goes_in(stack, above, below(0.3)));
+    EXPECT_FALSE(goes_in(stack, above, below(0.4)));
+
+    Mesh sheet;  // of both sides
+    sheet.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}};
+    EXPECT_FALSE(goes_in(sheet, above, below(0.3)));
+    EXPECT_FALSE(goes_in(sheet, below(0.3), above));
+
+    Mesh slats;
+    for (int i = 0; i < 6; ++i) {
+        add_box(Vec3(0.0, -0.02 * i, 0.0), Vec3(0.1, 0.004, 0.1), slats);
+    }
+    EXPECT_TRUE(goes_in(slats, above, below(0.28)));   // in the fifth
+    EXPECT_FALSE(goes_in(slats, above, below(0.29)));  // between it and the sixth
 }
 
 // Four walls around a hole along y, wound outwards, with a groove around their outside.
