@@ -10,9 +10,10 @@ namespace {
 constexpr int k_most_pushes_tried = 2;    // of a palm that is taken only if it is better
 constexpr double k_far_m = 0.05;          // of sync: a palm that comes out farther went through
 constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
-constexpr double k_inside_cost_m = 0.3;   // as of a palm that is sunk 25 mm
-constexpr double k_sunk_cost = 12.0;      // of a metre that a palm stays sunk
-constexpr double k_finger_cost = 9.0;     // and a finger
+constexpr double k_inside_cost_m = 0.05;
+constexpr double k_entering_cost_m = 0.3;  // as of a palm that is sunk 25 mm
+constexpr double k_sunk_cost = 12.0;       // of a metre that a palm stays sunk
+constexpr double k_finger_cost = 9.0;      // and a finger
 
 }  // namespace
 
@@ -224,11 +225,16 @@ PalmEffort SurfaceTries::effort() const {
     return effort;
 }
 
-// What the place costs, wherever the fingers are.
+// What the place costs, wherever the fingers are; less where that is dearer than the best already.
 double SurfaceTries::place_cost_m(const Found& found, const HeldPalm& held) const {
-    const bool is_back = holder_.is_back(found);
-    const bool is_in = (is_back && holder_.is_inside(found)) || holder_.is_entering(held);
-    return (is_back ? tuning_.back_cost_m : 0.0) + (is_in ? k_inside_cost_m : 0.0);
+    double cost_m = 0.0;
+    if (holder_.is_back(found)) {
+        cost_m += tuning_.back_cost_m + (holder_.is_inside(found) ? k_inside_cost_m : 0.0);
+    }
+    if (is_cheaper(held.sync_m + cost_m) && holder_.is_entering(held)) {
+        cost_m += k_entering_cost_m;
+    }
+    return cost_m;
 }
 
 SurfaceTries::Judged SurfaceTries::judged(const HeldPalm& held, double place_cost_m,
