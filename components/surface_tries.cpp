@@ -238,7 +238,7 @@ double SurfaceTries::place_cost_m(const Found& found, const HeldPalm& held) cons
 }
 
 SurfaceTries::Judged SurfaceTries::judged(const HeldPalm& held, double place_cost_m,
-                                          double fingers_m) const {
+                                          double fingers_m) {
     Judged result = {held.surface,
                      held.sunk_m <= k_palm_has_room_m && fingers_m <= k_fingers_have_room_m};
     result.surface.cost_m = held.sync_m + place_cost_m;

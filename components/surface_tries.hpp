@@ -50,7 +50,7 @@ class SurfaceTries {
     void judge(const Found& way, const HeldPalm& held);
     void judge_cleared(const GripSurface& last);
     double place_cost_m(const Found& found, const HeldPalm& held) const;
-    static Judged judged(const HeldPalm& held, double place_cost_m, double fingers_m) const;
+    static Judged judged(const HeldPalm& held, double place_cost_m, double fingers_m);
     void take_better(const Judged& judged);
     PalmEffort effort() const;
     void note(GripSurface& surface) const;
