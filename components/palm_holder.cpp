@@ -9,7 +9,8 @@
 namespace handhold {
 namespace {
 
-constexpr int k_most_pushes_on = 1;  // of a palm that goes on: it settles from frame to frame
+constexpr int k_most_pushes_on = 1;    // of a palm that goes on: it settles from frame to frame
+constexpr double k_crossing_m = 1e-6;  // surfaces as near to each other are crossed together
 
 PalmPlace palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
     const Pose wrist = inverse(frame) * wrist_bs;
@@ -26,8 +27,6 @@ Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_n
     const double length = sum.norm();
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
-
-constexpr double k_crossing_m = 1e-6;  // surfaces as near to each other are crossed together
 
 // What a way does at a place on a surface: 1 where it goes in, -1 where it comes out, 0 where it
 // does both: between two bodies that touch, through a sheet with two sides, along an edge.

@@ -57,8 +57,8 @@ class PalmHolder {
     bool is_back(const Found& found) const;
     // A palm there would be in something solid: what is over it is seen from inside.
     bool is_inside(const Found& found) const;
-    // On its way from where the hand is tracked the palm comes in through surfaces more often than
-    // out of them.
+    // On its way from where the hand is tracked the palm comes in through surfaces of the mesh more
+    // often than out of them.
     bool is_entering(const HeldPalm& held) const;
 
     // Precondition of both: a `last` that has a triangle has one of this mesh.

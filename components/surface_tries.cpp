@@ -7,10 +7,10 @@
 namespace handhold {
 namespace {
 
-constexpr int k_most_pushes_tried = 2;    // of a palm that is taken only if it is better
-constexpr double k_far_m = 0.05;          // of sync: a palm that comes out farther went through
-constexpr double k_near_enough_m = 0.02;  // with room: nothing farther is looked for
-constexpr double k_inside_cost_m = 0.05;
+constexpr int k_most_pushes_tried = 2;     // of a palm that is taken only if it is better
+constexpr double k_far_m = 0.05;           // of sync: a palm that comes out farther went through
+constexpr double k_near_enough_m = 0.02;   // with room: nothing farther is looked for
+constexpr double k_inside_cost_m = 0.05;   // of a back that is seen from inside
 constexpr double k_entering_cost_m = 0.3;  // as of a palm that is sunk 25 mm
 constexpr double k_sunk_cost = 12.0;       // of a metre that a palm stays sunk
 constexpr double k_finger_cost = 9.0;      // and a finger

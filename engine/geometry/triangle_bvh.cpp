@@ -104,7 +104,8 @@ class NearestFirst {
     bool is_empty() const { return count_ == 0; }
     Open take() { return open_[--count_]; }
 
-    void begin() { first_ = count_; }
+    // What is put there from now on is put there together.
+    void begin_node() { first_ = count_; }
     void put(const Item& item, Distance distance) {
         std::size_t place = count_++;
         for (; place > first_ && open_[place - 1].distance < distance; --place) {
@@ -235,7 +236,7 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
             const Node& node = nodes_[next.place];
             const double most = std::min(1.0, best);
             const Four fraction = entry.of(node.box, most);
-            open.begin();
+            open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
                 if (fraction[i] <= most && node.child[i].is_there()) {
                     open.put(node.child[i], fraction[i]);
@@ -278,7 +279,7 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
             const FourFloats squared = least.squared(node.box);
-            open.begin();
+            open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
                 if (squared[i] <= most && node.child[i].is_there()) {
                     open.put(node.child[i], squared[i]);

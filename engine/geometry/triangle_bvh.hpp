@@ -101,7 +101,7 @@ class TriangleBvh {
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
     static constexpr std::size_t k_most_depth = 64;
-    static constexpr std::size_t k_most_open = 3 * k_most_depth + 1;
+    static constexpr std::size_t k_most_open = 3 * k_most_depth + 1;  // of each node three wait
 
     // visit(first_slot, count) for the leaves of nodes that may be met: may_meet(boxes) tells
     // which. In the tree's order.

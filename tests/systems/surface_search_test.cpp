@@ -1,0 +1,122 @@
+#include "components/surface_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/collision/closest_point.hpp"
+#include "fitted_hand.hpp"
+
+namespace handhold::surface_search_test {
+namespace {
+
+using test::Random;
+
+// Dunes: a floor with hills of up to a centimetre over 12 cm.
+Mesh make_dunes(Random& random) {
+    Mesh mesh = test::make_floor_mesh();
+    const double phase = random.between(0.0, 6.0);
+    for (Vec3& position : mesh.positions) {
+        position.y() = 0.01 * std::sin(position.x() / 0.03 + phase) * std::cos(position.z() / 0.04);
+    }
+    return mesh;
+}
+
+// What talk row 17 counts, written anew: the move to the nearest place over the triangle within the
+// range of heights, the turn into the range of angles, and what a turned-away face costs.
+double sync_cost_m(const SurfaceGraph& graph, std::uint32_t triangle, const Vec3& center,
+                   const Vec3& up, const PalmTuning& tuning) {
+    const auto& [a, b, c] = graph.triangles[triangle];
+    const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
+    const Vec3 wound = area_vector(corners).normalized();
+    const bool is_back = wound.dot(up) < 0.0;
+    const Vec3 normal = is_back ? Vec3(-wound) : wound;
+    // Of all places of the prism over the triangle the nearest: in the plane and along the normal
+    // apart, since they are at right angles.
+    const double height_m = (center - corners[0]).dot(normal);
+    const Vec3 flat = center - height_m * normal;
+    const double beside_m = (closest_on_triangle(flat, corners) - flat).norm();
+    const double lift_m =
+        std::max({tuning.min_height_m - height_m, height_m - tuning.max_height_m, 0.0});
+    const double angle_rad = std::acos(std::clamp(up.dot(normal), -1.0, 1.0));
+    return std::hypot(beside_m, lift_m) +
+           tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
+           (is_back ? tuning.back_cost_m : 0.0);
+}
+
+// From the nearest triangle on.
+SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const PalmTuning& tuning) {
+    GripSearchScratch scratch;
+    SurfaceSearch search(mesh.search, palm, tuning, scratch);
+    constexpr std::uint32_t k_patience = 24;
+    if (const auto near = mesh.search_bvh.closest_point(palm.center, tuning.reach_m)) {
+        search.add_seed(near->triangle);
+    }
+    search.run(k_patience);
+    const auto found = search.cheapest_beside({});
+    return found ? SurfaceCandidate{found->cost_m, found->point} : SurfaceCandidate{};
+}
+
+TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
+    const PalmTuning tuning;
+    int compared = 0;
+    int missed = 0;  // behind a hill that the search's patience does not reach over
+    for (std::uint64_t seed = 2201; seed < 2211; ++seed) {
+        Random random(seed);
+        const GripMesh mesh = build_grip_mesh(make_dunes(random));
+        for (int i = 0; i < 30; ++i) {
+            const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+            const Vec3 center = Vec3(0.0, random.between(0.0, 0.06), 0.0) + random.vector(0.05);
+            double least_m = 1.0;
+            for (std::uint32_t t = 0; t < mesh.search.triangles.size(); ++t) {
+                least_m = std::min(least_m, sync_cost_m(mesh.search, t, center, up, tuning));
+            }
+            const double excess_m = searched(mesh, {center, up}, tuning).cost_m - least_m;
+            ++compared;
+            missed += excess_m > 1e-9 ? 1 : 0;
+            EXPECT_GT(excess_m, -1e-9) << "seed " << seed << " case " << i;
+            EXPECT_LT(excess_m, 2e-3) << "seed " << seed << " case " << i;
+        }
+    }
+    EXPECT_LE(missed, compared / 100);
+}
+
+// As cheapest_beside would, asked again and again.
+TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
+    const PalmTuning tuning;
+    Random random(2211);
+    std::size_t listed = 0;
+    for (int i = 0; i < 60; ++i) {
+        const GripMesh mesh = build_grip_mesh(make_dunes(random));
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
+        const Vec3 beside = random.vector(0.05);
+        const PalmPlace palm = {beside + random.between(0.0, 0.06) * Vec3::UnitY(), up};
+        GripSearchScratch scratch;
+        SurfaceSearch search(mesh.search, palm, tuning, scratch);
+        search.add_seed(mesh.search_bvh.closest_point(palm.center, tuning.reach_m)->triangle);
+        search.run(SurfaceSearch::k_most_pops);
+        std::array<SurfaceSearch::Found, 5> tried = {*search.cheapest_beside({})};
+        const double most_m = 1e-6 + random.between(1.0, 4.0) * tried[0].cost_m;
+        std::vector<SurfaceSearch::Found> expected = {tried[0]};
+        while (expected.size() < tried.size()) {
+            const auto next = search.cheapest_beside(expected);
+            if (!next || next->cost_m >= most_m) {
+                break;
+            }
+            expected.push_back(*next);
+        }
+        std::array<SurfaceSearch::Found, 5> from_none = {};
+        EXPECT_EQ(search.add_cheapest_beside(from_none, 0, most_m), expected.size()) << i;
+        const std::size_t count = search.add_cheapest_beside(tried, 1, most_m);
+        ASSERT_EQ(count, expected.size()) << i;
+        for (std::size_t k = 0; k < count; ++k) {
+            EXPECT_EQ(tried[k].triangle, expected[k].triangle) << i;
+        }
+        listed += count - 1;
+    }
+    EXPECT_GT(listed, 60U);
+}
+
+}  // namespace
+}  // namespace handhold::surface_search_test
