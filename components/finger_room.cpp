@@ -116,6 +116,22 @@ FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, 
     return room;
 }
 
+double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, const Pose& wrist_bs,
+                    ChainPatch& patch) {
+    double depth_m = 0.0;
+    for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
+        const FingerRig& finger = hand.rig->fingers[f];
+        const auto angles = bent_as(finger, bends[f]);
+        if (!angles) {
+            continue;
+        }
+        const HingeChain chain = finger_chain(finger, angles->opposition_rad, wrist_bs);
+        patch.gather(chain_reach(chain, angles->curl_rad, angles->curl_rad), hand.meshes);
+        depth_m = std::max(depth_m, chain_depth(chain, angles->curl_rad, patch).depth_m);
+    }
+    return depth_m;
+}
+
 std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend) {
     if (bend == 0 || bend > k_bends.size() * oppositions_of(finger)) {
         return std::nullopt;

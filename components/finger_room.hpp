@@ -23,6 +23,10 @@ struct FingerRoom {
 // sweep_fingers finds bends between these. `patch` is only worked in.
 FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch);
 
+// How deep those fingers are sunk with the wrist there that have a bend, bent so.
+double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, const Pose& wrist_bs,
+                    ChainPatch& patch);
+
 // None for 0, and for what is no bend of the finger.
 std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend);
 

@@ -341,17 +341,15 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
     const bool goes_on = effort.last != nullptr && effort.last->is_held;
     if (goes_on) {
         const GripSurface& last = *effort.last;
-        moved = move_between(hold_to_limits(hand, last.wrist_bs, last, lift_m, tuning),
-                             last.held_bs, center_hs);
+        moved = move_between(hold_to_limits(hand, last.wrist_bs, last, 0.0, tuning), last.held_bs,
+                             center_hs);
     }
     PalmSpheres palm(hand, surface, goes_on && is_clear_still(hand, surface, *effort.last));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
     double deepest_m = std::max(best.sunk_m, best.fingers_sunk_m);
-    // One that begins where it is held without its lift is not lifted yet: it is no answer.
-    constexpr double k_any_depth_m = 1.0;
-    double least_m = goes_on && lift_m > 0.0 ? k_any_depth_m : deepest_m;
+    double least_m = deepest_m;
     double step_m = k_any_step_m;
     const bool is_pushed = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
     for (int i = 0; i < effort.most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {
@@ -369,6 +367,9 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
             transform_point(held, center_hs) + moved.way_m - wrist.rotation * center_hs;
         moved = move_between(held, wrist, center_hs);
         step_m = size_of({moved.way_m - before.way_m, moved.turn_rad - before.turn_rad}, arm_m);
+        if (!effort.looks_at_end && i + 1 == effort.most_pushes) {
+            return {wrist, best.sunk_m, best.fingers_sunk_m, false};
+        }
         gaps.clear();
         const double sunk_m = palm.look(wrist, gaps);
         deepest_m = std::max(sunk_m, palm.fingers_sunk_m());

@@ -25,6 +25,8 @@ struct PalmEffort {
     int most_pushes = 6;
     // Palms that stay sunk deeper soon are given up.
     double most_sunk_m = std::numeric_limits<double>::infinity();
+    // False: where the last push leads to is taken without a look; the depths are those before it.
+    bool looks_at_end = true;
 };
 
 // The least move of the tracked wrist that holds the palm over `surface`, lift_m higher than else:

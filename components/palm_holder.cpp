@@ -94,6 +94,14 @@ HeldPalm PalmHolder::keep_at(const Found& found, const GripSurface& last) {
     return hold_at(found, last.bends, effort);
 }
 
+GripSurface PalmHolder::carry_on(const Found& found, const GripSurface& last) const {
+    PalmEffort effort{.last = &last, .looks_at_end = false};
+    if (!is_at_once()) {
+        effort.most_pushes = k_most_pushes_on;
+    }
+    return hold_anew(found, last.bends, effort).surface;
+}
+
 HeldPalm PalmHolder::hold_at(const Found& found, const FingerBends& bends,
                              const PalmEffort& effort) {
     for (std::size_t i = 0; i < known_count_; ++i) {
@@ -159,6 +167,23 @@ bool PalmHolder::is_entering(const HeldPalm& held) const {
         from = hit->point + 2.0 * k_crossing_m * way;
     }
     return entered > 0;
+}
+
+double PalmHolder::crossed_m(const HeldPalm& held) const {
+    double deepest_m = 0.0;
+    for (const PlacedMesh& placed : hand_.meshes) {
+        const Pose wrist = inverse(placed.pose) * held.surface.held_bs;
+        for (const PalmCapsule& capsule : hand_.rig->palm) {
+            const Vec3 a = transform_point(wrist, capsule.a_hs);
+            const Vec3 b = transform_point(wrist, capsule.b_hs);
+            const auto hit = placed.mesh->contact_bvh.cast_ray(a, b);
+            if (hit) {
+                const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
+                deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
+            }
+        }
+    }
+    return deepest_m;
 }
 
 bool PalmHolder::is_near_last(const Found& found, const GripSurface& last) const {

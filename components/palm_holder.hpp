@@ -53,6 +53,8 @@ class PalmHolder {
     HeldPalm hold_at(const Found& found, const FingerBends& bends, const PalmEffort& effort);
     // As `last` is held, if it is there and with the same fingers held clear.
     HeldPalm keep_at(const Found& found, const GripSurface& last);
+    // The same by one push more that is not looked at: how deep the palm is then is not told.
+    GripSurface carry_on(const Found& found, const GripSurface& last) const;
 
     bool is_back(const Found& found) const;
     // A palm there would be in something solid: what is over it is seen from inside.
@@ -60,6 +62,9 @@ class PalmHolder {
     // On its way from where the hand is tracked the palm comes in through surfaces of the mesh more
     // often than out of them.
     bool is_entering(const HeldPalm& held) const;
+    // How deep the palm is in surfaces of any of the hand's meshes that go through the middles of
+    // its capsules: as far as the nearer end, and the radius. 0: none does.
+    double crossed_m(const HeldPalm& held) const;
 
     // Precondition of both: a `last` that has a triangle has one of this mesh.
     bool is_near_last(const Found& found, const GripSurface& last) const;

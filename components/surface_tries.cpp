@@ -68,7 +68,7 @@ void SurfaceTries::note(GripSurface& surface) const {
 
 // What was tried in the frames before, where the hand is now; the best of it is near `last`.
 void SurfaceTries::recall(const Found& near, const GripSurface& last) {
-    best_.surface = holder_.keep_at(near, last).surface;
+    best_.surface = holder_.carry_on(near, last);
     best_.surface.cost_m = last.cost_m;
     best_.surface.has_room_m = last.has_room_m;
     best_.has_room = last.has_room_m > 0.0;
@@ -184,12 +184,13 @@ void SurfaceTries::look_around() {
 
 // Where the palm alone costs more than the best its fingers are not asked: they make it no cheaper.
 // Where they have no room they are to be held clear with the palm, in their own turn.
-void SurfaceTries::judge(const Found& way, const HeldPalm& held) {
+void SurfaceTries::judge(const Found& way, HeldPalm held) {
     if (count_ == 1) {
         goes_through_ =
             holder_.is_back(way) || held.sunk_m > k_palm_has_room_m || held.sync_m > k_far_m;
     }
     const double there_m = place_cost_m(way, held);
+    look_for_crossed(there_m, held);
     Judged result = judged(held, there_m, 0.0);
     if (is_cheaper(result.surface.cost_m)) {
         const FingerRoom room = find_finger_room(holder_.hand(), held.surface.held_bs, patch_);
@@ -208,9 +209,24 @@ void SurfaceTries::judge_cleared(const GripSurface& last) {
     if (last.triangle != GripSurface::k_none && holder_.is_near_last(found, last)) {
         from_last.last = &last;
     }
-    const HeldPalm held = holder_.hold_at(found, to_clear_, from_last);
-    take_better(judged(held, place_cost_m(found, held), held.fingers_sunk_m));
+    HeldPalm held = holder_.hold_at(found, to_clear_, from_last);
+    const double there_m = place_cost_m(found, held);
+    look_for_crossed(there_m, held);
+    Judged result = judged(held, there_m, held.fingers_sunk_m);
+    if (is_cheaper(result.surface.cost_m)) {
+        const double bent_m = bent_depth_m(holder_.hand(), to_clear_, held.surface.held_bs, patch_);
+        result = judged(held, there_m, std::max(held.fingers_sunk_m, bent_m));
+    }
+    take_better(result);
     to_clear_ = {};
+}
+
+// The spheres that a palm is held by see no thin wall, no rod and no rim between them. Where it
+// costs more than the best already it is not asked.
+void SurfaceTries::look_for_crossed(double place_cost_m, HeldPalm& held) const {
+    if (is_cheaper(judged(held, place_cost_m, 0.0).surface.cost_m)) {
+        held.sunk_m = std::max(held.sunk_m, holder_.crossed_m(held));
+    }
 }
 
 // What stays sunk so deep that it is no better is given up soon.

@@ -73,5 +73,42 @@ TEST(PalmHolder, TellsWhatAPalmGoesInto) {
     EXPECT_FALSE(goes_in(slats, above, below(0.29)));  // between it and the sixth
 }
 
+// How deep surfaces go through a palm that is held there, of the mesh and of another under the
+// hand.
+double crossed_m(const Mesh& mesh, const Vec3& held, const GripMesh* other = nullptr) {
+    const GripMesh grip = build_grip_mesh(mesh);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const Tuning tuning;
+    HeldPalm palm;
+    palm.surface.held_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
+    FittedHand hand(grip, palm.surface.held_bs);
+    if (other != nullptr) {
+        hand.hands.front().meshes.push_back({other, {}});
+    }
+    const HandSurroundings& surroundings = hand.hands.front();
+    return PalmHolder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm)
+        .crossed_m(palm);
+}
+
+TEST(PalmHolder, TellsWhatGoesThroughAPalm) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const PalmCapsule& capsule = rig.palm.front();
+    const double length_m = (capsule.b_hs - capsule.a_hs).norm();
+    const Vec3 middle_bs = Vec3(0.5 * (capsule.a_hs + capsule.b_hs) - rig.palm_center_hs);
+    Mesh floor;
+    add_box(Vec3(0.0, -0.05, 0.0), Vec3(0.3, 0.05, 0.3), floor);
+    EXPECT_EQ(crossed_m(floor, {0.0, 0.05, 0.0}), 0.0);
+    EXPECT_EQ(crossed_m(floor, {0.0, 0.012, 0.0}), 0.0);  // sunk, but its middles are outside
+
+    Mesh wall;  // across the capsule's middle
+    add_box(middle_bs, Vec3(0.3, 0.3, 1e-3), wall);
+    const double crossed = crossed_m(wall, Vec3::Zero());
+    EXPECT_GT(crossed, capsule.radius_m);
+    EXPECT_LE(crossed, capsule.radius_m + length_m);
+    const GripMesh other = build_grip_mesh(wall);
+    EXPECT_EQ(crossed_m(floor, {0.0, 0.05, 0.0}, &other), crossed_m(wall, {0.0, 0.05, 0.0}));
+    EXPECT_GT(crossed_m(floor, {0.0, 0.05, 0.0}, &other), 0.0);
+}
+
 }  // namespace
 }  // namespace handhold::palm_holder_test

@@ -72,24 +72,19 @@ bool is_in_frame(const Vec3& point) {
     return !is_beyond && !is_in_hole;
 }
 
-GripMesh make_grooved_frame() {
-    struct Ring {
-        double y;
-        double wall_m;
-    };
-    // Down through the hole and up along the outside.
-    constexpr std::array<Ring, 8> k_rings = {{{k_frame_y_m, 0.0},
-                                              {-k_frame_y_m, 0.0},
-                                              {-k_frame_y_m, k_wall_m},
-                                              {-k_groove_y_m, k_wall_m},
-                                              {-k_groove_y_m, k_wall_m - k_groove_m},
-                                              {k_groove_y_m, k_wall_m - k_groove_m},
-                                              {k_groove_y_m, k_wall_m},
-                                              {k_frame_y_m, k_wall_m}}};
+// A ring of walls at a height, so thick there.
+struct Ring {
+    double y;
+    double wall_m;
+};
+
+// Walls around a rectangular hole along y: the rings down through the hole and up along the
+// outside.
+GripMesh make_frame(double half_x_m, double half_z_m, std::span<const Ring> rings) {
     Mesh mesh;
-    for (const auto& [y, wall_m] : k_rings) {
-        const double x = k_hole_x_m + wall_m;
-        const double z = k_hole_z_m + wall_m;
+    for (const auto& [y, wall_m] : rings) {
+        const double x = half_x_m + wall_m;
+        const double z = half_z_m + wall_m;
         mesh.positions.insert(mesh.positions.end(),
                               {{-x, y, -z}, {-x, y, z}, {x, y, z}, {x, y, -z}});
     }
@@ -106,6 +101,35 @@ GripMesh make_grooved_frame() {
     return build_grip_mesh(mesh);
 }
 
+GripMesh make_grooved_frame() {
+    constexpr std::array<Ring, 8> k_rings = {{{k_frame_y_m, 0.0},
+                                              {-k_frame_y_m, 0.0},
+                                              {-k_frame_y_m, k_wall_m},
+                                              {-k_groove_y_m, k_wall_m},
+                                              {-k_groove_y_m, k_wall_m - k_groove_m},
+                                              {k_groove_y_m, k_wall_m - k_groove_m},
+                                              {k_groove_y_m, k_wall_m},
+                                              {k_frame_y_m, k_wall_m}}};
+    return make_frame(k_hole_x_m, k_hole_z_m, k_rings);
+}
+
+// A palm before one of the inner walls of a frame, at random.
+Pose random_wrist_before_wall(const HandRig& rig, double half_x_m, double half_z_m, double high_m,
+                              Random& random) {
+    const double side = random.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+    const bool is_x = random.between(0.0, 1.0) < 0.5;
+    const Vec3 inwards = is_x ? Vec3(side * -Vec3::UnitX()) : Vec3(side * -Vec3::UnitZ());
+    const double half_m = (is_x ? half_x_m : half_z_m) - random.between(0.002, 0.02);
+    const Vec3 along_wall =
+        is_x ? Vec3(0.0, high_m, half_z_m - 0.02) : Vec3(half_x_m - 0.02, high_m, 0.0);
+    const Vec3 palm = random.vector(1.0).cwiseProduct(along_wall) - half_m * inwards;
+    const Vec3 up = (inwards + random.vector(0.3)).normalized();
+    Pose wrist = wrist_with_palm_at(rig, Vec3::Zero(), up);
+    wrist.rotation = rotation_about(up, random.between(-3.14, 3.14)) * wrist.rotation;
+    wrist.position = palm - wrist.rotation * rig.palm_center_hs;
+    return wrist;
+}
+
 // A hole too narrow for fingers that are straight: whatever a palm before its walls is held to, it
 // is hardly ever held inside of one.
 TEST(SearchGrip, HoldsHardlyAPalmInTheWallsAroundAHole) {
@@ -114,16 +138,7 @@ TEST(SearchGrip, HoldsHardlyAPalmInTheWallsAroundAHole) {
     Random random(2215);
     int inside = 0;
     for (int i = 0; i < 300; ++i) {
-        const double side = random.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
-        const bool is_x = random.between(0.0, 1.0) < 0.5;
-        const Vec3 inwards = is_x ? Vec3(side * -Vec3::UnitX()) : Vec3(side * -Vec3::UnitZ());
-        const double half_m = (is_x ? k_hole_x_m : k_hole_z_m) - random.between(0.002, 0.02);
-        const Vec3 along_wall = is_x ? Vec3(0.0, 0.06, 0.05) : Vec3(0.03, 0.06, 0.0);
-        const Vec3 palm = random.vector(1.0).cwiseProduct(along_wall) - half_m * inwards;
-        const Vec3 up = (inwards + random.vector(0.3)).normalized();
-        Pose wrist = wrist_with_palm_at(rig, Vec3::Zero(), up);
-        wrist.rotation = rotation_about(up, random.between(-3.14, 3.14)) * wrist.rotation;
-        wrist.position = palm - wrist.rotation * rig.palm_center_hs;
+        const Pose wrist = random_wrist_before_wall(rig, k_hole_x_m, k_hole_z_m, 0.06, random);
         FittedHand hand(mesh, wrist);
         hand.search();
         hand.constrain(test::k_at_once_s);
@@ -131,6 +146,34 @@ TEST(SearchGrip, HoldsHardlyAPalmInTheWallsAroundAHole) {
         inside += is_in_frame(center) ? 1 : 0;
     }
     EXPECT_LE(inside, 3);  // 13 where the way is not asked
+}
+
+// A box without a floor, its walls so thin that they lie between the spheres that a palm is held
+// by, hands in it: whatever their palms are held to, walls hardly ever go through them, nor through
+// fingers that they are held clear with.
+TEST(SearchGrip, HoldsHardlyAHandThroughAThinWall) {
+    constexpr double k_half_m = 0.06;
+    constexpr double k_high_m = 0.04;
+    constexpr double k_thin_m = 0.003;
+    constexpr double k_through_m = 0.008;
+    constexpr std::array<Ring, 4> k_rings = {
+        {{k_high_m, 0.0}, {-k_high_m, 0.0}, {-k_high_m, k_thin_m}, {k_high_m, k_thin_m}}};
+    const GripMesh mesh = make_frame(k_half_m, k_half_m, k_rings);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    Random random(2216);
+    int palms_through = 0;
+    int fingers_through = 0;
+    for (int i = 0; i < 300; ++i) {
+        FittedHand hand(mesh, random_wrist_before_wall(rig, k_half_m, k_half_m, k_high_m, random));
+        hand.search();
+        palms_through += palm_sunk_m(hand) > k_through_m ? 1 : 0;
+        const GripSurface& surface = hand.surface.at(k_right);
+        ChainPatch patch;
+        fingers_through +=
+            bent_depth_m(hand.hands.front(), surface.bends, surface.held_bs, patch) > k_through_m;
+    }
+    EXPECT_LE(palms_through, 3);    // 23 where they are not asked
+    EXPECT_LE(fingers_through, 3);  // 86
 }
 
 // A floor with a block on it before the fingers, which are sunk in it wherever they bend.

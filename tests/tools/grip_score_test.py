@@ -166,6 +166,12 @@ class Inside(unittest.TestCase):
         surface = Surface(np.concatenate([room[0][room[1][:, ::-1]], thing[0][thing[1]]]))
         np.testing.assert_array_equal(surface.is_inside(np.array([[0, 0, 0], [0.2, 0, 0], [1.9, 0, 0], [3.0, 0, 0]])), [True, False, False, False])
 
+    def test_a_small_room_has_none_and_what_is_inside_out_and_thin_is_turned(self):
+        quarters, plate = primitives.box((0.8, 1.8, 1.0), 0.2), primitives.box((1.9, 0.1, 1.9), 0.2)
+        corners = quarters[1][:, ::-1]
+        self.assertFalse(Surface(quarters[0][corners]).is_inside(np.array([[0, 0, 0], [0.35, 0, 0], [0.5, 0, 0]])).any())
+        np.testing.assert_array_equal(Surface(plate[0][plate[1][:, ::-1]]).is_inside(np.array([[0, 0, 0], [0, 0.2, 0]])), [True, False])
+
     def test_solids_that_run_into_each_other_are_one(self):
         points, faces = primitives.rail(0.035, 0.01)
         surface = Surface(points[faces])

@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 from .tree import TriangleTree, dot
 
 WELD_M = 1e-4  # an edge of a soup may be off by this
-ROOM_M = 1.0  # nothing narrower than this is a room
+ROOM_M = 0.5  # nothing narrower than this is a room that a body fits into; crew quarters on a station are 0.8 m
 CLOSES = 0.25  # an area vector below this share of the area: a part that nearly closes
 
 
