@@ -315,11 +315,11 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
 }
 
 // Nothing was sunk a moment ago, and nothing can have come deep into it since: it and its fingers
-// had room where it was judged, farther than it went, nothing around it moved, and no other fingers
-// are to be held clear.
+// had room where it was judged, farther than it went and is lifted, nothing around it moved, and no
+// other fingers are to be held clear.
 bool is_clear_still(const HandSurroundings& hand, const GripSurface& surface,
-                    const GripSurface& last) {
-    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs) &&
+                    const GripSurface& last, double lift_m) {
+    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs) + lift_m &&
            last.surroundings == hand.signature && last.bends == surface.bends;
 }
 
@@ -344,7 +344,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(hold_to_limits(hand, last.wrist_bs, last, 0.0, tuning), last.held_bs,
                              center_hs);
     }
-    PalmSpheres palm(hand, surface, goes_on && is_clear_still(hand, surface, *effort.last));
+    PalmSpheres palm(hand, surface, goes_on && is_clear_still(hand, surface, *effort.last, lift_m));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
     PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
@@ -367,7 +367,8 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
             transform_point(held, center_hs) + moved.way_m - wrist.rotation * center_hs;
         moved = move_between(held, wrist, center_hs);
         step_m = size_of({moved.way_m - before.way_m, moved.turn_rad - before.turn_rad}, arm_m);
-        if (!effort.looks_at_end && i + 1 == effort.most_pushes) {
+        // No farther than what was seen around it.
+        if (!effort.looks_at_end && i + 1 == effort.most_pushes && step_m <= k_near_m) {
             return {wrist, best.sunk_m, best.fingers_sunk_m, false};
         }
         gaps.clear();

@@ -25,7 +25,8 @@ struct PalmEffort {
     int most_pushes = 6;
     // Palms that stay sunk deeper soon are given up.
     double most_sunk_m = std::numeric_limits<double>::infinity();
-    // False: where the last push leads to is taken without a look; the depths are those before it.
+    // False: where the last push leads to, if that is near, is taken without a look; the depths are
+    // those before it, and it is not settled.
     bool looks_at_end = true;
 };
 

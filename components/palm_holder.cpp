@@ -95,9 +95,10 @@ HeldPalm PalmHolder::keep_at(const Found& found, const GripSurface& last) {
 }
 
 GripSurface PalmHolder::carry_on(const Found& found, const GripSurface& last) const {
-    PalmEffort effort{.last = &last, .looks_at_end = false};
+    PalmEffort effort{.last = &last};
     if (!is_at_once()) {
         effort.most_pushes = k_most_pushes_on;
+        effort.looks_at_end = false;
     }
     return hold_anew(found, last.bends, effort).surface;
 }
@@ -172,14 +173,18 @@ bool PalmHolder::is_entering(const HeldPalm& held) const {
 double PalmHolder::crossed_m(const HeldPalm& held) const {
     double deepest_m = 0.0;
     for (const PlacedMesh& placed : hand_.meshes) {
+        const TriangleBvh& bvh = placed.mesh->contact_bvh;
         const Pose wrist = inverse(placed.pose) * held.surface.held_bs;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
             const Vec3 a = transform_point(wrist, capsule.a_hs);
             const Vec3 b = transform_point(wrist, capsule.b_hs);
-            const auto hit = placed.mesh->contact_bvh.cast_ray(a, b);
-            if (hit) {
-                const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
-                deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
+            const auto from_a = bvh.cast_ray(a, b);
+            const auto from_b = from_a ? bvh.cast_ray(b, a) : std::nullopt;
+            for (const auto& hit : {from_a, from_b}) {
+                if (hit) {
+                    const double end_m = std::min((hit->point - a).norm(), (hit->point - b).norm());
+                    deepest_m = std::max(deepest_m, capsule.radius_m + end_m);
+                }
             }
         }
     }

@@ -53,7 +53,7 @@ class PalmHolder {
     HeldPalm hold_at(const Found& found, const FingerBends& bends, const PalmEffort& effort);
     // As `last` is held, if it is there and with the same fingers held clear.
     HeldPalm keep_at(const Found& found, const GripSurface& last);
-    // The same by one push more that is not looked at: how deep the palm is then is not told.
+    // As keep_at, but where the palm comes to by its push is not looked at.
     GripSurface carry_on(const Found& found, const GripSurface& last) const;
 
     bool is_back(const Found& found) const;
@@ -63,7 +63,8 @@ class PalmHolder {
     // often than out of them.
     bool is_entering(const HeldPalm& held) const;
     // How deep the palm is in surfaces of any of the hand's meshes that go through the middles of
-    // its capsules: as far as the nearer end, and the radius. 0: none does.
+    // its capsules: as far as the end that is nearer to the first of them from either, and the
+    // radius. 0: none does.
     double crossed_m(const HeldPalm& held) const;
 
     // Precondition of both: a `last` that has a triangle has one of this mesh.

@@ -185,12 +185,12 @@ void SurfaceTries::look_around() {
 // Where the palm alone costs more than the best its fingers are not asked: they make it no cheaper.
 // Where they have no room they are to be held clear with the palm, in their own turn.
 void SurfaceTries::judge(const Found& way, HeldPalm held) {
+    const double there_m = place_cost_m(way, held);
+    look_for_crossed(there_m, held);
     if (count_ == 1) {
         goes_through_ =
             holder_.is_back(way) || held.sunk_m > k_palm_has_room_m || held.sync_m > k_far_m;
     }
-    const double there_m = place_cost_m(way, held);
-    look_for_crossed(there_m, held);
     Judged result = judged(held, there_m, 0.0);
     if (is_cheaper(result.surface.cost_m)) {
         const FingerRoom room = find_finger_room(holder_.hand(), held.surface.held_bs, patch_);
@@ -224,7 +224,7 @@ void SurfaceTries::judge_cleared(const GripSurface& last) {
 // The spheres that a palm is held by see no thin wall, no rod and no rim between them. Where it
 // costs more than the best already it is not asked.
 void SurfaceTries::look_for_crossed(double place_cost_m, HeldPalm& held) const {
-    if (is_cheaper(judged(held, place_cost_m, 0.0).surface.cost_m)) {
+    if (is_cheaper(judged(held, place_cost_m, held.fingers_sunk_m).surface.cost_m)) {
         held.sunk_m = std::max(held.sunk_m, holder_.crossed_m(held));
     }
 }

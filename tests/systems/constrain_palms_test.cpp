@@ -91,8 +91,7 @@ TEST_F(ConstrainPalms, PushedPalmsKeepTheirTilt) {
     EXPECT_GT(turned, 50);
 }
 
-// A lifted palm is found from where it is held without its lift: however sunk it stays, it is
-// lifted.
+// However sunk a lifted palm stays, it is lifted.
 TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
     constexpr double k_lift_m = 0.01;
     test::Random random(2107);
@@ -117,6 +116,26 @@ TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
         worse += lifted.sunk_m > held.sunk_m + 1e-4 ? 1 : 0;
     }
     EXPECT_GT(worse, 5);
+}
+
+// With nothing over it a lifted palm is where it is held without its lift, but for the lift.
+TEST_F(ConstrainPalms, LiftedPalmsGoNoFartherThanTheirLift) {
+    constexpr double k_lift_m = 0.01;
+    constexpr double k_pushed_less_m = 5e-3;  // higher, it needs less of its pushes
+    test::Random random(2108);
+    for (int i = 0; i < 150; ++i) {
+        const Vec3 center(0.013, random.between(-0.01, 0.02), 0.007);
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.4)).normalized();
+        FittedHand hand(floor, wrist_with_palm_at(rig, center, up));
+        hand.search();
+        const GripSurface& surface = hand.surface.at(k_right);
+        const PalmFit lifted =
+            fit_palm(hand.hands.front(), surface, k_lift_m, hand.tuning.palm, {.last = &surface});
+        const Vec3 way = transform_point(lifted.wrist_bs, rig.palm_center_hs) -
+                         transform_point(surface.held_bs, rig.palm_center_hs);
+        EXPECT_LT((way - k_lift_m * surface.normal_bs).norm(), k_pushed_less_m) << i;
+        EXPECT_LE(lifted.sunk_m, 1e-4) << i;
+    }
 }
 
 TEST_F(ConstrainPalms, LowersHighPalmToMaxHeight) {

@@ -8,6 +8,7 @@ namespace handhold::palm_holder_test {
 namespace {
 
 using test::FittedHand;
+using test::k_right;
 using test::wrist_with_palm_at;
 
 // Adds a box to a mesh, wound outwards.
@@ -73,41 +74,72 @@ TEST(PalmHolder, TellsWhatAPalmGoesInto) {
     EXPECT_FALSE(goes_in(slats, above, below(0.29)));  // between it and the sixth
 }
 
-// How deep surfaces go through a palm that is held there, of the mesh and of another under the
-// hand.
-double crossed_m(const Mesh& mesh, const Vec3& held, const GripMesh* other = nullptr) {
-    const GripMesh grip = build_grip_mesh(mesh);
+// How deep surfaces go through a palm that is held there, of the meshes under the hand.
+double crossed_m(std::vector<PlacedMesh> meshes, const Vec3& held) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Tuning tuning;
     HeldPalm palm;
     palm.surface.held_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
-    FittedHand hand(grip, palm.surface.held_bs);
-    if (other != nullptr) {
-        hand.hands.front().meshes.push_back({other, {}});
-    }
-    const HandSurroundings& surroundings = hand.hands.front();
+    FittedHand hand(*meshes.front().mesh, palm.surface.held_bs);
+    HandSurroundings& surroundings = hand.hands.front();
+    surroundings.meshes = std::move(meshes);
     return PalmHolder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm)
         .crossed_m(palm);
 }
 
 TEST(PalmHolder, TellsWhatGoesThroughAPalm) {
-    const HandRig rig = builtin_hand_rig(HandSide::right);
-    const PalmCapsule& capsule = rig.palm.front();
-    const double length_m = (capsule.b_hs - capsule.a_hs).norm();
-    const Vec3 middle_bs = Vec3(0.5 * (capsule.a_hs + capsule.b_hs) - rig.palm_center_hs);
     Mesh floor;
     add_box(Vec3(0.0, -0.05, 0.0), Vec3(0.3, 0.05, 0.3), floor);
-    EXPECT_EQ(crossed_m(floor, {0.0, 0.05, 0.0}), 0.0);
-    EXPECT_EQ(crossed_m(floor, {0.0, 0.012, 0.0}), 0.0);  // sunk, but its middles are outside
+    const GripMesh floor_grip = build_grip_mesh(floor);
+    EXPECT_EQ(crossed_m({{&floor_grip, {}}}, {0.0, 0.05, 0.0}), 0.0);
+    EXPECT_EQ(crossed_m({{&floor_grip, {}}}, {0.0, 0.012, 0.0}), 0.0);  // only sunk
 
-    Mesh wall;  // across the capsule's middle
-    add_box(middle_bs, Vec3(0.3, 0.3, 1e-3), wall);
-    const double crossed = crossed_m(wall, Vec3::Zero());
-    EXPECT_GT(crossed, capsule.radius_m);
-    EXPECT_LE(crossed, capsule.radius_m + length_m);
-    const GripMesh other = build_grip_mesh(wall);
-    EXPECT_EQ(crossed_m(floor, {0.0, 0.05, 0.0}, &other), crossed_m(wall, {0.0, 0.05, 0.0}));
-    EXPECT_GT(crossed_m(floor, {0.0, 0.05, 0.0}, &other), 0.0);
+    // Across the longest capsule's middle, in a frame of its own.
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const auto length_m = [](const PalmCapsule& capsule) {
+        return (capsule.b_hs - capsule.a_hs).norm();
+    };
+    PalmCapsule longest = rig.palm.front();
+    for (const PalmCapsule& capsule : rig.palm) {
+        longest = length_m(capsule) > length_m(longest) ? capsule : longest;
+    }
+    constexpr double k_half_thick_m = 1e-3;
+    const Vec3 along = (longest.b_hs - longest.a_hs).normalized();
+    const Vec3 held(0.0, 0.05, 0.0);
+    const Vec3 middle_bs = 0.5 * (longest.a_hs + longest.b_hs) - rig.palm_center_hs + held;
+    const Pose placed = {middle_bs, rotation_between(Vec3::UnitX(), along)};
+    Mesh wall;
+    add_box(Vec3::Zero(), Vec3(k_half_thick_m, 0.2, 0.2), wall);
+    const GripMesh wall_grip = build_grip_mesh(wall);
+    const double expected_m = longest.radius_m + 0.5 * length_m(longest) - k_half_thick_m;
+    EXPECT_NEAR(crossed_m({{&floor_grip, {}}, {&wall_grip, placed}}, held), expected_m, 1e-4);
+    EXPECT_NEAR(crossed_m({{&wall_grip, placed}, {&floor_grip, {}}}, held), expected_m, 1e-4);
+}
+
+// Over a floor a palm comes by its push to where a look finds it clear.
+TEST(PalmHolder, CarriesAPalmOnToWhereItIsKept) {
+    const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    test::Random random(2109);
+    int moved = 0;
+    for (int i = 0; i < 150; ++i) {
+        const Vec3 up = (Vec3::UnitY() + random.vector(0.3)).normalized();
+        const Vec3 center(0.013, random.between(-0.005, 0.01), 0.007);
+        FittedHand hand(floor, wrist_with_palm_at(rig, center, up));
+        hand.search();
+        const GripSurface last = hand.surface.at(k_right);
+        hand.wrist_bs() =
+            hand.wrist_bs() * Pose{random.vector(0.002), rotation_from_vector(random.vector(0.02))};
+        const HandSurroundings& surroundings = hand.hands.front();
+        PalmHolder holder(surroundings, surroundings.wrist_bs, 1.0 / 90.0, hand.tuning.palm);
+        const auto found = holder.found_at(last.triangle);
+        const Pose kept = holder.keep_at(found, last).surface.held_bs;
+        const Pose carried = holder.carry_on(found, last).held_bs;
+        EXPECT_LT((kept.position - carried.position).norm(), 2e-3) << i;
+        EXPECT_LT(kept.rotation.angularDistance(carried.rotation), 0.02) << i;
+        moved += (kept.position - last.held_bs.position).norm() > 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(moved, 50);
 }
 
 }  // namespace
