@@ -60,33 +60,4 @@ std::optional<FingerAngles> posed_angles(const FingerRig& finger, const Authored
     return angles;
 }
 
-double posed_depth_m(const HingeChain& chain,
-                     const std::array<double, k_most_disc_links>& angle_rad,
-                     std::span<const PlacedMesh> meshes, ChainFitScratch& scratch) {
-    const auto capsules = chain_capsules(chain, angle_rad);
-    ChainReach reach;
-    reach.base = chain.base;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        reach.radius_m += chain.length_m[i];
-        reach.half_width_m = std::max(reach.half_width_m, chain.radius_m[i]);
-    }
-    reach.radius_m += reach.half_width_m;
-    scratch.patch.gather(reach, meshes);
-    const auto to_disc = [&chain](const Vec3& point) {
-        const Vec3 local = inverse_transform_point(chain.base, point);
-        return Vec2(-local.z(), -local.y());
-    };
-    double depth_m = 0.0;
-    for (std::size_t i = 0; i < chain.link_count; ++i) {
-        const SunkCapsule sunk = scratch.patch.find_sunk(
-            {to_disc(capsules[i].ends[0]), to_disc(capsules[i].ends[1])}, capsules[i].radius_m, i);
-        depth_m = std::max(depth_m, sunk.depth_m);
-        // What is beyond the place where a surface goes through the middle counts as sunk, too.
-        if (sunk.crossed_at) {
-            depth_m += (1.0 - *sunk.crossed_at) * chain.length_m[i];
-        }
-    }
-    return depth_m;
-}
-
 }  // namespace handhold

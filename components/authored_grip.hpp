@@ -7,7 +7,6 @@
 #include "components/hand_rig.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/entity.hpp"
-#include "engine/geometry/chain_fit.hpp"
 #include "engine/math/math.hpp"
 
 // Grips that somebody posed beforehand, for things that are held in one way: a gun by its handle.
@@ -67,10 +66,5 @@ Pose step_towards(const Pose& from, const Pose& to, double step_m, double m_per_
 // The angles a grip gives a finger of the rig, within the finger's limits; none where it gives
 // none.
 std::optional<FingerAngles> posed_angles(const FingerRig& finger, const AuthoredHand& hand);
-// How deep the chain's deepest link would be at these angles; 0 where nothing is near. Allocates
-// nothing that `scratch` has not had before.
-double posed_depth_m(const HingeChain& chain,
-                     const std::array<double, k_most_disc_links>& angle_rad,
-                     std::span<const PlacedMesh> meshes, ChainFitScratch& scratch);
 
 }  // namespace handhold

@@ -69,8 +69,7 @@ struct BestBend {
 // Straight, as most have room, and there is little to gather.
 void try_straight(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
                   ChainPatch& patch, BestBend& best) {
-    patch.gather(chain_reach(chain, chain.open_rad, chain.open_rad), hand.meshes);
-    const double straight_m = chain_depth(chain, chain.open_rad, patch).depth_m;
+    const double straight_m = posed_depth_m(chain, chain.open_rad, hand.meshes, patch);
     if (straight_m < best.sunk_m) {
         best = {straight_m, 0, opposition};
     }
@@ -122,12 +121,10 @@ double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, cons
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         const auto angles = bent_as(finger, bends[f]);
-        if (!angles) {
-            continue;
+        if (angles) {
+            const HingeChain chain = finger_chain(finger, angles->opposition_rad, wrist_bs);
+            depth_m = std::max(depth_m, posed_depth_m(chain, angles->curl_rad, hand.meshes, patch));
         }
-        const HingeChain chain = finger_chain(finger, angles->opposition_rad, wrist_bs);
-        patch.gather(chain_reach(chain, angles->curl_rad, angles->curl_rad), hand.meshes);
-        depth_m = std::max(depth_m, chain_depth(chain, angles->curl_rad, patch).depth_m);
     }
     return depth_m;
 }

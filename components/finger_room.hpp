@@ -23,7 +23,7 @@ struct FingerRoom {
 // sweep_fingers finds bends between these. `patch` is only worked in.
 FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch);
 
-// How deep those fingers are sunk with the wrist there that have a bend, bent so.
+// How deep the deepest of those fingers is that have a bend, bent so; 0 where none has one.
 double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, const Pose& wrist_bs,
                     ChainPatch& patch);
 

@@ -62,9 +62,9 @@ class PalmHolder {
     // On its way from where the hand is tracked the palm comes in through surfaces of the mesh more
     // often than out of them.
     bool is_entering(const HeldPalm& held) const;
-    // How deep the palm is in surfaces of any of the hand's meshes that go through the middles of
-    // its capsules: as far as the end that is nearer to the first of them from either, and the
-    // radius. 0: none does.
+    // How deep the palm is in surfaces, of any of the hand's meshes, that go through the middles of
+    // its capsules: the radius, and from where one goes through the way to the nearer end. 0: none
+    // does. Of each capsule the first from either end count.
     double crossed_m(const HeldPalm& held) const;
 
     // Precondition of both: a `last` that has a triangle has one of this mesh.

@@ -223,8 +223,8 @@ void SurfaceTries::judge_cleared(const GripSurface& last) {
 
 // The spheres that a palm is held by see no thin wall, no rod and no rim between them. Where it
 // costs more than the best already it is not asked.
-void SurfaceTries::look_for_crossed(double place_cost_m, HeldPalm& held) const {
-    if (is_cheaper(judged(held, place_cost_m, held.fingers_sunk_m).surface.cost_m)) {
+void SurfaceTries::look_for_crossed(double there_m, HeldPalm& held) const {
+    if (is_cheaper(judged(held, there_m, held.fingers_sunk_m).surface.cost_m)) {
         held.sunk_m = std::max(held.sunk_m, holder_.crossed_m(held));
     }
 }

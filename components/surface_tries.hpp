@@ -49,7 +49,7 @@ class SurfaceTries {
     void look_around();
     void judge(const Found& way, HeldPalm held);
     void judge_cleared(const GripSurface& last);
-    void look_for_crossed(double place_cost_m, HeldPalm& held) const;
+    void look_for_crossed(double there_m, HeldPalm& held) const;
     double place_cost_m(const Found& found, const HeldPalm& held) const;
     static Judged judged(const HeldPalm& held, double place_cost_m, double fingers_m);
     void take_better(const Judged& judged);

@@ -171,6 +171,12 @@ ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, Ch
     return deepest;
 }
 
+double posed_depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
+                     std::span<const PlacedMesh> meshes, ChainPatch& patch) {
+    patch.gather(chain_reach(chain, angle_rad, angle_rad), meshes);
+    return chain_depth(chain, angle_rad, patch).depth_m;
+}
+
 double ChainDepths::depth_m(const ChainAngles& angle_rad, double enough_m) {
     const FirstLink& first = first_link(angle_rad);
     if (first.is_crossed || first.depth_m >= enough_m) {

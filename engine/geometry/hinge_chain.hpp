@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "engine/geometry/chain_patch.hpp"
 #include "engine/geometry/disc_contact.hpp"
@@ -83,6 +84,10 @@ struct DepthQuestion {
 };
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
                        const DepthQuestion& question = {});
+// ChainDepth::depth_m at these angles, of what the chain can meet there, which `patch` then has.
+// The chain and the meshes are in one frame.
+double posed_depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
+                     std::span<const PlacedMesh> meshes, ChainPatch& patch);
 // How deep one chain is in several poses, of which some have their first link in common: that is
 // looked at once.
 class ChainDepths {

@@ -97,7 +97,7 @@ class ThumbPoser {
             return false;
         }
         const HingeChain chain = finger_chain(thumb, posed->opposition_rad, pose.solved_wrist_bs);
-        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
+        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch.patch) >
             tuning_.finger.search_depth_m) {
             count_refusal(io_.offset.at(hand.hand), f, pose, stats_);
             return false;

@@ -122,7 +122,7 @@ class HandCloser {
             pose.pose_refused[f] = false;
             return false;
         }
-        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch) >
+        if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch.patch) >
             tuning_.finger.search_depth_m) {
             count_refusal(io_.offset.at(hand.hand), f, pose, stats_);
             return false;
