@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "game/built_in_scenes.hpp"
 #include "game/exit_status.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "game/station_description.hpp"
 #include "game/station_scene.hpp"
 

@@ -6,7 +6,7 @@
 #include "engine/core/check.hpp"
 #include "game/climber_body.hpp"
 #include "game/climber_plan.hpp"
-#include "game/player_defaults.hpp"
+#include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {

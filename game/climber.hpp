@@ -7,8 +7,8 @@
 #include "components/tracking.hpp"
 #include "components/world.hpp"
 #include "engine/collision/collision_world.hpp"
-#include "game/random.hpp"
-#include "game/scene.hpp"
+#include "game/scene/random.hpp"
+#include "game/scene/scene.hpp"
 
 // A scripted player: a person in a headset who climbs. He knows what such a person knows (his own
 // head and hands, and what he sees when he looks about) and answers with what a headset says:

@@ -6,8 +6,8 @@
 
 #include "components/play_space.hpp"
 #include "game/controller_profile.hpp"
-#include "game/player_defaults.hpp"
 #include "game/render/primitives.hpp"
+#include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {

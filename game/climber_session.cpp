@@ -5,7 +5,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/exit_status.hpp"
-#include "game/place_scene.hpp"
+#include "game/scene/place_scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/core/check.hpp"
-#include "game/place_scene.hpp"
-#include "game/player_defaults.hpp"
+#include "game/scene/place_scene.hpp"
+#include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "game/climber.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

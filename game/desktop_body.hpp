@@ -5,7 +5,7 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "game/hand_pose.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 // Keyboard, mouse and gamepad as a headset and two controllers: somebody without a headset who
 // looks about, reaches for what he looks at, and pulls himself along by what he grips.

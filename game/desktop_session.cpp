@@ -5,7 +5,7 @@
 #include "engine/core/check.hpp"
 #include "game/body_clips_asset.hpp"
 #include "game/controller_profile.hpp"
-#include "game/place_scene.hpp"
+#include "game/scene/place_scene.hpp"
 
 namespace handhold {
 DesktopSession::DesktopSession(Scene scene, const Pose& origin_ws)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/collision/collision_world.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

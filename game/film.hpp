@@ -7,7 +7,7 @@
 
 #include "game/render/player_models.hpp"
 #include "game/run_log.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

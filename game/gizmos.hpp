@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "game/render/render_frame.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 // What the stages of a frame found and did, as lines over the picture.

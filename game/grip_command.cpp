@@ -10,7 +10,7 @@
 #include "game/grip_file.hpp"
 #include "game/grip_fit.hpp"
 #include "game/render/shading_mesh.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {

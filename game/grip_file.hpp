@@ -9,7 +9,7 @@
 #include "components/hand_rig.hpp"
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/result.hpp"
-#include "game/scene_grip.hpp"
+#include "game/scene/scene_grip.hpp"
 
 // Authored grips through an animation package: a .glb of hand, controller and thing together. Talk
 // rows 9 and 10.

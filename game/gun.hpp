@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 #include "game/station.hpp"
 
 // A gun of the game's own: something that is held in one way. Talk row 10.

@@ -4,7 +4,7 @@
 
 #include "game/body_clips_asset.hpp"
 #include "game/controller_profile.hpp"
-#include "game/place_scene.hpp"
+#include "game/scene/place_scene.hpp"
 
 namespace handhold {
 namespace {

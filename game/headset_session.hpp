@@ -6,7 +6,7 @@
 
 #include "game/headset_reading.hpp"
 #include "game/recording.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

@@ -7,14 +7,14 @@
 
 #include "game/body_export.hpp"
 #include "game/build_station_command.hpp"
-#include "game/built_in_scenes.hpp"
 #include "game/climber_session.hpp"
 #include "game/grip_command.hpp"
 #include "game/hand_export.hpp"
 #include "game/picture_command.hpp"
 #include "game/play_command.hpp"
 #include "game/run_command.hpp"
-#include "game/scene.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/scene.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "components/render.hpp"
 #include "engine/collision/collision_world.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

@@ -9,9 +9,9 @@
 #include "engine/io/text_file.hpp"
 #include "game/exit_status.hpp"
 #include "game/grip_fit.hpp"
-#include "game/player_defaults.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
+#include "game/scene/player_defaults.hpp"
 #include "game/scene_picture.hpp"
 #include "systems/frame.hpp"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "engine/io/text_file.hpp"
-#include "game/player_defaults.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {

@@ -9,7 +9,7 @@
 #include "game/play_tally.hpp"
 #include "game/recording.hpp"
 #include "game/render/image.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 // The files of a play: what it begins with and what it leaves, at a desk or in a headset.
 namespace handhold {

@@ -9,7 +9,7 @@
 #include "components/render.hpp"
 #include "game/render/player_models.hpp"
 #include "game/render/renderer.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

@@ -9,11 +9,9 @@
 #include "engine/core/profile.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/body_clips_asset.hpp"
-#include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
 #include "game/exit_status.hpp"
 #include "game/film.hpp"
-#include "game/player_defaults.hpp"
 #include "game/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
@@ -21,8 +19,10 @@
 #include "game/report/report_json.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/run_shots.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/player_defaults.hpp"
+#include "game/scene/spawn.hpp"
 #include "game/session_run.hpp"
-#include "game/spawn.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "game/run_command.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "game/session_run.hpp"
 
 namespace handhold {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "game/render/renderer.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

@@ -9,7 +9,7 @@
 #include "game/playback.hpp"
 #include "game/recording.hpp"
 #include "game/run_log.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

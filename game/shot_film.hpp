@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "game/render/player_models.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "game/shot_list.hpp"
 #include "systems/frame.hpp"
 

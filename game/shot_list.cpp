@@ -7,7 +7,7 @@
 
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/built_in_scenes.hpp"
+#include "game/scene/built_in_scenes.hpp"
 
 namespace handhold {
 namespace {

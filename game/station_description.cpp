@@ -8,7 +8,7 @@
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/assets.hpp"
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 namespace {

@@ -9,9 +9,9 @@
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
-#include "game/player_defaults.hpp"
 #include "game/render/shading_mesh.hpp"
-#include "game/scene_file_writer.hpp"
+#include "game/scene/player_defaults.hpp"
+#include "game/scene/scene_file_writer.hpp"
 #include "game/station_tools.hpp"
 
 namespace handhold {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/io/gltf.hpp"
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 #include "game/station.hpp"
 #include "game/station_description.hpp"
 

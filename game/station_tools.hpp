@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 #include "game/station.hpp"
 #include "game/station_description.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
+#include "game/scene/built_in_scenes.hpp"
 
 namespace handhold::climber_bench {
 namespace {

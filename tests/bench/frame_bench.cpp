@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/built_in_scenes.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 
 namespace handhold::frame_bench {

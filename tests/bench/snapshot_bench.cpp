@@ -3,7 +3,7 @@
 
 #ifdef HANDHOLD_BENCH_GAME
 
-#include "game/built_in_scenes.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "systems/frame.hpp"
 #include "systems/snapshot.hpp"
 

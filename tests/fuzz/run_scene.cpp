@@ -1,4 +1,4 @@
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 #include "tests/fuzz/promise.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "game/climber.hpp"
-#include "game/place_scene.hpp"
-#include "game/scene.hpp"
+#include "game/scene/place_scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
 #include "game/climber_body.hpp"
 #include "game/climber_session.hpp"
 #include "game/crowd.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "tests/game/climber_scene.hpp"

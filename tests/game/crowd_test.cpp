@@ -12,9 +12,9 @@
 
 #include "components/fields.hpp"
 #include "engine/core/parallel.hpp"
-#include "game/built_in_scenes.hpp"
-#include "game/place_scene.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/place_scene.hpp"
 #include "game/session_run.hpp"
 #include "tests/game/finite_world.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "components/tuning_json.hpp"
 #include "game/recording.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "game/session_run.hpp"
 #include "tests/engine/allocation_count.hpp"
 

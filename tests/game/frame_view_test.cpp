@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/random.hpp"
+#include "game/scene/random.hpp"
 
 namespace handhold::frame_view_test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
 #include "game/player_view.hpp"
 #include "game/render/primitives.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "game/snap_hint.hpp"
 #include "systems/frame.hpp"
 #include "systems/input/read_tracking.hpp"

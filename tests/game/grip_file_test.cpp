@@ -11,8 +11,8 @@
 #include "game/grip_fit.hpp"
 #include "game/gun.hpp"
 #include "game/hand_export.hpp"
-#include "game/scene.hpp"
-#include "game/scene_file_writer.hpp"
+#include "game/scene/scene.hpp"
+#include "game/scene/scene_file_writer.hpp"
 #include "game/station_scene.hpp"
 
 namespace handhold::grip_file_test {

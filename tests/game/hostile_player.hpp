@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/tracking.hpp"
-#include "game/random.hpp"
+#include "game/scene/random.hpp"
 
 namespace handhold {
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
 #include "game/crowd.hpp"
-#include "game/place_scene.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/place_scene.hpp"
 #include "tests/game/finite_world.hpp"
 #include "tests/game/hostile_player.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "game/climber_session.hpp"
 #include "game/playback.hpp"
-#include "game/random.hpp"
+#include "game/scene/random.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::rates_test {

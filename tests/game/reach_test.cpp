@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
 #include "game/ghost_hands.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 
 namespace handhold::reach_test {

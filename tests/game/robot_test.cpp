@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
+#include "game/scene/built_in_scenes.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold::robot_test {

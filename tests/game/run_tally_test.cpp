@@ -1,8 +1,8 @@
 // Frames summed up as they come, against the whole log at once.
 #include <gtest/gtest.h>
 
-#include "game/random.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/scene/random.hpp"
 #include "tests/game/report_log.hpp"
 
 namespace handhold::run_tally_test {

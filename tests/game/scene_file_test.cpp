@@ -1,4 +1,4 @@
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -1,5 +1,5 @@
 // Joints and chains of a scene file: docs/scene_format.md, "Joints" and "Chains".
-#include "game/scene_joint.hpp"
+#include "game/scene/scene_joint.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "game/scene.hpp"
-#include "game/scene_file.hpp"
+#include "game/scene/scene.hpp"
+#include "game/scene/scene_file.hpp"
 
 namespace handhold::scene_joint_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "game/scene_shape.hpp"
+#include "game/scene/scene_shape.hpp"
 
 #include <filesystem>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/collision/mass_properties.hpp"
-#include "game/scene.hpp"
-#include "game/scene_file.hpp"
+#include "game/scene/scene.hpp"
+#include "game/scene/scene_file.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::scene_shape_test {

@@ -1,5 +1,5 @@
 // Scene files as worlds.
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "game/built_in_scenes.hpp"
 #include "game/report/run_summary.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/spawn.hpp"
 #include "game/session_run.hpp"
-#include "game/spawn.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::session_test {

@@ -11,8 +11,8 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "game/assets.hpp"
-#include "game/built_in_scenes.hpp"
-#include "game/scene_file_writer.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/scene_file_writer.hpp"
 #include "game/session_run.hpp"
 #include "game/station_tools.hpp"
 #include "systems/frame.hpp"

@@ -43,7 +43,7 @@ class CheckIncludes(unittest.TestCase):
                            "engine/a.cpp:2 | engine does not include components")
         self.assert_breach("components/a.cpp", '#include "systems/frame.hpp"\n',
                            "components/a.cpp:1 | components does not include systems")
-        self.assert_breach("systems/frame.cpp", '#include "game/scene.hpp"\n',
+        self.assert_breach("systems/frame.cpp", '#include "game/scene/scene.hpp"\n',
                            "systems/frame.cpp:1 | systems does not include game")
         self.assert_breach("game/a.cpp", '#include "tests/a.hpp"\n', "game/a.cpp:1 | game does not include tests")
 

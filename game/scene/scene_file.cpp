@@ -1,4 +1,4 @@
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 
 #include <initializer_list>
 #include <numbers>
@@ -7,8 +7,8 @@
 
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/scene_chain.hpp"
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_chain.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 

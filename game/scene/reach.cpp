@@ -1,4 +1,4 @@
-#include "game/reach.hpp"
+#include "game/scene/reach.hpp"
 
 #include <utility>
 

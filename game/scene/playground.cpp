@@ -1,4 +1,4 @@
-#include "game/playground.hpp"
+#include "game/scene/playground.hpp"
 
 #include <utility>
 

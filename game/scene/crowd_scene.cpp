@@ -1,4 +1,4 @@
-#include "game/crowd_scene.hpp"
+#include "game/scene/crowd_scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "game/crowd.hpp"
-#include "game/player_defaults.hpp"
-#include "game/random.hpp"
 #include "game/render/primitives.hpp"
+#include "game/scene/player_defaults.hpp"
+#include "game/scene/random.hpp"
 
 namespace handhold {
 namespace {

@@ -1,13 +1,13 @@
-#include "game/built_in_scenes.hpp"
+#include "game/scene/built_in_scenes.hpp"
 
 #include <utility>
 
 #include "engine/core/check.hpp"
-#include "game/crowd_scene.hpp"
-#include "game/player_defaults.hpp"
-#include "game/playground.hpp"
-#include "game/reach.hpp"
-#include "game/robot_scene.hpp"
+#include "game/scene/crowd_scene.hpp"
+#include "game/scene/player_defaults.hpp"
+#include "game/scene/playground.hpp"
+#include "game/scene/reach.hpp"
+#include "game/scene/robot_scene.hpp"
 #include "game/session_script.hpp"
 #include "game/station.hpp"
 #include "game/station_scene.hpp"

@@ -1,10 +1,10 @@
-#include "game/robot_scene.hpp"
+#include "game/scene/robot_scene.hpp"
 
 #include <utility>
 
-#include "game/player_defaults.hpp"
 #include "game/render/mesh_edit.hpp"
 #include "game/robot.hpp"
+#include "game/scene/player_defaults.hpp"
 
 namespace handhold {
 namespace {

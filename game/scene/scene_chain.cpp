@@ -1,9 +1,9 @@
-#include "game/scene_chain.hpp"
+#include "game/scene/scene_chain.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 namespace {

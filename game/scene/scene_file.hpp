@@ -12,9 +12,9 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 #include "game/render/render_frame.hpp"
-#include "game/scene_grip.hpp"
-#include "game/scene_joint.hpp"
-#include "game/scene_shape.hpp"
+#include "game/scene/scene_grip.hpp"
+#include "game/scene/scene_joint.hpp"
+#include "game/scene/scene_shape.hpp"
 
 // What a scene's JSON says, checked but not built: docs/scene_format.md. World space is written _ws
 // in code; in the file, everything is in the scene's frame, which world_transform puts into the

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "game/recording.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 // The scenes and sessions that ship with the game, made in code.
 namespace handhold {

@@ -1,4 +1,4 @@
-#include "game/place_scene.hpp"
+#include "game/scene/place_scene.hpp"
 
 #include "systems/physics/place_colliders.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/io/json.hpp"
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 
 namespace handhold {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 
 namespace handhold {
 

@@ -1,11 +1,11 @@
-#include "game/scene_shape.hpp"
+#include "game/scene/scene_shape.hpp"
 
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "game/render/primitives.hpp"
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 namespace {

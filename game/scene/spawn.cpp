@@ -1,13 +1,13 @@
-#include "game/spawn.hpp"
+#include "game/scene/spawn.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "components/play_space.hpp"
-#include "game/place_scene.hpp"
 #include "game/playback.hpp"
-#include "game/random.hpp"
+#include "game/scene/place_scene.hpp"
+#include "game/scene/random.hpp"
 #include "game/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
 

@@ -1,4 +1,4 @@
-#include "game/scene_file_writer.hpp"
+#include "game/scene/scene_file_writer.hpp"
 
 #include <numbers>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

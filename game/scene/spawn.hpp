@@ -3,7 +3,7 @@
 #include <string>
 
 #include "game/recording.hpp"
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

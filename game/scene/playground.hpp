@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 #include "game/session_script.hpp"
 
 // The scene `playground` (game/assets/playground.json) and the session that shows it: a lever, a

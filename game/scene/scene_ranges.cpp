@@ -1,4 +1,4 @@
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 

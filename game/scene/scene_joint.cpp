@@ -1,8 +1,8 @@
-#include "game/scene_joint.hpp"
+#include "game/scene/scene_joint.hpp"
 
 #include <numbers>
 
-#include "game/scene_ranges.hpp"
+#include "game/scene/scene_ranges.hpp"
 
 namespace handhold {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 namespace handhold {
 

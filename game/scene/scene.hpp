@@ -17,7 +17,7 @@
 #include "engine/io/gltf.hpp"
 #include "engine/io/result.hpp"
 #include "game/render/render_frame.hpp"
-#include "game/scene_file.hpp"
+#include "game/scene/scene_file.hpp"
 
 // A scene ready to be played: the world without its players, the shapes and tuning it runs with,
 // and what to draw.

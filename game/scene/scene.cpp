@@ -1,4 +1,4 @@
-#include "game/scene.hpp"
+#include "game/scene/scene.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "components/tuning_json.hpp"
-#include "game/built_in_scenes.hpp"
 #include "game/render/level_meshes.hpp"
 #include "game/render/mesh_edit.hpp"
-#include "game/scene_shape.hpp"
+#include "game/scene/built_in_scenes.hpp"
+#include "game/scene/scene_shape.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "game/scene_grip.hpp"
+#include "game/scene/scene_grip.hpp"
 
 #include <array>
 #include <optional>
