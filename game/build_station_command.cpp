@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "game/exit_status.hpp"
+#include "game/levels/station_description.hpp"
+#include "game/levels/station_scene.hpp"
 #include "game/scene/built_in_scenes.hpp"
-#include "game/station_description.hpp"
-#include "game/station_scene.hpp"
 
 namespace handhold {
 

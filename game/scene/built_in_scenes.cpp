@@ -3,14 +3,14 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "game/levels/station.hpp"
+#include "game/levels/station_scene.hpp"
 #include "game/scene/crowd_scene.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/playground.hpp"
 #include "game/scene/reach.hpp"
 #include "game/scene/robot_scene.hpp"
 #include "game/session_script.hpp"
-#include "game/station.hpp"
-#include "game/station_scene.hpp"
 
 namespace handhold {
 namespace {

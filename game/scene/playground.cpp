@@ -4,8 +4,8 @@
 
 #include "engine/core/check.hpp"
 #include "game/assets.hpp"
-#include "game/gun.hpp"
-#include "game/station_scene.hpp"
+#include "game/levels/gun.hpp"
+#include "game/levels/station_scene.hpp"
 
 namespace handhold {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "game/levels/robot.hpp"
 #include "game/render/mesh_edit.hpp"
-#include "game/robot.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {

@@ -9,11 +9,11 @@
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/io/gltf_nodes.hpp"
 #include "game/grip_fit.hpp"
-#include "game/gun.hpp"
 #include "game/hand_export.hpp"
+#include "game/levels/gun.hpp"
+#include "game/levels/station_scene.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file_writer.hpp"
-#include "game/station_scene.hpp"
 
 namespace handhold::grip_file_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "game/robot.hpp"
+#include "game/levels/robot.hpp"
 
 #include <algorithm>
 #include <cmath>

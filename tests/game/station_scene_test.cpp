@@ -1,5 +1,5 @@
 // A station's description, and the files that are made from it.
-#include "game/station_scene.hpp"
+#include "game/levels/station_scene.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -11,10 +11,10 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "game/assets.hpp"
+#include "game/levels/station_tools.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_file_writer.hpp"
 #include "game/session_run.hpp"
-#include "game/station_tools.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold::station_scene_test {

@@ -1,5 +1,5 @@
 // The station as a level: sound meshes, room for a player, rails that a hand can close around.
-#include "game/station.hpp"
+#include "game/levels/station.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/collision/collision_world.hpp"
+#include "game/levels/station_description.hpp"
 #include "game/render/figures.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_description.hpp"
 
 namespace handhold::station_test {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/station_rack.hpp"
+#include "game/levels/station_rack.hpp"
 
 namespace handhold {
 

@@ -1,4 +1,4 @@
-#include "game/station_kit.hpp"
+#include "game/levels/station_kit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "game/station_scene.hpp"
+#include "game/levels/station_scene.hpp"
 
 #include <map>
 #include <system_error>
@@ -9,10 +9,10 @@
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
+#include "game/levels/station_tools.hpp"
 #include "game/render/shading_mesh.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/scene_file_writer.hpp"
-#include "game/station_tools.hpp"
 
 namespace handhold {
 namespace {

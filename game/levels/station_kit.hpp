@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "game/station.hpp"
+#include "game/levels/station.hpp"
 
 // What the station's sources build with: solids sorted by material, handrails, and chance that is
 // the same everywhere.

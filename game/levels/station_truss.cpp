@@ -1,4 +1,4 @@
-#include "game/station_truss.hpp"
+#include "game/levels/station_truss.hpp"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "game/station_fitting.hpp"
+#include "game/levels/station_fitting.hpp"
 
 #include <array>
 #include <vector>

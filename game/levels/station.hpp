@@ -35,7 +35,7 @@ struct Structure {
     std::vector<Lamp> lamps;
 };
 
-struct StationDescription;  // game/station_description.hpp
+struct StationDescription;  // game/levels/station_description.hpp
 
 // Static; its frame is that of the description. Coordinates are exact floats.
 Structure make_station(const StationDescription& description);

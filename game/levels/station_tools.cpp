@@ -1,9 +1,9 @@
-#include "game/station_tools.hpp"
+#include "game/levels/station_tools.hpp"
 
 #include <array>
 
+#include "game/levels/station_kit.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_kit.hpp"
 
 namespace handhold {
 namespace {

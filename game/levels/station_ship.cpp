@@ -1,9 +1,9 @@
 #include <array>
 
+#include "game/levels/station.hpp"
+#include "game/levels/station_module.hpp"
+#include "game/levels/station_rack.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station.hpp"
-#include "game/station_module.hpp"
-#include "game/station_rack.hpp"
 
 namespace handhold {
 namespace {

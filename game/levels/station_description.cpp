@@ -1,4 +1,4 @@
-#include "game/station_description.hpp"
+#include "game/levels/station_description.hpp"
 
 #include <algorithm>
 #include <set>

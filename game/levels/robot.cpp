@@ -1,9 +1,9 @@
-#include "game/robot.hpp"
+#include "game/levels/robot.hpp"
 
 #include <vector>
 
+#include "game/levels/station_kit.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_kit.hpp"
 
 namespace handhold {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "game/station_description.hpp"
-#include "game/station_kit.hpp"
+#include "game/levels/station_description.hpp"
+#include "game/levels/station_kit.hpp"
 
 namespace handhold {
 

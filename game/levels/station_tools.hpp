@@ -1,8 +1,8 @@
 #pragma once
 
+#include "game/levels/station.hpp"
+#include "game/levels/station_description.hpp"
 #include "game/scene/scene_file.hpp"
-#include "game/station.hpp"
-#include "game/station_description.hpp"
 
 namespace handhold {
 

@@ -1,12 +1,12 @@
-#include "game/station.hpp"
+#include "game/levels/station.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "game/levels/station_module.hpp"
+#include "game/levels/station_node.hpp"
+#include "game/levels/station_truss.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_module.hpp"
-#include "game/station_node.hpp"
-#include "game/station_truss.hpp"
 
 namespace handhold {
 namespace {

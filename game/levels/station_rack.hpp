@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "game/station_kit.hpp"
+#include "game/levels/station_kit.hpp"
 
 namespace handhold {
 

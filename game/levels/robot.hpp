@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "engine/anim/crawler_leg.hpp"
-#include "game/station.hpp"
+#include "game/levels/station.hpp"
 
 // A robot that crawls over a hull, and the hull: what they look like and how they are built.
 // Lengths in metres.

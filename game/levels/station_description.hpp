@@ -10,9 +10,9 @@
 
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
+#include "game/levels/station_kit.hpp"
+#include "game/levels/station_rack.hpp"
 #include "game/render/render_frame.hpp"
-#include "game/station_kit.hpp"
-#include "game/station_rack.hpp"
 
 // A station as data: docs/station_format.md. Lengths in metres; a section's frame has its origin in
 // the middle of its near end (of a node or a cupola: see there), +Z along it, +Y up.

@@ -1,9 +1,9 @@
-#include "game/station_rack.hpp"
+#include "game/levels/station_rack.hpp"
 
 #include <array>
 
+#include "game/levels/station_fitting.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_fitting.hpp"
 
 namespace handhold {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "game/station_description.hpp"
-#include "game/station_kit.hpp"
+#include "game/levels/station_description.hpp"
+#include "game/levels/station_kit.hpp"
 
 namespace handhold {
 

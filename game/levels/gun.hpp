@@ -1,7 +1,7 @@
 #pragma once
 
+#include "game/levels/station.hpp"
 #include "game/scene/scene_file.hpp"
-#include "game/station.hpp"
 
 // A gun of the game's own: something that is held in one way. Talk row 10.
 namespace handhold {

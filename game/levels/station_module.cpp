@@ -1,10 +1,10 @@
-#include "game/station_module.hpp"
+#include "game/levels/station_module.hpp"
 
 #include <array>
 #include <vector>
 
+#include "game/levels/station_rack.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_rack.hpp"
 
 namespace handhold {
 namespace {

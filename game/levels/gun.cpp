@@ -1,4 +1,4 @@
-#include "game/gun.hpp"
+#include "game/levels/gun.hpp"
 
 #include <array>
 #include <utility>
@@ -6,8 +6,8 @@
 #include "engine/core/check.hpp"
 #include "engine/io/json.hpp"
 #include "game/assets.hpp"
+#include "game/levels/station_kit.hpp"
 #include "game/render/primitives.hpp"
-#include "game/station_kit.hpp"
 
 namespace handhold {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/io/gltf.hpp"
+#include "game/levels/station.hpp"
+#include "game/levels/station_description.hpp"
 #include "game/scene/scene_file.hpp"
-#include "game/station.hpp"
-#include "game/station_description.hpp"
 
 namespace handhold {
 
