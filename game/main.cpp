@@ -7,7 +7,7 @@
 
 #include "game/body_export.hpp"
 #include "game/build_station_command.hpp"
-#include "game/climber_session.hpp"
+#include "game/climber/climber_session.hpp"
 #include "game/grip_command.hpp"
 #include "game/hand_export.hpp"
 #include "game/picture_command.hpp"

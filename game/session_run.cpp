@@ -5,7 +5,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 
 namespace handhold {
 namespace {

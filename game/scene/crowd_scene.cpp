@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/random.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 
 namespace handhold::climber_bench {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/scene/scene.hpp"
 

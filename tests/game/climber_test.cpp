@@ -1,13 +1,13 @@
 // The scripted climber: that he moves as a person can, gets where he is sent, and finds back.
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "game/climber_body.hpp"
-#include "game/climber_session.hpp"
-#include "game/crowd.hpp"
+#include "game/climber/climber_body.hpp"
+#include "game/climber/climber_session.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/session_run.hpp"
 #include "systems/input/read_tracking.hpp"

@@ -1,7 +1,7 @@
 // Many climbers in one world: where they begin, that none is lost, and that they are the same for
 // every number of threads. A long run: HANDHOLD_CROWD_PLAYERS, HANDHOLD_CROWD_SECONDS,
 // HANDHOLD_CROWD_SEED.
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 
 #include <cstdlib>
 #include <fstream>

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/place_scene.hpp"
 #include "tests/game/finite_world.hpp"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/climber_session.hpp"
+#include "game/climber/climber_session.hpp"
 #include "game/playback.hpp"
 #include "game/scene/random.hpp"
 #include "tests/game/climber_scene.hpp"

@@ -12,7 +12,7 @@
 
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/climber_session.hpp"
+#include "game/climber/climber_session.hpp"
 
 namespace handhold::run_command_test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "game/climber.hpp"
-#include "game/climber_body.hpp"
+#include "game/climber/climber.hpp"
+#include "game/climber/climber_body.hpp"
 
 // Where a climber looks, and what he chooses of what he sees.
 namespace handhold {

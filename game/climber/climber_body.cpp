@@ -1,5 +1,5 @@
 // Reaches are minimum-jerk movements (Flash and Hogan 1985): 10 u^3 - 15 u^4 + 6 u^5 of the way.
-#include "game/climber_body.hpp"
+#include "game/climber/climber_body.hpp"
 
 #include <algorithm>
 #include <cmath>

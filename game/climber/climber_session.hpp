@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 #include "game/recording.hpp"
 
 namespace handhold {

@@ -1,4 +1,4 @@
-#include "game/climber_session.hpp"
+#include "game/climber/climber_session.hpp"
 
 #include <algorithm>
 #include <cstdio>

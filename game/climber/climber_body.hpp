@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/world.hpp"
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 
 // What a climber's body can do: movements of head and hands between two decisions, and the samples
 // that a headset makes of them.

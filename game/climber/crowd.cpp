@@ -1,4 +1,4 @@
-#include "game/crowd.hpp"
+#include "game/climber/crowd.hpp"
 
 #include <algorithm>
 

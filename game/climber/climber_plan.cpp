@@ -1,4 +1,4 @@
-#include "game/climber_plan.hpp"
+#include "game/climber/climber_plan.hpp"
 
 #include <algorithm>
 #include <array>

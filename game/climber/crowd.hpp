@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 #include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 

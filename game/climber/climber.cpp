@@ -1,11 +1,11 @@
-#include "game/climber.hpp"
+#include "game/climber/climber.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/check.hpp"
-#include "game/climber_body.hpp"
-#include "game/climber_plan.hpp"
+#include "game/climber/climber_body.hpp"
+#include "game/climber/climber_plan.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
