@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "engine/collision/collision_world.hpp"
-#include "game/hand_pose.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/hand_pose.hpp"
 
 // Keyboard, mouse and gamepad as a headset and two controllers: somebody without a headset who
 // looks about, reaches for what he looks at, and pulls himself along by what he grips.

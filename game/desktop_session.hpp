@@ -1,7 +1,7 @@
 #pragma once
 
 #include "game/desktop_body.hpp"
-#include "game/recording.hpp"
+#include "game/session/recording.hpp"
 #include "systems/frame.hpp"
 #include "systems/snapshot.hpp"
 

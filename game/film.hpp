@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "game/render/player_models.hpp"
-#include "game/run_log.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/run_log.hpp"
 
 namespace handhold {
 

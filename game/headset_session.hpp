@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "game/headset_reading.hpp"
-#include "game/recording.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/recording.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

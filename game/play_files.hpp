@@ -7,9 +7,9 @@
 
 #include "game/play_command.hpp"
 #include "game/play_tally.hpp"
-#include "game/recording.hpp"
 #include "game/render/image.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/recording.hpp"
 
 // The files of a play: what it begins with and what it leaves, at a desk or in a headset.
 namespace handhold {

@@ -11,7 +11,7 @@
 #include "game/play_settings.hpp"
 #include "game/play_tally.hpp"
 #include "game/player_view.hpp"
-#include "game/session_history.hpp"
+#include "game/session/session_history.hpp"
 #include "game/ui/overlay.hpp"
 
 namespace handhold {

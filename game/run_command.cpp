@@ -22,7 +22,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/spawn.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {

@@ -4,7 +4,7 @@
 
 #include "game/run_command.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 
 namespace handhold {
 

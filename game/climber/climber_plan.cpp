@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "game/hand_pose.hpp"
+#include "game/session/hand_pose.hpp"
 
 namespace handhold {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/io/result.hpp"
-#include "game/run_log.hpp"
+#include "game/session/run_log.hpp"
 
 // A run as tables, one row a frame and player, or a frame and body. SI units except where a
 // column's name says otherwise; numbers come back bit for bit. Times of stages are not in here: the

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/io/result.hpp"
-#include "game/run_log.hpp"
+#include "game/session/run_log.hpp"
 
 // report.html: a run for people, on one page that needs no other file (but the video), no network
 // and no scripts.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/io/result.hpp"
-#include "game/run_log.hpp"
+#include "game/session/run_log.hpp"
 
 // report.json: the figures of a run (run_summary.hpp) for scripts; keys are added, never renamed or
 // dropped.

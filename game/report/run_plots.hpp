@@ -2,7 +2,7 @@
 
 #include "game/report/run_summary.hpp"
 #include "game/report/svg_plot.hpp"
-#include "game/run_log.hpp"
+#include "game/session/run_log.hpp"
 
 // What report.html shows as plots. Where there are several players, paths are those of the first
 // k_plot_colors; errors and push-back are the worst player's in each frame.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/stats.hpp"
-#include "game/run_log.hpp"
+#include "game/session/run_log.hpp"
 
 // The figures of a whole run: report.json and report.html show the same ones.
 namespace handhold {

@@ -10,7 +10,7 @@
 #include "game/scene/playground.hpp"
 #include "game/scene/reach.hpp"
 #include "game/scene/robot_scene.hpp"
-#include "game/session_script.hpp"
+#include "game/session/session_script.hpp"
 
 namespace handhold {
 namespace {

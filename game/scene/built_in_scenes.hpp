@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "game/recording.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/recording.hpp"
 
 // The scenes and sessions that ship with the game, made in code.
 namespace handhold {

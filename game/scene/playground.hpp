@@ -1,7 +1,7 @@
 #pragma once
 
 #include "game/scene/scene.hpp"
-#include "game/session_script.hpp"
+#include "game/session/session_script.hpp"
 
 // The scene `playground` (game/assets/playground.json) and the session that shows it: a lever, a
 // drawer, a latched door, a valve, a cable and a rock that does not fit its gap.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "game/scene/scene.hpp"
-#include "game/session_script.hpp"
+#include "game/session/session_script.hpp"
 
 namespace handhold {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
-#include "game/playback.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/scene/random.hpp"
-#include "game/session_run.hpp"
+#include "game/session/playback.hpp"
+#include "game/session/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {

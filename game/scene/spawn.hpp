@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "game/recording.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/recording.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

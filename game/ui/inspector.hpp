@@ -7,7 +7,7 @@
 #include "game/desktop_session.hpp"
 #include "game/gizmos.hpp"
 #include "game/play_tally.hpp"
-#include "game/session_history.hpp"
+#include "game/session/session_history.hpp"
 
 namespace handhold {
 

@@ -11,7 +11,7 @@
 
 #include "engine/core/profile.hpp"
 #include "game/scene/built_in_scenes.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 
 namespace handhold::frame_bench {
 namespace {

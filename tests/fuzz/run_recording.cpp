@@ -1,5 +1,5 @@
-#include "game/playback.hpp"
-#include "game/recording.hpp"
+#include "game/session/playback.hpp"
+#include "game/session/recording.hpp"
 #include "systems/frame.hpp"
 #include "tests/fuzz/promise.hpp"
 

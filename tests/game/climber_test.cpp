@@ -9,7 +9,7 @@
 #include "game/climber/climber_session.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "tests/game/climber_scene.hpp"
 

@@ -15,7 +15,7 @@
 #include "game/report/run_summary.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/place_scene.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/game/finite_world.hpp"
 
 namespace handhold::crowd_test {

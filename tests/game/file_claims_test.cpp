@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "components/tuning_json.hpp"
-#include "game/recording.hpp"
 #include "game/scene/scene.hpp"
-#include "game/session_run.hpp"
+#include "game/session/recording.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/engine/allocation_count.hpp"
 
 namespace handhold::file_claims_test {

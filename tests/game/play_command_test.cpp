@@ -10,7 +10,7 @@
 #include "game/body_clips_asset.hpp"
 #include "game/desktop_session.hpp"
 #include "game/render/renderer.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::play_command_test {

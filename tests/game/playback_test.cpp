@@ -1,11 +1,11 @@
 // A recording is handed out frame by frame, with what its buttons ask for.
-#include "game/playback.hpp"
+#include "game/session/playback.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::playback_test {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "game/scene/built_in_scenes.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 
 namespace handhold::playground_test {
 namespace {

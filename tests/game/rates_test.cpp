@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "game/climber/climber_session.hpp"
-#include "game/playback.hpp"
 #include "game/scene/random.hpp"
+#include "game/session/playback.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::rates_test {

@@ -7,7 +7,7 @@
 
 #include "game/ghost_hands.hpp"
 #include "game/scene/built_in_scenes.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 
 namespace handhold::reach_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "game/recording.hpp"
+#include "game/session/recording.hpp"
 
 #include <algorithm>
 #include <cmath>

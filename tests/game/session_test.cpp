@@ -9,7 +9,7 @@
 #include "game/report/run_summary.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/spawn.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::session_test {

@@ -14,7 +14,7 @@
 #include "game/levels/station_tools.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_file_writer.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold::station_scene_test {

@@ -10,7 +10,7 @@
 #include "game/headset_command.hpp"
 #include "game/headset_hands.hpp"
 #include "game/render/player_models.hpp"
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::headset_session_test {

@@ -1,5 +1,5 @@
 // Pause and rewind: what is gone back to is what was, bit for bit.
-#include "game/session_history.hpp"
+#include "game/session/session_history.hpp"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/tracking.hpp"
-#include "game/recording.hpp"
+#include "game/session/recording.hpp"
 
 namespace handhold {
 

@@ -4,7 +4,7 @@
 
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
-#include "game/recording.hpp"
+#include "game/session/recording.hpp"
 
 // Sessions that ship with the game: what a headset would have recorded of someone who climbs as
 // planned. The plan is made in the world (or in the ship's frame); since a gripping hand moves the

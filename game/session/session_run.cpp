@@ -1,4 +1,4 @@
-#include "game/session_run.hpp"
+#include "game/session/session_run.hpp"
 
 #include <algorithm>
 #include <cmath>

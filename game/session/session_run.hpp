@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "game/playback.hpp"
-#include "game/recording.hpp"
-#include "game/run_log.hpp"
 #include "game/scene/scene.hpp"
+#include "game/session/playback.hpp"
+#include "game/session/recording.hpp"
+#include "game/session/run_log.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

@@ -1,9 +1,9 @@
-#include "game/session_script.hpp"
+#include "game/session/session_script.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "game/hand_pose.hpp"
+#include "game/session/hand_pose.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {

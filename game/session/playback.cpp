@@ -1,4 +1,4 @@
-#include "game/playback.hpp"
+#include "game/session/playback.hpp"
 
 #include <algorithm>
 
