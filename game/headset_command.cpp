@@ -5,9 +5,9 @@
 #include <csignal>
 #include <cstdio>
 
+#include "game/desktop/play_files.hpp"
 #include "game/exit_status.hpp"
 #include "game/headset_loop.hpp"
-#include "game/play_files.hpp"
 #include "game/report/run_summary.hpp"
 
 namespace handhold {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/profile.hpp"
-#include "game/comfort.hpp"
+#include "game/desktop/comfort.hpp"
 #include "game/headset_hands.hpp"
 #include "game/headset_panel.hpp"
 #include "game/ui/headset_help.hpp"

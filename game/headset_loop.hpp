@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
+#include "game/desktop/play_tally.hpp"
+#include "game/desktop/window.hpp"
 #include "game/headset_clock.hpp"
 #include "game/headset_session.hpp"
-#include "game/platform/window.hpp"
 #include "game/play_command.hpp"
-#include "game/play_tally.hpp"
 #include "game/player_view.hpp"
 #include "game/xr/headset.hpp"
 

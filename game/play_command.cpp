@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "game/desktop/play_files.hpp"
+#include "game/desktop/play_loop.hpp"
 #include "game/exit_status.hpp"
 #include "game/headset_command.hpp"
-#include "game/play_files.hpp"
-#include "game/play_loop.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "game/play_loop.hpp"
+#include "game/desktop/play_loop.hpp"
 #include "game/render/player_models.hpp"
 
 namespace handhold {

@@ -48,7 +48,7 @@ LIBRARIES = [
             r"engine/geometry/simplify_meshopt\.cpp", "engine/geometry/simplify_meshopt.cpp"),
     library("Eigen", r"(unsupported/)?Eigen/", None, r"engine/math/math\.hpp", "engine/math/math.hpp"),
     library("OpenXR", r"openxr/", r"\b[xX]r[A-Z]\w+", r"game/xr/.*", "game/xr/"),
-    library("SDL", r"SDL", r"\bSDL_\w+", r"game/platform/window\.cpp", "game/platform/window.cpp"),
+    library("SDL", r"SDL", r"\bSDL_\w+", r"game/desktop/window\.cpp", "game/desktop/window.cpp"),
     library("Dear ImGui", r"imgui", r"\bIm(Gui|Vec2|Vec4|Draw|Font)\w*", r"game/ui/.*", "game/ui/"),
     library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/(render|xr)/.*", "game/render/ and game/xr/"),
 ]

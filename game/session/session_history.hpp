@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {

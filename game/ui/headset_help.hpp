@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "game/play_settings.hpp"
+#include "game/desktop/play_settings.hpp"
 
 namespace handhold {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
+#include "game/desktop/play_tally.hpp"
 #include "game/gizmos.hpp"
-#include "game/play_tally.hpp"
 #include "game/session/session_history.hpp"
 
 namespace handhold {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "game/play_settings.hpp"
+#include "game/desktop/play_settings.hpp"
 
 namespace handhold {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "game/desktop/ui_input.hpp"
 #include "game/render/ui_picture.hpp"
-#include "game/ui_input.hpp"
 
 // Panels over the game's picture, by Dear ImGui: it lays them out, and the renderer draws them into
 // the picture as it draws everything else, so that they are in saved pictures and need no window.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/game/climber_scene.hpp"
 

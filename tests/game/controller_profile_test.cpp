@@ -11,7 +11,7 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
 #include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "tests/game/climber_scene.hpp"

@@ -1,5 +1,5 @@
 // Somebody at a keyboard: he reaches for what he looks at and pulls himself along.
-#include "game/desktop_body.hpp"
+#include "game/desktop/desktop_body.hpp"
 
 #include <gtest/gtest.h>
 

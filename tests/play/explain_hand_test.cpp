@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
+#include "game/desktop/play_tally.hpp"
 #include "game/gizmos.hpp"
-#include "game/play_tally.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::explain_hand_test {

@@ -1,5 +1,5 @@
 // A gamepad without one: what its sticks and triggers ask of the emulated head and hands.
-#include "game/gamepad.hpp"
+#include "game/desktop/gamepad.hpp"
 
 #include <cmath>
 

@@ -86,7 +86,7 @@ class CheckIncludes(unittest.TestCase):
             "meshoptimizer.h": "engine/geometry/simplify_meshopt.cpp",
             "Eigen/Core": "engine/math/math.hpp",
             "openxr/openxr.h": "game/xr/instance.cpp",
-            "SDL2/SDL.h": "game/platform/window.cpp",
+            "SDL2/SDL.h": "game/desktop/window.cpp",
             "epoxy/gl.h": "game/render/renderer.cpp",
         }
         for header, home in homes.items():

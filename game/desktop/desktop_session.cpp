@@ -1,4 +1,4 @@
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/desktop_body.hpp"
+#include "game/desktop/desktop_body.hpp"
 #include "game/session/recording.hpp"
 #include "systems/frame.hpp"
 #include "systems/snapshot.hpp"

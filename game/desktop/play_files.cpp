@@ -1,4 +1,4 @@
-#include "game/play_files.hpp"
+#include "game/desktop/play_files.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "game/platform/window.hpp"
+#include "game/desktop/window.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "game/desktop_body.hpp"
-#include "game/play_settings.hpp"
+#include "game/desktop/desktop_body.hpp"
+#include "game/desktop/play_settings.hpp"
 
 // A gamepad as what keys and mouse are: input of the emulated head and hands.
 namespace handhold {

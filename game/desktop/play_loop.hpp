@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <string>
 
-#include "game/desktop_session.hpp"
+#include "game/desktop/desktop_session.hpp"
+#include "game/desktop/play_settings.hpp"
+#include "game/desktop/play_tally.hpp"
+#include "game/desktop/window.hpp"
 #include "game/gizmos.hpp"
 #include "game/outside_camera.hpp"
-#include "game/platform/window.hpp"
-#include "game/play_settings.hpp"
-#include "game/play_tally.hpp"
 #include "game/player_view.hpp"
 #include "game/session/session_history.hpp"
 #include "game/ui/overlay.hpp"

@@ -1,4 +1,4 @@
-#include "game/gamepad.hpp"
+#include "game/desktop/gamepad.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "game/desktop_body.hpp"
+#include "game/desktop/desktop_body.hpp"
 
 #include <algorithm>
 

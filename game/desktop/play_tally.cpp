@@ -1,4 +1,4 @@
-#include "game/play_tally.hpp"
+#include "game/desktop/play_tally.hpp"
 
 #include <cstdio>
 

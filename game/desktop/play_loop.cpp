@@ -1,4 +1,4 @@
-#include "game/play_loop.hpp"
+#include "game/desktop/play_loop.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/profile.hpp"
-#include "game/comfort.hpp"
+#include "game/desktop/comfort.hpp"
 #include "game/free_camera.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
