@@ -7,7 +7,7 @@
 
 #include "game/desktop/play_files.hpp"
 #include "game/exit_status.hpp"
-#include "game/headset_loop.hpp"
+#include "game/headset/headset_loop.hpp"
 #include "game/report/run_summary.hpp"
 
 namespace handhold {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "components/play_space.hpp"
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 
 namespace handhold {
 namespace {

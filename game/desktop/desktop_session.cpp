@@ -4,7 +4,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/body_clips_asset.hpp"
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "game/scene/place_scene.hpp"
 
 namespace handhold {

@@ -8,7 +8,7 @@
 
 #include "components/stats.hpp"
 #include "components/world.hpp"
-#include "game/headset_reading.hpp"
+#include "game/headset/headset_reading.hpp"
 
 // What a session at a window comes to: how far the player's hands carried him, and what the runtime
 // and the renderer cost, each for itself.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/level_meshes.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "game/headset_reading.hpp"
+#include "game/headset/headset_reading.hpp"
 #include "game/render/gl_context.hpp"
 #include "game/render/render_frame.hpp"
 

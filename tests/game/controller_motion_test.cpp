@@ -1,5 +1,5 @@
 // What moves on controllers, against closed forms and against the ends that real models name.
-#include "game/controller_motion.hpp"
+#include "game/headset/controller_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

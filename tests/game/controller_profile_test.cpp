@@ -1,5 +1,5 @@
 // Controllers as data: what their profiles say, how they sit in hands, and what is refused.
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Display times as frames of the simulation.
-#include "game/headset_clock.hpp"
+#include "game/headset/headset_clock.hpp"
 
 #include <cstdint>
 

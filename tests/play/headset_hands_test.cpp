@@ -1,11 +1,11 @@
 // A headset without one: what readings of poses, buttons and fingers become for the game.
-#include "game/headset_hands.hpp"
+#include "game/headset/headset_hands.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"
 

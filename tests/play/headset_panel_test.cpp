@@ -1,5 +1,5 @@
 // The sheet of help in a headset: where it stands and what shows it.
-#include "game/headset_panel.hpp"
+#include "game/headset/headset_panel.hpp"
 
 #include <gtest/gtest.h>
 

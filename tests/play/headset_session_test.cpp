@@ -1,5 +1,5 @@
 // A headset's session without a headset: what is recorded, and what the controllers shake with.
-#include "game/headset_session.hpp"
+#include "game/headset/headset_session.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "game/headset/headset_hands.hpp"
 #include "game/headset_command.hpp"
-#include "game/headset_hands.hpp"
 #include "game/render/player_models.hpp"
 #include "game/session/session_run.hpp"
 #include "tests/game/climber_scene.hpp"

@@ -1,4 +1,4 @@
-#include "game/headset_loop.hpp"
+#include "game/headset/headset_loop.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,8 @@
 
 #include "engine/core/profile.hpp"
 #include "game/desktop/comfort.hpp"
-#include "game/headset_hands.hpp"
-#include "game/headset_panel.hpp"
+#include "game/headset/headset_hands.hpp"
+#include "game/headset/headset_panel.hpp"
 #include "game/ui/headset_help.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/overlay.hpp"

@@ -7,8 +7,8 @@
 
 #include "game/desktop/play_tally.hpp"
 #include "game/desktop/window.hpp"
-#include "game/headset_clock.hpp"
-#include "game/headset_session.hpp"
+#include "game/headset/headset_clock.hpp"
+#include "game/headset/headset_session.hpp"
 #include "game/play_command.hpp"
 #include "game/player_view.hpp"
 #include "game/xr/headset.hpp"

@@ -1,4 +1,4 @@
-#include "game/headset_clock.hpp"
+#include "game/headset/headset_clock.hpp"
 
 #include <cmath>
 

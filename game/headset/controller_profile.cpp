@@ -1,4 +1,4 @@
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 
 #include <algorithm>
 #include <optional>

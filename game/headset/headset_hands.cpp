@@ -1,10 +1,10 @@
-#include "game/headset_hands.hpp"
+#include "game/headset/headset_hands.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "systems/input/read_tracking.hpp"
 
 namespace handhold {

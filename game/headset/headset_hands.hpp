@@ -5,7 +5,7 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 #include "game/desktop/play_settings.hpp"
-#include "game/headset_reading.hpp"
+#include "game/headset/headset_reading.hpp"
 
 // What a headset's runtime says, as the input of the game: the samples that recordings and the
 // emulated body of keyboard and mouse give, and what sticks and buttons ask for.

@@ -1,4 +1,4 @@
-#include "game/headset_panel.hpp"
+#include "game/headset/headset_panel.hpp"
 
 namespace handhold {
 

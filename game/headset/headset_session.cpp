@@ -1,9 +1,9 @@
-#include "game/headset_session.hpp"
+#include "game/headset/headset_session.hpp"
 
 #include <utility>
 
 #include "game/body_clips_asset.hpp"
-#include "game/controller_profile.hpp"
+#include "game/headset/controller_profile.hpp"
 #include "game/scene/place_scene.hpp"
 
 namespace handhold {

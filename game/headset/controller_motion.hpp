@@ -9,7 +9,7 @@
 
 #include "engine/io/gltf_nodes.hpp"
 #include "engine/math/math.hpp"
-#include "game/headset_reading.hpp"
+#include "game/headset/headset_reading.hpp"
 
 // What moves on a controller when it is used: buttons, triggers, sticks. Pictures only. As WebXR's
 // input profiles have it: a node of the model goes from one place to another.

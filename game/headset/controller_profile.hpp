@@ -11,7 +11,7 @@
 #include "components/world.hpp"
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
-#include "game/controller_motion.hpp"
+#include "game/headset/controller_motion.hpp"
 
 // How controllers sit in hands, as data: docs/controllers.md. Talk row 9.
 //

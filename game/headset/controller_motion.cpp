@@ -1,4 +1,4 @@
-#include "game/controller_motion.hpp"
+#include "game/headset/controller_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
