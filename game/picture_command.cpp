@@ -12,7 +12,7 @@
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
-#include "game/scene_picture.hpp"
+#include "game/view/scene_picture.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

@@ -8,10 +8,10 @@
 
 #include "engine/core/profile.hpp"
 #include "game/desktop/comfort.hpp"
-#include "game/free_camera.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
+#include "game/view/free_camera.hpp"
 
 namespace handhold {
 namespace {

@@ -8,11 +8,11 @@
 #include "game/desktop/play_settings.hpp"
 #include "game/desktop/play_tally.hpp"
 #include "game/desktop/window.hpp"
-#include "game/gizmos.hpp"
-#include "game/outside_camera.hpp"
-#include "game/player_view.hpp"
 #include "game/session/session_history.hpp"
 #include "game/ui/overlay.hpp"
+#include "game/view/gizmos.hpp"
+#include "game/view/outside_camera.hpp"
+#include "game/view/player_view.hpp"
 
 namespace handhold {
 

@@ -10,7 +10,7 @@
 #include "game/headset/headset_clock.hpp"
 #include "game/headset/headset_session.hpp"
 #include "game/play_command.hpp"
-#include "game/player_view.hpp"
+#include "game/view/player_view.hpp"
 #include "game/xr/headset.hpp"
 
 namespace handhold {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "game/ghost_hands.hpp"
 #include "game/render/body_figures.hpp"
 #include "game/render/controller_figures.hpp"
 #include "game/render/hand_figures.hpp"
+#include "game/view/ghost_hands.hpp"
 
 // What players look like.
 namespace handhold {

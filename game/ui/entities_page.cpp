@@ -7,8 +7,8 @@
 #include <imgui.h>
 
 #include "components/fields.hpp"
-#include "game/explain_hand.hpp"
 #include "game/ui/inspector.hpp"
+#include "game/view/explain_hand.hpp"
 
 namespace handhold {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <imgui.h>
 
-#include "game/explain_hand.hpp"
 #include "game/report/report_tables.hpp"
+#include "game/view/explain_hand.hpp"
 
 namespace handhold {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
-#include "game/gizmos.hpp"
 #include "game/session/session_history.hpp"
+#include "game/view/gizmos.hpp"
 
 namespace handhold {
 

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "game/player_view.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/built_in_scenes.hpp"
-#include "game/snap_hint.hpp"
+#include "game/view/player_view.hpp"
+#include "game/view/snap_hint.hpp"
 #include "systems/frame.hpp"
 #include "systems/input/read_tracking.hpp"
 

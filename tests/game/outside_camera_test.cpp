@@ -1,4 +1,4 @@
-#include "game/outside_camera.hpp"
+#include "game/view/outside_camera.hpp"
 
 #include <cmath>
 

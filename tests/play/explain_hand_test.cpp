@@ -1,11 +1,11 @@
 // What the inspector says of a hand, against what the hand then does.
-#include "game/explain_hand.hpp"
+#include "game/view/explain_hand.hpp"
 
 #include <gtest/gtest.h>
 
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
-#include "game/gizmos.hpp"
+#include "game/view/gizmos.hpp"
 #include "tests/game/climber_scene.hpp"
 
 namespace handhold::explain_hand_test {

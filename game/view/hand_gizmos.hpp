@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "components/tuning.hpp"
-#include "game/gizmos.hpp"
+#include "game/view/gizmos.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {

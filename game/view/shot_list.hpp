@@ -7,7 +7,7 @@
 
 #include "components/tracking.hpp"
 #include "engine/io/result.hpp"
-#include "game/gizmos.hpp"
+#include "game/view/gizmos.hpp"
 
 // Pictures and pieces of film of a scene's session, asked for in a file: what documents show is
 // made by the game and never by hand (docs/shots.md).

@@ -1,11 +1,11 @@
-#include "game/gizmos.hpp"
+#include "game/view/gizmos.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 
-#include "game/hand_gizmos.hpp"
+#include "game/view/hand_gizmos.hpp"
 
 namespace handhold {
 namespace {

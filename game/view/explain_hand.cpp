@@ -1,4 +1,4 @@
-#include "game/explain_hand.hpp"
+#include "game/view/explain_hand.hpp"
 
 #include <array>
 #include <cmath>

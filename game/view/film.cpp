@@ -1,13 +1,13 @@
-#include "game/film.hpp"
+#include "game/view/film.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "game/outside_camera.hpp"
-#include "game/player_view.hpp"
 #include "game/render/video_writer.hpp"
+#include "game/view/outside_camera.hpp"
+#include "game/view/player_view.hpp"
 
 namespace handhold {
 namespace {

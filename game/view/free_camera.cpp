@@ -1,4 +1,4 @@
-#include "game/free_camera.hpp"
+#include "game/view/free_camera.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "game/run_shots.hpp"
+#include "game/view/run_shots.hpp"
 
 #include <cstdio>
 #include <optional>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "game/exit_status.hpp"
-#include "game/shot_film.hpp"
+#include "game/view/shot_film.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "game/scene_picture.hpp"
+#include "game/view/scene_picture.hpp"
 
 namespace handhold {
 

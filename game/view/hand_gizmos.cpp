@@ -1,4 +1,4 @@
-#include "game/hand_gizmos.hpp"
+#include "game/view/hand_gizmos.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "game/snap_hint.hpp"
+#include "game/view/snap_hint.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-#include "game/player_view.hpp"
+#include "game/view/player_view.hpp"
 
-#include "game/scene_picture.hpp"
-#include "game/snap_hint.hpp"
+#include "game/view/scene_picture.hpp"
+#include "game/view/snap_hint.hpp"
 
 namespace handhold {
 namespace {

@@ -1,14 +1,14 @@
-#include "game/shot_film.hpp"
+#include "game/view/shot_film.hpp"
 
 #include <algorithm>
 #include <tuple>
 
-#include "game/outside_camera.hpp"
-#include "game/player_view.hpp"
 #include "game/render/primitives.hpp"
 #include "game/render/video_writer.hpp"
 #include "game/ui/hud.hpp"
 #include "game/ui/overlay.hpp"
+#include "game/view/outside_camera.hpp"
+#include "game/view/player_view.hpp"
 
 namespace handhold {
 namespace {

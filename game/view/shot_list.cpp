@@ -1,4 +1,4 @@
-#include "game/shot_list.hpp"
+#include "game/view/shot_list.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 #include "game/render/player_models.hpp"
 #include "game/scene/scene.hpp"
-#include "game/shot_list.hpp"
+#include "game/view/shot_list.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {
