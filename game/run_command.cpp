@@ -8,7 +8,7 @@
 
 #include "engine/core/profile.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/exit_status.hpp"
 #include "game/progress.hpp"

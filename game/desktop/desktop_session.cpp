@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/check.hpp"
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 #include "game/headset/controller_profile.hpp"
 #include "game/scene/place_scene.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 #include "game/headset/controller_profile.hpp"
 #include "game/scene/place_scene.hpp"
 

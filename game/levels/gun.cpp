@@ -5,7 +5,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/io/json.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 #include "game/levels/station_kit.hpp"
 #include "game/render/primitives.hpp"
 

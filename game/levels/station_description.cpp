@@ -7,7 +7,7 @@
 #include "engine/core/check.hpp"
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 #include "game/scene/scene_ranges.hpp"
 
 namespace handhold {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 #include "game/levels/gun.hpp"
 #include "game/levels/station_scene.hpp"
 

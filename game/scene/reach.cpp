@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 
 namespace handhold {
 

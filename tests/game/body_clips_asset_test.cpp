@@ -1,5 +1,5 @@
 // The clips that ship, and sessions that play them.
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 #include "game/desktop/desktop_session.hpp"
 #include "game/render/renderer.hpp"
 #include "game/session/session_run.hpp"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/collision/collision_world.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 #include "game/levels/station_tools.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_file_writer.hpp"

@@ -1,10 +1,10 @@
-#include "game/body_clips_asset.hpp"
+#include "game/assets/body_clips_asset.hpp"
 
 #include <utility>
 
 #include "components/body_clips_json.hpp"
 #include "engine/core/check.hpp"
-#include "game/assets.hpp"
+#include "game/assets/assets.hpp"
 
 namespace handhold {
 
