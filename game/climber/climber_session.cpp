@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "engine/core/check.hpp"
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 #include "game/scene/place_scene.hpp"
 #include "systems/frame.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "game/commands/play_command.hpp"
 #include "game/desktop/play_tally.hpp"
-#include "game/play_command.hpp"
 #include "game/render/image.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"

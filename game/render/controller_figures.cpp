@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/io/text_file.hpp"
-#include "game/grip_fit.hpp"
+#include "game/commands/grip_fit.hpp"
 #include "game/render/figures.hpp"
 #include "systems/input/read_tracking.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 #include "game/view/shot_film.hpp"
 
 namespace handhold {

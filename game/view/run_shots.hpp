@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "game/run_command.hpp"
+#include "game/commands/run_command.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/session_run.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
-#include "game/grip_file.hpp"
+#include "game/commands/grip_file.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

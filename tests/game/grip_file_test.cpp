@@ -1,5 +1,5 @@
 // Talk row 10: authored grips in scene files, and through an animation package and back.
-#include "game/grip_file.hpp"
+#include "game/commands/grip_file.hpp"
 
 #include <string>
 
@@ -8,8 +8,8 @@
 #include "components/builtin_hand_rig.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/io/gltf_nodes.hpp"
-#include "game/grip_fit.hpp"
-#include "game/hand_export.hpp"
+#include "game/commands/grip_fit.hpp"
+#include "game/commands/hand_export.hpp"
 #include "game/levels/gun.hpp"
 #include "game/levels/station_scene.hpp"
 #include "game/scene/scene.hpp"

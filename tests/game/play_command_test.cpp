@@ -1,5 +1,5 @@
 // Playing at the desk: what is recorded, and the window, on SDL's display that shows nothing.
-#include "game/play_command.hpp"
+#include "game/commands/play_command.hpp"
 
 #include <cstdlib>
 #include <filesystem>

@@ -8,7 +8,7 @@
 
 #include "components/builtin_hand_rig.hpp"
 #include "components/hand_rig_fit.hpp"
-#include "game/hand_export.hpp"
+#include "game/commands/hand_export.hpp"
 #include "game/render/hand_figures.hpp"
 
 namespace handhold::robot_hand_test {

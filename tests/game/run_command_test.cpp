@@ -1,4 +1,4 @@
-#include "game/run_command.hpp"
+#include "game/commands/run_command.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "game/commands/headset_command.hpp"
 #include "game/headset/headset_hands.hpp"
-#include "game/headset_command.hpp"
 #include "game/render/player_models.hpp"
 #include "game/session/session_run.hpp"
 #include "tests/game/climber_scene.hpp"

@@ -36,7 +36,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_clean("components/a.hpp", '#pragma once\n#include "components/b.hpp"\n#include "engine/c.hpp"\n')
         self.assert_clean("systems/grip/search_grip.cpp",
                           '#include "systems/grip/search_grip.hpp"\n#include "components/hand.hpp"\n')
-        self.assert_clean("game/main.cpp", '#include "systems/frame.hpp"\n#include "engine/core/hash.hpp"\n')
+        self.assert_clean("game/commands/main.cpp", '#include "systems/frame.hpp"\n#include "engine/core/hash.hpp"\n')
 
     def test_upward_includes_are_named_with_their_line(self):
         self.assert_breach("engine/a.cpp", '\n#include "components/b.hpp"\n',

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/io/text_file.hpp"
-#include "game/progress.hpp"
+#include "game/commands/progress.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
 #include "tools/lab/body_baselines.hpp"

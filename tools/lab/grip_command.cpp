@@ -11,7 +11,7 @@
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/progress.hpp"
+#include "game/commands/progress.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/io/gltf.hpp"
-#include "game/progress.hpp"
+#include "game/commands/progress.hpp"
 #include "game/render/level_meshes.hpp"
 #include "game/render/primitives.hpp"
 #include "game/render/renderer.hpp"

@@ -1,9 +1,9 @@
-#include "game/build_station_command.hpp"
+#include "game/commands/build_station_command.hpp"
 
 #include <cstdio>
 #include <filesystem>
 
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 #include "game/levels/station_description.hpp"
 #include "game/levels/station_scene.hpp"
 #include "game/scene/built_in_scenes.hpp"

@@ -1,12 +1,12 @@
-#include "game/headset_command.hpp"
+#include "game/commands/headset_command.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 
+#include "game/commands/exit_status.hpp"
 #include "game/desktop/play_files.hpp"
-#include "game/exit_status.hpp"
 #include "game/headset/headset_loop.hpp"
 #include "game/report/run_summary.hpp"
 

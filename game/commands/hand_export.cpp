@@ -1,4 +1,4 @@
-#include "game/hand_export.hpp"
+#include "game/commands/hand_export.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include "components/hand_rig_fit.hpp"
 #include "engine/core/check.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "game/play_command.hpp"
+#include "game/commands/play_command.hpp"
 
 namespace handhold {
 

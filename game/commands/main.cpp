@@ -5,14 +5,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "game/body_export.hpp"
-#include "game/build_station_command.hpp"
 #include "game/climber/climber_session.hpp"
-#include "game/grip_command.hpp"
-#include "game/hand_export.hpp"
-#include "game/picture_command.hpp"
-#include "game/play_command.hpp"
-#include "game/run_command.hpp"
+#include "game/commands/body_export.hpp"
+#include "game/commands/build_station_command.hpp"
+#include "game/commands/grip_command.hpp"
+#include "game/commands/hand_export.hpp"
+#include "game/commands/picture_command.hpp"
+#include "game/commands/play_command.hpp"
+#include "game/commands/run_command.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene.hpp"
 

@@ -1,4 +1,4 @@
-#include "game/grip_command.hpp"
+#include "game/commands/grip_command.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,9 +6,9 @@
 
 #include "components/builtin_hand_rig.hpp"
 #include "engine/io/text_file.hpp"
-#include "game/exit_status.hpp"
-#include "game/grip_file.hpp"
-#include "game/grip_fit.hpp"
+#include "game/commands/exit_status.hpp"
+#include "game/commands/grip_file.hpp"
+#include "game/commands/grip_fit.hpp"
 #include "game/render/shading_mesh.hpp"
 #include "game/scene/scene.hpp"
 #include "systems/input/read_tracking.hpp"

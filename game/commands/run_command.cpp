@@ -1,4 +1,4 @@
-#include "game/run_command.hpp"
+#include "game/commands/run_command.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,8 +10,8 @@
 #include "engine/io/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
-#include "game/exit_status.hpp"
-#include "game/progress.hpp"
+#include "game/commands/exit_status.hpp"
+#include "game/commands/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/report_html.hpp"

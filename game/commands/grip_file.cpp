@@ -1,4 +1,4 @@
-#include "game/grip_file.hpp"
+#include "game/commands/grip_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "components/hand_joint_names.hpp"
 #include "engine/io/gltf_nodes.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
-#include "game/hand_export.hpp"
+#include "game/commands/hand_export.hpp"
 
 namespace handhold {
 namespace {

@@ -1,7 +1,7 @@
-#include "game/body_export.hpp"
+#include "game/commands/body_export.hpp"
 
 #include "engine/io/text_file.hpp"
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 #include "game/render/robot_body.hpp"
 
 namespace handhold {

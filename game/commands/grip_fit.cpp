@@ -1,4 +1,4 @@
-#include "game/grip_fit.hpp"
+#include "game/commands/grip_fit.hpp"
 
 #include <limits>
 #include <vector>

@@ -1,12 +1,12 @@
-#include "game/play_command.hpp"
+#include "game/commands/play_command.hpp"
 
 #include <cstdio>
 #include <memory>
 
+#include "game/commands/exit_status.hpp"
+#include "game/commands/headset_command.hpp"
 #include "game/desktop/play_files.hpp"
 #include "game/desktop/play_loop.hpp"
-#include "game/exit_status.hpp"
-#include "game/headset_command.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/ui/hud.hpp"
 

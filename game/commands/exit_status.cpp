@@ -1,4 +1,4 @@
-#include "game/exit_status.hpp"
+#include "game/commands/exit_status.hpp"
 
 #include <cstdio>
 

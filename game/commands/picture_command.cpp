@@ -1,4 +1,4 @@
-#include "game/picture_command.hpp"
+#include "game/commands/picture_command.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "engine/io/text_file.hpp"
-#include "game/exit_status.hpp"
-#include "game/grip_fit.hpp"
+#include "game/commands/exit_status.hpp"
+#include "game/commands/grip_fit.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"

@@ -1,4 +1,4 @@
-#include "game/progress.hpp"
+#include "game/commands/progress.hpp"
 
 #include <algorithm>
 #include <cstdio>
