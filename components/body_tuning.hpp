@@ -62,7 +62,7 @@ struct SpineTuning {
     double twist_limit_rad = 0.35;
 };
 
-// Weights of the clips that lie on top (components/body_clips.hpp); 0: none of it.
+// Weights of the clips that lie on top (systems/rigs/body_clips.hpp); 0: none of it.
 struct AdditiveTuning {
     double idle = 1.0;
     double push_off = 1.0;

@@ -3,8 +3,6 @@
 #include <array>
 #include <span>
 
-#include "components/body_clips.hpp"
-#include "components/builtin_hand_rig.hpp"
 #include "components/frame_graph.hpp"
 #include "components/hand_scratch.hpp"
 #include "components/stats.hpp"
@@ -14,6 +12,8 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
+#include "systems/rigs/body_clips.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 // The library's front door: feed tracking samples, step, read RenderPose.
 namespace handhold {

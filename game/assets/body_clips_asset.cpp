@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "components/body_clips_json.hpp"
 #include "engine/core/check.hpp"
 #include "game/assets/assets.hpp"
+#include "systems/rigs/body_clips_json.hpp"
 
 namespace handhold {
 

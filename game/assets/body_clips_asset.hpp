@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/body_clips.hpp"
+#include "systems/rigs/body_clips.hpp"
 
 namespace handhold {
 

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "components/builtin_hand_rig.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_file.hpp"
@@ -12,6 +11,7 @@
 #include "game/render/shading_mesh.hpp"
 #include "game/scene/scene.hpp"
 #include "systems/input/read_tracking.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 namespace handhold {
 namespace {

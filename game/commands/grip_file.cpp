@@ -5,10 +5,10 @@
 #include <map>
 #include <optional>
 
-#include "components/hand_joint_names.hpp"
 #include "engine/io/gltf_nodes.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
 #include "game/commands/hand_export.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
 
 namespace handhold {
 namespace {

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <system_error>
 
-#include "components/builtin_hand_rig.hpp"
-#include "components/hand_joint_names.hpp"
-#include "components/hand_rig_fit.hpp"
 #include "engine/core/check.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 namespace handhold {
 namespace {
@@ -53,7 +53,7 @@ std::int32_t parent_of(const HandRig& rig, std::size_t index) {
 
 std::vector<double> as_numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// What hand_rig_from_skin reads back (components/hand_rig_fit.hpp).
+// What hand_rig_from_skin reads back (systems/rigs/hand_rig_fit.hpp).
 void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         for (std::uint32_t link = 0; link < rig.fingers[i].link_count; ++link) {

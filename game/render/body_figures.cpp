@@ -3,9 +3,9 @@
 #include <map>
 #include <utility>
 
-#include "components/forearm_twist.hpp"
 #include "engine/core/check.hpp"
 #include "game/render/robot_body.hpp"
+#include "systems/rigs/forearm_twist.hpp"
 
 namespace handhold {
 namespace {

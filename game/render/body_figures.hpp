@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "components/body_rig_fit.hpp"
 #include "components/render.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "game/render/renderer.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 
 // Bodies as they are drawn: the robot's, or a loaded figure.
 namespace handhold {

@@ -1,8 +1,8 @@
 #include "game/render/hand_figures.hpp"
 
-#include "components/builtin_hand_rig.hpp"
 #include "engine/core/check.hpp"
 #include "game/render/robot_hand.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 namespace handhold {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "components/hand_rig_fit.hpp"
 #include "components/render.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "game/render/renderer.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 // Hands as they are drawn: the robot's, rigid part by part, or a loaded skin.
 namespace handhold {

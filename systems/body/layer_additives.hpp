@@ -1,7 +1,6 @@
 #pragma once
 
 #include "components/arm.hpp"
-#include "components/body_clips.hpp"
 #include "components/body_tuning.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
@@ -9,6 +8,7 @@
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
+#include "systems/rigs/body_clips.hpp"
 
 namespace handhold {
 

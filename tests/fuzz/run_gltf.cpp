@@ -3,13 +3,13 @@
 #include <set>
 #include <string>
 
-#include "components/body_rig_fit.hpp"
-#include "components/builtin_hand_rig.hpp"
-#include "components/hand_rig_fit.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "game/commands/grip_file.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

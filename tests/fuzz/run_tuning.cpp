@@ -1,5 +1,5 @@
-#include "components/body_rig_fit.hpp"
 #include "components/tuning_json.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace handhold::fuzz {

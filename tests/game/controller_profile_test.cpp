@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "components/builtin_hand_rig.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/desktop/desktop_session.hpp"
 #include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 #include "tests/game/climber_scene.hpp"
 #include "tests/places.hpp"
 

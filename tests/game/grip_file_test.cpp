@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "components/builtin_hand_rig.hpp"
 #include "engine/geometry/grip_mesh_library.hpp"
 #include "engine/io/gltf_nodes.hpp"
 #include "game/commands/grip_fit.hpp"
@@ -14,6 +13,7 @@
 #include "game/levels/station_scene.hpp"
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file_writer.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 namespace handhold::grip_file_test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/body_rig_fit.hpp"
 #include "game/render/body_figures.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 
 namespace handhold::robot_body_test {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "components/builtin_hand_rig.hpp"
-#include "components/hand_rig_fit.hpp"
 #include "game/commands/hand_export.hpp"
 #include "game/render/hand_figures.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 namespace handhold::robot_hand_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/body_rig.hpp"
+#include "systems/rigs/body_rig.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/body_rig_fit.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/places.hpp"
 #include "tests/random.hpp"

@@ -1,4 +1,4 @@
-#include "components/builtin_hand_rig.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 #include <cmath>
 #include <set>

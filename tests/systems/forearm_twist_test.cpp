@@ -1,9 +1,9 @@
-#include "components/forearm_twist.hpp"
+#include "systems/rigs/forearm_twist.hpp"
 
 #include <gtest/gtest.h>
 
-#include "components/body_rig_fit.hpp"
 #include "engine/anim/skinning.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 #include "tests/places.hpp"
 #include "tests/random.hpp"
 

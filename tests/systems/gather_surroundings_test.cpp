@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "column_scene.hpp"
-#include "components/builtin_hand_rig.hpp"
 #include "engine/collision/shape_library.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 namespace handhold::gather_surroundings_test {
 namespace {

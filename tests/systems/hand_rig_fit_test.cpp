@@ -1,4 +1,4 @@
-#include "components/hand_rig_fit.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/builtin_hand_rig.hpp"
-#include "components/hand_joint_names.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
 #include "tests/places.hpp"
 #include "tests/systems/tube_hand.hpp"
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <utility>
 
-#include "components/builtin_hand_rig.hpp"
-#include "components/hand_rig_fit.hpp"
 #include "engine/core/profile.hpp"
 #include "engine/io/gltf.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/progress.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 #include "tools/lab/exit_status.hpp"
 #include "tools/lab/grip_files.hpp"
 

@@ -1,11 +1,11 @@
-#include "components/body_rig_fit.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "components/body_bones.hpp"
 #include "engine/io/json.hpp"
+#include "systems/rigs/body_bones.hpp"
 
 namespace handhold {
 namespace {

@@ -1,11 +1,11 @@
 // Figures of our own, after the proportions of an adult's hand: bones 44/27/18 mm in the middle
 // finger, knuckles 20 mm apart.
-#include "components/builtin_hand_rig.hpp"
+#include "systems/rigs/builtin_hand_rig.hpp"
 
 #include <span>
 #include <string>
 
-#include "components/hand_limits.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {

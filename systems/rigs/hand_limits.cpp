@@ -1,6 +1,6 @@
 // The opposition axis leans to the little finger's side, so that a flexed thumb comes back below
 // the index and middle fingers instead of beside them.
-#include "components/hand_limits.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "components/body_rig_fit.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/body_bones.hpp"
+#include "systems/rigs/body_bones.hpp"
 
 #include <utility>
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "components/hand_joint_names.hpp"
-#include "components/hand_rig_fit.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 // The parts of fit_hand_rig: what its joints are, planar fingers through them, and what the skin
 // tells of thickness.

@@ -1,4 +1,4 @@
-#include "components/body_clips.hpp"
+#include "systems/rigs/body_clips.hpp"
 
 #include <algorithm>
 

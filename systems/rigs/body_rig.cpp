@@ -1,4 +1,4 @@
-#include "components/body_rig.hpp"
+#include "systems/rigs/body_rig.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "components/hand_rig_fit.hpp"
+#include "systems/rigs/hand_rig_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "components/hand_skeleton_fit.hpp"
+#include "systems/rigs/hand_skeleton_fit.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/forearm_twist.hpp"
+#include "systems/rigs/forearm_twist.hpp"
 
 #include <algorithm>
 #include <array>

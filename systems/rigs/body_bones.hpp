@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "components/body_rig_fit.hpp"
+#include "systems/rigs/body_rig_fit.hpp"
 
 // The first step of fit_body_rig: which joint is which bone.
 namespace handhold {

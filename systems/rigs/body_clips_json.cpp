@@ -1,4 +1,4 @@
-#include "components/body_clips_json.hpp"
+#include "systems/rigs/body_clips_json.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "components/hand_joint_names.hpp"
+#include "systems/rigs/hand_joint_names.hpp"
 
 #include <array>
 #include <cctype>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/hand_skeleton_fit.hpp"
+#include "systems/rigs/hand_skeleton_fit.hpp"
 
 namespace handhold {
 namespace {

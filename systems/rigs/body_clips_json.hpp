@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "components/body_clips.hpp"
 #include "engine/io/result.hpp"
+#include "systems/rigs/body_clips.hpp"
 
 namespace handhold {
 

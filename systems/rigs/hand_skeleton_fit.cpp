@@ -1,11 +1,11 @@
-#include "components/hand_skeleton_fit.hpp"
+#include "systems/rigs/hand_skeleton_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "components/hand_limits.hpp"
+#include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
 namespace {

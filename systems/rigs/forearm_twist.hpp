@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/body_rig.hpp"
 #include "engine/io/gltf_skin.hpp"
+#include "systems/rigs/body_rig.hpp"
 
 // Skin that twists along the forearm, for figures whose forearm is one joint.
 namespace handhold {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "components/body_rig.hpp"
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/result.hpp"
+#include "systems/rigs/body_rig.hpp"
 
 // Body rigs out of any humanoid figure (load_gltf_figure): in T-pose or A-pose, +Y up, facing
 // either way, of any size and proportions.
