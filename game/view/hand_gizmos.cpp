@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 
-#include "components/finger_chain.hpp"
 #include "engine/geometry/disc_trace.hpp"
 #include "systems/hand/search_grip.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 namespace handhold {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/finger_chain.hpp"
-#include "components/palm_fit.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/palm_fit.hpp"
 
 namespace handhold {
 namespace {

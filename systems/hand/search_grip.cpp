@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "components/finger_chain.hpp"
-#include "components/palm_holder.hpp"
-#include "components/surface_search.hpp"
-#include "components/surface_tries.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/palm_holder.hpp"
+#include "systems/hand/shared/surface_search.hpp"
+#include "systems/hand/shared/surface_tries.hpp"
 
 namespace handhold {
 namespace {

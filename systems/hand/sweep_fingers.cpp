@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "components/finger_chain.hpp"
 #include "engine/geometry/chain_refit.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 namespace handhold {
 namespace {

@@ -299,8 +299,8 @@ TEST(FitChain, BentClearComesBackUntilItTouches) {
     EXPECT_EQ(about.touching, about.count);
 }
 
-// As in_a_slide has it (components/finger_chain.hpp). The counts are floors below what any compiler
-// comes to: each kind has to be there.
+// As in_a_slide has it (systems/hand/shared/finger_chain.hpp). The counts are floors below what any
+// compiler comes to: each kind has to be there.
 TEST(FitChain, BentClearInASlideTouchesOrIsAtEase) {
     const Scene box(lowered(*test::make_box_mesh({0.03, 0.02, 0.1}), 0.03));
     const Scene tube(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/finger_chain.hpp"
 #include "fitted_hand.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/systems/scenario.hpp"

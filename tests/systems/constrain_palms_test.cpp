@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/palm_fit.hpp"
 #include "fitted_hand.hpp"
+#include "systems/hand/shared/palm_fit.hpp"
 #include "tests/engine/collision_scene.hpp"
 
 namespace handhold::constrain_palms_test {

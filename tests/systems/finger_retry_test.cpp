@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "components/finger_chain.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 namespace handhold::finger_retry_test {
 namespace {

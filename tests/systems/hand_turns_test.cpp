@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "components/finger_chain.hpp"
 #include "fitted_hand.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 #include "tests/engine/surface_cuts.hpp"
 
 namespace handhold::hand_turns_test {

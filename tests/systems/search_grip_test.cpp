@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "components/authored_grip.hpp"
-#include "components/finger_chain.hpp"
-#include "components/finger_room.hpp"
-#include "components/palm_fit.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
 #include "fitted_hand.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/finger_room.hpp"
+#include "systems/hand/shared/palm_fit.hpp"
 #include "tests/engine/surface_cuts.hpp"
 
 namespace handhold::search_grip_test {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "components/finger_chain.hpp"
 #include "engine/geometry/chain_refit.hpp"
 #include "fitted_hand.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 namespace handhold::sweep_fingers_test {
 namespace {

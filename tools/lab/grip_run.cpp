@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "components/authored_grip.hpp"
-#include "components/finger_chain.hpp"
 #include "components/tracking.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/pose_thumb.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 
 namespace handhold::lab {

@@ -1,8 +1,8 @@
-#include "components/surface_tries.hpp"
+#include "systems/hand/shared/surface_tries.hpp"
 
 #include <algorithm>
 
-#include "components/finger_room.hpp"
+#include "systems/hand/shared/finger_room.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/surface_search.hpp"
+#include "systems/hand/shared/surface_search.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "components/palm_fit.hpp"
+#include "systems/hand/shared/palm_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "components/finger_chain.hpp"
-#include "components/finger_room.hpp"
 #include "engine/collision/closest_point.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
+#include "systems/hand/shared/finger_room.hpp"
 
 namespace handhold {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/finger_chain.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 #include <algorithm>
 

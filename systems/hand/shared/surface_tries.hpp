@@ -6,9 +6,9 @@
 #include <span>
 
 #include "components/hand.hpp"
-#include "components/palm_holder.hpp"
-#include "components/surface_search.hpp"
 #include "components/tuning.hpp"
+#include "systems/hand/shared/palm_holder.hpp"
+#include "systems/hand/shared/surface_search.hpp"
 
 namespace handhold {
 

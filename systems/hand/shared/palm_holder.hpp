@@ -7,9 +7,9 @@
 
 #include "components/hand.hpp"
 #include "components/hand_surroundings.hpp"
-#include "components/palm_fit.hpp"
-#include "components/surface_search.hpp"
 #include "components/tuning.hpp"
+#include "systems/hand/shared/palm_fit.hpp"
+#include "systems/hand/shared/surface_search.hpp"
 
 namespace handhold {
 

@@ -1,4 +1,4 @@
-#include "components/palm_holder.hpp"
+#include "systems/hand/shared/palm_holder.hpp"
 
 #include <algorithm>
 #include <cmath>

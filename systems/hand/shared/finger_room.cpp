@@ -1,11 +1,11 @@
-#include "components/finger_room.hpp"
+#include "systems/hand/shared/finger_room.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "components/finger_chain.hpp"
 #include "engine/geometry/hinge_chain.hpp"
+#include "systems/hand/shared/finger_chain.hpp"
 
 namespace handhold {
 namespace {
