@@ -1,12 +1,12 @@
 #pragma once
 
-#include "components/grab_instant.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
+#include "systems/locomotion/shared/grab_instant.hpp"
 
 namespace handhold {
 
-using SettleGrabsIo = GrabFrame;  // components/grab_instant.hpp
+using SettleGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
 // interpolated, so that a path does not depend on the frame rate:

@@ -1,5 +1,5 @@
 // The one way of levers and drawers. Expected values are closed forms.
-#include "components/joint_rail.hpp"
+#include "systems/locomotion/shared/joint_rail.hpp"
 
 #include <gtest/gtest.h>
 

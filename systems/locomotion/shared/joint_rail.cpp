@@ -1,4 +1,4 @@
-#include "components/joint_rail.hpp"
+#include "systems/locomotion/shared/joint_rail.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,11 +1,11 @@
-#include "components/grab_instant.hpp"
+#include "systems/locomotion/shared/grab_instant.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "components/hand_rows.hpp"
-#include "components/joint_rail.hpp"
 #include "engine/solver/two_hands.hpp"
+#include "systems/locomotion/shared/joint_rail.hpp"
 
 namespace handhold {
 namespace {
