@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-#include "components/tuning_json.hpp"
 #include "game/render/level_meshes.hpp"
 #include "game/render/mesh_edit.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/scene_shape.hpp"
+#include "systems/host/tuning_json.hpp"
 
 namespace handhold {
 namespace {

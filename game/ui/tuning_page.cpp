@@ -6,9 +6,9 @@
 
 #include <imgui.h>
 
-#include "components/tuning_json.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/ui/inspector.hpp"
+#include "systems/host/tuning_json.hpp"
 
 namespace handhold {
 namespace {

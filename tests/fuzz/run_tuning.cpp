@@ -1,4 +1,4 @@
-#include "components/tuning_json.hpp"
+#include "systems/host/tuning_json.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 #include "tests/fuzz/promise.hpp"
 

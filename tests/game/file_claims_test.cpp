@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "components/tuning_json.hpp"
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
 #include "game/session/session_run.hpp"
+#include "systems/host/tuning_json.hpp"
 #include "tests/engine/allocation_count.hpp"
 
 namespace handhold::file_claims_test {

@@ -14,9 +14,9 @@
 #include "components/fields.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
-#include "components/tuning_json.hpp"
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
+#include "systems/host/tuning_json.hpp"
 
 namespace handhold::components_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "components/tuning_json.hpp"
+#include "systems/host/tuning_json.hpp"
 
 #include <algorithm>
 #include <utility>
