@@ -6,6 +6,7 @@
 #include "components/arm.hpp"
 #include "components/authored_grip.hpp"
 #include "components/body.hpp"
+#include "components/body_clip_state.hpp"
 #include "components/calibration.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"
@@ -16,7 +17,6 @@
 #include "components/tracking.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/ecs/entity.hpp"
-#include "systems/rigs/body_clips.hpp"
 
 namespace handhold {
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "components/body_clip_state.hpp"
+
 namespace handhold {
 namespace {
 

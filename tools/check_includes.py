@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Iterator, NamedTuple
 
-# Folder of a file -> folders whose headers it may include. systems has a rule of its own on top.
+# Folder of a file -> folders whose headers it may include. Inside systems/, system_rule() narrows this further.
 ALLOWED_FOLDERS = {
     "engine": {"engine"},
     "components": {"components", "engine"},
@@ -19,9 +19,13 @@ ALLOWED_FOLDERS = {
 }
 # The product: where a library has one home and our headers are named from the root. Tests and tools may use any library as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
-# The order of the stages and the copies of all columns: these see every system and the whole World.
-FRONT_DOOR = re.compile(r"systems/(frame|snapshot)\w*\.[hc]pp")
-NAMES_WORLD = re.compile(r"(systems/(frame|snapshot)\w*\.[hc]pp|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
+# The order of the stages, copies of all columns and the public headers: these see every system and the whole World.
+FRONT_DOOR = re.compile(r"systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*")
+NAMES_WORLD = re.compile(r"(systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
+# What a host includes: systems/host/include is an include directory, so these headers are named `handhold/...`.
+PUBLIC_HEADERS = "systems/host/include/"
+# Words of the player's body that engine code must not use in identifiers.
+ENGINE_FOREIGN = re.compile(r"(?<![A-Za-z])(?:player|hand|hands|finger|fingers|palm|thumb)(?![a-z])|(?:Player|Hand|Finger|Palm|Thumb)(?![a-z])")
 
 
 class Library(NamedTuple):
@@ -82,6 +86,17 @@ def without_literals(text: str) -> str:
     return TOKEN.sub(lambda m: blank(m[0]), text)
 
 
+def may_include_system(file: str, path: str) -> bool:
+    """Whether `file` in systems/ may include the header `path` of systems/."""
+    if path == str(Path(file).with_suffix(".hpp")) or FRONT_DOOR.fullmatch(file):
+        return True
+    target_folder = str(Path(path).parent)
+    if target_folder == "systems/rigs":
+        return True
+    area = "/".join(file.split("/")[:2])
+    return not file.startswith("systems/rigs/") and target_folder == f"{area}/shared"
+
+
 def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     """The rules that one include of `path` in `file` breaks."""
     folder = file.split("/")[0]
@@ -99,9 +114,9 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
         yield f'<{path}>: our own headers go in ""'
     if target not in ALLOWED_FOLDERS[folder]:
         yield f'"{path}": {folder} does not include {target}'
-    is_own_header = path == str(Path(file).with_suffix(".hpp"))
-    if folder == target == "systems" and not is_own_header and not FRONT_DOOR.fullmatch(file):
-        yield f'"{path}": a system includes no other system; only systems/frame and systems/snapshot do'
+    if folder == target == "systems" and not may_include_system(file, path):
+        yield (f'"{path}": a system includes its own header, its area\'s shared/ and rigs/, and no other system;'
+               " only systems/frame, systems/snapshot and systems/host do")
 
 
 def code_rules(file: str, line: str) -> Iterator[str]:

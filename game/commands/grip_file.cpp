@@ -8,7 +8,9 @@
 #include "engine/io/gltf_nodes.hpp"
 #include "engine/io/gltf_skin_writer.hpp"
 #include "game/commands/hand_export.hpp"
+#include "systems/rigs/authored_hand.hpp"
 #include "systems/rigs/hand_joint_names.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

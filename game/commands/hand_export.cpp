@@ -11,6 +11,7 @@
 #include "game/render/robot_hand.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_joint_names.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 
 namespace handhold {

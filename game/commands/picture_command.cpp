@@ -14,6 +14,7 @@
 #include "game/scene/player_defaults.hpp"
 #include "game/view/scene_picture.hpp"
 #include "systems/frame.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

@@ -7,6 +7,7 @@
 #include "components/hand_rig.hpp"
 #include "engine/io/json.hpp"
 #include "systems/input/read_tracking.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

@@ -3,6 +3,7 @@
 #include "engine/core/check.hpp"
 #include "game/render/robot_hand.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

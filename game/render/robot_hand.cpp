@@ -2,6 +2,7 @@
 
 #include "game/render/mesh_edit.hpp"
 #include "game/render/primitives.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

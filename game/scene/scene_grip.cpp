@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
+
 namespace handhold {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "engine/geometry/disc_trace.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

@@ -2,6 +2,8 @@
 
 #include "game/view/scene_picture.hpp"
 #include "game/view/snap_hint.hpp"
+#include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/rigs/authored_hand.hpp"
+
 namespace handhold {
 namespace {
 

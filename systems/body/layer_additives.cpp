@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/body_clip_state.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
 

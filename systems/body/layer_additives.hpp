@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/arm.hpp"
+#include "components/body_clip_state.hpp"
 #include "components/body_tuning.hpp"
 #include "components/grab.hpp"
 #include "components/hand.hpp"

@@ -6,6 +6,7 @@
 
 #include "engine/geometry/chain_refit.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
 namespace {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "components/hand_rows.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
 namespace {

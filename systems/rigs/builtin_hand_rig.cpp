@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {

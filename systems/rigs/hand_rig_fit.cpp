@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_skeleton_fit.hpp"
 
 namespace handhold {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_skeleton_fit.hpp"
 
 namespace handhold {

@@ -9,6 +9,7 @@
 #include "game/commands/grip_file.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 #include "tests/fuzz/promise.hpp"
 

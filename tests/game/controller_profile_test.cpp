@@ -14,6 +14,7 @@
 #include "game/render/controller_figures.hpp"
 #include "systems/input/read_tracking.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "tests/game/climber_scene.hpp"
 #include "tests/places.hpp"
 

@@ -14,6 +14,7 @@
 #include "game/scene/scene.hpp"
 #include "game/scene/scene_file_writer.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::grip_file_test {
 namespace {

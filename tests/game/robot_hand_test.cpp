@@ -9,6 +9,7 @@
 #include "game/commands/hand_export.hpp"
 #include "game/render/hand_figures.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_rig_fit.hpp"
 
 namespace handhold::robot_hand_test {

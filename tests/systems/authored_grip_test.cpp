@@ -7,6 +7,8 @@
 
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
+#include "systems/rigs/authored_hand.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/systems/scenario.hpp"

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "systems/rigs/hand_kinematics.hpp"
+
 namespace handhold::builtin_hand_rig_test {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_joint_names.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "tests/places.hpp"
 #include "tests/systems/tube_hand.hpp"
 

@@ -9,6 +9,7 @@
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/shared/finger_room.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
+#include "systems/rigs/authored_hand.hpp"
 #include "tests/engine/surface_cuts.hpp"
 
 namespace handhold::search_grip_test {

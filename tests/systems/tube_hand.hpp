@@ -5,6 +5,7 @@
 
 #include "components/hand_rig.hpp"
 #include "engine/io/gltf_skin.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::test {
 

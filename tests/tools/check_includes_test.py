@@ -47,14 +47,34 @@ class CheckIncludes(unittest.TestCase):
                            "systems/frame.cpp:1 | systems does not include game")
         self.assert_breach("game/a.cpp", '#include "tests/a.hpp"\n', "game/a.cpp:1 | game does not include tests")
 
-    def test_system_may_not_include_another_system_but_frame_and_snapshot_may(self):
+    def test_system_may_not_include_another_system_but_frame_snapshot_and_host_may(self):
         include = '#include "systems/grip/search_grip.hpp"\n'
         self.assert_breach("systems/hand/constrain_palms.cpp", include,
-                           "systems/hand/constrain_palms.cpp:1 | a system includes no other system")
+                           "systems/hand/constrain_palms.cpp:1 | no other system")
         self.assert_breach("systems/grip/search_grip_helper.cpp", include,
-                           "systems/grip/search_grip_helper.cpp:1 | a system includes no other system")
+                           "systems/grip/search_grip_helper.cpp:1 | no other system")
         self.assert_clean("systems/frame.cpp", include)
         self.assert_clean("systems/snapshot.cpp", include)
+        self.assert_clean("systems/host/open_world.cpp", include)
+
+    def test_system_may_include_shared_files_of_its_own_area_only(self):
+        include = '#include "systems/hand/shared/palm_fit.hpp"\n'
+        self.assert_clean("systems/hand/constrain_palms.cpp", include)
+        self.assert_clean("systems/hand/shared/finger_chain.cpp", include)
+        self.assert_breach("systems/locomotion/update_grabs.cpp", include,
+                           "systems/locomotion/update_grabs.cpp:1 | no other system")
+        self.assert_breach("systems/hand/shared/palm_fit.cpp", '#include "systems/hand/search_grip.hpp"\n',
+                           "systems/hand/shared/palm_fit.cpp:1 | no other system")
+
+    def test_rigs_are_for_every_system_and_include_only_rigs(self):
+        include = '#include "systems/rigs/hand_kinematics.hpp"\n'
+        self.assert_clean("systems/hand/constrain_palms.cpp", include)
+        self.assert_clean("systems/locomotion/shared/grab_anchor.hpp", "#pragma once\n" + include)
+        self.assert_clean("systems/rigs/hand_rig_fit.cpp", include)
+        self.assert_breach("systems/rigs/hand_rig_fit.cpp", '#include "systems/hand/shared/palm_fit.hpp"\n',
+                           "systems/rigs/hand_rig_fit.cpp:1 | no other system")
+        self.assert_breach("components/hand.hpp", "#pragma once\n" + include,
+                           "components/hand.hpp:2 | components does not include systems")
 
     def test_only_the_front_door_names_world(self):
         self.assert_breach("systems/physics/a.cpp", "void f(const World& world);\n",

@@ -6,6 +6,7 @@
 
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold::lab {
 namespace {

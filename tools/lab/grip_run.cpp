@@ -12,6 +12,7 @@
 #include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
 #include "systems/hand/sweep_fingers.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold::lab {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/authored_grip.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
 namespace {

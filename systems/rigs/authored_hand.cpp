@@ -1,4 +1,4 @@
-#include "components/authored_grip.hpp"
+#include "systems/rigs/authored_hand.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "components/hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {
 
