@@ -18,7 +18,7 @@ namespace {
 constexpr const char* k_object_name = "object";
 constexpr const char* k_controller_name = "controller";
 constexpr std::string_view k_grip_prefix = "grip/";
-constexpr double k_farthest_m = 1e3;
+constexpr double k_max_coordinate_m = 1e3;
 // Extras of the wrist's node.
 constexpr const char* k_priority_key = "grip_priority";
 constexpr const char* k_radius_key = "grip_snap_radius_m";
@@ -219,7 +219,7 @@ Result<SceneGrip> parse_grip_glb(std::string_view bytes, const std::filesystem::
     hand.is_there = true;
     const Pose wrist_ms = nodes.pose_of(wrist);
     hand.wrist_bs = inverse(nodes.pose_of(object)) * wrist_ms;
-    if (!(hand.wrist_bs.position.cwiseAbs().maxCoeff() <= k_farthest_m)) {
+    if (!(hand.wrist_bs.position.cwiseAbs().maxCoeff() <= k_max_coordinate_m)) {
         nodes.refuse(wrist->pointer, "expected a wrist within 1000 m of the object");
     }
     read_numbers(nodes, wrist, grip, hand);

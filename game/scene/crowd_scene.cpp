@@ -24,9 +24,9 @@ struct Thing {
     Vec3 half_m;  // a box; a ball of x() where y() is zero
     Color color;
 };
-constexpr std::size_t k_kinds = 4;
+constexpr std::size_t k_body_kinds = 4;
 
-std::array<Thing, k_kinds> kinds() {
+std::array<Thing, k_body_kinds> kinds() {
     return {{{"crate", 8.0, Vec3(0.12, 0.09, 0.10), {0.55F, 0.40F, 0.16F}},
              {"ball", 1.5, Vec3(0.09, 0.0, 0.0), {0.70F, 0.12F, 0.08F}},
              {"bag", 20.0, Vec3(0.20, 0.13, 0.13), {0.62F, 0.60F, 0.55F}},
@@ -72,7 +72,7 @@ void fill_with_crowd(Scene& scene) {
         if (made == k_things || (center_ws - head_over(first_ws)).norm() < k_session_room_m) {
             continue;
         }
-        const Thing thing = kinds()[made % k_kinds];
+        const Thing thing = kinds()[made % k_body_kinds];
         add_thing(scene, thing, std::string(thing.name) + std::to_string(made),
                   {center_ws, place.rotation}, {drift, spin});
         ++made;
