@@ -6,10 +6,10 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/entity.hpp"
-#include "engine/solver/hidden_overlaps.hpp"
-#include "engine/solver/islands.hpp"
-#include "engine/solver/newton.hpp"
-#include "engine/solver/velocities.hpp"
+#include "engine/solver/contact/missed_overlaps.hpp"
+#include "engine/solver/model/islands.hpp"
+#include "engine/solver/newton/newton.hpp"
+#include "engine/solver/newton/velocities.hpp"
 
 namespace handhold {
 

@@ -121,7 +121,7 @@ struct SolverTuning {
     double forward_hand_softness = 1e-3;
     double contact_softness = 1e-7;
     double joint_softness = 1e-10;
-    // How far they do, and how fast (engine/solver/softness.hpp).
+    // How far they do, and how fast (engine/solver/newton/regularisation.hpp).
     double softest_hand = 1e-2;
     double hardest_hand = 1e-9;
     double softest_contact = 1e-3;

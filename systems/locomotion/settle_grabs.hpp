@@ -18,7 +18,7 @@ using SettleGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
 //    and the other's anchor is taken anew where that hand is: no throw, no jump. The same where a
 //    gripping hand's tracking comes back;
 //  - two hands on one free body lead it together as long as they are apart: the first's point, the
-//    line between them, the twist about it (engine/solver/two_hands.hpp);
+//    line between them, the twist about it (engine/solver/model/drive_pair.hpp);
 //  - a free body that one hand has by an authored grip comes into the hand: its anchor goes to
 //    where the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
 // Also sets what the hand's constraint aims at in this frame. Each step is taken for all hands

@@ -6,8 +6,8 @@
 
 #include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
-#include "engine/solver/contact_rows.hpp"
-#include "engine/solver/two_hands.hpp"
+#include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/model/drive_pair.hpp"
 
 namespace handhold {
 namespace {

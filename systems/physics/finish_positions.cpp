@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/solver/contact_rows.hpp"
-#include "engine/solver/moving_contacts.hpp"
+#include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/contact/moving_contacts.hpp"
 
 namespace handhold {
 namespace {

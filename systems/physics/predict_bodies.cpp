@@ -1,6 +1,6 @@
 #include "systems/physics/predict_bodies.hpp"
 
-#include "engine/solver/free_rotation.hpp"
+#include "engine/solver/model/free_rotation.hpp"
 
 namespace handhold {
 void predict_bodies(const PredictBodiesIo& io) {

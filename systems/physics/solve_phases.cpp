@@ -4,7 +4,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/core/profile.hpp"
-#include "engine/solver/moving_contacts.hpp"
+#include "engine/solver/contact/moving_contacts.hpp"
 
 namespace handhold {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "engine/core/parallel.hpp"
-#include "engine/solver/collider_pose.hpp"
-#include "engine/solver/velocities.hpp"
+#include "engine/solver/model/collider_pose.hpp"
+#include "engine/solver/newton/velocities.hpp"
 
 namespace handhold {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "engine/solver/islands.hpp"
-#include "engine/solver/newton.hpp"
-#include "engine/solver/velocities.hpp"
+#include "engine/solver/model/islands.hpp"
+#include "engine/solver/newton/newton.hpp"
+#include "engine/solver/newton/velocities.hpp"
 
 namespace handhold::solver_bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/solver/triad_system.hpp"
+#include "engine/solver/packed/triad_system.hpp"
 #include "solver_scene.hpp"
 
 // A long rope that is pulled at one end is busy there and at rest elsewhere.

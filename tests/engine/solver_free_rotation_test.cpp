@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/math/wide_rotation.hpp"
-#include "engine/solver/free_rotation.hpp"
+#include "engine/solver/model/free_rotation.hpp"
 #include "tests/random.hpp"
 
 namespace handhold::solver_free_rotation_test {

@@ -8,8 +8,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/core/check.hpp"
-#include "engine/solver/contact_rows.hpp"
-#include "engine/solver/islands.hpp"
+#include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/model/islands.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_islands_test {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/led_hands.hpp"
-#include "engine/solver/newton.hpp"
+#include "engine/solver/newton/load_stepped_drives.hpp"
+#include "engine/solver/newton/newton.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::led_hands_test {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "allocation_count.hpp"
-#include "engine/solver/plan_cache.hpp"
-#include "engine/solver/triad_plan.hpp"
+#include "engine/solver/packed/triad_plan.hpp"
+#include "engine/solver/sparse/plan_cache.hpp"
 
 namespace handhold::solver_plan_cache_test {
 namespace {

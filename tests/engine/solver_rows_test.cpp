@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/rows.hpp"
+#include "engine/solver/model/rows.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_rows_test {

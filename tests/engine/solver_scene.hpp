@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "collision_scene.hpp"
-#include "engine/solver/islands.hpp"
-#include "engine/solver/newton.hpp"
-#include "engine/solver/rows.hpp"
-#include "engine/solver/velocities.hpp"
+#include "engine/solver/model/islands.hpp"
+#include "engine/solver/model/rows.hpp"
+#include "engine/solver/newton/newton.hpp"
+#include "engine/solver/newton/velocities.hpp"
 
 // What the solver's tests share: bodies with the masses that they really have, rows, and a graph
 // that is solved island by island.

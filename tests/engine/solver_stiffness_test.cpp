@@ -6,8 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "engine/solver/geometric_stiffness.hpp"
-#include "engine/solver/triad_kernels.hpp"
+#include "engine/solver/newton/geometric_stiffness.hpp"
+#include "engine/solver/packed/triad_kernels.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_stiffness_test {

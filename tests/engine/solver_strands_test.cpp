@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/solver/strand_plan.hpp"
+#include "engine/solver/packed/strand_plan.hpp"
 #include "tests/random.hpp"
 
 namespace handhold::solver_strands_test {

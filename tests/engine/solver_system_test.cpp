@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/row_system.hpp"
+#include "engine/solver/newton/active_set.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_system_test {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/solver/triad_system.hpp"
+#include "engine/solver/packed/triad_system.hpp"
 #include "solver_scene.hpp"
 #include "triad_steps.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/two_hands.hpp"
+#include "engine/solver/model/drive_pair.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_two_hands_test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/newton.hpp"
+#include "engine/solver/newton/newton.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_velocity_test {

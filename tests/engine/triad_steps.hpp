@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/solver/triad_system.hpp"
+#include "engine/solver/packed/triad_system.hpp"
 
 namespace handhold::test {
 

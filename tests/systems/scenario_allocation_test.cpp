@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/collision/collision_world.hpp"
-#include "engine/solver/triad_kernels.hpp"
+#include "engine/solver/packed/triad_kernels.hpp"
 #include "tests/systems/scenario.hpp"
 
 #if defined(__has_feature)

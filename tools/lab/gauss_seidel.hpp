@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/solver/newton.hpp"
+#include "engine/solver/newton/newton.hpp"
 
 // The usual way to solve constraints, to measure the runtime's against: Gauss-Seidel on positions.
 // Both follow PositionSolver and run in the same phases on the same rows.

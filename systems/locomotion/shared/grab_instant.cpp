@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "components/hand_rows.hpp"
-#include "engine/solver/two_hands.hpp"
+#include "engine/solver/model/drive_pair.hpp"
 #include "systems/locomotion/shared/joint_rail.hpp"
 
 namespace handhold {

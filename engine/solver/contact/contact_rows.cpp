@@ -1,0 +1,40 @@
+#include "engine/solver/contact/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+
+namespace handhold {
+namespace {
+
+RowBlock contact_block(const ContactPoint& contact, const ConstraintGraph& graph) {
+    const std::size_t a = find_body(graph, contact.id_a);
+    const std::size_t b = find_body(graph, contact.id_b);
+    HH_CHECK(a < graph.bodies.size(), "no body has this id", contact.id_a);
+    HH_CHECK(b < graph.bodies.size(), "no body has this id", contact.id_b);
+    RowBlock block;
+    block.kind = RowKind::contact;
+    block.a = static_cast<std::uint32_t>(a);
+    block.b = static_cast<std::uint32_t>(b);
+    block.key = contact.feature;
+    block.point_a_bs = contact.point_a_bs + graph.bodies[a].collider_offset_bs;
+    block.point_b_bs = contact.point_b_bs + graph.bodies[b].collider_offset_bs;
+    block.normal_b_bs = contact.normal_b_bs;
+    block.friction = std::sqrt(graph.bodies[a].friction * graph.bodies[b].friction);
+    block.restitution = std::max(graph.bodies[a].restitution, graph.bodies[b].restitution);
+    return block;
+}
+
+}  // namespace
+
+void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGraph& graph) {
+    std::erase_if(graph.blocks, [](const RowBlock& block) { return is_contact(block); });
+    for (const ContactPoint& contact : contacts) {
+        graph.blocks.push_back(contact_block(contact, graph));
+    }
+    sort_blocks(graph);
+    build_islands(graph);
+}
+
+}  // namespace handhold

@@ -1,0 +1,123 @@
+#include "engine/solver/contact/moving_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "engine/solver/contact/contact_rows.hpp"
+#include "engine/solver/model/collider_pose.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
+constexpr double k_slid_m = 5e-3;   // a point whose bodies slid farther touches something else now
+constexpr double k_same_point_m = 1e-3;
+constexpr double k_same_normal = 0.99;
+
+// True where a collider went farther than contacts stay good for.
+bool went_far(const Pose& from, const Pose& to) {
+    const double square = (to.position - from.position).squaredNorm();
+    if (square > k_moved_m * k_moved_m) {
+        return true;
+    }
+    const double way = std::sqrt(square);
+    const double turn = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
+    return way + turn * 0.5 > k_moved_m;
+}
+
+// Moves the colliders after the solver's bodies; true where any went farther than contacts stay
+// good for. What has no collider touches nothing, wherever its proxy is.
+bool move_proxies(const MovingContacts& moving) {
+    bool moved = false;
+    for (std::size_t i = 0; i < moving.graph.bodies.size(); ++i) {
+        const SolverBody& body = moving.graph.bodies[i];
+        if (body.role == BodyRole::fixed || moving.proxies[i].shape == k_no_shape) {
+            continue;
+        }
+        ColliderProxy& proxy = moving.proxies[i];
+        const Pose now = collider_pose(body);
+        if (went_far(proxy.to_ws, now)) {
+            proxy.to_ws = now;
+            moved = true;
+        }
+    }
+    return moved;
+}
+
+auto order_of(const ContactPoint& contact) {
+    return std::tie(contact.id_a, contact.id_b, contact.feature);
+}
+bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
+    return std::tie(x.id_a, x.id_b) < std::tie(y.id_a, y.id_b);
+}
+
+bool slid_away(const ConstraintGraph& graph, const ContactPoint& contact) {
+    const auto pose_of = [&graph](std::uint64_t id) {
+        return collider_pose(graph.bodies[find_body(graph, id)]);
+    };
+    const Pose b = pose_of(contact.id_b);
+    const Vec3 apart = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
+                       transform_point(b, contact.point_b_bs);
+    const Vec3 normal = b.rotation * contact.normal_b_bs;
+    return (apart - normal * normal.dot(apart)).norm() > k_slid_m;
+}
+
+bool is_among(const ContactPoint& contact, std::span<const ContactPoint> points) {
+    return std::ranges::any_of(points, [&contact](const ContactPoint& point) {
+        return (point.point_a_bs - contact.point_a_bs).norm() < k_same_point_m &&
+               point.normal_b_bs.dot(contact.normal_b_bs) > k_same_normal;
+    });
+}
+
+// New contacts replace the old ones of their pairs or join them; old pairs that are no longer near
+// stay, they hold back what they held back. Both lists are sorted.
+void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
+    std::vector<ContactPoint>& merged = moving.scratch;
+    const std::size_t fresh_count = merged.size();
+    std::size_t first = 0;  // of the fresh ones of the old one's pair, up to end
+    std::size_t end = 0;
+    std::uint32_t feature = 0;  // the pair's last
+    for (std::size_t i = 0; i < moving.contacts.size(); ++i) {
+        ContactPoint old = moving.contacts[i];
+        if (i == 0 || is_pair_before(moving.contacts[i - 1], old)) {
+            first = end;
+            while (first < fresh_count && is_pair_before(merged[first], old)) {
+                ++first;
+            }
+            end = first;
+            while (end < fresh_count && !is_pair_before(old, merged[end])) {
+                feature = merged[end++].feature;
+            }
+        }
+        if (first == end) {
+            merged.push_back(old);
+        } else if (old_points == OldPoints::kept && !slid_away(moving.graph, old) &&
+                   !is_among(old, std::span(merged).subspan(first, end - first))) {
+            old.feature = ++feature;
+            merged.push_back(old);
+        }
+    }
+    std::ranges::sort(merged, {}, order_of);
+    std::swap(moving.contacts, merged);
+}
+
+}  // namespace
+
+FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
+                               OldPoints old_points) {
+    if (!move_proxies(moving)) {
+        return FoundContacts::as_before;
+    }
+    moving.collision.set_proxies(moving.proxies);
+    moving.collision.find_contacts(limits, moving.scratch);
+    const bool overlaps = std::ranges::any_of(moving.scratch, [](const ContactPoint& contact) {
+        return contact.separation_m < -k_new_overlap_m;
+    });
+    merge_contacts(moving, old_points);
+    replace_contact_rows(moving.contacts, moving.graph);
+    return overlaps ? FoundContacts::overlapping : FoundContacts::clear;
+}
+
+}  // namespace handhold

@@ -1,0 +1,188 @@
+#include "engine/solver/model/islands.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "engine/core/disjoint_sets.hpp"
+
+namespace handhold {
+namespace {
+
+constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+
+bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
+
+// The smaller index is the root, so that an island is found at its first body.
+void unite_blocks(ConstraintGraph& graph) {
+    graph.parent.resize(graph.bodies.size());
+    std::iota(graph.parent.begin(), graph.parent.end(), 0U);
+    graph.root_of_block.clear();
+    for (const RowBlock& block : graph.blocks) {
+        const bool moves_a = is_movable(graph.bodies[block.a]);
+        if (moves_a && is_movable(graph.bodies[block.b])) {
+            const std::uint32_t root_a = find_root(graph.parent, block.a);
+            const std::uint32_t root_b = find_root(graph.parent, block.b);
+            graph.parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+        }
+        graph.root_of_block.push_back(moves_a ? block.a : block.b);
+    }
+    // A root comes before all others of its set: from here on every body's parent is its root.
+    for (std::uint32_t& parent : graph.parent) {
+        parent = graph.parent[parent];
+    }
+    for (std::uint32_t& root : graph.root_of_block) {
+        root = graph.parent[root];
+    }
+}
+
+// Counting sort: counts into the `end`s, offsets, then places in ascending order.
+void place_members(ConstraintGraph& graph) {
+    std::uint32_t bodies = 0;
+    std::uint32_t blocks = 0;
+    for (Island& island : graph.islands) {
+        island.bodies_begin = bodies;
+        bodies += island.bodies_end;
+        island.bodies_end = island.bodies_begin;
+        island.blocks_begin = blocks;
+        blocks += island.blocks_end;
+        island.blocks_end = island.blocks_begin;
+    }
+    graph.island_bodies.resize(bodies);
+    graph.island_blocks.resize(blocks);
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
+        if (is_movable(graph.bodies[i]) && index != k_none) {
+            Island& island = graph.islands[index];
+            graph.island_bodies[island.bodies_end++] = i;
+        }
+    }
+    for (std::uint32_t i = 0; i < graph.blocks.size(); ++i) {
+        Island& island = graph.islands[graph.island_of_root[graph.root_of_block[i]]];
+        graph.island_blocks[island.blocks_end++] = i;
+    }
+}
+
+// True where bodies and blocks are tied as they were when the islands were built.
+bool is_tied_as_before(const ConstraintGraph& graph) {
+    const auto is_same_body = [](const SolverBody& body, std::uint8_t was_movable) {
+        return is_movable(body) == (was_movable != 0);
+    };
+    const auto is_same_block = [](const RowBlock& block, const std::array<std::uint32_t, 2>& tie) {
+        return block.a == tie[0] && block.b == tie[1];
+    };
+    return std::ranges::equal(graph.bodies, graph.are_movable, is_same_body) &&
+           std::ranges::equal(graph.blocks, graph.ties, is_same_block);
+}
+
+void note_ties(ConstraintGraph& graph) {
+    graph.are_movable.clear();
+    for (const SolverBody& body : graph.bodies) {
+        graph.are_movable.push_back(is_movable(body) ? 1 : 0);
+    }
+    graph.ties.clear();
+    for (const RowBlock& block : graph.blocks) {
+        graph.ties.push_back({block.a, block.b});
+    }
+}
+
+// Bodies are written anew in every frame.
+void number_slots(ConstraintGraph& graph) {
+    for (const Island& island : graph.islands) {
+        std::uint32_t slot = 0;
+        for (const std::uint32_t body : graph.bodies_of(island)) {
+            graph.bodies[body].slot = slot++;
+        }
+    }
+}
+
+}  // namespace
+
+std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id) {
+    const auto found = std::lower_bound(
+        graph.bodies.begin(), graph.bodies.end(), id,
+        [](const SolverBody& body, std::uint64_t wanted) { return body.id < wanted; });
+    return found != graph.bodies.end() && found->id == id
+               ? static_cast<std::size_t>(found - graph.bodies.begin())
+               : graph.bodies.size();
+}
+
+// Blocks are large: their places are sorted, and each is copied once, or not at all.
+void sort_blocks(ConstraintGraph& graph) {
+    using Place = ConstraintGraph::BlockPlace;
+    const auto is_before = [](const Place& x, const Place& y) {
+        return std::tie(x.a, x.b, x.kind, x.key, x.index) <
+               std::tie(y.a, y.b, y.kind, y.key, y.index);
+    };
+    std::vector<RowBlock>& blocks = graph.blocks;
+    if (std::ranges::is_sorted(blocks, [](const RowBlock& x, const RowBlock& y) {
+            return std::tie(x.a, x.b, x.kind, x.key) < std::tie(y.a, y.b, y.kind, y.key);
+        })) {
+        return;
+    }
+    graph.places.clear();
+    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+        graph.places.push_back({blocks[i].key, blocks[i].a, blocks[i].b, i, blocks[i].kind});
+    }
+    std::ranges::sort(graph.places, is_before);
+    graph.sorted_blocks.clear();
+    for (const Place& place : graph.places) {
+        graph.sorted_blocks.push_back(blocks[place.index]);
+    }
+    std::swap(blocks, graph.sorted_blocks);
+}
+
+void build_islands(ConstraintGraph& graph) {
+    ++graph.revision;
+    if (is_tied_as_before(graph)) {
+        number_slots(graph);
+        return;
+    }
+    note_ties(graph);
+    unite_blocks(graph);
+    graph.islands.clear();
+    graph.island_of_root.assign(graph.bodies.size(), k_none);
+    for (const std::uint32_t root : graph.root_of_block) {
+        graph.island_of_root[root] = 0;  // has an island; numbered below
+    }
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        if (graph.parent[i] == i && graph.island_of_root[i] != k_none) {
+            graph.island_of_root[i] = static_cast<std::uint32_t>(graph.islands.size());
+            graph.islands.push_back({});
+        }
+    }
+    for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
+        const std::uint32_t index = graph.island_of_root[graph.parent[i]];
+        if (is_movable(graph.bodies[i]) && index != k_none) {
+            ++graph.islands[index].bodies_end;
+        }
+    }
+    for (const std::uint32_t root : graph.root_of_block) {
+        ++graph.islands[graph.island_of_root[root]].blocks_end;
+    }
+    place_members(graph);
+    number_slots(graph);
+}
+
+void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {
+    std::ranges::sort(islands, [&graph](std::uint32_t x, std::uint32_t y) {
+        const std::size_t blocks_x = graph.blocks_of(graph.islands[x]).size();
+        const std::size_t blocks_y = graph.blocks_of(graph.islands[y]).size();
+        return blocks_x != blocks_y ? blocks_x > blocks_y : x < y;
+    });
+}
+
+IslandErrors island_errors(const ConstraintGraph& graph, const Island& island) {
+    IslandErrors errors;
+    for (const std::uint32_t i : graph.blocks_of(island)) {
+        const RowBlock& block = graph.blocks[i];
+        double& worst = is_hand(block)      ? errors.hands_m
+                        : is_contact(block) ? errors.contacts_m
+                                            : errors.joints_m;
+        worst = std::max(worst, block_error_m(graph.bodies, block));
+    }
+    return errors;
+}
+
+}  // namespace handhold

@@ -1,0 +1,370 @@
+#include "engine/solver/model/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace handhold {
+namespace {
+
+// The two bodies' ends of a block, in the world's axes.
+struct Ends {
+    Vec3 arm_a;  // from each body's centre to its point
+    Vec3 arm_b;
+    Vec3 error;  // from b's point to a's
+
+    Ends(std::span<const SolverBody> bodies, const RowBlock& block) {
+        const Pose& a = bodies[block.a].pose_ws;
+        const Pose& b = bodies[block.b].pose_ws;
+        arm_a = a.rotation * block.point_a_bs;
+        arm_b = b.rotation * block.point_b_bs;
+        error = (a.position - b.position) + (arm_a - arm_b);
+    }
+};
+
+// Rotations of the two frames of a block in the world.
+Quat frame_a(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return bodies[block.a].pose_ws.rotation * block.rotation_a_bs;
+}
+Quat frame_b(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return bodies[block.b].pose_ws.rotation * block.rotation_b_bs;
+}
+
+// The frames' local x, a joint's axis, in the world.
+Vec3 axis_a(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return frame_a(bodies, block) * Vec3::UnitX();
+}
+Vec3 axis_b(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return frame_b(bodies, block) * Vec3::UnitX();
+}
+
+Vec3 rotation_error(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return rotation_error(bodies[block.a].pose_ws.rotation, bodies[block.b].pose_ws.rotation,
+                          block);
+}
+
+double angle_between(const Vec3& x, const Vec3& y) {
+    return arc_tangent2(x.cross(y).norm(), x.dot(y));
+}
+
+Row empty_row(const RowBlock& block, std::uint32_t block_index, RowGroup group) {
+    Row row;
+    row.block = block_index;
+    row.a = block.a;
+    row.b = block.b;
+    row.group = group;
+    return row;
+}
+
+// Point on point, one row a world axis.
+void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 unit = Vec3::Unit(axis);
+        row.linear_a = unit;
+        row.angular_a = ends.arm_a.cross(unit);
+        row.angular_b = -ends.arm_b.cross(unit);
+        row.value_m = ends.error[axis];
+        row.width = axis == 0 ? 3 : 0;
+        rows.push_back(row);
+    }
+}
+
+// Rotation on rotation.
+void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
+    row.linear_a.setZero();
+    for (int axis = 0; axis < 3; ++axis) {
+        row.angular_a = k_angle_m * Vec3::Unit(axis);
+        row.angular_b = -row.angular_a;
+        row.value_m = k_angle_m * error_rad[axis];
+        row.width = axis == 0 ? 3 : 0;
+        rows.push_back(row);
+    }
+}
+
+// b's axis along a's: how far it leans towards a's two other axes. The sine is stretched to the
+// angle, so that half a turn is the worst error, not none.
+void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
+                      std::vector<Row>& rows) {
+    const Vec3 axis_a_ws = frame_a_ws * Vec3::UnitX();
+    const double sine = axis_a_ws.cross(axis_b_ws).norm();
+    const double angle = arc_tangent2(sine, axis_a_ws.dot(axis_b_ws));
+    const double stretch = sine > 1e-9 ? angle / sine : 1.0;
+    const bool is_opposed = sine <= 1e-9 && angle > 1.0;  // any way back is as short
+    row.linear_a.setZero();
+    for (int axis = 1; axis < 3; ++axis) {
+        const Vec3 side = frame_a_ws * Vec3::Unit(axis);
+        row.angular_a = (k_angle_m * stretch) * side.cross(axis_b_ws);
+        row.angular_b = -row.angular_a;
+        row.value_m = k_angle_m * stretch * side.dot(axis_b_ws);
+        if (is_opposed) {
+            row.value_m = axis == 1 ? k_angle_m * angle : 0.0;
+        }
+        row.width = axis == 1 ? 2 : 0;
+        rows.push_back(row);
+    }
+}
+
+// b's point on a's axis. The axis turns with a: a's arm reaches to b's point.
+void append_line_rows(const Quat& frame_a_ws, const Ends& ends, Row row, std::vector<Row>& rows) {
+    for (int axis = 1; axis < 3; ++axis) {
+        row.linear_a = frame_a_ws * Vec3::Unit(axis);
+        row.angular_a = (ends.arm_a - ends.error).cross(row.linear_a);
+        row.angular_b = -ends.arm_b.cross(row.linear_a);
+        row.value_m = row.linear_a.dot(ends.error);
+        row.width = axis == 1 ? 2 : 0;
+        rows.push_back(row);
+    }
+}
+
+void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& block, const Ends& ends,
+                        Row row, std::vector<Row>& rows) {
+    const Vec3 normal = bodies[block.b].pose_ws.rotation * block.normal_b_bs;
+    row.unilateral = true;
+    row.linear_a = normal;
+    row.angular_a = ends.arm_a.cross(normal);
+    // The normal turns with b: b's arm reaches to a's point, not to its own.
+    row.angular_b = -(ends.arm_b + ends.error).cross(normal);
+    row.value_m = normal.dot(ends.error);
+    rows.push_back(row);
+}
+
+// The rate of the joint's coordinate as a row, per unit of the coordinate.
+void set_rate(std::span<const SolverBody> bodies, const RowBlock& block, Row& row) {
+    switch (block.kind) {
+        case RowKind::hinge:
+            row.angular_b = axis_a(bodies, block);
+            break;
+        case RowKind::ball:
+            row.angular_b = axis_a(bodies, block).cross(axis_b(bodies, block)).normalized();
+            break;
+        case RowKind::slider: {
+            const Ends ends(bodies, block);
+            row.linear_a = -axis_a(bodies, block);
+            row.angular_a = (ends.arm_a - ends.error).cross(row.linear_a);
+            row.angular_b = -ends.arm_b.cross(row.linear_a);
+            return;
+        }
+        case RowKind::distance: {
+            const Ends ends(bodies, block);
+            row.linear_a = ends.error.normalized();
+            row.angular_a = ends.arm_a.cross(row.linear_a);
+            row.angular_b = -ends.arm_b.cross(row.linear_a);
+            return;
+        }
+        default:
+            return;
+    }
+    row.angular_a = -row.angular_b;
+}
+
+void scale(Row& row, double factor) {
+    row.linear_a *= factor;
+    row.angular_a *= factor;
+    row.angular_b *= factor;
+}
+
+void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block,
+                       std::uint32_t block_index, double reach_m, std::vector<Row>& rows) {
+    const JointRows& joint = block.joint;
+    if (!joint.limited) {
+        return;
+    }
+    const double lever = turns(block.kind) ? k_angle_m : 1.0;
+    const double coordinate = joint_coordinate(bodies, block);
+    // A cone's angle and a distance are never below 0: there no row may stop what swings through.
+    const bool has_lower =
+        joint.lower > 0.0 || block.kind == RowKind::hinge || block.kind == RowKind::slider;
+    const double above =
+        has_lower ? lever * (coordinate - joint.lower) : std::numeric_limits<double>::infinity();
+    const double below = lever * (joint.upper - coordinate);
+    const bool locked = joint.lower == joint.upper;
+    if (!locked && above >= reach_m && below >= reach_m) {
+        return;
+    }
+    Row row = empty_row(block, block_index, RowGroup::limit);
+    set_rate(bodies, block, row);
+    scale(row, lever);
+    row.unilateral = !locked;
+    row.value_m = above;
+    if (locked || above < reach_m) {
+        rows.push_back(row);
+    }
+    if (!locked && below < reach_m) {
+        scale(row, -1.0);
+        row.value_m = below;
+        rows.push_back(row);
+    }
+}
+
+// How far the coordinate is outside of its limits, in its own unit.
+double limit_excess(std::span<const SolverBody> bodies, const RowBlock& block) {
+    if (!block.joint.limited || block.kind == RowKind::fixed) {
+        return 0.0;
+    }
+    const double coordinate = joint_coordinate(bodies, block);
+    return std::max({0.0, block.joint.lower - coordinate, coordinate - block.joint.upper});
+}
+
+}  // namespace
+
+bool turns(RowKind kind) { return kind == RowKind::hinge || kind == RowKind::ball; }
+
+void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
+                 std::uint32_t block_index, std::vector<Row>& rows, double reach_m) {
+    const Ends ends(bodies, block);
+    const Row hand = empty_row(block, block_index, RowGroup::hand);
+    const Row joint = empty_row(block, block_index, RowGroup::joint);
+    switch (block.kind) {
+        case RowKind::hand_point:
+            append_point_rows(ends, hand, rows);
+            return;
+        case RowKind::hand_weld:
+            append_point_rows(ends, hand, rows);
+            append_weld_rows(rotation_error(bodies, block), hand, rows);
+            return;
+        case RowKind::hand_direction:
+            append_weld_rows(rotation_error(bodies, block), hand, rows);
+            return;
+        case RowKind::contact:
+            append_contact_row(bodies, block, ends,
+                               empty_row(block, block_index, RowGroup::contact), rows);
+            return;
+        case RowKind::ball:
+            append_point_rows(ends, joint, rows);
+            break;
+        case RowKind::hinge:
+            append_point_rows(ends, joint, rows);
+            append_axis_rows(frame_a(bodies, block), axis_b(bodies, block), joint, rows);
+            break;
+        case RowKind::slider:
+            append_line_rows(frame_a(bodies, block), ends, joint, rows);
+            append_weld_rows(rotation_error(bodies, block), joint, rows);
+            break;
+        case RowKind::fixed:
+            append_point_rows(ends, joint, rows);
+            append_weld_rows(rotation_error(bodies, block), joint, rows);
+            return;
+        case RowKind::distance:
+            break;
+    }
+    append_limit_rows(bodies, block, block_index, reach_m, rows);
+}
+
+std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlock& block,
+                                std::uint32_t block_index, std::vector<Row>& rows) {
+    const std::size_t before = rows.size();
+    if (is_contact(block)) {
+        const Ends ends(bodies, block);
+        const Vec3 normal = bodies[block.b].pose_ws.rotation * block.normal_b_bs;
+        const Quat around = rotation_between(Vec3::UnitX(), normal);
+        Row row = empty_row(block, block_index, RowGroup::contact);
+        for (int axis = 1; axis < 3; ++axis) {
+            row.linear_a = around * Vec3::Unit(axis);
+            row.angular_a = ends.arm_a.cross(row.linear_a);
+            row.angular_b = -(ends.arm_b + ends.error).cross(row.linear_a);
+            row.width = axis == 1 ? 2 : 0;
+            rows.push_back(row);
+        }
+    } else if (block.kind == RowKind::ball) {
+        Row row = empty_row(block, block_index, RowGroup::joint);
+        for (int axis = 0; axis < 3; ++axis) {
+            row.angular_b = Vec3::Unit(axis);
+            row.angular_a = -row.angular_b;
+            row.width = axis == 0 ? 3 : 0;
+            rows.push_back(row);
+        }
+    } else if (block.kind == RowKind::hinge || block.kind == RowKind::slider) {
+        Row row = empty_row(block, block_index, RowGroup::joint);
+        set_rate(bodies, block, row);
+        rows.push_back(row);
+    }
+    return rows.size() - before;
+}
+
+Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return Ends(bodies, block).error;
+}
+
+Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block) {
+    return rotation_to_vector((rotation_a_ws * block.rotation_a_bs) *
+                              (rotation_b_ws * block.rotation_b_bs).conjugate());
+}
+
+double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block) {
+    return (bodies[block.b].pose_ws.rotation * block.normal_b_bs).dot(Ends(bodies, block).error);
+}
+
+JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block) {
+    const Vec3 apart = Ends(bodies, block).error;
+    JointError error;
+    switch (block.kind) {
+        case RowKind::hand_weld:
+        case RowKind::fixed:
+            error = {apart.norm(), rotation_error(bodies, block).norm()};
+            break;
+        case RowKind::hinge:
+            error = {apart.norm(), angle_between(axis_a(bodies, block), axis_b(bodies, block))};
+            break;
+        case RowKind::slider: {
+            const Vec3 axis = axis_a(bodies, block);
+            error = {Vec3(apart - axis * axis.dot(apart)).norm(),
+                     rotation_error(bodies, block).norm()};
+            break;
+        }
+        case RowKind::hand_direction:
+            error.angle_rad = rotation_error(bodies, block).norm();
+            break;
+        case RowKind::hand_point:
+        case RowKind::ball:
+            error.point_m = apart.norm();
+            break;
+        case RowKind::distance:
+        case RowKind::contact:
+            break;
+    }
+    double& limited = turns(block.kind) ? error.angle_rad : error.point_m;
+    limited = std::max(limited, limit_excess(bodies, block));
+    return error;
+}
+
+double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block) {
+    if (is_contact(block)) {
+        return std::max(0.0, -contact_separation_m(bodies, block));
+    }
+    const JointError error = joint_error(bodies, block);
+    return std::max(error.point_m, k_angle_m * error.angle_rad);
+}
+
+double joint_coordinate(std::span<const SolverBody> bodies, const RowBlock& block) {
+    switch (block.kind) {
+        case RowKind::hinge: {
+            const Quat turn = frame_a(bodies, block).conjugate() * frame_b(bodies, block);
+            const double angle = 2.0 * arc_tangent2(turn.x(), turn.w());
+            return angle + 2.0 * k_pi * std::round((block.joint.previous - angle) / (2.0 * k_pi));
+        }
+        case RowKind::ball:
+            return angle_between(axis_a(bodies, block), axis_b(bodies, block));
+        case RowKind::slider:
+            return -(axis_a(bodies, block)).dot(Ends(bodies, block).error);
+        case RowKind::distance:
+            return Ends(bodies, block).error.norm();
+        default:
+            return 0.0;
+    }
+}
+
+double joint_speed(std::span<const SolverBody> bodies, const RowBlock& block) {
+    Row row;
+    set_rate(bodies, block, row);
+    const SolverBody& a = bodies[block.a];
+    const SolverBody& b = bodies[block.b];
+    return row.linear_a.dot(a.velocity_mps - b.velocity_mps) + row.angular_a.dot(a.spin_radps) +
+           row.angular_b.dot(b.spin_radps);
+}
+
+Mat3 inverse_inertia_ws(const SolverBody& body) {
+    const Mat3 axes = body.pose_ws.rotation.toRotationMatrix();
+    return axes * body.inverse_inertia_bs.asDiagonal() * axes.transpose();
+}
+
+}  // namespace handhold

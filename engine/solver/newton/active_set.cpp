@@ -1,0 +1,234 @@
+// Sources: active set: block principal pivoting of Judice and Pires (1994); where changing all
+// wrong rows at once goes round in a circle, the descent of Lawson and Hanson, Solving Least
+// Squares Problems (1974), which cannot.
+#include "engine/solver/newton/active_set.hpp"
+
+#include <algorithm>
+
+namespace handhold {
+namespace {
+
+constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
+constexpr int k_block_changes = 4;  // of all wrong rows at once that may fail to make them fewer
+constexpr int k_descents = 60;      // factorisations after that
+constexpr double k_overlap_m = 1e-10;
+constexpr double k_noise_m = 1e-8;
+
+}  // namespace
+
+void RowSystem::assemble(std::span<const SolverBody> bodies,
+                         std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows) {
+    matrix_.assemble(bodies, inverse_inertia_ws, rows);
+    lambda_.assign(rows.size(), 0.0);
+    values_.resize(rows.size());
+    chosen_.resize(rows.size());
+    take_over_active_set(rows);
+    held_.assign(rows.size(), 0);
+    held_lambda_.assign(rows.size(), 0.0);
+}
+
+// Both lists are in the order of their blocks.
+void RowSystem::take_over_active_set(std::span<const Row> rows) {
+    std::swap(keys_, previous_keys_);
+    std::swap(active_, previous_active_);
+    keys_.clear();
+    active_.clear();
+    std::size_t before = 0;
+    for (const Row& row : rows) {
+        const std::uint64_t block = std::uint64_t{row.block} << 32U;
+        const bool is_first = keys_.empty() || keys_.back() < block;
+        keys_.push_back(is_first ? block : keys_.back() + 1);
+        while (before < previous_keys_.size() && previous_keys_[before] < keys_.back()) {
+            ++before;
+        }
+        const bool is_known =
+            before < previous_keys_.size() && previous_keys_[before] == keys_.back();
+        // What acted in the rows before acts at first.
+        active_.push_back(!row.unilateral ? 1 : is_known ? previous_active_[before] : k_undecided);
+    }
+}
+
+void RowSystem::hold(std::size_t row, double lambda) {
+    held_[row] = 1;
+    held_lambda_[row] = lambda;
+}
+
+void RowSystem::release(std::size_t row) {
+    held_[row] = 0;
+    held_lambda_[row] = 0.0;
+}
+
+double RowSystem::remainder(std::size_t row, double value) const {
+    return value + matrix_.row_motion(row);
+}
+
+// A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
+// it.
+bool RowSystem::is_wrong(const Row& row, std::size_t index) const {
+    if (!row.unilateral || held_[index] != 0) {
+        return false;
+    }
+    if (active_[index] != 0) {
+        return lambda_[index] < 0.0;
+    }
+    return remainder(index, row.value_m) < -k_overlap_m;
+}
+
+void RowSystem::solve_active() {
+    for (std::size_t i = 0; i < size(); ++i) {
+        chosen_[i] = is_active(i) ? 1 : 0;
+    }
+    matrix_.factorise(chosen_);
+    matrix_.solve(values_, lambda_);
+    for (std::size_t i = 0; i < size(); ++i) {
+        lambda_[i] = held_[i] != 0 ? held_lambda_[i] : lambda_[i];
+    }
+    matrix_.gather_moves(lambda_);
+}
+
+std::span<const double> RowSystem::solve(std::span<const Row> rows) {
+    // What the held rows do to the others.
+    const bool holds = std::ranges::any_of(held_, [](std::uint8_t held) { return held != 0; });
+    if (holds) {
+        matrix_.gather_moves(held_lambda_);
+    }
+    for (std::size_t i = 0; i < size(); ++i) {
+        values_[i] = rows[i].value_m + (holds ? matrix_.row_motion(i) : 0.0);
+        if (active_[i] == k_undecided) {
+            active_[i] = values_[i] < 0.0 ? 1 : 0;
+        }
+    }
+    is_unsettled_ = !change_all_wrong(rows) && !descend(rows);
+    return lambda_;
+}
+
+// True where it ends with every acting row pushing and no other overlapping. It need not.
+bool RowSystem::change_all_wrong(std::span<const Row> rows) {
+    std::size_t fewest = size() + 1;
+    for (int blocks_left = k_block_changes; blocks_left > 0;) {
+        solve_active();
+        wrong_rows_.clear();
+        for (std::uint32_t i = 0; i < size(); ++i) {
+            if (is_wrong(rows[i], i)) {
+                wrong_rows_.push_back(i);
+            }
+        }
+        if (wrong_rows_.empty()) {
+            return true;
+        }
+        if (wrong_rows_.size() < fewest) {
+            fewest = wrong_rows_.size();
+            blocks_left = k_block_changes;
+        } else {
+            --blocks_left;
+        }
+        for (const std::uint32_t i : wrong_rows_) {
+            active_[i] ^= 1U;
+        }
+    }
+    return false;
+}
+
+// From what pushes now, always down: half lambda A lambda + value lambda shrinks with every step,
+// so that no set comes twice, and where the steps run out nothing pulls. Rows that overlap join all
+// at once, or only the worst where that led nowhere. True where the minimum was found, but for
+// noise: a worst overlap that is left out again as soon as it joins.
+bool RowSystem::descend(std::span<const Row> rows) {
+    point_.assign(lambda_.begin(), lambda_.end());
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (rows[i].unilateral && held_[i] == 0) {
+            point_[i] = active_[i] != 0 ? std::max(0.0, point_[i]) : 0.0;
+            active_[i] = point_[i] > 0.0 ? 1 : 0;
+        }
+    }
+    bool moves = true;
+    bool one_joined = false;
+    for (int step = 0; step < k_descents; ++step) {
+        solve_active();
+        const Approach approach = approach_solution(rows);
+        moves = moves || approach.moves;
+        if (!approach.arrives) {
+            continue;
+        }
+        if (one_joined && !moves) {
+            return worst_remainder(rows) > -k_noise_m;
+        }
+        one_joined = !moves;
+        if (!join_overlapping(rows, one_joined)) {
+            return true;
+        }
+        moves = false;
+    }
+    lambda_.assign(point_.begin(), point_.end());
+    matrix_.gather_moves(lambda_);
+    return false;
+}
+
+// Takes the point towards lambda until a row begins to pull, which is left out.
+RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
+    constexpr double k_whole_way = 2.0;  // what pulls ever so little stops it at 1 or before
+    const auto way_of = [&](std::size_t i) {
+        const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
+        return pulls ? point_[i] / (point_[i] - lambda_[i]) : k_whole_way;
+    };
+    double way = k_whole_way;
+    for (std::size_t i = 0; i < size(); ++i) {
+        way = std::min(way, way_of(i));
+    }
+    Approach approach{way == k_whole_way};
+    for (std::size_t i = 0; i < size(); ++i) {
+        const double before = point_[i];
+        if (approach.arrives) {
+            point_[i] = lambda_[i];
+        } else if (way_of(i) <= way) {
+            point_[i] = 0.0;
+            active_[i] = 0;
+        } else {
+            point_[i] += way * (lambda_[i] - point_[i]);
+        }
+        approach.moves = approach.moves || point_[i] != before;
+    }
+    return approach;
+}
+
+// The deepest overlap of those that do not act, negative; 0 where none overlaps.
+double RowSystem::worst_remainder(std::span<const Row> rows) const {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (rows[i].unilateral && held_[i] == 0 && active_[i] == 0) {
+            worst = std::min(worst, remainder(i, rows[i].value_m));
+        }
+    }
+    return worst;
+}
+
+// True where any row overlaps that does not act.
+bool RowSystem::join_overlapping(std::span<const Row> rows, bool only_worst) {
+    wrong_rows_.clear();
+    double worst = 0.0;
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        if (active_[i] != 0 || !is_wrong(rows[i], i)) {
+            continue;
+        }
+        const double rest = remainder(i, rows[i].value_m);
+        if (only_worst && rest < worst) {
+            wrong_rows_.clear();
+        }
+        if (!only_worst || rest < worst) {
+            wrong_rows_.push_back(i);
+            worst = std::min(worst, rest);
+        }
+    }
+    for (const std::uint32_t i : wrong_rows_) {
+        active_[i] = 1;
+    }
+    return !wrong_rows_.empty();
+}
+
+std::span<const double> RowSystem::solve_again(std::span<const double> values) {
+    matrix_.solve(values, lambda_);
+    matrix_.gather_moves(lambda_);
+    return lambda_;
+}
+
+}  // namespace handhold

@@ -1,0 +1,35 @@
+#include "engine/solver/newton/geometric_stiffness.hpp"
+
+namespace handhold {
+
+// In closed form: the eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r. Along one line, as
+// in a rope pulled straight, every direction square to it is one.
+Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
+    const double product = force.norm() * arm.norm();
+    if (product < 1e-12) {
+        return Mat3::Zero();
+    }
+    const double along = sign * force.dot(arm);
+    const Vec3 normal = force.cross(arm);
+    const double normal_square = normal.squaredNorm();
+    if (along > 0.0 && normal_square <= 1e-12 * product * product) {
+        const Vec3 line = force.normalized();
+        return product * (Mat3::Identity() - line * line.transpose());
+    }
+    const Vec3 axis = force.normalized() - sign * arm.normalized();
+    Mat3 sum = (0.5 * (product + along) / axis.squaredNorm()) * (axis * axis.transpose());
+    if (along > 0.0) {
+        sum += (along / normal_square) * (normal * normal.transpose());
+    }
+    return sum;
+}
+
+Mat3 stiffened(const Mat3& inverse_inertia, const Mat3& stiffness) {
+    if (stiffness.isZero(0.0)) {
+        return inverse_inertia;
+    }
+    const Mat3 sum = inverse_inertia.inverse() + stiffness;
+    return sum.inverse();
+}
+
+}  // namespace handhold

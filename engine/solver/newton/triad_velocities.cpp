@@ -1,0 +1,34 @@
+#include "engine/solver/newton/triad_velocities.hpp"
+
+#include <limits>
+
+namespace handhold {
+
+// The same refinements as for any rows: with the factor at hand, until the rows are met or cannot
+// be.
+void solve_triad_velocities(const IslandView& island, const VelocitySettings& settings,
+                            TriadSystem& triads) {
+    for (const std::uint32_t index : island.island_blocks) {
+        RowBlock& block = island.blocks[index];
+        block.impulse_ws_ns.setZero();
+        block.couple_ws_nms.setZero();
+        block.joint.lock_impulse = 0.0;
+    }
+    triads.evaluate_moved(island);
+    triads.factorise(settings.softness, 1.0);
+    triads.evaluate_velocities(island);
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= settings.refinements; ++i) {
+        triads.solve();
+        triads.apply_impulses();
+        triads.evaluate_velocities(island);
+        const double worst = triads.worst_value();
+        if (worst < settings.tolerance_mps || worst > 0.5 * previous) {
+            break;
+        }
+        previous = worst;
+    }
+    triads.store_velocities(island);
+}
+
+}  // namespace handhold

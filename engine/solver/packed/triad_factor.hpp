@@ -1,0 +1,217 @@
+#pragma once
+
+// Sources: LDL^T by blocks as in Golub and Van Loan, Matrix Computations, 4.2.
+#include <cmath>
+
+#include "engine/solver/packed/triad_kernels.hpp"
+
+// The triad kernels' sparse factor, block by block. Included by triad_kernels.cpp alone: all is
+// inlined into functions for one kind of processor.
+namespace handhold::triads {
+
+// --- Inverses ----------------------------------------------------------------------------------
+
+// By cofactors: the three divisions of pivots wait for each other, this is one. What is left of two
+// triads that repeat each other is as small as alpha, 1e-10 of their diagonal, and is a difference
+// of products with the inverse: where cofactors would lose too many digits of it, blocks have an
+// LDL^T instead. It stands in the inverse's place: the inverse pivots in row 0, l10, l20 and l21 in
+// row 1, and in row 0's fourth place, where an inverse has 0, a 1.
+
+// Of the first diagonal's product; determinants of less are those of blocks with pivots.
+inline constexpr double k_well_conditioned = 0.1;
+
+HH_INLINE bool has_pivots(const Rows3& inverse) { return inverse.row[0][3] != 0.0; }
+
+// What has no pivot left, for it repeats other rows or nothing moves it, gets no share.
+inline double inverse_pivot(double pivot, double least) {
+    return std::abs(pivot) > least ? 1.0 / pivot : 0.0;
+}
+
+// Only what lies on and below the block's diagonal counts.
+inline void decompose(const Rows3& block, const Four& diagonal, Rows3& out) {
+    const Four least = k_smallest_pivot * diagonal;
+    const double d10 = block.row[1][0];
+    const double d20 = block.row[2][0];
+    const double p0 = inverse_pivot(block.row[0][0], least[0]);
+    const double l10 = d10 * p0;
+    const double l20 = d20 * p0;
+    const double p1 = inverse_pivot(block.row[1][1] - l10 * d10, least[1]);
+    const double rest = block.row[2][1] - l20 * d10;
+    const double l21 = rest * p1;
+    const double p2 = inverse_pivot((block.row[2][2] - l20 * d20) - l21 * rest, least[2]);
+    out.row[0] = Four{p0, p1, p2, 1.0};
+    out.row[1] = Four{l10, l20, l21, 0.0};
+    out.row[2] = zero_four();
+}
+
+// The block's inverse times m, by its pivots.
+inline void divide(const Rows3& pivots, const Rows3& m, Rows3& out) {
+    const Four& p = pivots.row[0];
+    const double l10 = pivots.row[1][0];
+    const double l20 = pivots.row[1][1];
+    const double l21 = pivots.row[1][2];
+    const Four y1 = m.row[1] - m.row[0] * l10;
+    const Four y2 = (m.row[2] - m.row[0] * l20) - y1 * l21;
+    const Four x2 = y2 * p[2];
+    const Four x1 = y1 * p[1] - x2 * l21;
+    out.row[0] = (m.row[0] * p[0] - x2 * l20) - x1 * l10;
+    out.row[1] = x1;
+    out.row[2] = x2;
+}
+inline void divide(const Rows3& pivots, const Four& v, Four& out) {
+    const Four& p = pivots.row[0];
+    const double l10 = pivots.row[1][0];
+    const double l20 = pivots.row[1][1];
+    const double l21 = pivots.row[1][2];
+    const double y1 = v[1] - v[0] * l10;
+    const double y2 = (v[2] - v[0] * l20) - y1 * l21;
+    const double x2 = y2 * p[2];
+    const double x1 = y1 * p[1] - x2 * l21;
+    const double x0 = (v[0] * p[0] - x2 * l20) - x1 * l10;
+    out = Four{x0, x1, x2, 0.0};
+}
+
+HH_INLINE void invert(const Rows3& block, const Four& diagonal, Rows3& out) {
+    const Four x = cross(block.row[1], block.row[2]);
+    const double determinant = dot3(block.row[0], x);
+    if (!(determinant > k_well_conditioned * ((diagonal[0] * diagonal[1]) * diagonal[2]))) {
+        decompose(block, diagonal, out);
+        return;
+    }
+    const double factor = 1.0 / determinant;
+    out.row[0] = factor * x;
+    out.row[1] = factor * cross(block.row[2], block.row[0]);
+    out.row[2] = factor * cross(block.row[0], block.row[1]);
+}
+HH_INLINE void apply_inverse(const Rows3& inverse, const Rows3& m, Rows3& out) {
+    if (has_pivots(inverse)) {
+        divide(inverse, m, out);
+        return;
+    }
+    out.row[0] = combine(m, inverse.row[0]);
+    out.row[1] = combine(m, inverse.row[1]);
+    out.row[2] = combine(m, inverse.row[2]);
+}
+HH_INLINE Four apply_inverse(const Rows3& inverse, const Four& v) {
+    if (has_pivots(inverse)) {
+        Four out;
+        divide(inverse, v, out);
+        return out;
+    }
+    return combine(inverse, v);
+}
+
+// --- The factor --------------------------------------------------------------------------------
+
+HH_INLINE Four diagonal_of(const Rows3& block) {
+    const Four xy = __builtin_shufflevector(block.row[0], block.row[1], 0, 5, 2, 3);
+    return __builtin_shufflevector(xy, block.row[2], 0, 1, 6, 3);
+}
+
+HH_INLINE void add_to_diagonal(const Four& diagonal, Rows3& block) {
+    const Four zero = zero_four();
+    block.row[0] += __builtin_shufflevector(diagonal, zero, 0, 5, 6, 7);
+    block.row[1] += __builtin_shufflevector(diagonal, zero, 4, 1, 6, 7);
+    block.row[2] += __builtin_shufflevector(diagonal, zero, 4, 5, 2, 7);
+}
+
+// out -= carried^T tied.
+HH_INLINE void subtract_product(const Rows3& carried, const Rows3& tied, Rows3& out) {
+    for (int i = 0; i < 3; ++i) {
+        out.row[i] -= (tied.row[0] * carried.row[0][i] + tied.row[1] * carried.row[1][i]) +
+                      tied.row[2] * carried.row[2][i];
+    }
+}
+
+HH_INLINE void eliminate(const TriadPlan::Step& step, const Rows3& inverse,
+                         const TriadArrays& arrays) {
+    const std::uint32_t count = step.later_end - step.later_begin;
+    const std::uint32_t* target = arrays.plan->updates().data() + step.updates;
+    Rows3* const tied = arrays.blocks.data() + step.own + 1;
+    for (std::uint32_t x = 0; x < count; ++x) {
+        Rows3 carried;
+        apply_inverse(inverse, tied[x], carried);
+        for (std::uint32_t y = x; y < count; ++y) {
+            subtract_product(carried, tied[y], arrays.blocks[*target++]);
+        }
+        tied[x].row[0] = carried.row[0];
+        tied[x].row[1] = carried.row[1];
+        tied[x].row[2] = carried.row[2];
+    }
+}
+
+struct Alpha {
+    Four of_hands;
+    double of_joints;  // a share of the diagonal
+};
+
+HH_INLINE void invert_step(std::size_t place, const Alpha& alpha, const TriadArrays& arrays) {
+    const TriadPlan::Step& step = arrays.plan->steps()[place];
+    const Four diagonal = arrays.unknowns[place].v;
+    Four added = alpha.of_joints * diagonal;
+    if (arrays.hands[step.node] != 0) {
+        added = diagonal > 0.0 ? alpha.of_hands : zero_four();
+    }
+    const Rows3& own = arrays.blocks[step.own];
+    Rows3 block;
+    block.row[0] = own.row[0];
+    block.row[1] = own.row[1];
+    block.row[2] = own.row[2];
+    add_to_diagonal(added, block);
+    invert(block, diagonal, arrays.inverses[place]);
+}
+
+// Blocks are compared with the diagonal before others take their share of it.
+HH_INLINE void note_diagonals(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        arrays.unknowns[i].v = diagonal_of(arrays.blocks[steps[i].own]);
+    }
+}
+
+HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
+    const Alpha alpha{zero_four() + hand_alpha, joint_alpha};
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        // An inverse takes long and waits for nothing but its own block: the next one's goes on
+        // while this step eliminates, where it does not wait for this one.
+        if (i == 0 || !steps[i].is_independent) {
+            invert_step(i, alpha, arrays);
+        }
+        if (i + 1 < steps.size() && steps[i + 1].is_independent) {
+            invert_step(i + 1, alpha, arrays);
+        }
+        eliminate(steps[i], arrays.inverses[i], arrays);
+    }
+}
+
+HH_INLINE void negate_values(const TriadArrays& arrays) {
+    for (std::size_t i = 0; i < arrays.values.size(); ++i) {
+        arrays.lambdas[i].v = -arrays.values[i].v;
+    }
+}
+
+HH_INLINE void substitute(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
+    // Blocks and later nodes lie in the order of the steps: each step's own block, then its others.
+    const Rows3* block = arrays.blocks.data();
+    const std::uint32_t* later = arrays.plan->later().data();
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Four own = arrays.lambdas[steps[i].node].v;
+        ++block;
+        for (std::uint32_t left = steps[i].later_end - steps[i].later_begin; left > 0; --left) {
+            arrays.lambdas[*later++].v -= combine(*block++, own);
+        }
+        arrays.unknowns[i].v = apply_inverse(arrays.inverses[i], own);
+    }
+    for (std::size_t i = steps.size(); i-- > 0;) {
+        Four own = arrays.unknowns[i].v;
+        for (std::uint32_t left = steps[i].later_end - steps[i].later_begin; left > 0; --left) {
+            own -= multiply(*--block, arrays.lambdas[*--later].v);
+        }
+        --block;
+        arrays.lambdas[steps[i].node].v = own;
+    }
+}
+
+}  // namespace handhold::triads

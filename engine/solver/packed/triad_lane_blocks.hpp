@@ -1,0 +1,114 @@
+#pragma once
+
+#include "engine/solver/packed/triad_bodies.hpp"
+#include "engine/solver/packed/triad_factor.hpp"
+
+// Blocks of three by three, one in each of a register's lanes: inverses and products of the
+// strands' factor. Included by triad_kernels.cpp alone.
+namespace handhold::triads {
+
+// --- Inverses: as triad_factor.hpp's, in each lane ---------------------------------------------
+
+HH_INLINE bool all_of(const FourBits& bits) {
+    return ((bits[0] & bits[1]) & (bits[2] & bits[3])) != 0;
+}
+
+HH_INLINE Four inverse_pivot(const Four& pivot, const Four& least) {
+    const FourBits counts = (pivot > least) | (pivot < -least);
+    return counts ? 1.0 / pivot : zero_four();
+}
+
+// The inverse pivots on the diagonal, l10, l20 and l21 beside it.
+HH_INLINE void decompose(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
+    const Wide3 least = (zero_four() + k_smallest_pivot) * diagonal;
+    out.xx = inverse_pivot(m.xx, least.x);
+    out.xy = m.xy * out.xx;
+    out.xz = m.xz * out.xx;
+    out.yy = inverse_pivot(m.yy - out.xy * m.xy, least.y);
+    const Four rest = m.yz - out.xz * m.xy;
+    out.yz = rest * out.yy;
+    out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, least.z);
+}
+
+// True where it has pivots in the inverse's place: in all lanes, if one of them needs them.
+HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
+    const Four xx = m.yy * m.zz - m.yz * m.yz;
+    const Four xy = m.xz * m.yz - m.xy * m.zz;
+    const Four xz = m.xy * m.yz - m.xz * m.yy;
+    const Four determinant = (m.xx * xx + m.xy * xy) + m.xz * xz;
+    const Four least = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
+    if (!all_of(determinant > least)) {
+        decompose(m, diagonal, out);
+        return true;
+    }
+    const Four factor = 1.0 / determinant;
+    out.xx = factor * xx;
+    out.xy = factor * xy;
+    out.xz = factor * xz;
+    out.yy = factor * (m.xx * m.zz - m.xz * m.xz);
+    out.yz = factor * (m.xy * m.xz - m.xx * m.yz);
+    out.zz = factor * (m.xx * m.yy - m.xy * m.xy);
+    return false;
+}
+
+HH_INLINE Wide3 divide(const WideSymmetric& pivots, const Wide3& v) {
+    const Four y1 = v.y - v.x * pivots.xy;
+    const Four y2 = (v.z - v.x * pivots.xz) - y1 * pivots.yz;
+    const Four x2 = y2 * pivots.zz;
+    const Four x1 = y1 * pivots.yy - x2 * pivots.yz;
+    return {(v.x * pivots.xx - x2 * pivots.xz) - x1 * pivots.xy, x1, x2};
+}
+HH_INLINE Wide3 apply_inverse(const FourLinks& links, const Wide3& v) {
+    return links.has_pivots ? divide(links.inverse, v) : multiply(links.inverse, v);
+}
+
+HH_INLINE void apply_inverse(const FourLinks& links, const WideSquare& m, WideSquare& out) {
+    const WideSymmetric& w = links.inverse;
+    if (links.has_pivots) {
+        const Wide3 y1 = m.y - w.xy * m.x;
+        const Wide3 y2 = (m.z - w.xz * m.x) - w.yz * y1;
+        const Wide3 x2 = w.zz * y2;
+        const Wide3 x1 = w.yy * y1 - w.yz * x2;
+        assign((w.xx * m.x - w.xz * x2) - w.xy * x1, out.x);
+        assign(x1, out.y);
+        assign(x2, out.z);
+        return;
+    }
+    assign((w.xx * m.x + w.xy * m.y) + w.xz * m.z, out.x);
+    assign((w.xy * m.x + w.yy * m.y) + w.yz * m.z, out.y);
+    assign((w.xz * m.x + w.yz * m.y) + w.zz * m.z, out.z);
+}
+
+// --- Products ----------------------------------------------------------------------------------
+
+HH_INLINE WideSymmetric operator-(const WideSymmetric& a, const WideSymmetric& b) {
+    return {a.xx - b.xx, a.yy - b.yy, a.zz - b.zz, a.xy - b.xy, a.xz - b.xz, a.yz - b.yz};
+}
+HH_INLINE WideSymmetric operator+(const WideSymmetric& a, const WideSymmetric& b) {
+    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+}
+HH_INLINE Wide3 combine(const WideSquare& m, const Wide3& v) {
+    return (v.x * m.x + v.y * m.y) + v.z * m.z;
+}
+HH_INLINE Wide3 multiply(const WideSquare& m, const Wide3& v) {
+    return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+HH_INLINE WideSquare transposed(const WideSquare& m) {
+    return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
+}
+// a^T b
+HH_INLINE WideSquare product(const WideSquare& a, const WideSquare& b) {
+    return {(a.x.x * b.x + a.y.x * b.y) + a.z.x * b.z, (a.x.y * b.x + a.y.y * b.y) + a.z.y * b.z,
+            (a.x.z * b.x + a.y.z * b.y) + a.z.z * b.z};
+}
+// The same where it is symmetric.
+HH_INLINE WideSymmetric symmetric_product(const WideSquare& a, const WideSquare& b) {
+    return {(a.x.x * b.x.x + a.y.x * b.y.x) + a.z.x * b.z.x,
+            (a.x.y * b.x.y + a.y.y * b.y.y) + a.z.y * b.z.y,
+            (a.x.z * b.x.z + a.y.z * b.y.z) + a.z.z * b.z.z,
+            (a.x.x * b.x.y + a.y.x * b.y.y) + a.z.x * b.z.y,
+            (a.x.x * b.x.z + a.y.x * b.y.z) + a.z.x * b.z.z,
+            (a.x.y * b.x.z + a.y.y * b.y.z) + a.z.y * b.z.z};
+}
+
+}  // namespace handhold::triads

@@ -1,0 +1,399 @@
+#pragma once
+
+// Sources: block LDL^T as in triad_factor.hpp; nested dissection after George (1973).
+#include "engine/solver/packed/triad_bodies.hpp"
+#include "engine/solver/packed/triad_lane_blocks.hpp"
+
+// The triad kernels for strands: four of them side by side in a register's lanes, so that nothing
+// moves between lanes but at their ends. Included by triad_kernels.cpp alone: all is inlined into
+// functions for one kind of processor.
+namespace handhold::triads {
+
+// A braid's part of the arrays.
+struct BraidArrays {
+    FourBodies* bodies;  // by row
+    FourEnds* ends;      // 2 * row: those of the node before, then those of the node after
+    FourLinks* links;    // by step
+    Wide3* multipliers;  // of `before`, of each step, of `after`
+};
+HH_INLINE BraidArrays part_of(const TriadPlan::Braid& braid, const TriadArrays& arrays) {
+    return {arrays.bodies.data() + braid.row, arrays.body_ends.data() + std::size_t{2} * braid.row,
+            arrays.links.data() + braid.step, arrays.multipliers.data() + braid.bound};
+}
+
+// The steps whose links meet a row of a window, and the rows themselves.
+struct BraidPart {
+    std::size_t begin, end;            // rows
+    std::size_t first_step, end_step;  // step k lies between the rows k and k + 1
+    bool has_before, has_after;        // whether the braid's first and last row are among them
+};
+HH_INLINE BraidPart part_in(const RowWindow& window, const TriadPlan::Braid& braid) {
+    const bool has_before = window.begin == 0;
+    const bool has_after = window.end > braid.length;
+    return {window.begin,
+            window.end,
+            has_before ? std::size_t{0} : window.begin - std::size_t{1},
+            has_after ? std::size_t{braid.length} : std::size_t{window.end},
+            has_before,
+            has_after};
+}
+
+// --- Values ------------------------------------------------------------------------------------
+
+HH_INLINE void evaluate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
+                              const TriadArrays& arrays) {
+    const BraidArrays of = part_of(braid, arrays);
+    if (part.has_before) {
+        write_axes(of.bodies[0]);
+        write_ends(part_of(of.bodies[0], of.ends[0]), braid.before, arrays);
+    }
+    Wide3 first = part_of(of.bodies[part.first_step], of.ends[2 * part.first_step + 1]);
+    for (std::size_t step = part.first_step; step < part.end_step; ++step) {
+        const std::size_t row = step + 1;
+        if (row < part.end) {
+            write_axes(of.bodies[row]);
+        }
+        assign(first + part_of(of.bodies[row], of.ends[2 * row]), of.links[step].value);
+        first = part_of(of.bodies[row], of.ends[2 * row + 1]);
+    }
+    if (part.has_after) {
+        write_ends(first, braid.after, arrays);
+    }
+}
+HH_INLINE void evaluate_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        evaluate_braid(braids[i], part_in(arrays.windows[i], braids[i]), arrays);
+    }
+}
+
+template <bool HasTurn>
+HH_INLINE void evaluate_strand_velocities(const TriadArrays& arrays) {
+    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
+        const BraidArrays of = part_of(braid, arrays);
+        write_ends(speed_of<HasTurn>(of.bodies[0], of.ends[0]), braid.before, arrays);
+        Wide3 first = speed_of<HasTurn>(of.bodies[0], of.ends[1]);
+        for (std::size_t row = 1; row <= braid.length; ++row) {
+            assign(first + speed_of<HasTurn>(of.bodies[row], of.ends[2 * row]),
+                   of.links[row - 1].value);
+            first = speed_of<HasTurn>(of.bodies[row], of.ends[2 * row + 1]);
+        }
+        write_ends(first, braid.after, arrays);
+    }
+}
+HH_INLINE void evaluate_strand_velocities(const TriadArrays& arrays) {
+    arrays.has_turn ? evaluate_strand_velocities<true>(arrays)
+                    : evaluate_strand_velocities<false>(arrays);
+}
+
+HH_INLINE double worst_strand_square(const TriadArrays& arrays) {
+    Four worst = zero_four();
+    for (const FourLinks& links : arrays.links) {
+        worst = larger(worst, dot(links.value, links.value));
+    }
+    return largest(worst);
+}
+
+HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
+    const Four zero = zero_four();
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const TriadPlan::Braid& braid = braids[i];
+        const BraidArrays of = part_of(braid, arrays);
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
+            WideSymmetric sum{zero, zero, zero, zero, zero, zero};
+            add_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
+            add_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
+            assign(sum, arrays.stiffness[braid.row + row]);
+        }
+    }
+}
+
+// --- J W J^T and the factor --------------------------------------------------------------------
+
+// What a row's bodies add to the blocks of their two nodes.
+struct WideCoupling {
+    WideSymmetric before, after;
+    WideSquare between;  // rows of the node before
+};
+HH_INLINE WideCoupling no_coupling() {
+    const Four zero = zero_four();
+    return {{zero, zero, zero, zero, zero, zero},
+            {zero, zero, zero, zero, zero, zero},
+            {zero_three(), zero_three(), zero_three()}};
+}
+template <bool HasTurn>
+HH_INLINE WideSymmetric own_product(const Wide3* side, const FourEnds& end, const Four& mass) {
+    const Wide3 x = times_end<HasTurn>(side[0], end);
+    const Wide3 y = times_end<HasTurn>(side[1], end);
+    const Wide3 z = times_end<HasTurn>(side[2], end);
+    const Four own = mass * end.sign;
+    return {x.x + own, y.y + own, z.z + own, x.y, x.z, y.z};
+}
+template <bool HasTurn>
+HH_INLINE WideCoupling couple(const FourBodies& bodies, const FourEnds& before,
+                              const FourEnds& after) {
+    Wide3 side[3];
+    write_side<HasTurn>(bodies.inverse_inertia, before, side);
+    const Four mass = bodies.inverse_mass * before.sign;
+    const Four shared = mass * after.sign;
+    Wide3 x = times_end<HasTurn>(side[0], after);
+    Wide3 y = times_end<HasTurn>(side[1], after);
+    Wide3 z = times_end<HasTurn>(side[2], after);
+    x.x += shared;
+    y.y += shared;
+    z.z += shared;
+    const WideSymmetric of_before = own_product<HasTurn>(side, before, mass);
+    write_side<HasTurn>(bodies.inverse_inertia, after, side);
+    return {
+        of_before, own_product<HasTurn>(side, after, bodies.inverse_mass * after.sign), {x, y, z}};
+}
+
+HH_INLINE void add_row(const Wide3& row, const TriadPlan::Lanes& blocks, int place,
+                       const TriadArrays& arrays) {
+    const Wide4 rows = to_rows(row);
+    arrays.blocks[blocks[0]].row[place] += rows.x;
+    arrays.blocks[blocks[1]].row[place] += rows.y;
+    arrays.blocks[blocks[2]].row[place] += rows.z;
+    arrays.blocks[blocks[3]].row[place] += rows.w;
+}
+HH_INLINE void add(const WideSymmetric& m, const TriadPlan::Lanes& blocks,
+                   const TriadArrays& arrays) {
+    add_row({m.xx, m.xy, m.xz}, blocks, 0, arrays);
+    add_row({m.xy, m.yy, m.yz}, blocks, 1, arrays);
+    add_row({m.xz, m.yz, m.zz}, blocks, 2, arrays);
+}
+
+// Where the elimination of a braid stands.
+struct BraidElimination {
+    WideCoupling row;   // of the bodies behind the last link
+    WideSquare before;  // of the link at hand with `before`
+    WideSymmetric taken, taken_before;
+    Wide3 diagonal;  // of the last link, before anything was taken off
+    Four inverse_sum;
+};
+
+// `of_first` is what the link's first bodies add to its block; the row is that of its second ones.
+template <bool Carries>
+HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, FourLinks& links,
+                              BraidElimination& at) {
+    const WideSymmetric own = of_first + at.row.before;
+    const Wide3 diagonal{own.xx, own.yy, own.zz};
+    at.inverse_sum += 9.0 / ((own.xx + own.yy) + own.zz);
+    WideSymmetric rest = own - at.taken;
+    rest.xx += joint_alpha * diagonal.x;
+    rest.yy += joint_alpha * diagonal.y;
+    rest.zz += joint_alpha * diagonal.z;
+    links.has_pivots = invert(rest, diagonal, links.inverse);
+    apply_inverse(links, at.row.between, links.next);
+    at.taken = symmetric_product(at.row.between, links.next);
+    if (Carries) {
+        apply_inverse(links, at.before, links.before);
+        at.taken_before = at.taken_before + symmetric_product(at.before, links.before);
+        const WideSquare carried = product(at.row.between, links.before);
+        at.before = {zero_three() - carried.x, zero_three() - carried.y, zero_three() - carried.z};
+    }
+    assign(diagonal, at.diagonal);
+}
+
+// True where what ties the link at hand to `before` is nothing in all lanes, next to its own block:
+// it fades by a constant factor a link.
+HH_INLINE bool has_faded(const BraidElimination& at) {
+    constexpr double k_nothing = 1e-30;
+    const Four square = (dot(at.before.x, at.before.x) + dot(at.before.y, at.before.y)) +
+                        dot(at.before.z, at.before.z);
+    return all_of(square <= (k_nothing * k_nothing) * dot(at.diagonal, at.diagonal));
+}
+
+// Each link goes as soon as both its bodies have been: in the shadow of its inverse, which takes
+// long, lies the next row's product. Returns the first step that is not tied to `before`.
+template <bool HasTurn>
+HH_INLINE std::size_t eliminate_links(const BraidPart& part, const BraidArrays& of,
+                                      double joint_alpha, BraidElimination& at) {
+    constexpr std::size_t k_look = 8;  // how often it is asked whether anything is left
+    const std::size_t end = part.has_after ? part.end_step : part.end_step - 1;
+    std::size_t k = part.first_step;
+    bool carries = part.has_before;
+    for (; carries && k < end; ++k) {
+        const WideSymmetric of_first = at.row.after;
+        at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
+        eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
+        carries = k % k_look != 0 || !has_faded(at);
+    }
+    const std::size_t faded = k;
+    if (!carries) {
+        at.before = {zero_three(), zero_three(), zero_three()};
+    }
+    for (; k < end; ++k) {
+        const WideSymmetric of_first = at.row.after;
+        at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
+        eliminate_link<false>(of_first, joint_alpha, of.links[k], at);
+    }
+    if (k < part.end_step) {  // between the last bodies and some that are held
+        const WideSymmetric of_first = at.row.after;
+        at.row = no_coupling();
+        eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
+    }
+    return carries ? part.end_step : faded;
+}
+
+template <bool HasTurn>
+HH_INLINE void eliminate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
+                               double joint_alpha, const TriadArrays& arrays, FourStrands& left) {
+    const BraidArrays of = part_of(braid, arrays);
+    const Four zero = zero_four();
+    // Of all first: what one row's takes its time for, others do not wait for.
+    for (std::size_t row = part.begin; row < part.end; ++row) {
+        write_inertia(braid.row + row, arrays);
+    }
+    BraidElimination at;
+    at.row = no_coupling();
+    if (part.has_before) {
+        at.row = couple<HasTurn>(of.bodies[0], of.ends[0], of.ends[1]);
+        add(at.row.before, braid.block_before, arrays);
+    }
+    at.before = transposed(at.row.between);
+    at.taken = {zero, zero, zero, zero, zero, zero};
+    at.taken_before = at.taken;
+    at.inverse_sum = zero;
+    left.faded_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
+    add(at.row.after, braid.block_after, arrays);
+    assign(at.taken_before, left.before);
+    assign(at.taken, left.after);
+    assign(at.before.x, left.between.x);
+    assign(at.before.y, left.between.y);
+    assign(at.before.z, left.between.z);
+    left.inverse_sum = at.inverse_sum;
+}
+
+HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidPart part = part_in(arrays.windows[i], braids[i]);
+        if (arrays.has_turn) {
+            eliminate_braid<true>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
+        } else {
+            eliminate_braid<false>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
+        }
+    }
+}
+
+// A block's rows are those of the node that goes first.
+HH_INLINE void add_between(const WideSquare& between, const TriadPlan::Braid& braid,
+                           const TriadArrays& arrays) {
+    const WideSquare turned = transposed(between);
+    const Wide3* const rows[3] = {&between.x, &between.y, &between.z};
+    const Wide3* const turned_rows[3] = {&turned.x, &turned.y, &turned.z};
+    for (int i = 0; i < 3; ++i) {
+        const Wide4 of_after = to_rows(*rows[i]);
+        const Wide4 of_before = to_rows(*turned_rows[i]);
+        const Four* const lanes[2][4] = {{&of_after.x, &of_after.y, &of_after.z, &of_after.w},
+                                         {&of_before.x, &of_before.y, &of_before.z, &of_before.w}};
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            arrays.blocks[braid.block_between[lane]].row[i] +=
+                *lanes[braid.before_first[lane] ? 1 : 0][lane];
+        }
+    }
+}
+
+// From the rest's blocks.
+HH_INLINE void take_off_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    const Four zero = zero_four();
+    const WideSymmetric none{zero, zero, zero, zero, zero, zero};
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const FourStrands& left = arrays.strands[i];
+        add(none - left.before, braids[i].block_before, arrays);
+        add(none - left.after, braids[i].block_after, arrays);
+        add_between(left.between, braids[i], arrays);
+    }
+}
+
+// --- Substitution ------------------------------------------------------------------------------
+
+HH_INLINE void take_off_lambdas(const Wide3& v, const TriadPlan::Lanes& ends,
+                                const TriadArrays& arrays) {
+    const Wide4 rows = to_rows(v);
+    arrays.lambdas[ends[0] / 2].v -= rows.x;
+    arrays.lambdas[ends[1] / 2].v -= rows.y;
+    arrays.lambdas[ends[2] / 2].v -= rows.z;
+    arrays.lambdas[ends[3] / 2].v -= rows.w;
+}
+
+HH_INLINE Wide3 substitute_into(FourLinks& links, const Wide3& of_next) {
+    const Wide3 own = (zero_three() - links.value) - of_next;
+    assign(apply_inverse(links, own), links.unknown);
+    return own;
+}
+HH_INLINE void substitute_into_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidPart part = part_in(arrays.windows[i], braids[i]);
+        FourLinks* const links = arrays.links.data() + braids[i].step;
+        Wide3 of_next = zero_three();
+        Wide3 of_before = zero_three();
+        std::size_t k = part.first_step;
+        for (; k < arrays.strands[i].faded_step; ++k) {
+            const Wide3 own = substitute_into(links[k], of_next);
+            of_next = combine(links[k].next, own);
+            of_before = of_before + combine(links[k].before, own);
+        }
+        for (; k < part.end_step; ++k) {
+            of_next = combine(links[k].next, substitute_into(links[k], of_next));
+        }
+        take_off_lambdas(of_before, braids[i].before, arrays);
+        take_off_lambdas(of_next, braids[i].after, arrays);
+    }
+}
+
+HH_INLINE void substitute_back_into_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const TriadPlan::Braid& braid = braids[i];
+        const BraidPart part = part_in(arrays.windows[i], braid);
+        const BraidArrays of = part_of(braid, arrays);
+        const Wide3 before = lambdas_of(braid.before, arrays);
+        Wide3 own = lambdas_of(braid.after, arrays);
+        assign(before, of.multipliers[0]);
+        assign(own, of.multipliers[braid.length + 1]);
+        const std::size_t faded = arrays.strands[i].faded_step;
+        std::size_t k = part.end_step;
+        for (; k > faded; --k) {
+            const FourLinks& links = of.links[k - 1];
+            own = links.unknown - multiply(links.next, own);
+            assign(own, of.multipliers[k]);
+        }
+        for (; k > part.first_step; --k) {
+            const FourLinks& links = of.links[k - 1];
+            own = (links.unknown - multiply(links.before, before)) - multiply(links.next, own);
+            assign(own, of.multipliers[k]);
+        }
+    }
+}
+
+HH_INLINE TriadReach gather_strand_moves(const TriadArrays& arrays) {
+    WideReach reach;
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidArrays of = part_of(braids[i], arrays);
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
+            WideWrench wrench{zero_three(), zero_three()};
+            add_end(of.ends[2 * row], of.multipliers[row], arrays.has_turn, wrench);
+            add_end(of.ends[2 * row + 1], of.multipliers[row + 1], arrays.has_turn, wrench);
+            take_moves(wrench, of.bodies[row], reach);
+        }
+    }
+    return {largest(reach.move), largest(reach.turn)};
+}
+
+HH_INLINE void apply_strands(const TriadArrays& arrays, double scale) {
+    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
+    for (std::size_t i = 0; i < braids.size(); ++i) {
+        const BraidArrays of = part_of(braids[i], arrays);
+        for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
+            move_by(scale, of.bodies[row]);
+        }
+    }
+}
+
+}  // namespace handhold::triads
