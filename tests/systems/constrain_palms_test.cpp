@@ -4,7 +4,7 @@
 
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
-#include "tests/engine/collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 namespace handhold::constrain_palms_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fitted_hand.hpp"
-#include "tests/engine/data_meshes.hpp"
+#include "tests/engine/geometry/data_meshes.hpp"
 
 namespace handhold::hand_real_data_test {
 namespace {

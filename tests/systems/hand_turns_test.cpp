@@ -4,7 +4,7 @@
 
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "tests/engine/surface_cuts.hpp"
+#include "tests/engine/geometry/surface_cuts.hpp"
 
 namespace handhold::hand_turns_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario.hpp"
-#include "tests/engine/collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 namespace handhold::scenario_clutter_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "systems/hand/shared/finger_room.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 #include "systems/rigs/authored_hand.hpp"
-#include "tests/engine/surface_cuts.hpp"
+#include "tests/engine/geometry/surface_cuts.hpp"
 
 namespace handhold::search_grip_test {
 namespace {

@@ -1,10 +1,10 @@
+#include "engine/io/text_file.hpp"
+
 #include <filesystem>
 #include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
-
-#include "engine/io/text_file.hpp"
 
 namespace handhold::io_text_file_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/io/gltf.hpp"
 #include "tests/engine/allocation_count.hpp"
-#include "tests/engine/io_gltf_builder.hpp"
+#include "tests/engine/io/gltf_builder.hpp"
 
 namespace handhold::io_gltf_malformed_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/engine/collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 namespace handhold::test::collision_memory_test {
 namespace {

@@ -1,13 +1,14 @@
+#include "engine/io/gltf.hpp"
+
 #include <cmath>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "engine/io/gltf.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/math/math.hpp"
-#include "tests/engine/io_gltf_builder.hpp"
+#include "tests/engine/io/gltf_builder.hpp"
 
 namespace handhold::io_gltf_test {
 namespace {

@@ -1,11 +1,12 @@
+#include "engine/io/gltf_skin.hpp"
+
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "engine/io/gltf_skin.hpp"
-#include "tests/engine/io_gltf_builder.hpp"
+#include "tests/engine/io/gltf_builder.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::io_gltf_skin_test {

@@ -1,9 +1,9 @@
+#include "engine/io/json.hpp"
+
 #include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
-
-#include "engine/io/json.hpp"
 
 namespace handhold::io_json_test {
 namespace {

@@ -1,10 +1,10 @@
+#include "engine/io/csv.hpp"
+
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include "engine/io/csv.hpp"
 
 namespace handhold::io_csv_test {
 namespace {

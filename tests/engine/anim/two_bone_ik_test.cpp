@@ -1,8 +1,8 @@
+#include "engine/anim/two_bone_ik.hpp"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "engine/anim/two_bone_ik.hpp"
 
 namespace handhold::anim_two_bone_ik_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "engine/solver/newton/newton.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/newton/newton.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_newton_test {

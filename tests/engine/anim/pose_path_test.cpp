@@ -1,3 +1,5 @@
+#include "engine/anim/pose_path.hpp"
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/anim/pose_path.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold::anim_pose_path_test {

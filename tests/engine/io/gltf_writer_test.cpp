@@ -1,3 +1,5 @@
+#include "engine/io/gltf_writer.hpp"
+
 #include <array>
 #include <limits>
 #include <string>
@@ -7,7 +9,6 @@
 
 #include "engine/core/check.hpp"
 #include "engine/io/gltf.hpp"
-#include "engine/io/gltf_writer.hpp"
 #include "io_gltf_builder.hpp"
 
 namespace handhold::io_gltf_writer_test {

@@ -1,3 +1,5 @@
+#include "engine/solver/model/rows.hpp"
+
 #include <array>
 #include <cmath>
 #include <vector>
@@ -5,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/model/rows.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_rows_test {

@@ -1,3 +1,5 @@
+#include "engine/solver/sparse/plan_cache.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -7,7 +9,6 @@
 
 #include "allocation_count.hpp"
 #include "engine/solver/packed/triad_plan.hpp"
-#include "engine/solver/sparse/plan_cache.hpp"
 
 namespace handhold::solver_plan_cache_test {
 namespace {

@@ -1,3 +1,5 @@
+#include "engine/solver/model/islands.hpp"
+
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -9,7 +11,6 @@
 
 #include "engine/core/check.hpp"
 #include "engine/solver/contact/contact_rows.hpp"
-#include "engine/solver/model/islands.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_islands_test {

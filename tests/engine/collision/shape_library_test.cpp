@@ -1,9 +1,10 @@
+#include "engine/collision/shape_library.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/shape_library.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold::collision_shape_library_test {

@@ -1,9 +1,9 @@
+#include "engine/anim/crawler_leg.hpp"
+
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "engine/anim/crawler_leg.hpp"
 
 namespace handhold::anim_crawler_leg_test {
 namespace {

@@ -1,8 +1,9 @@
+#include "engine/anim/skinning.hpp"
+
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "engine/anim/skinning.hpp"
 #include "engine/core/check.hpp"
 
 namespace handhold::anim_skinning_test {

@@ -1,7 +1,8 @@
+#include "engine/io/gltf_skin_writer.hpp"
+
 #include <gtest/gtest.h>
 
 #include "engine/core/check.hpp"
-#include "engine/io/gltf_skin_writer.hpp"
 
 namespace handhold::io_gltf_skin_writer_test {
 namespace {

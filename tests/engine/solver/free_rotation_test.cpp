@@ -1,3 +1,5 @@
+#include "engine/solver/model/free_rotation.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/math/wide_rotation.hpp"
-#include "engine/solver/model/free_rotation.hpp"
 #include "tests/random.hpp"
 
 namespace handhold::solver_free_rotation_test {
