@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/core/profile.hpp"
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::heap_bench {
 namespace {

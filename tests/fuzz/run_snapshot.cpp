@@ -5,7 +5,7 @@
 #include "systems/frame.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/fuzz/promise.hpp"
-#include "tests/systems/snapshot_bytes.hpp"
+#include "tests/systems/frame/snapshot_bytes.hpp"
 
 namespace handhold::fuzz {
 namespace {

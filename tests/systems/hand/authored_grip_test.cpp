@@ -11,7 +11,7 @@
 #include "systems/rigs/hand_kinematics.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/engine/allocation_count.hpp"
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::authored_grip_test {
 namespace {

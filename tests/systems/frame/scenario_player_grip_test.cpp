@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_player_grip_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "systems/snapshot.hpp"
-#include "tests/systems/crowd.hpp"
+#include "tests/systems/frame/crowd.hpp"
 
 namespace handhold::determinism_test {
 namespace {

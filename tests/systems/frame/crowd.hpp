@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/systems/column_scene.hpp"
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 // A lively world for what must not matter: several players who crawl with one hand and with two,
 // wave, shove and throw rocks, share a crate, among things that roll into one another. Nothing but

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_two_supports_test {
 namespace {

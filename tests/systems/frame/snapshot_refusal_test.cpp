@@ -10,8 +10,8 @@
 #include "systems/snapshot.hpp"
 #include "tests/engine/allocation_count.hpp"
 #include "tests/random.hpp"
-#include "tests/systems/played_crowd.hpp"
-#include "tests/systems/snapshot_bytes.hpp"
+#include "tests/systems/frame/played_crowd.hpp"
+#include "tests/systems/frame/snapshot_bytes.hpp"
 
 namespace handhold::snapshot_refusal_test {
 namespace {

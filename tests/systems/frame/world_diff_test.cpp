@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/snapshot.hpp"
-#include "tests/systems/crowd.hpp"
+#include "tests/systems/frame/crowd.hpp"
 
 namespace handhold::world_diff_test {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "systems/snapshot_schema.hpp"
 #include "tests/engine/allocation_count.hpp"
-#include "tests/systems/played_crowd.hpp"
+#include "tests/systems/frame/played_crowd.hpp"
 
 namespace handhold::snapshot_test {
 namespace {

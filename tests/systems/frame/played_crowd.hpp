@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "systems/snapshot.hpp"
-#include "tests/systems/crowd.hpp"
+#include "tests/systems/frame/crowd.hpp"
 
 // What the tests of snapshots save.
 namespace handhold::test {

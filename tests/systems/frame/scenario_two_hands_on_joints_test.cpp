@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_two_hands_on_joints_test {
 namespace {

@@ -2,7 +2,7 @@
 // determinism_test.cpp has what must not matter to the last bit.
 #include <gtest/gtest.h>
 
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_invariance_test {
 namespace {

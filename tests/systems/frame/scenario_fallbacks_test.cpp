@@ -1,7 +1,7 @@
 // Fallbacks of the solve are counted where they happen and nowhere else.
 #include <gtest/gtest.h>
 
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_fallbacks_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::joint_rail_test {
 namespace {

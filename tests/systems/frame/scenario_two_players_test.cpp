@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/systems/column_scene.hpp"
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_two_players_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "engine/collision/collision_world.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
-#include "tests/systems/scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)

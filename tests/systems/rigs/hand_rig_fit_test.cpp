@@ -10,7 +10,7 @@
 #include "systems/rigs/hand_joint_names.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 #include "tests/places.hpp"
-#include "tests/systems/tube_hand.hpp"
+#include "tests/systems/hand/tube_hand.hpp"
 
 namespace handhold::hand_rig_fit_test {
 namespace {
