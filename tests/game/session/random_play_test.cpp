@@ -9,8 +9,8 @@
 #include "game/climber/crowd.hpp"
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/place_scene.hpp"
-#include "tests/game/finite_world.hpp"
-#include "tests/game/hostile_player.hpp"
+#include "tests/game/scene/finite_world.hpp"
+#include "tests/game/session/hostile_player.hpp"
 
 namespace handhold::random_play_test {
 namespace {

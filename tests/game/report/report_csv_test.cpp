@@ -14,7 +14,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/text.hpp"
-#include "tests/game/report_log.hpp"
+#include "tests/game/report/report_log.hpp"
 
 namespace handhold::report_csv_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/frame.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::desktop_body_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "game/report/run_summary.hpp"
 #include "game/scene/random.hpp"
-#include "tests/game/report_log.hpp"
+#include "tests/game/report/report_log.hpp"
 
 namespace handhold::run_tally_test {
 namespace {

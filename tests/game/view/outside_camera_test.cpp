@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::outside_camera_test {
 namespace {

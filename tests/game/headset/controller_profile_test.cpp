@@ -15,7 +15,7 @@
 #include "systems/input/read_tracking.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 #include "tests/places.hpp"
 
 namespace handhold::controller_profile_test {

@@ -11,7 +11,7 @@
 #include "game/ui/inspector.hpp"
 #include "game/ui/menu.hpp"
 #include "game/ui/overlay.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::panels_test {
 namespace {

@@ -16,7 +16,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/session/session_run.hpp"
-#include "tests/game/finite_world.hpp"
+#include "tests/game/scene/finite_world.hpp"
 
 namespace handhold::crowd_test {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/render/image.hpp"
 #include "game/report/report_tables.hpp"
-#include "tests/game/report_log.hpp"
+#include "tests/game/report/report_log.hpp"
 
 namespace handhold::report_html_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "game/climber/climber_session.hpp"
 #include "game/scene/random.hpp"
 #include "game/session/playback.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::rates_test {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "engine/core/check.hpp"
 #include "game/report/run_summary.hpp"
-#include "tests/game/report_log.hpp"
+#include "tests/game/report/report_log.hpp"
 
 namespace handhold::report_json_test {
 namespace {

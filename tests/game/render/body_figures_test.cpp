@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "game/render/primitives.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::body_figures_test {
 namespace {

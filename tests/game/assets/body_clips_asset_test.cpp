@@ -5,7 +5,7 @@
 
 #include "game/desktop/desktop_session.hpp"
 #include "systems/snapshot.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::body_clips_asset_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/game/hostile_player.hpp"
+#include "tests/game/session/hostile_player.hpp"
 
 #include <algorithm>
 #include <limits>

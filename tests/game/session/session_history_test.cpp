@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::session_history_test {
 namespace {

@@ -11,7 +11,7 @@
 #include "game/desktop/desktop_session.hpp"
 #include "game/render/renderer.hpp"
 #include "game/session/session_run.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::play_command_test {
 namespace {

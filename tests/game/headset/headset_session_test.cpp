@@ -11,7 +11,7 @@
 #include "game/headset/headset_hands.hpp"
 #include "game/render/player_models.hpp"
 #include "game/session/session_run.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::headset_session_test {
 namespace {

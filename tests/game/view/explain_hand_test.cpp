@@ -6,7 +6,7 @@
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
 #include "game/view/gizmos.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::explain_hand_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "game/session/session_run.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::playback_test {
 namespace {

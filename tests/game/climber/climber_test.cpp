@@ -11,7 +11,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/session/session_run.hpp"
 #include "systems/input/read_tracking.hpp"
-#include "tests/game/climber_scene.hpp"
+#include "tests/game/climber/climber_scene.hpp"
 
 namespace handhold::climber_test {
 namespace {
