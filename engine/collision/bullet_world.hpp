@@ -2,8 +2,8 @@
 
 #include "engine/collision/bullet_broadphase.hpp"
 #include "engine/collision/bullet_triangle_tree.hpp"
+#include "engine/collision/pair_cache.hpp"
 #include "engine/collision/pair_contact.hpp"
-#include "engine/collision/pair_memory.hpp"
 
 // What a CollisionWorld holds.
 namespace handhold {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/geometry/disc_trace.hpp"
-#include "engine/geometry/four_cut.hpp"
-#include "engine/geometry/four_distances.hpp"
+#include "engine/geometry/plane_cut4.hpp"
+#include "engine/geometry/segment_distances4.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 
 namespace handhold {

@@ -11,7 +11,7 @@
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/reach_slab.hpp"
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
 // What of the surfaces one chain can come to, gathered once: whatever is asked after that (cuts,

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
 // A chain of hinged links that closes in a plane until it touches: the 2D half of a finger.

@@ -5,7 +5,7 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/edge_pairs.hpp"
-#include "engine/geometry/graph_clean.hpp"
+#include "engine/geometry/graph_cleanup.hpp"
 
 namespace handhold {
 namespace {

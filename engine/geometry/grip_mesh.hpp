@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "engine/collision/shape_library.hpp"
-#include "engine/geometry/detail.hpp"
+#include "engine/geometry/simplify_surface.hpp"
 #include "engine/geometry/surface_graph.hpp"
 #include "engine/geometry/triangle_bvh.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/geometry/triangle_bvh.hpp"
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
 // Which triangles one chain may come to: told in floats, four triangles at a time.

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/geometry/border_seams.hpp"
-#include "engine/geometry/graph_clean.hpp"
+#include "engine/geometry/graph_cleanup.hpp"
 #include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/weld.hpp"
 

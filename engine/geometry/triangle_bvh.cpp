@@ -6,8 +6,8 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/bvh_builder.hpp"
-#include "engine/geometry/least_distance.hpp"
-#include "engine/math/four.hpp"
+#include "engine/geometry/distance_lower_bound.hpp"
+#include "engine/math/double4.hpp"
 
 namespace handhold {
 namespace {

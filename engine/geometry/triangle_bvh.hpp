@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/geometry/four_shapes.hpp"
-#include "engine/geometry/least_distance.hpp"
-#include "engine/geometry/turned_box.hpp"
-#include "engine/math/four_floats.hpp"
+#include "engine/geometry/distance_lower_bound.hpp"
+#include "engine/geometry/oriented_box.hpp"
+#include "engine/geometry/shapes4.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
 // Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/math/four.hpp"
+#include "engine/math/double4.hpp"
 
 // The series of sine and cosine and their reduction to [-pi/4, pi/4], for one number and for four.
 // Range reduction after Cody and Waite 1980, with pi/2 in three parts; Taylor series with

@@ -9,7 +9,7 @@
 #include <cmath>
 #endif
 
-#include "engine/math/four.hpp"
+#include "engine/math/double4.hpp"
 
 // Four vectors, rotations or matrices side by side: lane i of every number belongs to the i-th of
 // them. What is done to one is done to all four, with no number moved from lane to lane. Sums have

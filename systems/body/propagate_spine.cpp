@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/anim/bent_way.hpp"
+#include "engine/anim/deflect_outward.hpp"
 #include "engine/anim/joint_range.hpp"
-#include "engine/anim/turn_out.hpp"
+#include "engine/anim/quadratic_path.hpp"
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"

@@ -1,5 +1,3 @@
-#include "engine/geometry/detail.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,6 +7,7 @@
 #include "broken_meshes.hpp"
 #include "data_meshes.hpp"
 #include "engine/geometry/simplify.hpp"
+#include "engine/geometry/simplify_surface.hpp"
 #include "engine/geometry/surface_distance.hpp"
 #include "graph_claims.hpp"
 

@@ -1,10 +1,9 @@
-#include "engine/geometry/four_distances.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/segment_distances4.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 #include "tests/random.hpp"
 

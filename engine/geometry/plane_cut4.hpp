@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
 // What a plane cuts out of four triangles, in floats, side by side. A cut is off by some roundings

@@ -1,4 +1,4 @@
-#include "engine/collision/pair_memory.hpp"
+#include "engine/collision/pair_cache.hpp"
 
 #include <tuple>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/geometry/four_shapes.hpp"
-#include "engine/math/four_floats.hpp"
+#include "engine/geometry/shapes4.hpp"
+#include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
 namespace handhold {

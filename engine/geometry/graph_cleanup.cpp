@@ -1,4 +1,4 @@
-#include "engine/geometry/graph_clean.hpp"
+#include "engine/geometry/graph_cleanup.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "engine/anim/turn_out.hpp"
+#include "engine/anim/deflect_outward.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 
 // How far four triangles are from a segment, in floats, side by side: what segment_triangle.hpp
 // tells of one in doubles. For what only has to tell far from near.

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/math/four_floats.hpp"
+#include "engine/math/float4.hpp"
 
 // Four of a kind side by side, in floats: for what only has to tell far from near.
 namespace handhold {

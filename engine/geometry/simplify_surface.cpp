@@ -1,4 +1,4 @@
-#include "engine/geometry/detail.hpp"
+#include "engine/geometry/simplify_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
