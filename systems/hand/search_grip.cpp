@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/palm_holder.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
+#include "systems/hand/shared/surface_candidates.hpp"
 #include "systems/hand/shared/surface_search.hpp"
-#include "systems/hand/shared/surface_tries.hpp"
 
 namespace handhold {
 namespace {

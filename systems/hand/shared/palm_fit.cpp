@@ -8,7 +8,7 @@
 
 #include "engine/collision/closest_point.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_room.hpp"
+#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 
 namespace handhold {

@@ -7,7 +7,7 @@
 #include "engine/geometry/chain_fit.hpp"
 #include "fitted_hand.hpp"
 #include "systems/hand/shared/finger_chain.hpp"
-#include "systems/hand/shared/finger_room.hpp"
+#include "systems/hand/shared/finger_clearance.hpp"
 #include "systems/hand/shared/palm_fit.hpp"
 #include "systems/rigs/authored_hand.hpp"
 #include "tests/engine/geometry/surface_cuts.hpp"

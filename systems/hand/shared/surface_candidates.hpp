@@ -7,7 +7,7 @@
 
 #include "components/hand.hpp"
 #include "components/tuning.hpp"
-#include "systems/hand/shared/palm_holder.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
 #include "systems/hand/shared/surface_search.hpp"
 
 namespace handhold {

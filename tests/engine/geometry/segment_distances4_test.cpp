@@ -1,9 +1,10 @@
+#include "engine/geometry/segment_distances4.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "engine/geometry/segment_distances4.hpp"
 #include "engine/geometry/segment_triangle.hpp"
 #include "tests/random.hpp"
 

@@ -1,8 +1,8 @@
-#include "systems/hand/shared/surface_tries.hpp"
+#include "systems/hand/shared/surface_candidates.hpp"
 
 #include <algorithm>
 
-#include "systems/hand/shared/finger_room.hpp"
+#include "systems/hand/shared/finger_clearance.hpp"
 
 namespace handhold {
 namespace {

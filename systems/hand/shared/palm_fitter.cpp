@@ -1,4 +1,4 @@
-#include "systems/hand/shared/palm_holder.hpp"
+#include "systems/hand/shared/palm_fitter.hpp"
 
 #include <algorithm>
 #include <cmath>

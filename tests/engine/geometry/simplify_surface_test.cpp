@@ -1,3 +1,5 @@
+#include "engine/geometry/simplify_surface.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,7 +9,6 @@
 #include "broken_meshes.hpp"
 #include "data_meshes.hpp"
 #include "engine/geometry/simplify.hpp"
-#include "engine/geometry/simplify_surface.hpp"
 #include "engine/geometry/surface_distance.hpp"
 #include "graph_claims.hpp"
 

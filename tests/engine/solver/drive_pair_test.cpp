@@ -1,11 +1,12 @@
 // Two hands on one free body, as rows: the first hand's point, and the rotation that follows from
 // both.
+#include "engine/solver/model/drive_pair.hpp"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "engine/solver/model/drive_pair.hpp"
 #include "solver_scene.hpp"
 
 namespace handhold::solver_two_hands_test {

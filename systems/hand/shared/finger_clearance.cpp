@@ -1,4 +1,4 @@
-#include "systems/hand/shared/finger_room.hpp"
+#include "systems/hand/shared/finger_clearance.hpp"
 
 #include <algorithm>
 #include <array>
