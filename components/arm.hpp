@@ -12,10 +12,10 @@ namespace handhold {
 
 // What a player can be asked. Written by calibrate_players, or by whoever makes the player.
 struct BodyMeasures {
-    static constexpr double k_least_m = 0.05;
-    static constexpr double k_most_m = 5.0;
+    static constexpr double k_min_m = 0.05;
+    static constexpr double k_max_m = 5.0;
 
-    double eye_height_m = 1.62;  // standing; all [k_least_m, k_most_m]
+    double eye_height_m = 1.62;  // standing; all [k_min_m, k_max_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
     double forearm_m = 0.28;  // to the wrist

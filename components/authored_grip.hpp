@@ -13,7 +13,7 @@
 // Talk row 10.
 namespace handhold {
 
-inline constexpr std::size_t k_most_authored_grips = 4;  // of one body
+inline constexpr std::size_t k_max_authored_grips = 4;  // of one body
 
 // How one hand sits in a grip.
 struct AuthoredHand {
@@ -35,12 +35,12 @@ struct AuthoredGrip {
 
 // Of a body. Made with it; never changed while frames run.
 struct AuthoredGrips {
-    std::array<AuthoredGrip, k_most_authored_grips> grips;
+    std::array<AuthoredGrip, k_max_authored_grips> grips;
     std::uint8_t count = 0;
 };
 
 // Which grip a hand sits in: only hands that do have one, and it counts only while the hand's Grab
-// is on its body. Written by update_grabs; read by settle_grabs, gather_surroundings, publish_pose.
+// is on its body. Written by update_grabs; read by anchor_grabs, gather_surroundings, publish_pose.
 struct AuthoredHold {
     Entity body = k_no_entity;
     std::uint8_t grip = 0;         // into AuthoredGrips::grips

@@ -6,10 +6,10 @@ namespace handhold {
 
 // What a T-pose may be, metres: eyes above the floor, from wrist to wrist.
 struct TPoseRange {
-    static constexpr double k_least_eyes_m = 0.3;
-    static constexpr double k_most_eyes_m = 2.6;
-    static constexpr double k_least_span_m = 0.6;
-    static constexpr double k_most_span_m = 2.4;
+    static constexpr double k_min_eyes_m = 0.3;
+    static constexpr double k_max_eyes_m = 2.6;
+    static constexpr double k_min_span_m = 0.6;
+    static constexpr double k_max_span_m = 2.4;
 };
 
 // A T-pose that is being held. Written by calibrate_players.

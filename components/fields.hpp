@@ -221,28 +221,28 @@ void visit_fields(const FingerAngles& c, V&& visit) {
     visit("opposition_rad", c.opposition_rad);
 }
 template <typename V>
-void visit_fields(const FingerRetry& c, V&& visit) {
-    visit("wait_m", c.wait_m);
-    visit("since_m", c.since_m);
-    visit("tries", c.tries);
-    visit("was_fast", c.was_fast);
-    visit("queued", c.queued);
+void visit_fields(const FingerBackoff& c, V&& visit) {
+    visit("retry_in_m", c.retry_in_m);
+    visit("travel_since_m", c.travel_since_m);
+    visit("failures", c.failures);
+    visit("was_fast_hand", c.was_fast_hand);
+    visit("queued_frames", c.queued_frames);
 }
 template <typename V>
-void visit_fields(const FingerOutlook& c, V&& visit) {
-    visit("wait_m", c.wait_m);
-    visit("since_m", c.since_m);
-    visit("is_ahead", c.is_ahead);
+void visit_fields(const FingerLookahead& c, V&& visit) {
+    visit("retry_in_m", c.retry_in_m);
+    visit("travel_since_m", c.travel_since_m);
+    visit("has_surface_ahead", c.has_surface_ahead);
     visit("is_known", c.is_known);
 }
 template <typename V>
 void visit_fields(const ThumbSearch& c, V&& visit) {
-    visit("runs", c.runs);
-    visit("is_near", c.is_near);
-    visit("from_step", c.from_step);
-    visit("tried", c.tried);
+    visit("is_running", c.is_running);
+    visit("may_end_early", c.may_end_early);
+    visit("start_step", c.start_step);
+    visit("evaluated_count", c.evaluated_count);
     visit("cost_m", c.cost_m);
-    visit("wants_mending", c.wants_mending);
+    visit("needs_depenetration", c.needs_depenetration);
 }
 template <typename V>
 void visit_fields(const BodyMeasures& c, V&& visit) {
@@ -419,22 +419,22 @@ void visit_fields(const GripSurface& c, V&& visit) {
     visit("point_bs", c.point_bs);
     visit("normal_bs", c.normal_bs);
     visit("wrist_bs", c.wrist_bs);
-    visit("surroundings", c.surroundings);
-    visit("held_bs", c.held_bs);
-    visit("is_held", c.is_held);
-    visit("look_in_m", c.look_in_m);
-    visit("tried", c.tried);
-    visit("tried_count", c.tried_count);
-    visit("listed_count", c.listed_count);
+    visit("surroundings_signature", c.surroundings_signature);
+    visit("fitted_wrist_bs", c.fitted_wrist_bs);
+    visit("has_fitted_wrist", c.has_fitted_wrist);
+    visit("candidate_recheck_in_m", c.candidate_recheck_in_m);
+    visit("candidates", c.candidates);
+    visit("evaluated_count", c.evaluated_count);
+    visit("candidate_count", c.candidate_count);
     visit("cost_m", c.cost_m);
-    visit("goes_through", c.goes_through);
-    visit("to_clear", c.to_clear);
-    visit("has_room_m", c.has_room_m);
-    visit("bends", c.bends);
-    visit("search_in_m", c.search_in_m);
-    visit("is_settled", c.is_settled);
-    visit("pushed_at_rest", c.pushed_at_rest);
-    visit("was_judged", c.was_judged);
+    visit("allows_backfaces", c.allows_backfaces);
+    visit("pending_finger_samples", c.pending_finger_samples);
+    visit("clearance_recheck_in_m", c.clearance_recheck_in_m);
+    visit("finger_samples", c.finger_samples);
+    visit("full_search_in_m", c.full_search_in_m);
+    visit("is_converged", c.is_converged);
+    visit("stationary_refine_frames", c.stationary_refine_frames);
+    visit("evaluated_this_frame", c.evaluated_this_frame);
 }
 template <typename V>
 void visit_fields(const PalmOffset& c, V&& visit) {
@@ -443,9 +443,9 @@ void visit_fields(const PalmOffset& c, V&& visit) {
     visit("target_m", c.target_m);
     visit("target_turn_rad", c.target_turn_rad);
     visit("lift_m", c.lift_m);
-    visit("lifted_at_bs", c.lifted_at_bs);
+    visit("lift_wrist_bs", c.lift_wrist_bs);
     visit("target_wrist_bs", c.target_wrist_bs);
-    visit("target_surroundings", c.target_surroundings);
+    visit("target_signature", c.target_signature);
     visit("target_lift_m", c.target_lift_m);
     visit("target_triangle", c.target_triangle);
 }
@@ -457,23 +457,23 @@ template <typename V>
 void visit_fields(const FingerPose& c, V&& visit) {
     visit("shown", c.shown);
     visit("target", c.target);
-    visit("behind_rad", c.behind_rad);
+    visit("opening_lag_rad", c.opening_lag_rad);
     visit("seed_triangle", c.seed_triangle);
     visit("solved_body", c.solved_body);
     visit("solved_wrist_bs", c.solved_wrist_bs);
-    visit("solved_surroundings", c.solved_surroundings);
+    visit("solved_signature", c.solved_signature);
     visit("slow_s", c.slow_s);
     visit("solved", c.solved);
-    visit("arrived", c.arrived);
+    visit("converged", c.converged);
     visit("thumb_wrist_bs", c.thumb_wrist_bs);
     visit("thumb_solved", c.thumb_solved);
-    visit("thumb_arrived", c.thumb_arrived);
+    visit("thumb_converged", c.thumb_converged);
     visit("thumb_search", c.thumb_search);
-    visit("retry", c.retry);
-    visit("outlook", c.outlook);
-    visit("finger_tried", c.finger_tried);
-    visit("thumb_waits", c.thumb_waits);
-    visit("pose_refused", c.pose_refused);
+    visit("backoff", c.backoff);
+    visit("lookahead", c.lookahead);
+    visit("finger_refit_this_frame", c.finger_refit_this_frame);
+    visit("thumb_refit_pending", c.thumb_refit_pending);
+    visit("authored_pose_rejected", c.authored_pose_rejected);
 }
 template <typename V>
 void visit_fields(const ControllerToHand& c, V&& visit) {

@@ -73,7 +73,7 @@ struct FrameGraph {
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
     // A body that finish_positions puts back, as the phases left it.
-    struct SunkBody {
+    struct PenetratingBody {
         std::uint32_t body = 0;
         // In which the phases left it: islands are found anew since. Beyond them: no row held it.
         std::uint32_t island = 0;
@@ -82,8 +82,8 @@ struct FrameGraph {
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
     };
-    std::vector<SunkBody> sunk_bodies;  // by island
-    HiddenOverlaps hidden_overlaps;     // written by finish_positions; read by update_velocities
+    std::vector<PenetratingBody> penetrating_bodies;  // by island
+    MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
     // By island. After a solve that met all its blocks: what none exceeds; after any other, until
     // asked for: none.
     std::vector<std::optional<IslandErrors>> island_errors;

@@ -33,13 +33,13 @@ enum class GripKind : std::uint8_t {
 
 enum class GrabPhase : std::uint8_t {
     none,
-    fresh,  // begun in this frame; settle_grabs has yet to take the anchor
+    fresh,  // begun in this frame; anchor_grabs has yet to take the anchor
     holding,
     releasing,  // let go in this frame: the constraint carries on with the release velocity to the
                 // frame's end
 };
 
-// Written by update_grabs (kind, phase, body, hit), settle_grabs (anchor, target, two_handed),
+// Written by update_grabs (kind, phase, body, hit), anchor_grabs (anchor, target, two_handed),
 // finish_positions (error).
 struct Grab {
     GripKind kind = GripKind::none;

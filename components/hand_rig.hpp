@@ -16,7 +16,7 @@ namespace handhold {
 
 enum class FingerName : std::uint8_t { thumb, index, middle, ring, little };
 inline constexpr std::size_t k_finger_count = 5;
-inline constexpr std::size_t k_most_links = 3;
+inline constexpr std::size_t k_max_links = 3;
 
 // One finger: a chain of hinges in one plane, the finger's disc. Link i begins at hinge i and ends
 // at the next one, the last at the tip. A hinge's frame has -Z along its link, +X along the hinge;
@@ -25,12 +25,12 @@ struct FingerRig {
     FingerName name = FingerName::index;
     std::uint32_t link_count = 3;  // 2 or 3
     Pose base_hs;                  // frame of the first hinge at curl 0
-    std::array<double, k_most_links> length_m = {};
-    std::array<double, k_most_links> radius_m = {};     // of the link's capsule
-    std::array<double, k_most_links> lower_rad = {};    // fully open; curls are never less
-    std::array<double, k_most_links> upper_rad = {};    // fully curled; a closing finger's hinges
-                                                        // go from lower to upper together
-    std::array<double, k_most_links> relaxed_rad = {};  // where nothing is touched
+    std::array<double, k_max_links> length_m = {};
+    std::array<double, k_max_links> radius_m = {};   // of the link's capsule
+    std::array<double, k_max_links> lower_rad = {};  // fully open; curls are never less
+    std::array<double, k_max_links> upper_rad = {};  // fully curled; a closing finger's hinges
+                                                     // go from lower to upper together
+    std::array<double, k_max_links> rest_rad = {};   // where nothing is touched
     // The thumb's plane turns about this unit axis through the first hinge by the opposition angle;
     // 0 for the other fingers, whose plane is fixed.
     Vec3 opposition_axis_hs = -Vec3::UnitZ();
@@ -66,7 +66,7 @@ struct HandRig {
 
 // How one hand's fingers stand, by place in HandRig::fingers.
 struct FingerAngles {
-    std::array<double, k_most_links> curl_rad = {};
+    std::array<double, k_max_links> curl_rad = {};
     double opposition_rad = 0.0;
 };
 

@@ -35,14 +35,14 @@ struct GripSearchScratch {
         std::uint32_t order = 0;
         Vec3 point = Vec3::Zero();  // as Found's
     };
-    struct Found {
+    struct Candidate {
         std::uint32_t triangle = k_no_triangle;
         Vec3 point = Vec3::Zero();  // under the palm, on the search detail
         double cost_m = 0.0;
     };
     std::vector<Node> open;
-    std::vector<Found> found;
-    std::vector<Found> unlisted;  // of those, what may still be listed
+    std::vector<Candidate> found;
+    std::vector<Candidate> remaining;  // of those, what may still be listed
     std::vector<std::uint32_t> seen;
     ChainPatch patch;
 };

@@ -18,8 +18,8 @@ const char* name_of(Stage stage) {
             return "animate_movers";
         case Stage::predict_bodies:
             return "predict_bodies";
-        case Stage::settle_grabs:
-            return "settle_grabs";
+        case Stage::anchor_grabs:
+            return "anchor_grabs";
         case Stage::find_contacts:
             return "find_contacts";
         case Stage::build_constraints:
@@ -78,8 +78,8 @@ const char* name_of(Fallback reason) {
             return "grip_body_gone";
         case Fallback::grip_reanchored:
             return "grip_reanchored";
-        case Fallback::hand_left_two_hand_grip:
-            return "hand_left_two_hand_grip";
+        case Fallback::two_hand_grip_ended:
+            return "two_hand_grip_ended";
         case Fallback::hands_too_close:
             return "hands_too_close";
         case Fallback::contact_rounds_exhausted:
@@ -88,46 +88,46 @@ const char* name_of(Fallback reason) {
             return "contacts_contradict";
         case Fallback::contacts_unresolved:
             return "contacts_unresolved";
-        case Fallback::put_back:
-            return "put_back";
-        case Fallback::active_set_unsettled:
-            return "active_set_unsettled";
-        case Fallback::hands_led:
-            return "hands_led";
-        case Fallback::hands_led_in_vain:
-            return "hands_led_in_vain";
+        case Fallback::restored_last_valid_pose:
+            return "restored_last_valid_pose";
+        case Fallback::active_set_not_converged:
+            return "active_set_not_converged";
+        case Fallback::hands_load_stepped:
+            return "hands_load_stepped";
+        case Fallback::load_stepping_failed:
+            return "load_stepping_failed";
         case Fallback::friction_wedged:
             return "friction_wedged";
-        case Fallback::friction_undecided:
-            return "friction_undecided";
+        case Fallback::friction_not_converged:
+            return "friction_not_converged";
         case Fallback::release_speed_clamped:
             return "release_speed_clamped";
         case Fallback::object_speed_clamped:
             return "object_speed_clamped";
         case Fallback::head_ignores_full:
             return "head_ignores_full";
-        case Fallback::finger_searched_all:
-            return "finger_searched_all";
-        case Fallback::finger_bent:
-            return "finger_bent";
+        case Fallback::finger_full_search:
+            return "finger_full_search";
+        case Fallback::finger_depenetrated:
+            return "finger_depenetrated";
         case Fallback::finger_opened:
             return "finger_opened";
-        case Fallback::finger_touches_nothing:
-            return "finger_touches_nothing";
+        case Fallback::finger_no_contact:
+            return "finger_no_contact";
         case Fallback::palm_lifted:
             return "palm_lifted";
         case Fallback::body_no_surface:
             return "body_no_surface";
         case Fallback::palm_no_surface:
             return "palm_no_surface";
-        case Fallback::authored_grip_taken:
-            return "authored_grip_taken";
+        case Fallback::authored_grip_occupied:
+            return "authored_grip_occupied";
         case Fallback::authored_grip_blocked:
             return "authored_grip_blocked";
-        case Fallback::authored_grip_left:
-            return "authored_grip_left";
-        case Fallback::authored_finger_fitted:
-            return "authored_finger_fitted";
+        case Fallback::authored_grip_abandoned:
+            return "authored_grip_abandoned";
+        case Fallback::authored_finger_rejected:
+            return "authored_finger_rejected";
         case Fallback::pull_refused_fixed:
             return "pull_refused_fixed";
         case Fallback::pull_refused_heavy:

@@ -18,7 +18,7 @@ enum class Stage : std::uint8_t {
     locomote_players,
     animate_movers,
     predict_bodies,
-    settle_grabs,
+    anchor_grabs,
     find_contacts,
     build_constraints,
     solve_phases,
@@ -50,36 +50,36 @@ enum class Fallback : std::uint8_t {
     grip_body_gone,       // the gripped body was destroyed: let go
     grip_reanchored,      // tracking came back, or the other hand left: anchor taken anew where the
                           // hand is
-    hand_left_two_hand_grip,  // one of two hands let go: no throw
+    two_hand_grip_ended,  // one of two hands let go: no throw
     hands_too_close,  // two hands on one free body with no line between them: the first leads alone
     contact_rounds_exhausted,  // new contacts after every allowed round
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame
-    put_back,                  // islands whose sunk bodies went back to where they were clear
-    active_set_unsettled,      // solves that ended before it was clear which contacts push
-    hands_led,           // solves that ran out of steps and then took hands there part by part
-    hands_led_in_vain,   // the same, but not even the parts could be had: as the steps left it
-    friction_wedged,     // contacts that would press without end or give energy slip freely
-    friction_undecided,  // who sticks and who slides was not settled within its passes
+    restored_last_valid_pose,  // islands whose sunk bodies went back to where they were clear
+    active_set_not_converged,  // solves that ended before it was clear which contacts push
+    hands_load_stepped,      // solves that ran out of steps and then took hands there part by part
+    load_stepping_failed,    // the same, but not even the parts could be had: as the steps left it
+    friction_wedged,         // contacts that would press without end or give energy slip freely
+    friction_not_converged,  // who sticks and who slides was not settled within its passes
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,
-    finger_searched_all,     // a finger whose searches did not do looked at all within its reach
-    finger_bent,             // sunk straight or as it closed: bent until it was clear
-    finger_opened,           // and opened a little, since it was sunk still
-    finger_touches_nothing,  // a finger or thumb of a gripping hand met nothing: in the air
-    palm_lifted,             // a hand was lifted off its surface, since its fingers did not fit
-    body_no_surface,         // a gripped body without a grip mesh: the hand is shown as tracked
-    palm_no_surface,         // a gripping hand with nothing under its palm is shown as tracked
-    authored_grip_taken,     // a hand closed where another sits in the grip: the next best
-    authored_grip_blocked,   // something else is between the hand and the grip: the next best
-    authored_grip_left,      // a hand turned far away from its grip: held on to as to any surface
-    authored_finger_fitted,  // a posed finger would be sunk: closed as on any surface
-    pull_refused_fixed,      // a distance grab at what cannot move, or has joints: none
-    pull_refused_heavy,      // at more than PullTuning::max_mass_kg: none
-    pull_refused_held,       // at what is in a hand, or another pulls: none
-    pull_lost,               // what was pulled is gone, too far or in another hand, or the hand
-                             // was lost: it flies on
+    finger_full_search,        // a finger whose searches did not do looked at all within its reach
+    finger_depenetrated,       // sunk straight or as it closed: bent until it was clear
+    finger_opened,             // and opened a little, since it was sunk still
+    finger_no_contact,         // a finger or thumb of a gripping hand met nothing: in the air
+    palm_lifted,               // a hand was lifted off its surface, since its fingers did not fit
+    body_no_surface,           // a gripped body without a grip mesh: the hand is shown as tracked
+    palm_no_surface,           // a gripping hand with nothing under its palm is shown as tracked
+    authored_grip_occupied,    // a hand closed where another sits in the grip: the next best
+    authored_grip_blocked,     // something else is between the hand and the grip: the next best
+    authored_grip_abandoned,   // a hand turned far away from its grip: held on to as to any surface
+    authored_finger_rejected,  // a posed finger would be sunk: closed as on any surface
+    pull_refused_fixed,        // a distance grab at what cannot move, or has joints: none
+    pull_refused_heavy,        // at more than PullTuning::max_mass_kg: none
+    pull_refused_held,         // at what is in a hand, or another pulls: none
+    pull_lost,                 // what was pulled is gone, too far or in another hand, or the hand
+                               // was lost: it flies on
     count
 };
 

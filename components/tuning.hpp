@@ -41,10 +41,10 @@ struct PalmTuning {
     double max_height_m = 0.015;
     double max_angle_rad = 0.44;
     double tilt_cost_m_per_rad = 0.08;
-    double turn_arm_m = 0.025;
-    double back_cost_m = 0.02;
+    double rotation_arm_m = 0.025;
+    double backface_cost_m = 0.02;
     double reach_m = 0.12;
-    std::int32_t tries_per_frame = 1;
+    std::int32_t evaluations_per_frame = 1;
     double normal_radius_m = 0.03;
     double rate_mps = 0.25;
     double lift_m = 0.005;
@@ -59,21 +59,21 @@ struct FingerTuning {
     double open_step_rad = 0.0436;
     std::int32_t open_steps = 6;
     double close_radps = 9.42;
-    double change_radps = 15.0;
-    double slow_mps = 0.05;
-    double slide_depth_m = 2e-3;
-    double stroll_m = 1e-6;
-    std::int32_t closings_per_frame = 2;
+    double transition_radps = 15.0;
+    double slow_speed_mps = 0.05;
+    double fast_refit_depth_m = 2e-3;
+    double reuse_travel_m = 1e-6;
+    std::int32_t refits_per_frame = 2;
 };
 
 struct ThumbTuning {
     std::int32_t opposition_steps = 6;
-    std::int32_t tries_per_frame = 2;
+    std::int32_t evaluations_per_frame = 2;
     double rest_opposition_rad = 0.26;
-    double sunk_cost = 4.0;
+    double penetration_cost = 4.0;
     double open_cost_m = 0.012;
-    double gap_cost = 0.5;
-    double turn_cost_m_per_rad = 0.004;
+    double tip_gap_cost = 0.5;
+    double opposition_cost_m_per_rad = 0.004;
 };
 
 struct HeadTuning {
@@ -109,7 +109,7 @@ struct ContactTuning {
     double sweep_m = 0.005;
     double restitution_speed_mps = 0.2;
     std::int32_t max_rounds = 4;
-    double sunk_m = 1e-4;  // what stays sunk deeper is put back
+    double restore_depth_m = 1e-4;  // what stays sunk deeper is put back
 };
 
 struct SolverTuning {
@@ -117,22 +117,22 @@ struct SolverTuning {
     double tolerance_m = 1e-7;
     double step_tolerance_m = 1e-9;
     // Relative to the system's diagonal; hands soften and harden from here as the error falls.
-    double hand_softness = 1e-8;
-    double forward_hand_softness = 1e-3;
-    double contact_softness = 1e-7;
-    double joint_softness = 1e-10;
+    double drive_regularisation = 1e-8;
+    double forward_drive_regularisation = 1e-3;
+    double contact_regularisation = 1e-7;
+    double joint_regularisation = 1e-10;
     // How far they do, and how fast (engine/solver/newton/regularisation.hpp).
-    double softest_hand = 1e-2;
-    double hardest_hand = 1e-9;
-    double softest_contact = 1e-3;
-    double hardening = 0.03;
-    double softening = 10.0;
-    std::int32_t steady_steps = 3;
-    double steady_share = 0.95;
-    double largest_turn_rad = 1.0;
-    double least_scale = 0.3;
-    double stiffness_from_m = 1e-4;
-    double lead_from_m = 0.05;
+    double max_drive_regularisation = 1e-2;
+    double min_drive_regularisation = 1e-9;
+    double max_contact_regularisation = 1e-3;
+    double regularisation_decrease = 0.03;
+    double regularisation_increase = 10.0;
+    std::int32_t linear_decrease_steps = 3;
+    double linear_decrease_ratio = 0.95;
+    double max_step_rotation_rad = 1.0;
+    double min_step_scale = 0.3;
+    double geometric_stiffness_from_m = 1e-4;
+    double load_stepping_from_m = 0.05;
     std::int32_t friction_passes = 16;
 };
 
@@ -200,14 +200,14 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "and tilted against the surface by at most this");
     see("palm.tilt_cost_m_per_rad", t.palm.tilt_cost_m_per_rad, "m/rad", 0.0, 10.0,
         "what tilting the palm counts against moving it when a surface is chosen");
-    see("palm.turn_arm_m", t.palm.turn_arm_m, "m", 1e-3, 10.0,
+    see("palm.rotation_arm_m", t.palm.rotation_arm_m, "m", 1e-3, 10.0,
         "what turning it by a radian counts against moving it where it is pushed out of what it is "
         "sunk in");
-    see("palm.back_cost_m", t.palm.back_cost_m, "m", 0.0, 1.0,
+    see("palm.backface_cost_m", t.palm.backface_cost_m, "m", 0.0, 1.0,
         "what a surface whose outside is turned away from the palm counts more");
     see("palm.reach_m", t.palm.reach_m, "m", 0.0, 1.0,
         "surfaces farther from the palm than this are not looked at");
-    see("palm.tries_per_frame", t.palm.tries_per_frame, "", 1.0, 14.0,
+    see("palm.evaluations_per_frame", t.palm.evaluations_per_frame, "", 1.0, 14.0,
         "surfaces that are tried in one frame, the cheapest first, until no other would cost less");
     see("palm.normal_radius_m", t.palm.normal_radius_m, "m", 1e-3, 0.2,
         "the palm lies against the mean of the surface within this");
@@ -228,27 +228,29 @@ void visit_tuning(TuningType& t, Visit&& visit) {
     see("finger.open_steps", t.finger.open_steps, "", 0.0, 64.0, "and at most so often");
     see("finger.close_radps", t.finger.close_radps, "rad/s", 0.0, 1e6,
         "fingers are shown closing no faster; they open at once,");
-    see("finger.change_radps", t.finger.change_radps, "rad/s", 0.1, 1e6,
+    see("finger.transition_radps", t.finger.transition_radps, "rad/s", 0.1, 1e6,
         "but no faster where a digit of a sliding hand changes from one fit to another");
-    see("finger.slow_mps", t.finger.slow_mps, "m/s", 0.0, 10.0,
+    see("finger.slow_speed_mps", t.finger.slow_speed_mps, "m/s", 0.0, 10.0,
         "a hand that slides no faster may change to fits that would not last in a fast one");
-    see("finger.slide_depth_m", t.finger.slide_depth_m, "m", 0.0, 0.1,
+    see("finger.fast_refit_depth_m", t.finger.fast_refit_depth_m, "m", 0.0, 0.1,
         "a digit of a faster hand looks for another fit where it is sunk deeper");
-    see("finger.stroll_m", t.finger.stroll_m, "m", 0.0, 0.01,
+    see("finger.reuse_travel_m", t.finger.reuse_travel_m, "m", 0.0, 0.01,
         "a hand that moved less on its surface keeps its fingers");
-    see("finger.closings_per_frame", t.finger.closings_per_frame, "", 1.0, 5.0,
+    see("finger.refits_per_frame", t.finger.refits_per_frame, "", 1.0, 5.0,
         "fingers of a hand that are closed anew in one frame; the others have their turn later");
     see("thumb.opposition_steps", t.thumb.opposition_steps, "", 1.0, 32.0,
         "angles of opposition that are tried");
-    see("thumb.tries_per_frame", t.thumb.tries_per_frame, "", 1.0, 32.0, "of these in one frame");
+    see("thumb.evaluations_per_frame", t.thumb.evaluations_per_frame, "", 1.0, 32.0,
+        "of these in one frame");
     see("thumb.rest_opposition_rad", t.thumb.rest_opposition_rad, "rad", -3.2, 3.2,
         "opposition of a thumb at ease");
-    see("thumb.sunk_cost", t.thumb.sunk_cost, "", 0.0, 1e3, "a thumb's cost per depth");
+    see("thumb.penetration_cost", t.thumb.penetration_cost, "", 0.0, 1e3,
+        "a thumb's cost per depth");
     see("thumb.open_cost_m", t.thumb.open_cost_m, "m", 0.0, 1.0,
         "a thumb's cost where it touches nothing");
-    see("thumb.gap_cost", t.thumb.gap_cost, "", 0.0, 1e3,
+    see("thumb.tip_gap_cost", t.thumb.tip_gap_cost, "", 0.0, 1e3,
         "a thumb's cost per distance of its tip from the surface");
-    see("thumb.turn_cost_m_per_rad", t.thumb.turn_cost_m_per_rad, "m/rad", 0.0, 10.0,
+    see("thumb.opposition_cost_m_per_rad", t.thumb.opposition_cost_m_per_rad, "m/rad", 0.0, 10.0,
         "a thumb's cost per angle of opposition away from rest");
     see("head.radius_m", t.head.radius_m, "m", 0.02, 0.5, "radius of the head's collider");
     see("head.center_m", t.head.center_m, "m", -0.5, 0.5,
@@ -290,7 +292,7 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "slower impacts do not bounce");
     see("contact.max_rounds", t.contact.max_rounds, "", 1.0, 16.0,
         "times that a phase is solved again with contacts found on its result");
-    see("contact.sunk_m", t.contact.sunk_m, "m", 1e-6, 10.0,
+    see("contact.restore_depth_m", t.contact.restore_depth_m, "m", 1e-6, 10.0,
         "free bodies that no phase takes out of a deeper overlap stay where they were");
     see("solver.max_iterations", t.solver.max_iterations, "", 1.0, 1000.0,
         "Newton iterations a phase; five times as many at most where hands are led");
@@ -298,37 +300,37 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "constraint error at which a phase is solved; angles count times 0.1 m");
     see("solver.step_tolerance_m", t.solver.step_tolerance_m, "m", 1e-14, 1e-3,
         "a smaller Newton step ends a phase");
-    see("solver.hand_softness", t.solver.hand_softness, "", 1e-9, 1e-2,
+    see("solver.drive_regularisation", t.solver.drive_regularisation, "", 1e-9, 1e-2,
         "how much hands give way at first, but in the forward phase");
-    see("solver.forward_hand_softness", t.solver.forward_hand_softness, "", 1e-9, 1e-2,
-        "how much hands give way at first in the forward phase, where contacts decide");
-    see("solver.contact_softness", t.solver.contact_softness, "", 1e-12, 1e-3,
+    see("solver.forward_drive_regularisation", t.solver.forward_drive_regularisation, "", 1e-9,
+        1e-2, "how much hands give way at first in the forward phase, where contacts decide");
+    see("solver.contact_regularisation", t.solver.contact_regularisation, "", 1e-12, 1e-3,
         "how much contacts give way that cannot all be met");
-    see("solver.joint_softness", t.solver.joint_softness, "", 1e-14, 1e-3,
+    see("solver.joint_regularisation", t.solver.joint_regularisation, "", 1e-14, 1e-3,
         "how much joints give way that cannot all be met; their limits a hundred times");
-    see("solver.softest_hand", t.solver.softest_hand, "", 1e-9, 1.0,
+    see("solver.max_drive_regularisation", t.solver.max_drive_regularisation, "", 1e-9, 1.0,
         "how much hands give way at most, where the error does not fall; no less than "
-        "solver.hardest_hand");
-    see("solver.hardest_hand", t.solver.hardest_hand, "", 1e-12, 1e-2,
+        "solver.min_drive_regularisation");
+    see("solver.min_drive_regularisation", t.solver.min_drive_regularisation, "", 1e-12, 1e-2,
         "how much hands give way at least, where the error falls");
-    see("solver.softest_contact", t.solver.softest_contact, "", 1e-12, 1e-2,
+    see("solver.max_contact_regularisation", t.solver.max_contact_regularisation, "", 1e-12, 1e-2,
         "how much contacts that contradict each other give way at most; no less than "
-        "solver.contact_softness");
-    see("solver.hardening", t.solver.hardening, "", 1e-6, 1.0,
-        "times the softness of hands after a step that takes the error down");
-    see("solver.softening", t.solver.softening, "", 1.0, 1e6,
-        "times the softness of hands after a step that does not");
-    see("solver.steady_steps", t.solver.steady_steps, "", 1.0, 1000.0,
+        "solver.contact_regularisation");
+    see("solver.regularisation_decrease", t.solver.regularisation_decrease, "", 1e-6, 1.0,
+        "times the regularisation of hands after a step that takes the error down");
+    see("solver.regularisation_increase", t.solver.regularisation_increase, "", 1.0, 1e6,
+        "times the regularisation of hands after a step that does not");
+    see("solver.linear_decrease_steps", t.solver.linear_decrease_steps, "", 1.0, 1000.0,
         "whole steps in a row that let the error fall slowly count as one that takes it down");
-    see("solver.steady_share", t.solver.steady_share, "", 0.0, 1.0,
+    see("solver.linear_decrease_ratio", t.solver.linear_decrease_ratio, "", 0.0, 1.0,
         "of the error, which such a step leaves at most");
-    see("solver.largest_turn_rad", t.solver.largest_turn_rad, "rad", 1e-3, 3.0,
+    see("solver.max_step_rotation_rad", t.solver.max_step_rotation_rad, "rad", 1e-3, 3.0,
         "of a body in a Newton step; farther ones are scaled down");
-    see("solver.least_scale", t.solver.least_scale, "", 0.0, 1.0,
+    see("solver.min_step_scale", t.solver.min_step_scale, "", 0.0, 1.0,
         "steps scaled down further are tried again with everything softer");
-    see("solver.stiffness_from_m", t.solver.stiffness_from_m, "m", 1e-9, 10.0,
+    see("solver.geometric_stiffness_from_m", t.solver.geometric_stiffness_from_m, "m", 1e-9, 10.0,
         "constraint error above which steps account for how forces turn with their arms");
-    see("solver.lead_from_m", t.solver.lead_from_m, "m", 0.0, 1e6,
+    see("solver.load_stepping_from_m", t.solver.load_stepping_from_m, "m", 0.0, 1e6,
         "hands that a phase's iterations took so much nearer, but not there, are led part by part");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "solves at most to find who sticks and who slides");

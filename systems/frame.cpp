@@ -15,9 +15,9 @@
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/input/read_tracking.hpp"
+#include "systems/locomotion/anchor_grabs.hpp"
 #include "systems/locomotion/locomote_players.hpp"
 #include "systems/locomotion/pull_bodies.hpp"
-#include "systems/locomotion/settle_grabs.hpp"
 #include "systems/locomotion/update_grabs.hpp"
 #include "systems/physics/animate_movers.hpp"
 #include "systems/physics/build_constraints.hpp"
@@ -112,8 +112,8 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
                         w.body_velocity, w.player_origin, w.player_start});
     }
     {
-        const StageTimer timer(Stage::settle_grabs, stats);
-        settle_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
+        const StageTimer timer(Stage::anchor_grabs, stats);
+        anchor_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
                       w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold,
                       w.body, w.joint, w.joint_state, w.grab},
                      tuning, stats);

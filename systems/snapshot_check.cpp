@@ -15,7 +15,7 @@ namespace {
 // Beyond this adding a frame's length to a time loses it.
 constexpr double k_latest_s = 1e9;
 
-constexpr double k_least_bone_ratio = 0.01;
+constexpr double k_min_bone_ratio = 0.01;
 
 bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_latest_s; }
 
@@ -129,8 +129,8 @@ class BreachFinder {
                       mover.gait.standing < 1.0,
                   "leg_mover", owner, ".gait", "steps of 1e-3 to 1e9 s and a share in (0, 1)");
             const auto [shorter, longer] = std::minmax(mover.leg.upper_m, mover.leg.lower_m);
-            check(shorter >= k_least_bone_ratio * longer && longer > 0.0, "leg_mover", owner,
-                  ".leg", "bones above 0, none below a hundredth of the other");
+            check(shorter >= k_min_bone_ratio * longer && longer > 0.0, "leg_mover", owner, ".leg",
+                  "bones above 0, none below a hundredth of the other");
         }
     }
 
@@ -189,8 +189,8 @@ class BreachFinder {
             const BodyMeasures& m = w_.body_measures.rows()[row];
             const auto [least, most] =
                 std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
-            check(least >= BodyMeasures::k_least_m && most <= BodyMeasures::k_most_m,
-                  "body_measures", w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
+            check(least >= BodyMeasures::k_min_m && most <= BodyMeasures::k_max_m, "body_measures",
+                  w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
         }
         for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
             const Calibration& c = w_.calibration.rows()[row];
@@ -202,8 +202,8 @@ class BreachFinder {
                 return sum_s_m >= (least_m - k_rounding) * c.held_s - k_rounding &&
                        sum_s_m <= (most_m + k_rounding) * c.held_s + k_rounding;
             };
-            check(is_sum_of(c.eyes_s_m, TPoseRange::k_least_eyes_m, TPoseRange::k_most_eyes_m) &&
-                      is_sum_of(c.span_s_m, TPoseRange::k_least_span_m, TPoseRange::k_most_span_m),
+            check(is_sum_of(c.eyes_s_m, TPoseRange::k_min_eyes_m, TPoseRange::k_max_eyes_m) &&
+                      is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
                   "calibration", player, "", "sums of T-poses over the time held");
         }
         for (std::size_t row = 0; row < w_.arm_memory.size(); ++row) {
@@ -231,49 +231,57 @@ class BreachFinder {
 
     // Waits that are as long as those that are made: nothing waits for ever.
     void check_retries() {
-        constexpr double k_most_m = 1.0;
-        constexpr std::uint32_t k_most_tries = 1000000;
-        constexpr double k_most_behind_rad = 2.0 * M_PI;
+        constexpr double k_max_m = 1.0;
+        constexpr std::uint32_t k_max_tries = 1000000;
+        constexpr double k_max_behind_rad = 2.0 * M_PI;
         for (std::size_t row = 0; row < w_.finger_pose.size(); ++row) {
-            for (const auto& finger : w_.finger_pose.rows()[row].behind_rad) {
-                for (const double behind_rad : finger) {
-                    check(behind_rad >= 0.0 && behind_rad <= k_most_behind_rad, "finger_pose",
-                          w_.finger_pose.owners()[row], ".behind_rad", "angles in [0, 2 pi]");
+            for (const auto& finger : w_.finger_pose.rows()[row].opening_lag_rad) {
+                for (const double opening_lag_rad : finger) {
+                    check(opening_lag_rad >= 0.0 && opening_lag_rad <= k_max_behind_rad,
+                          "finger_pose", w_.finger_pose.owners()[row], ".opening_lag_rad",
+                          "angles in [0, 2 pi]");
                 }
             }
             const double slow_s = w_.finger_pose.rows()[row].slow_s;
             check(slow_s >= 0.0 && slow_s <= 1.0, "finger_pose", w_.finger_pose.owners()[row],
                   ".slow_s", "at most 1 s");
-            for (const FingerRetry& retry : w_.finger_pose.rows()[row].retry) {
-                check(std::abs(retry.wait_m) <= k_most_m && retry.since_m >= 0.0 &&
-                          retry.since_m <= k_most_m && retry.tries <= k_most_tries &&
-                          retry.queued <= k_most_tries,
-                      "finger_pose", w_.finger_pose.owners()[row], ".retry",
-                      "ways within 1 m, at most a million tries or frames");
+            for (const FingerBackoff& backoff : w_.finger_pose.rows()[row].backoff) {
+                check(std::abs(backoff.retry_in_m) <= k_max_m && backoff.travel_since_m >= 0.0 &&
+                          backoff.travel_since_m <= k_max_m && backoff.failures <= k_max_tries &&
+                          backoff.queued_frames <= k_max_tries,
+                      "finger_pose", w_.finger_pose.owners()[row], ".backoff",
+                      "ways within 1 m, at most a million failures or frames");
             }
-            for (const FingerOutlook& outlook : w_.finger_pose.rows()[row].outlook) {
-                check(outlook.wait_m >= 0.0 && outlook.wait_m <= k_most_m &&
-                          outlook.since_m >= 0.0 && outlook.since_m <= k_most_m,
-                      "finger_pose", w_.finger_pose.owners()[row], ".outlook", "ways in [0, 1] m");
+            for (const FingerLookahead& lookahead : w_.finger_pose.rows()[row].lookahead) {
+                check(lookahead.retry_in_m >= 0.0 && lookahead.retry_in_m <= k_max_m &&
+                          lookahead.travel_since_m >= 0.0 && lookahead.travel_since_m <= k_max_m,
+                      "finger_pose", w_.finger_pose.owners()[row], ".lookahead",
+                      "ways in [0, 1] m");
             }
             const ThumbSearch& search = w_.finger_pose.rows()[row].thumb_search;
-            check(search.from_step < k_most_tries && search.tried <= k_most_tries, "finger_pose",
-                  w_.finger_pose.owners()[row], ".thumb_search", "at most a million steps");
+            check(search.start_step < k_max_tries && search.evaluated_count <= k_max_tries,
+                  "finger_pose", w_.finger_pose.owners()[row], ".thumb_search",
+                  "at most a million steps");
         }
         for (std::size_t row = 0; row < w_.grip_surface.size(); ++row) {
             const GripSurface& surface = w_.grip_surface.rows()[row];
-            check(surface.look_in_m >= 0.0 && surface.look_in_m <= k_most_m, "grip_surface",
-                  w_.grip_surface.owners()[row], ".look_in_m", "a way in [0, 1] m");
-            check(surface.has_room_m >= 0.0 && surface.has_room_m <= k_most_m, "grip_surface",
-                  w_.grip_surface.owners()[row], ".has_room_m", "a way in [0, 1] m");
-            check(surface.search_in_m <= k_most_m, "grip_surface", w_.grip_surface.owners()[row],
-                  ".search_in_m", "a way of at most 1 m");
-            check(surface.tried_count <= GripSurface::k_most_tries, "grip_surface",
-                  w_.grip_surface.owners()[row], ".tried_count", "at most 14");
-            check(surface.listed_count <= GripSurface::k_most_tries &&
-                      (surface.listed_count == 0 || surface.listed_count >= surface.tried_count),
-                  "grip_surface", w_.grip_surface.owners()[row], ".listed_count",
-                  "0, or at least tried_count and at most 14");
+            check(
+                surface.candidate_recheck_in_m >= 0.0 && surface.candidate_recheck_in_m <= k_max_m,
+                "grip_surface", w_.grip_surface.owners()[row], ".candidate_recheck_in_m",
+                "a way in [0, 1] m");
+            check(
+                surface.clearance_recheck_in_m >= 0.0 && surface.clearance_recheck_in_m <= k_max_m,
+                "grip_surface", w_.grip_surface.owners()[row], ".clearance_recheck_in_m",
+                "a way in [0, 1] m");
+            check(surface.full_search_in_m <= k_max_m, "grip_surface",
+                  w_.grip_surface.owners()[row], ".full_search_in_m", "a way of at most 1 m");
+            check(surface.evaluated_count <= GripSurface::k_max_candidates, "grip_surface",
+                  w_.grip_surface.owners()[row], ".evaluated_count", "at most 14");
+            check(surface.candidate_count <= GripSurface::k_max_candidates &&
+                      (surface.candidate_count == 0 ||
+                       surface.candidate_count >= surface.evaluated_count),
+                  "grip_surface", w_.grip_surface.owners()[row], ".candidate_count",
+                  "0, or at least evaluated_count and at most 14");
         }
     }
 
@@ -320,7 +328,7 @@ class BreachFinder {
         require("authored_hold", w_.authored_hold, "grab", w_.grab);
         require("hand_pull", w_.hand_pull, "grab", w_.grab);
         for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
-            check(w_.authored_grips.rows()[row].count <= k_most_authored_grips, "authored_grips",
+            check(w_.authored_grips.rows()[row].count <= k_max_authored_grips, "authored_grips",
                   w_.authored_grips.owners()[row], ".count", "4 grips at most");
         }
     }

@@ -17,8 +17,8 @@ double arch(double s) {
 
 }  // namespace
 
-TwoBones bend_two_bones(const Vec3& root, const Vec3& target, double upper_m, double lower_m,
-                        const Vec3& pole) {
+TwoBones place_two_bones(const Vec3& root, const Vec3& target, double upper_m, double lower_m,
+                         const Vec3& pole) {
     const double slack = 1e-3 * (upper_m + lower_m);
     const Vec3 to_target = target - root;
     const double wanted = to_target.norm();
@@ -54,8 +54,8 @@ Vec3 crawler_foot(const PosePath& torso, const CrawlerGait& gait, const CrawlerL
 TwoBones crawler_bones(const PosePath& torso, const CrawlerGait& gait, const CrawlerLeg& leg,
                        double t_s) {
     const Pose pose = evaluate(torso, t_s).pose;
-    return bend_two_bones(transform_point(pose, leg.hip_bs), crawler_foot(torso, gait, leg, t_s),
-                          leg.upper_m, leg.lower_m, pose.rotation * leg.knee_bs);
+    return place_two_bones(transform_point(pose, leg.hip_bs), crawler_foot(torso, gait, leg, t_s),
+                           leg.upper_m, leg.lower_m, pose.rotation * leg.knee_bs);
 }
 
 Pose crawler_bone_pose(const PosePath& torso, const CrawlerGait& gait, const CrawlerLeg& leg,

@@ -17,8 +17,8 @@ struct TwoBones {
 // Bones of given lengths from `root` to `target`, their middle towards `pole` (not along the line
 // between root and target). A target out of reach is replaced by the nearest point on its line that
 // leaves the bones a thousandth of their length short of straight or folded.
-TwoBones bend_two_bones(const Vec3& root, const Vec3& target, double upper_m, double lower_m,
-                        const Vec3& pole);
+TwoBones place_two_bones(const Vec3& root, const Vec3& target, double upper_m, double lower_m,
+                         const Vec3& pole);
 
 // Of one leg, in the torso's frame.
 struct CrawlerLeg {

@@ -5,7 +5,7 @@
 
 namespace handhold {
 
-Vec3 turn_out(const Vec3& towards, const Vec3& normal, double least, double most) {
+Vec3 deflect_outward(const Vec3& towards, const Vec3& normal, double least, double most) {
     const double out = towards.dot(normal);
     if (out >= least) {
         return towards;

@@ -14,8 +14,8 @@ double nearing(const JointRange& range, double before_rad, double now_rad) {
 
 }  // namespace
 
-Vec3 within_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
-                 double& angle_rad) {
+Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
+                   double& angle_rad) {
     const double along = towards.dot(rest);
     const Vec3 aside = towards - along * rest;
     const double length = aside.norm();
@@ -34,7 +34,7 @@ Vec3 within_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
     return cosine * rest + aside * (sine / length);
 }
 
-Vec3 within_hinge(const Vec3& towards, const JointRange& range, double& angle_rad) {
+Vec3 clamp_to_hinge(const Vec3& towards, const JointRange& range, double& angle_rad) {
     angle_rad = nearing(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
     double sine = 0.0;
     double cosine = 1.0;

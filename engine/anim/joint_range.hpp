@@ -17,9 +17,10 @@ struct JointRange {
 // this one.
 
 // A cone about `rest`: the angle is that to it. All unit vectors.
-Vec3 within_cone(const Vec3& towards, const Vec3& rest, const JointRange& range, double& angle_rad);
+Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& range,
+                   double& angle_rad);
 
 // A hinge about X: the angle is that from -Y to +Z. The result lies square to X.
-Vec3 within_hinge(const Vec3& towards, const JointRange& range, double& angle_rad);
+Vec3 clamp_to_hinge(const Vec3& towards, const JointRange& range, double& angle_rad);
 
 }  // namespace handhold

@@ -39,7 +39,7 @@ void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
             move += weight * carry.translation;
         }
         positions[i] = turn * input.positions[i] + move;
-        const Vec3 normal = turn_normal(turn, input.normals[i]);
+        const Vec3 normal = transform_normal(turn, input.normals[i]);
         const double length = normal.norm();
         normals[i] = length > 1e-12 ? Vec3(normal / length) : input.normals[i];
     }

@@ -61,7 +61,7 @@ ShapeExtent part_extent(const PlacedShape& part) {
     return {part_box(part), part.pose.position.norm() + bounding_radius(part.shape)};
 }
 
-Bounds way_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {
+Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {
     // Between the ends a point strays from its chord by at most the sagitta of its arc, reach *
     // angle^2 / 8. Twice that, because a sweep's way is a chord in the other body's frame.
     const double angle_rad = rotation_to_vector(from.rotation.conjugate() * to.rotation).norm();

@@ -52,6 +52,6 @@ ShapeExtent shape_extent(const Shape& shape);
 ShapeExtent part_extent(const PlacedShape& part);
 
 // Covers every point of the shape on the way from one pose to another.
-Bounds way_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);
+Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);
 
 }  // namespace handhold

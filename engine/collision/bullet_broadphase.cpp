@@ -34,7 +34,7 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
         park(body);
         return;
     }
-    body.bounds_ws = way_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
+    body.bounds_ws = swept_bounds(extent, body.proxy.from_ws, body.proxy.to_ws);
     btDbvtVolume volume = to_volume(body.bounds_ws);
     if (body.leaf == nullptr && !parked_.empty()) {
         body.leaf = parked_.back();
@@ -99,9 +99,9 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
     }
 }
 
-void Broadphase::set_quiet(std::size_t body, const Bounds& box_ws) {
-    bodies_[body].quiet_since = changes_;
-    bodies_[body].quiet_ws = box_ws;
+void Broadphase::set_isolated(std::size_t body, const Bounds& box_ws) {
+    bodies_[body].isolated_since = changes_;
+    bodies_[body].isolation_ws = box_ws;
 }
 
 // The tree's shape, and so the order in which it answers, depends on its history: sorting takes

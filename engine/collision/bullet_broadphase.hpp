@@ -19,8 +19,8 @@ struct BroadphaseBody {
     std::uint64_t stamp = 0;     // of its last change, in changes of any
     // Of a free body: nothing that it looks for and that did not change since this stamp comes into
     // this box (free bodies with lower ids look for it, not it for them); 0: none is known.
-    std::uint64_t quiet_since = 0;
-    Bounds quiet_ws;
+    std::uint64_t isolated_since = 0;
+    Bounds isolation_ws;
 };
 
 // Memory of one thread's search; its content means nothing between calls.
@@ -37,8 +37,8 @@ class Broadphase {
 
     std::span<const BroadphaseBody> bodies() const { return bodies_; }  // sorted by id
     std::uint64_t last_change() const { return changes_; }
-    void set_quiet(std::size_t body, const Bounds& box_ws);
-    void set_restless(std::size_t body) { bodies_[body].quiet_since = 0; }
+    void set_isolated(std::size_t body, const Bounds& box_ws);
+    void clear_isolation(std::size_t body) { bodies_[body].isolated_since = 0; }
     // Numbers of the bodies that may meet the box, rising; good until the scratch is used again.
     // Any threads may ask at the same time, each with a scratch of its own.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;

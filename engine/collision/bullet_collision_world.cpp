@@ -46,7 +46,7 @@ Corners moved(const Corners& corners, const Vec3& by) {
 // through a room need not ask again for a while.
 std::optional<Bounds> clear_about(const BroadphaseBody& a, const ColliderProxy& b,
                                   const ScaledTriangles& triangles, double margin_m) {
-    constexpr std::array k_slacks_m = {k_quiet_reach_m, 0.2 * k_quiet_reach_m};
+    constexpr std::array k_slacks_m = {k_isolation_reach_m, 0.2 * k_isolation_reach_m};
     if (!same_pose(b.from_ws, b.to_ws)) {
         return std::nullopt;
     }
@@ -108,9 +108,9 @@ std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
         bool any = false;
         for (std::size_t i = 0; i < shape_a.parts.size(); ++i) {
             NearTriangles& near = scratch.triangles[i];
-            const Bounds way = way_bounds(shape_a.parts[i].extent(), from_bs, to_bs);
+            const Bounds along = swept_bounds(shape_a.parts[i].extent(), from_bs, to_bs);
             near.clear();
-            shape_b.triangles->visit_box(way.grown(limits.margin_m), [&](const Corners& corners) {
+            shape_b.triangles->visit_box(along.grown(limits.margin_m), [&](const Corners& corners) {
                 near.add(moved(corners, -to_bs.position));
             });
             near.build();
@@ -134,12 +134,12 @@ void CollisionWorld::Impl::find_contacts_of(const BodyPairs& body, const Contact
                                             std::vector<ContactPoint>& contacts) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     for (std::size_t i = body.first; i < body.last; ++i) {
-        Met& pair = met[i];
+        PairResult& pair = pair_results[i];
         const std::size_t before = contacts.size();
-        if (pair.recalled) {
-            const std::span<const ContactPoint> known = pair.recalled->contacts;
+        if (pair.cached) {
+            const std::span<const ContactPoint> known = pair.cached->contacts;
             contacts.insert(contacts.end(), known.begin(), known.end());
-            pair.clear_ws = pair.recalled->clear_ws;
+            pair.clear_ws = pair.cached->clear_ws;
         } else {
             pair.clear_ws = find_pair(bodies[body.body], bodies[pairs[i]], limits, contacts);
         }
@@ -173,7 +173,7 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     contacts.clear();
     Impl& world = *impl_;
     world.find_pairs(limits.margin_m);
-    world.recall_pairs(limits);
+    world.look_up_pairs(limits);
     if (world.found.size() < world.body_pairs.size()) {
         world.found.resize(world.body_pairs.size());
     }
@@ -185,7 +185,7 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     parallel_for(world.body_pairs.size(), find);
     for (std::size_t i = 0; i < world.body_pairs.size(); ++i) {
         world.remember(world.body_pairs[i], world.found[i]);
-        world.note_quiet(world.body_pairs[i], limits.margin_m);
+        world.cache_isolation(world.body_pairs[i], limits.margin_m);
         contacts.insert(contacts.end(), world.found[i].begin(), world.found[i].end());
     }
 }

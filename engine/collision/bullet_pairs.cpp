@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-PairMemory::Seen seen(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
+PairCache::Seen seen(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
 // Of more, those that changed are found sooner through the tree.
 constexpr std::size_t k_few = 128;
@@ -26,7 +26,7 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
 void CollisionWorld::Impl::find_pairs(double margin_m) {
     body_pairs.clear();
     pairs.clear();
-    find_restless();
+    find_changed_bodies();
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BroadphaseBody& a = bodies[i];
@@ -34,14 +34,14 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
             continue;
         }
         const Bounds reach_ws = a.bounds_ws.grown(margin_m);
-        const bool is_quiet = a.quiet_since > 0 && holds(a.quiet_ws, reach_ws);
-        if (!is_quiet) {
-            broadphase.set_restless(i);
+        const bool is_isolated = a.isolated_since > 0 && holds(a.isolation_ws, reach_ws);
+        if (!is_isolated) {
+            broadphase.clear_isolation(i);
         }
-        const std::uint64_t since = is_quiet ? a.quiet_since : 0;
-        const bool are_few = is_quiet && restless.size() <= k_few;
+        const std::uint64_t since = is_isolated ? a.isolated_since : 0;
+        const bool are_few = is_isolated && changed_bodies.size() <= k_few;
         const std::span<const std::size_t> candidates =
-            are_few ? restless : broadphase.find(reach_ws, broadphase_scratch);
+            are_few ? changed_bodies : broadphase.find(reach_ws, broadphase_scratch);
         const std::size_t first = pairs.size();
         for (const std::size_t other : candidates) {
             const BroadphaseBody& b = bodies[other];
@@ -49,35 +49,36 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
                 pairs.push_back(other);
             }
         }
-        if (!is_quiet || pairs.size() > first) {
-            body_pairs.push_back({i, first, pairs.size(), is_quiet});
+        if (!is_isolated || pairs.size() > first) {
+            body_pairs.push_back({i, first, pairs.size(), is_isolated});
         }
     }
 }
 
-void CollisionWorld::Impl::find_restless() {
-    restless.clear();
+void CollisionWorld::Impl::find_changed_bodies() {
+    changed_bodies.clear();
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     std::uint64_t oldest = broadphase.last_change();
     for (const BroadphaseBody& body : bodies) {
-        oldest = body.quiet_since > 0 ? std::min(oldest, body.quiet_since) : oldest;
+        oldest = body.isolated_since > 0 ? std::min(oldest, body.isolated_since) : oldest;
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].stamp > oldest && bodies[i].leaf != nullptr) {
-            restless.push_back(i);
+            changed_bodies.push_back(i);
         }
     }
 }
 
-void CollisionWorld::Impl::recall_pairs(const ContactLimits& limits) {
+void CollisionWorld::Impl::look_up_pairs(const ContactLimits& limits) {
     memory.begin(limits);
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
-    met.clear();
+    pair_results.clear();
     for (const BodyPairs& of_body : body_pairs) {
         const BroadphaseBody& a = bodies[of_body.body];
         const Bounds reach_ws = a.bounds_ws.grown(limits.margin_m);
         for (std::size_t i = of_body.first; i < of_body.last; ++i) {
-            met.push_back({memory.recall(seen(a), seen(bodies[pairs[i]]), reach_ws), 0, {}});
+            pair_results.push_back(
+                {memory.recall(seen(a), seen(bodies[pairs[i]]), reach_ws), 0, {}});
         }
     }
 }
@@ -87,38 +88,38 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
     std::size_t first = 0;
     for (std::size_t i = body.first; i < body.last; ++i) {
         memory.note(seen(bodies[body.body]), seen(bodies[pairs[i]]),
-                    {contacts.subspan(first, met[i].count), met[i].clear_ws});
-        first += met[i].count;
+                    {contacts.subspan(first, pair_results[i].count), pair_results[i].clear_ws});
+        first += pair_results[i].count;
     }
 }
 
-void CollisionWorld::Impl::note_quiet(const BodyPairs& body, double margin_m) {
+void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_m) {
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     const BroadphaseBody& a = bodies[body.body];
-    if (body.is_quiet) {
+    if (body.is_isolated) {
         return;
     }
-    Bounds box_ws = a.bounds_ws.grown(margin_m + k_quiet_reach_m);
+    Bounds box_ws = a.bounds_ws.grown(margin_m + k_isolation_reach_m);
     for (std::size_t i = body.first; i < body.last; ++i) {
-        if (!met[i].clear_ws) {
+        if (!pair_results[i].clear_ws) {
             return;
         }
-        box_ws = common(box_ws, *met[i].clear_ws);
+        box_ws = common(box_ws, *pair_results[i].clear_ws);
     }
     if (!holds(box_ws, a.bounds_ws.grown(margin_m))) {
         return;
     }
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
-        if (other != body.body && may_come_into(box_ws, a, bodies[other])) {
+        if (other != body.body && may_enter(box_ws, a, bodies[other])) {
             return;
         }
     }
-    broadphase.set_quiet(body.body, box_ws);
+    broadphase.set_isolated(body.body, box_ws);
 }
 
 // Of two free bodies the one with the lower id looks after both.
-bool CollisionWorld::Impl::may_come_into(const Bounds& box_ws, const BroadphaseBody& a,
-                                         const BroadphaseBody& b) const {
+bool CollisionWorld::Impl::may_enter(const Bounds& box_ws, const BroadphaseBody& a,
+                                     const BroadphaseBody& b) const {
     if (b.proxy.free) {
         return a.proxy.id < b.proxy.id;
     }

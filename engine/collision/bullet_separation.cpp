@@ -15,7 +15,7 @@ constexpr double k_face_gain_m = 1e-9;
 
 // Cores that meet in a plane or a line have no least way out: any across both is as good, and this
 // one is always the same.
-Vec3 any_way_out(const Convex& a, const Convex& b) {
+Vec3 any_exit_direction(const Convex& a, const Convex& b) {
     if (b.corners_ns != nullptr) {
         const Vec3 normal = b.face_normal(0);
         return (a.centre_ns() - (*b.corners_ns)[0]).dot(normal) >= 0.0 ? normal : Vec3(-normal);
@@ -73,7 +73,7 @@ double depth_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal));
 }
 
-enum class Search { apart, way_out };
+enum class Search { apart, depth_and_exit };
 
 bool run(Search search, const Convex& a, const Convex& b, const btVector3& guess,
          CoreSeparation& result) {
@@ -134,14 +134,14 @@ bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess
 }  // namespace
 
 CoreSeparation separate(const Convex& a, const Convex& b) {
-    const Vec3 fallback = any_way_out(a, b);
+    const Vec3 fallback = any_exit_direction(a, b);
     const btVector3 guess =
         -(to_bullet(fallback) * a.pose_ns.getBasis());  // where EPA has no volume: its answer
     CoreSeparation result;
     if (find_whole(Search::apart, a, b, guess, result) && result.separation_m > 0.0) {
         return result;
     }
-    if (!find_whole(Search::way_out, a, b, guess, result)) {
+    if (!find_whole(Search::depth_and_exit, a, b, guess, result)) {
         result.normal = fallback;
         result.separation_m = depth_along(a, b, fallback);
         result.point_a_ns = result.point_b_ns = a.support(-fallback);

@@ -16,19 +16,19 @@ constexpr double k_worn_share = 0.5;  // of the gap that a direction was found f
 
 // How far the sphere about a goes before it nears a triangle: cheap steps, whatever a's turn, that
 // leave most triangles behind. nullopt where the sphere never does.
-std::optional<double> skip_free_way(const RelativeMotion& motion, const Corners& corners_ns,
-                                    double reach_m, double limit) {
+std::optional<double> skip_free_travel(const RelativeMotion& motion, const Corners& corners_ns,
+                                       double reach_m, double limit) {
     constexpr int k_cheap_steps = 8;
     double fraction = 0.0;
     for (int step = 0; step < k_cheap_steps; ++step) {
         const Vec3 centre = motion.from_ns() + fraction * motion.move();
-        const Vec3 way = centre - closest_on_triangle(centre, corners_ns);
-        const double distance = way.norm();
+        const Vec3 state = centre - closest_on_triangle(centre, corners_ns);
+        const double distance = state.norm();
         const double gap = distance - reach_m - k_sweep_touch_m;
         if (gap <= 0.01 * reach_m) {
             break;
         }
-        const double closing_m = -motion.move().dot(way) / distance;
+        const double closing_m = -motion.move().dot(state) / distance;
         if (closing_m <= 0.0) {
             return std::nullopt;
         }
@@ -70,17 +70,18 @@ std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion
                                        const Convex& b, double limit) {
     Approach approach;
     if (b.corners_ns != nullptr) {
-        const auto free_way = skip_free_way(motion, *b.corners_ns, a.extent().radius_m, limit);
-        if (!free_way) {
+        const auto free_fraction =
+            skip_free_travel(motion, *b.corners_ns, a.extent().radius_m, limit);
+        if (!free_fraction) {
             return std::nullopt;
         }
-        approach.fraction = *free_way;
+        approach.fraction = *free_fraction;
     }
     return approach;
 }
 
-Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, double limit,
-            Approach& approach) {
+ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
+                      double limit, Approach& approach) {
     const Convex placed = a.at(motion.at(approach.fraction));
     // A direction that keeps them apart is as safe as the best one; it is kept until half of its
     // gap is gone: finding another costs ten times as much.
@@ -93,31 +94,31 @@ Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, 
         approach.impact.normal = separation.normal;
         approach.impact.point_b_ns = separation.point_b_ns + b.radius_m * separation.normal;
         if (!(gap > k_sweep_touch_m)) {
-            return Way::touches;
+            return ApproachState::touches;
         }
     }
     if (++approach.steps == k_steps) {
-        return Way::touches;
+        return ApproachState::touches;
     }
     // Turning carries a point along the normal no faster than this, wherever it turns to.
     const Vec3& normal = approach.impact.normal;
     const double turning_m = motion.turn_rad().cross(normal).norm() * a.arm_m();
     const double closing_m = turning_m - motion.move().dot(normal);
     if (!(closing_m > 0.0)) {
-        return Way::misses;
+        return ApproachState::misses;
     }
     approach.fraction += (gap - 0.5 * k_sweep_touch_m) / closing_m;
-    return approach.fraction <= limit ? Way::goes_on : Way::misses;
+    return approach.fraction <= limit ? ApproachState::continues : ApproachState::misses;
 }
 
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
                                      const Convex& b, double limit) {
     std::optional<Approach> approach = begin_approach(a, motion, b, limit);
-    Way way = approach ? Way::goes_on : Way::misses;
-    while (way == Way::goes_on) {
-        way = advance(a, motion, b, limit, *approach);
+    ApproachState state = approach ? ApproachState::continues : ApproachState::misses;
+    while (state == ApproachState::continues) {
+        state = advance(a, motion, b, limit, *approach);
     }
-    return way == Way::touches ? std::optional(approach->impact) : std::nullopt;
+    return state == ApproachState::touches ? std::optional(approach->impact) : std::nullopt;
 }
 
 }  // namespace handhold

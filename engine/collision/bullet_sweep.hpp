@@ -46,13 +46,13 @@ struct Approach {
     double gap_m = 0.0;  // then
     int steps = 0;
 };
-enum class Way : std::uint8_t { goes_on, touches, misses };
+enum class ApproachState : std::uint8_t { continues, touches, misses };
 // The first step, cheap, and the others, each from the last one's fraction to one that no point of
 // a can outrun: many shapes are so met at a time, whichever is nearest first. `limit` as below.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
                                        const Convex& b, double limit);
-Way advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b, double limit,
-            Approach& approach);
+ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
+                      double limit, Approach& approach);
 
 // First fraction of the way at which a, a part of what moves, is within a micrometre of b, or
 // nullopt where it is not before `limit`. A start in touch is an impact at 0.

@@ -12,16 +12,16 @@ namespace handhold {
 namespace {
 
 // True where the segment comes into the box; rounding may say so beside it.
-bool segment_meets(const Bounds& box, const Vec3& from, const Vec3& inverse_way) {
+bool segment_meets(const Bounds& box, const Vec3& from, const Vec3& inverse_displacement) {
     constexpr double k_rounding = 1e-12;
     double enter = 0.0;
     double leave = 1.0;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(inverse_way[axis])) {
+        if (!std::isfinite(inverse_displacement[axis])) {
             continue;  // it stays between the two sides, or the walk would not have come here
         }
-        const double near = (box.low[axis] - from[axis]) * inverse_way[axis];
-        const double far = (box.high[axis] - from[axis]) * inverse_way[axis];
+        const double near = (box.low[axis] - from[axis]) * inverse_displacement[axis];
+        const double far = (box.high[axis] - from[axis]) * inverse_displacement[axis];
         enter = std::max(enter, std::min(near, far));
         leave = std::min(leave, std::max(near, far));
     }
@@ -82,11 +82,11 @@ std::optional<LocalRayHit> ScaledTriangles::cast_ray(const Vec3& from, const Vec
     };
     Nearest nearest(to_bullet(from), to_bullet(to));
     // The tree knows the mesh at its own scale, where a ray's fractions are the same.
-    const Bounds way = unscaled(bounds_of(from, to));
+    const Bounds along = unscaled(bounds_of(from, to));
     const Vec3 start = from.cwiseProduct(inverse_scale_);
-    const Vec3 inverse_way = (to - from).cwiseProduct(inverse_scale_).cwiseInverse();
+    const Vec3 inverse_displacement = (to - from).cwiseProduct(inverse_scale_).cwiseInverse();
     tree_->walk(
-        way, [&](const Bounds& box) { return segment_meets(box, start, inverse_way); },
+        along, [&](const Bounds& box) { return segment_meets(box, start, inverse_displacement); },
         [&](std::size_t triangle) {
             const Corners c = corners(triangle);
             std::array<btVector3, 3> points = {to_bullet(c[0]), to_bullet(c[1]), to_bullet(c[2])};

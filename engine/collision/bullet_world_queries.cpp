@@ -79,14 +79,14 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
         const CollisionShape& shape = impl_->cache[proxy.shape.index];
         const Vec3 from =
             inverse_transform_point(proxy.to_ws, from_ws);  // near space lies about it here
-        const Vec3 way = inverse_transform_point(proxy.to_ws, to_ws) - from;
-        const RelativeMotion motion({}, {way, Quat::Identity()});
+        const Vec3 along = inverse_transform_point(proxy.to_ws, to_ws) - from;
+        const RelativeMotion motion({}, {along, Quat::Identity()});
         const auto offer = [&](const Convex& b) {
             const auto hit = time_of_impact(scratch.sphere, motion, b, fraction);
             if (hit && (!best || hit->fraction < fraction)) {
                 fraction = hit->fraction;
                 best = RayHit{proxy.id, transform_point(proxy.to_ws, from + hit->point_b_ns),
-                              proxy.to_ws.rotation * hit->normal, fraction * way.norm()};
+                              proxy.to_ws.rotation * hit->normal, fraction * along.norm()};
             }
         };
         for (const ConvexPart& part : shape.parts) {
@@ -95,7 +95,7 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
         if (!shape.triangles) {
             return;
         }
-        const Bounds box = bounds_of(from, from + way).grown(reach_m);
+        const Bounds box = bounds_of(from, from + along).grown(reach_m);
         shape.triangles->visit_box(box, [&](const Corners& corners) {
             const Corners near{corners[0] - from, corners[1] - from, corners[2] - from};
             if (const Vec3 area = area_vector(near); !area.isZero(0.0)) {

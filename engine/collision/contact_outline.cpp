@@ -55,9 +55,9 @@ const NearContact& next_corner(std::span<const NearContact> group, const NearCon
 // Leaves out the flattest corners until 8 are left; of equal ones the first, so that of a rim's
 // every other one goes.
 void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
-    constexpr std::size_t k_most = 8;
+    constexpr std::size_t k_max_group = 8;
     constexpr double k_equal_m = 1e-9;
-    while (outline.size() - first > k_most) {
+    while (outline.size() - first > k_max_group) {
         const std::size_t count = outline.size() - first;
         std::size_t flattest = 0;
         double least = std::numeric_limits<double>::infinity();

@@ -4,12 +4,12 @@
 
 namespace handhold {
 
-void PairMemory::Pass::clear() {
+void PairCache::Pass::clear() {
     pairs.clear();
     contacts.clear();
 }
 
-void PairMemory::begin(const ContactLimits& limits) {
+void PairCache::begin(const ContactLimits& limits) {
     std::swap(now_, last_);
     now_.clear();
     next_pair_ = 0;
@@ -19,8 +19,8 @@ void PairMemory::begin(const ContactLimits& limits) {
     }
 }
 
-std::optional<PairMemory::Known> PairMemory::recall(const Seen& a, const Seen& b,
-                                                    const Bounds& reach_ws) {
+std::optional<PairCache::Known> PairCache::recall(const Seen& a, const Seen& b,
+                                                  const Bounds& reach_ws) {
     const auto ids_of = [](const Pair& pair) { return std::tie(pair.a.id, pair.b.id); };
     const auto wanted = std::tie(a.id, b.id);
     while (next_pair_ < last_.pairs.size() && ids_of(last_.pairs[next_pair_]) < wanted) {
@@ -42,7 +42,7 @@ std::optional<PairMemory::Known> PairMemory::recall(const Seen& a, const Seen& b
     return std::nullopt;
 }
 
-void PairMemory::note(const Seen& a, const Seen& b, const Known& known) {
+void PairCache::note(const Seen& a, const Seen& b, const Known& known) {
     now_.pairs.push_back({a, b, static_cast<std::uint32_t>(now_.contacts.size()),
                           static_cast<std::uint32_t>(known.contacts.size()), known.clear_ws});
     now_.contacts.insert(now_.contacts.end(), known.contacts.begin(), known.contacts.end());

@@ -14,7 +14,7 @@ namespace handhold {
 // moved since, as most within one frame, or whose free body stays where the other has nothing. A
 // cache: what it gives back is, bit for bit, what a pair gives that is met afresh. Pairs are asked
 // for by rising (id of a, id of b).
-class PairMemory {
+class PairCache {
   public:
     // A collider and when it last changed, in changes of any.
     struct Seen {

@@ -72,15 +72,15 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
     while (!queue.empty()) {
         std::ranges::pop_heap(queue, touches_later);
         TriangleApproach& next = queue.back();
-        const Way way = advance(a, motion, place(next.triangle), limit, next.approach);
-        if (way == Way::goes_on) {
+        const ApproachState state = advance(a, motion, place(next.triangle), limit, next.approach);
+        if (state == ApproachState::continues) {
             std::ranges::push_heap(queue, touches_later);
             continue;
         }
         Impact impact = next.approach.impact;
         const NearTriangle& triangle = triangles.all()[next.triangle];
         queue.pop_back();
-        if (way == Way::touches) {
+        if (state == ApproachState::touches) {
             straighten(triangles, triangle, from, impact);
             if (stops(impact, motion, impact.normal, graze)) {
                 return impact;

@@ -116,7 +116,7 @@ ShapeId ShapeLibrary::add_hull(const ConvexHull& hull) {
 }
 
 ShapeId ShapeLibrary::add_compound(std::span<const CompoundChild> children) {
-    HH_CHECK(!children.empty() && children.size() <= k_most_parts, "a compound has 1 to 64 parts",
+    HH_CHECK(!children.empty() && children.size() <= k_max_parts, "a compound has 1 to 64 parts",
              children.size());
     std::vector<PlacedShape> parts;
     for (const CompoundChild& child : children) {
@@ -136,7 +136,7 @@ ShapeId ShapeLibrary::add_compound(std::span<const CompoundChild> children) {
 
 ShapeId ShapeLibrary::add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& scale) {
     HH_CHECK(mesh != nullptr && !mesh->triangles.empty(), "a mesh without triangles", 0);
-    HH_CHECK(mesh->triangles.size() <= k_most_triangles, "more than 2^21 triangles",
+    HH_CHECK(mesh->triangles.size() <= k_max_triangles, "more than 2^21 triangles",
              mesh->triangles.size());
     for (const double factor : scale) {
         HH_CHECK(is_scale(factor), "a scale outside of [1e-3, 1e3]", factor);

@@ -67,10 +67,10 @@ class ShapeLibrary {
     ShapeId add_capsule(double radius_m, double half_height_m);
     ShapeId add_cylinder(double radius_m, double half_height_m);
     // The convex hull of points that are finite and not in a plane; is_solid. At most
-    // k_most_hull_corners corners: convex_hull.hpp says what more points lose.
+    // k_max_hull_corners corners: convex_hull.hpp says what more points lose.
     ShapeId add_hull(std::span<const Vec3> points);
     ShapeId add_hull(const ConvexHull& hull);
-    // 1 to k_most_parts convex shapes that move as one; they may overlap. Masses: all 0 or all > 0.
+    // 1 to k_max_parts convex shapes that move as one; they may overlap. Masses: all 0 or all > 0.
     ShapeId add_compound(std::span<const CompoundChild> children);
     // A mesh of 1 to 2^21 triangles with indices in range and finite positions, stretched along its
     // axes by factors in [1e-3, 1e3]. Shapes of one mesh share it and its acceleration structure,
@@ -89,9 +89,9 @@ class ShapeLibrary {
     std::vector<Shape> shapes_;
 };
 
-constexpr std::size_t k_most_parts = 64;  // of a compound
-constexpr std::size_t k_most_triangles = std::size_t{1}
-                                         << 21U;  // of a mesh: what its tree can number
+constexpr std::size_t k_max_parts = 64;  // of a compound
+constexpr std::size_t k_max_triangles = std::size_t{1}
+                                        << 21U;  // of a mesh: what its tree can number
 
 // True where add_hull takes it: 1e-3 to 1e4 m at its thinnest and widest.
 bool is_solid(const ConvexHull& hull);

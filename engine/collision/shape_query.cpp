@@ -14,9 +14,9 @@ constexpr double k_edge = 1e-12;  // share of a triangle or extent by which its 
 
 struct Ray {
     Vec3 from;
-    Vec3 way;
+    Vec3 along;
 
-    Vec3 at(double fraction) const { return from + fraction * way; }
+    Vec3 at(double fraction) const { return from + fraction * along; }
 };
 
 // Where the line through a ray goes into a convex shape and where it leaves it, of what is offered.
@@ -49,11 +49,11 @@ struct Passage {
 
 void offer_box(const Ray& ray, const Vec3& half, Passage& passage) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        if (ray.way[axis] == 0.0) {
+        if (ray.along[axis] == 0.0) {
             continue;
         }
         for (const double side : {-1.0, 1.0}) {
-            const double fraction = (side * half[axis] - ray.from[axis]) / ray.way[axis];
+            const double fraction = (side * half[axis] - ray.from[axis]) / ray.along[axis];
             Vec3 beyond = ray.at(fraction).cwiseAbs() - half;
             beyond[axis] = 0.0;
             if (beyond.maxCoeff() <= k_edge * half.maxCoeff()) {
@@ -78,8 +78,8 @@ std::optional<std::pair<double, double>> roots(double a, double b, double c) {
 // `cap`: 0 for a whole sphere, +1 or -1 for the half of it beyond the end of a capsule's axis.
 void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap, Passage& passage) {
     const Vec3 offset = ray.from - centre;
-    const auto both =
-        roots(ray.way.squaredNorm(), offset.dot(ray.way), offset.squaredNorm() - radius * radius);
+    const auto both = roots(ray.along.squaredNorm(), offset.dot(ray.along),
+                            offset.squaredNorm() - radius * radius);
     if (!both) {
         return;
     }
@@ -93,9 +93,10 @@ void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap,
 
 void offer_barrel(const Ray& ray, double radius, double half_height, Passage& passage) {
     const Vec3 flat(1.0, 0.0, 1.0);
-    const Vec3 way = ray.way.cwiseProduct(flat);
+    const Vec3 along = ray.along.cwiseProduct(flat);
     const Vec3 from = ray.from.cwiseProduct(flat);
-    const auto both = roots(way.squaredNorm(), from.dot(way), from.squaredNorm() - radius * radius);
+    const auto both =
+        roots(along.squaredNorm(), from.dot(along), from.squaredNorm() - radius * radius);
     if (!both) {
         return;
     }
@@ -108,11 +109,11 @@ void offer_barrel(const Ray& ray, double radius, double half_height, Passage& pa
 }
 
 void offer_caps(const Ray& ray, double radius, double half_height, Passage& passage) {
-    if (ray.way.y() == 0.0) {
+    if (ray.along.y() == 0.0) {
         return;
     }
     for (const double side : {-1.0, 1.0}) {
-        const double fraction = (side * half_height - ray.from.y()) / ray.way.y();
+        const double fraction = (side * half_height - ray.from.y()) / ray.along.y();
         const Vec3 point = ray.at(fraction);
         if (std::hypot(point.x(), point.z()) <= radius * (1.0 + k_edge)) {
             passage.offer(fraction, side * Vec3::UnitY());
@@ -126,7 +127,7 @@ Passage pass_hull(const Ray& ray, const ConvexHull& hull) {
     std::swap(inside.enter, inside.leave);
     for (const HullFace& face : hull.faces) {
         const double height = face.normal.dot(ray.from) - face.offset_m;
-        const double rise = face.normal.dot(ray.way);
+        const double rise = face.normal.dot(ray.along);
         if (rise == 0.0) {
             if (height > k_edge) {
                 return {};
@@ -175,7 +176,7 @@ Passage pass(const Shape& shape, const Ray& ray) {
 Passage pass(const PlacedShape& part, const Ray& ray) {
     const Quat back = part.pose.rotation.conjugate();
     Passage passage =
-        pass(part.shape, {inverse_transform_point(part.pose, ray.from), back * ray.way});
+        pass(part.shape, {inverse_transform_point(part.pose, ray.from), back * ray.along});
     passage.enter_normal = part.pose.rotation * passage.enter_normal;
     passage.leave_normal = part.pose.rotation * passage.leave_normal;
     return passage;
@@ -251,8 +252,8 @@ LocalSurfacePoint closest_on_cylinder(double radius, double half_height, const V
     }
     const Vec3 surface = std::min(from_axis, radius) * outward +
                          std::clamp(point.y(), -half_height, half_height) * Vec3::UnitY();
-    const Vec3 way = point - surface;
-    return {surface, way.normalized(), way.norm()};
+    const Vec3 along = point - surface;
+    return {surface, along.normalized(), along.norm()};
 }
 
 LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
@@ -281,9 +282,9 @@ LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
             }
         }
     }
-    const Vec3 way = point - best;
-    const double distance = way.norm();
-    return {best, distance > 0.0 ? Vec3(way / distance) : nearest->normal, distance};
+    const Vec3 along = point - best;
+    const double distance = along.norm();
+    return {best, distance > 0.0 ? Vec3(along / distance) : nearest->normal, distance};
 }
 
 LocalSurfacePoint closest_on_part(const PlacedShape& part, const Vec3& point) {
@@ -349,10 +350,10 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
     constexpr double k_on_surface_m = 1e-9;  // nearer than this the way to the point is rounding
     const Vec3 surface = closest_on_triangle(point, corners);
-    const Vec3 way = point - surface;
-    const double distance = way.norm();
+    const Vec3 along = point - surface;
+    const double distance = along.norm();
     if (distance > k_on_surface_m) {
-        return {surface, way / distance, distance};
+        return {surface, along / distance, distance};
     }
     const Vec3 area = area_vector(corners);
     return {surface, area.isZero(0.0) ? Vec3(Vec3::UnitY()) : area.normalized(), distance};

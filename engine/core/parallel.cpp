@@ -51,7 +51,7 @@ struct Job {
 };
 
 void run_claimed(Job& job) {
-    take_over_memory(&job);
+    acquire_memory(&job);
     {
         const InTask in_task;
         const auto claim = [&] { return job.next.fetch_add(1, std::memory_order_relaxed); };
@@ -59,7 +59,7 @@ void run_claimed(Job& job) {
             job.task(job.context, i);
         }
     }
-    hand_over_memory(&job);
+    release_memory(&job);
 }
 
 void run_serial(std::size_t count, void* context, IndexedTask task) {
@@ -103,9 +103,9 @@ void parallel_for(std::size_t count, void* context, IndexedTask task) {
     const auto run_all = [&]() __attribute__((no_sanitize("thread"))) {
         tbb::parallel_for(std::size_t{0}, runners, run, tbb::simple_partitioner());
     };
-    hand_over_memory(&job);
+    release_memory(&job);
     state.arena->execute(run_all);
-    take_over_memory(&job);
+    acquire_memory(&job);
 }
 
 }  // namespace handhold

@@ -21,8 +21,8 @@ extern "C" const char* __tsan_default_suppressions() {
 
 namespace handhold {
 
-void hand_over_memory(const void* address) { __tsan_release(const_cast<void*>(address)); }
-void take_over_memory(const void* address) { __tsan_acquire(const_cast<void*>(address)); }
+void release_memory(const void* address) { __tsan_release(const_cast<void*>(address)); }
+void acquire_memory(const void* address) { __tsan_acquire(const_cast<void*>(address)); }
 
 }  // namespace handhold
 

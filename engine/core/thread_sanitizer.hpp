@@ -14,13 +14,13 @@
 namespace handhold {
 
 #ifdef HH_THREAD_SANITIZER
-// All that this thread did so far comes before what others do after take_over_memory of the same
+// All that this thread did so far comes before what others do after acquire_memory of the same
 // address.
-void hand_over_memory(const void* address);
-void take_over_memory(const void* address);
+void release_memory(const void* address);
+void acquire_memory(const void* address);
 #else
-inline void hand_over_memory(const void*) {}
-inline void take_over_memory(const void*) {}
+inline void release_memory(const void*) {}
+inline void acquire_memory(const void*) {}
 #endif
 
 }  // namespace handhold

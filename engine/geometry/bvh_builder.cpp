@@ -217,10 +217,10 @@ std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
 void BvhBuilder::add_four(std::uint32_t first_slot) {
     constexpr double k_least_area = 1e-8;  // of the longest edge, squared: below it the normal of
                                            // the corners is off by more than floats are
-    FourTriangles four;
+    Triangles4 four;
     for (std::uint32_t i = 0; i < k_leaf; ++i) {
         const Corners corners = bvh_.corners_at(first_slot + i);
-        const auto put = [i](std::array<FourFloats, 3>& to, const Vec3& from) {
+        const auto put = [i](std::array<Float4, 3>& to, const Vec3& from) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 to[axis][i] = static_cast<float>(from[static_cast<Eigen::Index>(axis)]);
             }

@@ -39,22 +39,22 @@ class ChainFitter {
     ChainFit run(const ChainSeed& seed) {
         gather();
         if (meshes_.empty()) {
-            relax();
+            return_to_rest();
             return fit_;
         }
-        if (settings_.searches || !begins_sunk()) {
+        if (settings_.searches || !starts_penetrating()) {
             close_from_open(seed);
         }
         if (fit_.contact_link == DiscClosure::k_none) {
-            relax();
+            return_to_rest();
         }
-        if (!settings_.mends) {
-            fit_.wants_mending =
+        if (!settings_.depenetrates) {
+            fit_.needs_depenetration =
                 fit_.depth_m > std::min(settings_.search_depth_m, settings_.open_depth_m);
             return fit_;
         }
         if (fit_.depth_m > settings_.search_depth_m) {
-            bend_clear();
+            depenetrate();
         }
         if (fit_.depth_m > settings_.open_depth_m) {
             open();
@@ -83,7 +83,7 @@ class ChainFitter {
     }
 
     // True where it is sunk before it closes: it would hardly turn.
-    bool begins_sunk() {
+    bool starts_penetrating() {
         const ChainDepth depth = depth_of(chain_.open_rad);
         if (depth.depth_m <= settings_.search_depth_m) {
             return false;
@@ -104,8 +104,8 @@ class ChainFitter {
         scratch_.disc.pairs.reserve(k_usual_segments);
         scratch_.disc.paired.reserve(k_usual_segments);
         scratch_.disc.bounds.reserve(k_usual_segments / 4);
-        ChainReach reach = chain_reach(chain_, lowest(chain_.open_rad, chain_.relaxed_rad),
-                                       highest(chain_.closed_rad, chain_.relaxed_rad));
+        ChainReach reach = chain_reach(chain_, lowest(chain_.open_rad, chain_.rest_rad),
+                                       highest(chain_.closed_rad, chain_.rest_rad));
         reach.half_width_m = half_width_m(chain_, settings_.plane_offset);
         scratch_.patch.gather(reach, meshes_);
         scratch_.cuts.clear();
@@ -181,7 +181,7 @@ class ChainFitter {
     void close() {
         const DiscClosure closure = close_chain(flat_, scratch_.segments, {}, scratch_.disc);
         fit_.contact_link = closure.contact_link;
-        bend_to(closure.angle_rad);
+        set_angles(closure.angle_rad);
     }
 
     // What is sunk there touches.
@@ -192,16 +192,16 @@ class ChainFitter {
             depth.depth_m > 0.0 ? static_cast<std::int32_t>(depth.link) : DiscClosure::k_none;
     }
 
-    void bend_to(const Angles& angle_rad) {
+    void set_angles(const Angles& angle_rad) {
         fit_.angle_rad = angle_rad;
         fit_.depth_m = depth_of(angle_rad).depth_m;
     }
 
-    void close_over_all_cuts(bool had_touch) {
+    void close_over_all_cuts(bool had_contact) {
         const ChainFit before = fit_;
         scratch_.segments.assign(scratch_.cuts.begin(), scratch_.cuts.end());
         close();
-        const bool is_better = !had_touch || fit_.depth_m < before.depth_m;
+        const bool is_better = !had_contact || fit_.depth_m < before.depth_m;
         if (is_better) {
             fit_.fallback = ChainFallback::all_cuts;
         } else {
@@ -210,72 +210,73 @@ class ChainFitter {
     }
 
     // Poses that it may stay in when it is bent out of what it is sunk in.
-    struct BentPoses {
-        std::optional<Angles> touching;    // clear, the nearest to near_rad of those that touch
-        std::optional<Angles> clear;       // the nearest to it of all that are clear
-        std::optional<Angles> least_sunk;  // where none is clear
-        double least_m = 0.0;              // how deep that is
+    struct SamplePoses {
+        std::optional<Angles> touching;  // clear, the nearest to near_rad of those that touch
+        std::optional<Angles> clear;     // the nearest to it of all that are clear
+        std::optional<Angles> least_penetrating;  // where none is clear
+        double min_m = 0.0;                       // how deep that is
     };
 
     // Straight, it reaches into what is before it, or closes onto what it only grazes, and may be
     // clear when it is bent: at the first hinge, at the others, or at all. Stays where it is clear
     // and touches something; else it comes back from where it is clear until it touches; where no
     // pose is clear, it stays where it is sunk least.
-    void bend_clear() {
+    void depenetrate() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
-        const Angles sunk_rad = fit_.angle_rad;
-        const BentPoses poses = look_at_bends(clear_m);
+        const Angles penetrating_rad = fit_.angle_rad;
+        const SamplePoses poses = evaluate_sample_poses(clear_m);
         if (poses.touching) {
-            stay_bent(*poses.touching);
+            stay_at_sample(*poses.touching);
         } else if (poses.clear) {
-            const bool is_clear = depth_of(chain_.relaxed_rad).depth_m <= clear_m;
-            stay_bent(is_clear ? chain_.relaxed_rad : *poses.clear);
-            if (settings_.comes_back && fit_.depth_m <= 0.0) {
-                touch_between(fit_.angle_rad, sunk_rad, depth_of(sunk_rad).link);
+            const bool is_clear = depth_of(chain_.rest_rad).depth_m <= clear_m;
+            stay_at_sample(is_clear ? chain_.rest_rad : *poses.clear);
+            if (settings_.recloses_to_touch && fit_.depth_m <= 0.0) {
+                touch_between(fit_.angle_rad, penetrating_rad, depth_of(penetrating_rad).link);
             }
-        } else if (poses.least_sunk) {
-            stay_bent(*poses.least_sunk);
+        } else if (poses.least_penetrating) {
+            stay_at_sample(*poses.least_penetrating);
         }
     }
 
-    BentPoses look_at_bends(double clear_m) {
-        BentPoses poses;
-        poses.least_m = fit_.depth_m;
+    SamplePoses evaluate_sample_poses(double clear_m) {
+        SamplePoses poses;
+        poses.min_m = fit_.depth_m;
         ChainDepths depths(chain_, scratch_.patch);
-        for (int first = 0; first < k_bends; ++first) {
-            for (int others = 0; others < k_bends; ++others) {
-                const Angles angle_rad = bend(static_cast<double>(first) / k_bends,
-                                              static_cast<double>(others) / (k_bends - 1));
-                const double depth_m = depths.depth_m(angle_rad, std::max(poses.least_m, clear_m));
+        for (int first = 0; first < k_pose_samples; ++first) {
+            for (int others = 0; others < k_pose_samples; ++others) {
+                const Angles angle_rad =
+                    sample_pose(static_cast<double>(first) / k_pose_samples,
+                                static_cast<double>(others) / (k_pose_samples - 1));
+                const double depth_m = depths.depth_m(angle_rad, std::max(poses.min_m, clear_m));
                 if (depth_m <= clear_m && depth_m < fit_.depth_m) {
-                    keep_nearer(angle_rad, poses.clear);
+                    keep_if_nearer(angle_rad, poses.clear);
                     // Straight it touched as it began, and was sunk as it closed.
                     const bool is_straight = angle_rad == chain_.open_rad;
                     if (depth_m > 0.0 && !is_straight) {
-                        keep_nearer(angle_rad, poses.touching);
+                        keep_if_nearer(angle_rad, poses.touching);
                     }
-                } else if (depth_m < poses.least_m) {
-                    poses.least_m = depth_m;
-                    poses.least_sunk = angle_rad;
+                } else if (depth_m < poses.min_m) {
+                    poses.min_m = depth_m;
+                    poses.least_penetrating = angle_rad;
                 }
             }
         }
         return poses;
     }
 
-    void stay_bent(const Angles& angle_rad) {
+    void stay_at_sample(const Angles& angle_rad) {
         stay_at(angle_rad, depth_of(angle_rad));
-        fit_.fallback = ChainFallback::bent;
+        fit_.fallback = ChainFallback::sample_pose;
     }
 
-    void keep_nearer(const Angles& angle_rad, std::optional<Angles>& kept) const {
-        if (!kept || off_near_rad(angle_rad) < off_near_rad(*kept)) {
+    void keep_if_nearer(const Angles& angle_rad, std::optional<Angles>& kept) const {
+        if (!kept || distance_to_near_rad(angle_rad) < distance_to_near_rad(*kept)) {
             kept = angle_rad;
         }
     }
 
-    double off_near_rad(const Angles& angle_rad) const {
-        const Angles& near_rad = settings_.near_rad ? *settings_.near_rad : chain_.relaxed_rad;
+    double distance_to_near_rad(const Angles& angle_rad) const {
+        const Angles& near_rad = settings_.near_rad ? *settings_.near_rad : chain_.rest_rad;
         double off_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
             off_rad += std::abs(angle_rad[i] - near_rad[i]);
@@ -283,7 +284,7 @@ class ChainFitter {
         return off_rad;
     }
 
-    Angles bend(double first, double others) const {
+    Angles sample_pose(double first, double others) const {
         Angles angle_rad = {};
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
             angle_rad[i] = chain_.open_rad[i] +
@@ -326,35 +327,35 @@ class ChainFitter {
 
     // On the way from a pose that is clear to one that is sunk: where it just touches, or else the
     // last that is clear.
-    void touch_between(Angles clear_rad, Angles sunk_rad, std::size_t sunk_link) {
+    void touch_between(Angles clear_rad, Angles penetrating_rad, std::size_t penetrating_link) {
         constexpr int k_halvings = 7;
         constexpr double k_touches_m = 2e-4;
         ChainDepth depth;
         for (int i = 0; i < k_halvings && depth.depth_m <= 0.0; ++i) {
             Angles middle_rad = {};
             for (std::size_t k = 0; k < chain_.link_count; ++k) {
-                middle_rad[k] = 0.5 * (clear_rad[k] + sunk_rad[k]);
+                middle_rad[k] = 0.5 * (clear_rad[k] + penetrating_rad[k]);
             }
             const ChainDepth middle = depth_of(middle_rad);
-            sunk_link = middle.depth_m > 0.0 ? middle.link : sunk_link;
+            penetrating_link = middle.depth_m > 0.0 ? middle.link : penetrating_link;
             if (middle.depth_m <= k_touches_m) {
                 clear_rad = middle_rad;
                 depth = middle;
             } else {
-                sunk_rad = middle_rad;
+                penetrating_rad = middle_rad;
             }
         }
         fit_.angle_rad = clear_rad;
         fit_.depth_m = depth.depth_m;
-        fit_.contact_link = static_cast<std::int32_t>(sunk_link);
+        fit_.contact_link = static_cast<std::int32_t>(penetrating_link);
     }
 
-    void relax() {
-        bend_to(chain_.relaxed_rad);
-        fit_.fallback = ChainFallback::relaxed;
+    void return_to_rest() {
+        set_angles(chain_.rest_rad);
+        fit_.fallback = ChainFallback::rest_pose;
     }
 
-    static constexpr int k_bends = 5;                 // of the first hinge, and of the others
+    static constexpr int k_pose_samples = 5;          // of the first hinge, and of the others
     static constexpr double k_detail_apart_m = 0.02;  // the search detail never errs so much
 
     const HingeChain& chain_;
@@ -370,7 +371,7 @@ class ChainFitter {
 
 }  // namespace
 
-SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
+CapsulePenetration find_penetration(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
     const Vec3 along = capsule.ends[1] - capsule.ends[0];
     const double length_m = along.norm();
     ChainReach reach;
@@ -381,7 +382,7 @@ SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes
     reach.half_width_m = capsule.radius_m;
     ChainPatch patch;
     patch.gather(reach, meshes);
-    return patch.find_sunk({Vec2::Zero(), Vec2(length_m, 0.0)}, capsule.radius_m, 0);
+    return patch.find_penetration({Vec2::Zero(), Vec2(length_m, 0.0)}, capsule.radius_m, 0);
 }
 
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,

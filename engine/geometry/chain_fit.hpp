@@ -36,23 +36,24 @@ struct ChainFitSettings {
     // Of several bends that are clear the one nearest to this is taken; none: to the relaxed pose,
     // which comes first in any case where no bend touches.
     std::optional<ChainAngles> near_rad;
-    bool comes_back = true;  // of what is bent clear and touches nothing there: until it touches
+    bool recloses_to_touch =
+        true;              // of what is bent clear and touches nothing there: until it touches
     bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
                            // it closes is not closed from there: cheap
-    bool mends = true;     // false: neither bends nor opens what is sunk
+    bool depenetrates = true;  // false: neither bends nor opens what is sunk
 };
 
 enum class ChainFallback : std::uint8_t {
     none,
-    all_cuts,  // the cuts that neighbours lead to did not do: all that a tree finds
-    relaxed,   // nothing to touch
-    bent,      // sunk where it is straight, or as it closes from there: bent until it is clear, or
-               // sunk least; it may touch nothing then
-    opened,    // and still sunk: opened a little
+    all_cuts,     // the cuts that neighbours lead to did not do: all that a tree finds
+    rest_pose,    // nothing to touch
+    sample_pose,  // sunk where it is straight, or as it closes from there: bent until it is clear,
+                  // or sunk least; it may touch nothing then
+    opened,  // and still sunk: opened a little
 };
 
 struct ChainFit {
-    std::array<double, k_most_disc_links> angle_rad = {};
+    std::array<double, k_max_disc_links> angle_rad = {};
     // The last that touches; of what is bent or opened, the deepest. None where nothing is touched,
     // and of what is relaxed, sunk or not.
     std::int32_t contact_link = DiscClosure::k_none;
@@ -62,15 +63,16 @@ struct ChainFit {
     double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0; where a surface goes
                            // through the chain's middle, with what is beyond
     ChainFallback fallback = ChainFallback::none;
-    bool is_on_its_way = false;  // of a refit (chain_refit.hpp): it would turn farther than it may
-    bool has_looked_ahead = false;  // of a refit: there was nothing to touch near it
-    bool is_ahead = false;          // then: and there is farther on
-    bool wants_mending = false;  // only where ChainFitSettings::mends is off: with it, it would be
-                                 // another
-    std::uint32_t discs = 0;     // planes searched
-    std::uint32_t pops = 0;      // triangles that the searches looked at
-    std::uint32_t walked = 0;    // triangles that the walks passed, and those searched between the
-                                 // search detail and the surface itself
+    bool is_turn_limited =
+        false;                    // of a refit (chain_refit.hpp): it would turn farther than it may
+    bool has_look_ahead = false;  // of a refit: there was nothing to touch near it
+    bool has_surface_ahead = false;    // then: and there is farther on
+    bool needs_depenetration = false;  // only where ChainFitSettings::mends is off: with it, it
+                                       // would be another
+    std::uint32_t discs = 0;   // planes searched
+    std::uint32_t pops = 0;    // triangles that the searches looked at
+    std::uint32_t walked = 0;  // triangles that the walks passed, and those searched between the
+                               // search detail and the surface itself
 };
 
 // Keeps its memory between calls.
@@ -89,6 +91,6 @@ ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
 
 // Of one capsule anywhere: what fit_chain asks its patch, from the beginning. Gathers and allocates
 // anew: for tests and tools.
-SunkCapsule find_sunk(const Capsule& capsule, std::span<const PlacedMesh> meshes);
+CapsulePenetration find_penetration(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 
 }  // namespace handhold

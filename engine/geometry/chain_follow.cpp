@@ -20,17 +20,18 @@ class ChainFollower {
                 return std::nullopt;
             }
             const std::size_t deepest = deepest_link();
-            const bool is_sunk = gap_m(deepest) < -settings_.still_depth_m;
-            kept_ = is_sunk ? 0 : touching_end();
-            if (!is_sunk && kept_ > 0 && is_closed_beyond()) {
+            const bool is_penetrating = gap_m(deepest) < -settings_.touch_depth_m;
+            kept_ = is_penetrating ? 0 : touching_end();
+            if (!is_penetrating && kept_ > 0 && is_closed_beyond()) {
                 return FollowedChain{angle_rad_, std::max(0.0, -gap_m(deepest)),
                                      static_cast<std::int32_t>(kept_) - 1};
             }
             points_ds_ = chain_points_ds(chain_, angle_rad_);
-            if (look == settings_.most_looks || !(is_sunk ? open(deepest) : close())) {
+            if (look == settings_.max_queries || !(is_penetrating ? open(deepest) : close())) {
                 return std::nullopt;
             }
-            depth_ = chain_depth(chain_, angle_rad_, patch_, {.more_m = settings_.look_gap_m});
+            depth_ =
+                chain_depth(chain_, angle_rad_, patch_, {.extra_radius_m = settings_.query_gap_m});
         }
     }
 
@@ -40,7 +41,7 @@ class ChainFollower {
                std::ranges::any_of(depth_.beyond_m, [](double beyond_m) { return beyond_m > 0.0; });
     }
 
-    // Below 0 it is sunk; look_gap_m: no surface is as near.
+    // Below 0 it is sunk; query_gap_m: no surface is as near.
     double gap_m(std::size_t link) const { return depth_.nearest_m[link] - chain_.radius_m[link]; }
 
     std::size_t deepest_link() const {
@@ -54,7 +55,7 @@ class ChainFollower {
     std::size_t touching_end() const {
         std::size_t end = 0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            end = gap_m(i) < settings_.still_gap_m ? i + 1 : end;
+            end = gap_m(i) < settings_.touch_gap_m ? i + 1 : end;
         }
         return end;
     }
@@ -99,9 +100,9 @@ class ChainFollower {
         if (opening < k_least_opening_m) {
             return false;
         }
-        const double share = (settings_.aim_gap_m - gap_m(link)) / opening;
+        const double share = (settings_.target_gap_m - gap_m(link)) / opening;
         opened_ += share;
-        if (opened_ > settings_.most_opened) {
+        if (opened_ > settings_.max_opening) {
             return false;
         }
         turn(0, link, -share);
@@ -119,15 +120,15 @@ class ChainFollower {
                 arm_m += range_rad(j) * arm.norm();
             }
             const double gap = gap_m(i);
-            const double closing = gap < settings_.look_gap_m ? -opening_m(i, kept_, 1.0) : 0.0;
+            const double closing = gap < settings_.query_gap_m ? -opening_m(i, kept_, 1.0) : 0.0;
             if (closing > k_least_opening_m) {
-                share = std::min(share, (gap - settings_.aim_gap_m) / closing);
+                share = std::min(share, (gap - settings_.target_gap_m) / closing);
             } else {
                 unseen = std::min(unseen, gap / arm_m);
             }
         }
         closed_ += share;
-        if (share > unseen || closed_ > settings_.most_closed) {
+        if (share > unseen || closed_ > settings_.max_closing) {
             return false;
         }
         turn(kept_, chain_.link_count - 1, share);
@@ -141,7 +142,7 @@ class ChainFollower {
     const ChainFollowSettings& settings_;
     ChainAngles angle_rad_ = {};
     ChainDepth depth_;
-    std::array<Vec2, k_most_disc_links + 1> points_ds_;
+    std::array<Vec2, k_max_disc_links + 1> points_ds_;
     std::size_t kept_ = 0;  // links up to there touch: their hinges stay
     double opened_ = 0.0;
     double closed_ = 0.0;

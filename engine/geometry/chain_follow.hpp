@@ -11,26 +11,26 @@
 namespace handhold {
 
 struct ChainFollowSettings {
-    double still_gap_m = 5e-4;    // a link as near to the surface touches it
-    double still_depth_m = 3e-4;  // and is not sunk as deep as this
-    double aim_gap_m = 1e-4;      // what is moved is moved to this gap
-    double look_gap_m = 2e-3;     // surfaces farther away are not seen
+    double touch_gap_m = 5e-4;    // a link as near to the surface touches it
+    double touch_depth_m = 3e-4;  // and is not sunk as deep as this
+    double target_gap_m = 1e-4;   // what is moved is moved to this gap
+    double query_gap_m = 2e-3;    // surfaces farther away are not seen
     // Of the way from open to closed, together: no hinge opens or closes farther. What the patch
     // was gathered for.
-    double most_opened = 0.06;
-    double most_closed = 0.06;
-    int most_looks = 5;
+    double max_opening = 0.06;
+    double max_closing = 0.06;
+    int max_queries = 5;
 };
 
 struct FollowedChain {
     ChainAngles angle_rad = {};
-    double depth_m = 0.0;            // as ChainFit
-    std::int32_t last_touching = 0;  // the last link that touches: beyond it all are closed
+    double depth_m = 0.0;                 // as ChainFit
+    std::int32_t last_touching_link = 0;  // the last link that touches: beyond it all are closed
 };
 
 // Nothing where that does not do: nothing is near, more is sunk than opening helps, a link beyond
 // the last that touches has farther to close than it sees. `depth` is of the chain at `from_rad`,
-// look_gap_m thicker. The patch has what links come to within most_opened and most_closed.
+// query_gap_m thicker. The patch has what links come to within max_opening and max_closing.
 std::optional<FollowedChain> follow_chain(const HingeChain& chain, const ChainAngles& from_rad,
                                           const ChainDepth& depth, ChainPatch& patch,
                                           const ChainFollowSettings& settings);

@@ -17,40 +17,41 @@ constexpr std::size_t k_usual_fours = 1024;  // more than one chain meets but on
 
 // How near a capsule's middle comes to triangles: first those that may come near are noted, then
 // they are looked at.
-class ChainPatch::SunkSearch {
+class ChainPatch::PenetrationSearch {
   public:
-    SunkSearch(const std::array<Vec2, 2>& middle_ds, double radius_m, double spare_m)
+    PenetrationSearch(const std::array<Vec2, 2>& middle_ds, double radius_m,
+                      double rounding_margin_m)
         : segment_({Vec3(middle_ds[0].x(), middle_ds[0].y(), 0.0),
                     Vec3(middle_ds[1].x(), middle_ds[1].y(), 0.0)}),
           length_m_((middle_ds[1] - middle_ds[0]).norm()),
           radius_m_(radius_m),
           nearest_m_(radius_m),
-          spare_m_(spare_m) {
+          rounding_margin_m_(rounding_margin_m) {
         const Vec2 along =
             length_m_ > 0.0 ? Vec2((middle_ds[1] - middle_ds[0]) / length_m_) : Vec2::UnitX();
         for (std::size_t i = 0; i < 2; ++i) {
             const auto axis = static_cast<Eigen::Index>(i);
-            begin_[i] = four_times(middle_ds[0][axis]);
-            end_[i] = four_times(middle_ds[1][axis]);
-            along_[i] = four_times(along[axis]);
+            begin_[i] = splat4(middle_ds[0][axis]);
+            end_[i] = splat4(middle_ds[1][axis]);
+            along_[i] = splat4(along[axis]);
         }
-        length_ = four_times(length_m_);
+        length_ = splat4(length_m_);
         limit();
     }
 
     // Those of four triangles that may come nearer than what was found; the first one's number.
-    void note(const FourReached& four, const FourInts& is_asked, std::uint32_t number) {
-        FourInts is_near = is_asked & may_be_near(four);
+    void note(const ReachedTriangles4& four, const Int4& is_asked, std::uint32_t number) {
+        Int4 is_near = is_asked & may_be_near(four);
         if (!any_of(is_near)) {
             return;
         }
         is_near &= ~is_off(four);
-        const FourCorners corner = about_middle(four);
+        const Corners4 corner = about_middle(four);
         is_near &= least_squared(corner) <= most_squared_;
         if (!any_of(is_near)) {
             return;
         }
-        const FourFloats squared = FourDistances(corner, length_).squared();
+        const Float4 squared = SegmentDistances4(corner, length_).squared();
         is_near &= squared <= most_squared_;
         for (std::uint32_t i = 0; i < 4; ++i) {
             noted_[count_] = {squared[i], number + i};
@@ -87,14 +88,14 @@ class ChainPatch::SunkSearch {
         }
     }
 
-    SunkCapsule found() const {
-        SunkCapsule sunk = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
-        sunk.nearest_ds = nearest_.on_segment.head<2>();
+    CapsulePenetration found() const {
+        CapsulePenetration penetration = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
+        penetration.nearest_ds = nearest_.on_segment.head<2>();
         if (nearest_.distance_m > 0.0) {
             const Vec3 way = nearest_.on_segment - nearest_.on_triangle;
-            sunk.away_ds = way.head<2>() / nearest_.distance_m;
+            penetration.away_ds = way.head<2>() / nearest_.distance_m;
         }
-        return sunk;
+        return penetration;
     }
 
   private:
@@ -104,25 +105,25 @@ class ChainPatch::SunkSearch {
     };
 
     // What holds the triangles tells of most that they are too far.
-    FourInts may_be_near(const FourReached& four) const {
-        const FourInts is_far = (four.low[0] > high_[0]) | (four.low[1] > high_[1]) |
-                                (four.high[0] < low_[0]) | (four.high[1] < low_[1]) |
-                                (four.low[2] > most_m_) | (four.high[2] < -most_m_);
+    Int4 may_be_near(const ReachedTriangles4& four) const {
+        const Int4 is_far = (four.low[0] > high_[0]) | (four.low[1] > high_[1]) |
+                            (four.high[0] < low_[0]) | (four.high[1] < low_[1]) |
+                            (four.low[2] > most_m_) | (four.high[2] < -most_m_);
         return ~is_far;
     }
     // So does the side of their planes on which the middle is.
-    FourInts is_off(const FourReached& four) const {
-        const FourFloats begin = four.line[0] * begin_[0] + four.line[1] * begin_[1] - four.line[2];
-        const FourFloats end = four.line[0] * end_[0] + four.line[1] * end_[1] - four.line[2];
+    Int4 is_off(const ReachedTriangles4& four) const {
+        const Float4 begin = four.line[0] * begin_[0] + four.line[1] * begin_[1] - four.line[2];
+        const Float4 end = four.line[0] * end_[0] + four.line[1] * end_[1] - four.line[2];
         return (lower(begin, end) > most_m_) | (higher(begin, end) < -most_m_);
     }
 
     // Turned as the middle is.
-    FourCorners about_middle(const FourReached& four) const {
-        FourCorners corner;
+    Corners4 about_middle(const ReachedTriangles4& four) const {
+        Corners4 corner;
         for (std::size_t i = 0; i < 3; ++i) {
-            const FourFloats x = four.corner[i][0] - begin_[0];
-            const FourFloats y = four.corner[i][1] - begin_[1];
+            const Float4 x = four.corner[i][0] - begin_[0];
+            const Float4 y = four.corner[i][1] - begin_[1];
             corner[i][0] = x * along_[0] + y * along_[1];
             corner[i][1] = y * along_[0] - x * along_[1];
             corner[i][2] = four.corner[i][2];
@@ -130,26 +131,25 @@ class ChainPatch::SunkSearch {
         return corner;
     }
     // No more than their distances, squared: those of boxes around them.
-    FourFloats least_squared(const FourCorners& corner) const {
-        const FourFloats zero = {};
-        const auto beyond = [&](std::size_t axis, const FourFloats& most) -> FourFloats {
-            const FourFloats low = lower(lower(corner[0][axis], corner[1][axis]), corner[2][axis]);
-            const FourFloats high =
-                higher(higher(corner[0][axis], corner[1][axis]), corner[2][axis]);
+    Float4 least_squared(const Corners4& corner) const {
+        const Float4 zero = {};
+        const auto beyond = [&](std::size_t axis, const Float4& most) -> Float4 {
+            const Float4 low = lower(lower(corner[0][axis], corner[1][axis]), corner[2][axis]);
+            const Float4 high = higher(higher(corner[0][axis], corner[1][axis]), corner[2][axis]);
             return higher(higher(low - most, -high), zero);
         };
-        const FourFloats ahead = beyond(0, length_);
-        const FourFloats aside = beyond(1, zero);
-        const FourFloats across = beyond(2, zero);
+        const Float4 ahead = beyond(0, length_);
+        const Float4 aside = beyond(1, zero);
+        const Float4 across = beyond(2, zero);
         return ahead * ahead + aside * aside + across * across;
     }
 
     // What is farther than what was found is of no use any more.
     void limit() {
         constexpr double k_rounding = 1e-5;
-        const double most_m = nearest_m_ * (1.0 + k_rounding) + 4.0 * spare_m_;
-        most_m_ = four_times(most_m);
-        most_squared_ = four_times(most_m * most_m);
+        const double most_m = nearest_m_ * (1.0 + k_rounding) + 4.0 * rounding_margin_m_;
+        most_m_ = splat4(most_m);
+        most_squared_ = splat4(most_m * most_m);
         for (std::size_t i = 0; i < 2; ++i) {
             low_[i] = lower(begin_[i], end_[i]) - most_m_;
             high_[i] = higher(begin_[i], end_[i]) + most_m_;
@@ -169,17 +169,17 @@ class ChainPatch::SunkSearch {
     double radius_m_;
     double nearest_m_;
     SegmentTriangle nearest_;
-    double spare_m_;
+    double rounding_margin_m_;
     std::optional<double> crossed_at_;
     // The middle in the plane, each number four times, and how far around it matters.
-    std::array<FourFloats, 2> begin_;
-    std::array<FourFloats, 2> end_;
-    std::array<FourFloats, 2> along_;
-    std::array<FourFloats, 2> low_;
-    std::array<FourFloats, 2> high_;
-    FourFloats length_ = {};
-    FourFloats most_m_ = {};
-    FourFloats most_squared_ = {};
+    std::array<Float4, 2> begin_;
+    std::array<Float4, 2> end_;
+    std::array<Float4, 2> along_;
+    std::array<Float4, 2> low_;
+    std::array<Float4, 2> high_;
+    Float4 length_ = {};
+    Float4 most_m_ = {};
+    Float4 most_squared_ = {};
     std::array<Noted, 64> noted_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
 };
@@ -225,7 +225,7 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
         boxed.clear();
         boxed.reserve(k_usual_fours);
     }
-    spare_m_ = 0.0;
+    rounding_margin_m_ = 0.0;
     radius_m_ = reach.radius_m;
     box_count_ = std::max(reach.box_count, 1U);
     for (const PlacedMesh& placed : meshes) {
@@ -236,19 +236,20 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
 
 void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) {
     constexpr double k_float_rounding_m = 1e-6;  // of what is asked, in floats below 4 m
-    constexpr std::array<FourInts, 5> k_first = {FourInts{0, 0, 0, 0}, FourInts{-1, 0, 0, 0},
-                                                 FourInts{-1, -1, 0, 0}, FourInts{-1, -1, -1, 0},
-                                                 FourInts{-1, -1, -1, -1}};
+    constexpr std::array<Int4, 5> k_first = {Int4{0, 0, 0, 0}, Int4{-1, 0, 0, 0},
+                                             Int4{-1, -1, 0, 0}, Int4{-1, -1, -1, 0},
+                                             Int4{-1, -1, -1, -1}};
     const TriangleBvh& bvh = placed.mesh->contact_bvh;
     const Pose base = inverse(placed.pose) * reach.base;
     frames_.emplace_back(*placed.mesh, base, fours_.size());
     const ReachSlab slab(reach, base, bvh);
-    spare_m_ = std::max(spare_m_, slab.spare_m() + k_float_rounding_m);
+    rounding_margin_m_ =
+        std::max(rounding_margin_m_, slab.rounding_margin_m() + k_float_rounding_m);
     const auto take = [&](std::uint32_t first_slot, std::uint32_t count,
-                          const FourTriangles& triangles) {
-        FourNear is_near;
-        const FourReached reached = slab.bounds_of(triangles, is_near);
-        FourInts is_near_any = {};
+                          const Triangles4& triangles) {
+        ReachMasks4 is_near;
+        const ReachedTriangles4 reached = slab.bounds_of(triangles, is_near);
+        Int4 is_near_any = {};
         for (std::size_t box = 0; box < box_count_; ++box) {
             is_near[box] &= k_first[count];
             is_near_any |= is_near[box];
@@ -267,7 +268,7 @@ void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) 
 
 std::size_t ChainPatch::size() const {
     std::size_t count = 0;
-    for (const FourInts& is_near : is_near_) {
+    for (const Int4& is_near : is_near_) {
         for (std::size_t i = 0; i < 4; ++i) {
             count += is_near[i] != 0 ? 1U : 0U;
         }
@@ -291,12 +292,12 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
                             std::vector<DiscSegment>& segments) {
     const std::size_t before = segments.size();
     std::size_t of_first_mesh = 0;
-    const FourCut cut(offset_m, radius_m_);
+    const PlaneCut4 cut(offset_m, radius_m_);
     for (std::size_t mesh = 0; mesh < frames_.size(); ++mesh) {
         const std::size_t end =
             mesh + 1 < frames_.size() ? frames_[mesh + 1].first() : fours_.size();
         for (std::size_t f = frames_[mesh].first(); f < end; ++f) {
-            const FourSegments found = cut.of(fours_[f].corner, is_near_[f]);
+            const Segments4 found = cut.of(fours_[f].corner, is_near_[f]);
             for (std::uint32_t i = 0; any_of(found.is_near) && i < 4; ++i) {
                 if (found.is_near[i] != 0) {
                     const auto number = frames_[mesh].number(first_slot_[f] + i);
@@ -310,9 +311,9 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
     return of_first_mesh;
 }
 
-SunkCapsule ChainPatch::find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m,
-                                  std::size_t box) {
-    SunkSearch search(middle_ds, radius_m, spare_m_);
+CapsulePenetration ChainPatch::find_penetration(const std::array<Vec2, 2>& middle_ds,
+                                                double radius_m, std::size_t box) {
+    PenetrationSearch search(middle_ds, radius_m, rounding_margin_m_);
     const auto look_at_noted = [&]() {
         while (const auto next = search.next()) {
             search.look_at(exact(*next));

@@ -25,7 +25,7 @@ struct PlacedMesh {
 };
 
 // How deep a capsule is sunk in the surfaces.
-struct SunkCapsule {
+struct CapsulePenetration {
     double depth_m = 0.0;    // at least 0: its radius less the distance of its middle
     double nearest_m = 0.0;  // that distance, where it is less than the radius; else the radius
     std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
@@ -52,7 +52,8 @@ class ChainPatch {
 
     // Of a capsule whose middle lies in the plane, within box `box` of the reach that was gathered
     // for; where that has no boxes, anywhere in it.
-    SunkCapsule find_sunk(const std::array<Vec2, 2>& middle_ds, double radius_m, std::size_t box);
+    CapsulePenetration find_penetration(const std::array<Vec2, 2>& middle_ds, double radius_m,
+                                        std::size_t box);
 
     std::size_t size() const;  // triangles
 
@@ -81,29 +82,29 @@ class ChainPatch {
         Vec3 across_;
     };
 
-    class SunkSearch;
+    class PenetrationSearch;
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
     const Triangle& exact(std::uint32_t place);  // four times the four, and its lane
 
     // Of four triangles, those in one box.
     struct Boxed {
-        FourInts is_near = {};
+        Int4 is_near = {};
         std::uint32_t four = 0;
     };
 
     static constexpr std::uint32_t k_not_placed = ~0U;
 
     // By four, in the order of the meshes and their trees.
-    std::vector<FourReached> fours_;
-    std::vector<FourInts> is_near_;  // in any box
+    std::vector<ReachedTriangles4> fours_;
+    std::vector<Int4> is_near_;  // in any box
     std::vector<std::uint32_t> first_slot_;
     std::vector<std::array<std::uint32_t, 4>> placed_;  // which of triangles_, or k_not_placed
-    std::array<std::vector<Boxed>, k_most_disc_links> boxed_;
+    std::array<std::vector<Boxed>, k_max_disc_links> boxed_;
     std::size_t box_count_ = 1;
     std::vector<Triangle> triangles_;  // those that were asked for
     std::vector<Frame> frames_;        // by mesh
-    double spare_m_ = 0.0;             // more than floats round off
+    double rounding_margin_m_ = 0.0;   // more than floats round off
     double radius_m_ = 0.0;
 };
 

@@ -17,16 +17,16 @@ class ChainRefitter {
     ChainFit run(const ChainAngles& last_rad, std::span<const PlacedMesh> meshes) {
         fit_.angle_rad = within_limits(last_rad);
         gather_near(meshes);
-        const ChainDepth depth = depth_of(fit_.angle_rad, refit_.look_gap_m);
+        const ChainDepth depth = depth_of(fit_.angle_rad, refit_.query_gap_m);
         if (follow(depth)) {
             return fit_;
         }
-        const double sunk_m = depth.depth_m - refit_.look_gap_m;
-        if (sunk_m > refit_.still_depth_m) {
+        const double penetration_m = depth.depth_m - refit_.query_gap_m;
+        if (penetration_m > refit_.touch_depth_m) {
             if (!open(own_depth(chain_, depth, chain_.link_count))) {
                 return fit_;
             }
-        } else if (sunk_m > -refit_.still_gap_m) {
+        } else if (penetration_m > -refit_.touch_gap_m) {
             stay(depth);
             if (is_done()) {
                 return fit_;
@@ -39,7 +39,7 @@ class ChainRefitter {
   private:
     // Hinges up to and with `last`, by a share of their way from open to closed.
     ChainAngles moved_by(const ChainAngles& angle_rad, double share,
-                         std::size_t last = k_most_disc_links) const {
+                         std::size_t last = k_max_disc_links) const {
         ChainAngles moved_rad = angle_rad;
         for (std::size_t i = 0; i < chain_.link_count && i <= last; ++i) {
             moved_rad[i] += share * (chain_.closed_rad[i] - chain_.open_rad[i]);
@@ -64,35 +64,35 @@ class ChainRefitter {
 
     // And what it can come to until it is closed, or relaxed.
     void gather_all(std::span<const PlacedMesh> meshes) {
-        gather_between(lowest(fit_.angle_rad, chain_.relaxed_rad),
-                       highest(chain_.closed_rad, chain_.relaxed_rad), meshes);
+        gather_between(lowest(fit_.angle_rad, chain_.rest_rad),
+                       highest(chain_.closed_rad, chain_.rest_rad), meshes);
     }
 
     // With each hinge anywhere between two angles.
-    void gather_between(const ChainAngles& least_rad, const ChainAngles& most_rad,
+    void gather_between(const ChainAngles& min_rad, const ChainAngles& max_rad,
                         std::span<const PlacedMesh> meshes) {
-        ChainReach reach = chain_reach(chain_, least_rad, most_rad, refit_.look_gap_m);
+        ChainReach reach = chain_reach(chain_, min_rad, max_rad, refit_.query_gap_m);
         reach.half_width_m = half_width_m(chain_, settings_.plane_offset);
         scratch_.patch.gather(reach, meshes);
     }
 
-    ChainDepth depth_of(const ChainAngles& angle_rad, double more_m) const {
-        return chain_depth(chain_, angle_rad, scratch_.patch, {.more_m = more_m});
+    ChainDepth depth_of(const ChainAngles& angle_rad, double extra_radius_m) const {
+        return chain_depth(chain_, angle_rad, scratch_.patch, {.extra_radius_m = extra_radius_m});
     }
 
     // On the surface where it is near by. False where it has to be closed anew.
     bool follow(const ChainDepth& depth) {
         const ChainFollowSettings settings = {
-            .still_gap_m = refit_.still_gap_m,
-            .still_depth_m = refit_.still_depth_m,
-            .look_gap_m = refit_.look_gap_m,
-            .most_opened = refit_.open_share * refit_.open_steps,
-            .most_closed = std::min(refit_.close_share, turn_share())};
+            .touch_gap_m = refit_.touch_gap_m,
+            .touch_depth_m = refit_.touch_depth_m,
+            .query_gap_m = refit_.query_gap_m,
+            .max_opening = refit_.open_share * refit_.open_steps,
+            .max_closing = std::min(refit_.close_share, turn_share())};
         const auto followed = follow_chain(chain_, fit_.angle_rad, depth, scratch_.patch, settings);
         if (followed) {
             fit_.angle_rad = followed->angle_rad;
             fit_.depth_m = followed->depth_m;
-            fit_.contact_link = followed->last_touching;
+            fit_.contact_link = followed->last_touching_link;
         }
         return followed.has_value();
     }
@@ -117,23 +117,23 @@ class ChainRefitter {
 
     // Of the way from open to closed, what no hinge turns farther by than it may.
     double turn_share() const {
-        double most_rad = 0.0;
+        double max_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            most_rad = std::max(most_rad, chain_.closed_rad[i] - chain_.open_rad[i]);
+            max_rad = std::max(max_rad, chain_.closed_rad[i] - chain_.open_rad[i]);
         }
-        return refit_.most_turn_rad < most_rad ? refit_.most_turn_rad / most_rad : 1.0;
+        return refit_.max_turn_rad < max_rad ? refit_.max_turn_rad / max_rad : 1.0;
     }
 
     // Hinges up to and with the last link that touches keep their angles.
     void stay(const ChainDepth& depth) {
-        fit_.depth_m = std::max(0.0, depth.depth_m - refit_.look_gap_m);
+        fit_.depth_m = std::max(0.0, depth.depth_m - refit_.query_gap_m);
         for (std::size_t i = 0; i < depth.end; ++i) {
-            const bool touches = depth.nearest_m[i] < chain_.radius_m[i] + refit_.still_gap_m;
-            kept_ = touches ? i + 1 : kept_;
+            const bool touches = depth.nearest_m[i] < chain_.radius_m[i] + refit_.touch_gap_m;
+            frozen_links_ = touches ? i + 1 : frozen_links_;
         }
-        still_kept_ = kept_;
-        kept_depth_m_ = own_depth(chain_, depth, kept_).depth_m;
-        fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
+        unmoved_links_ = frozen_links_;
+        unmoved_depth_m_ = own_depth(chain_, depth, frozen_links_).depth_m;
+        fit_.contact_link = static_cast<std::int32_t>(frozen_links_) - 1;
     }
 
     // Touches with its last link, or with one beyond which all are closed.
@@ -152,21 +152,22 @@ class ChainRefitter {
     // On from where the chain is clear, or where its first links touch.
     void close_on(std::span<const PlacedMesh> meshes) {
         const double turn = turn_share();
-        fit_.contact_link = static_cast<std::int32_t>(kept_) - 1;
-        if (kept_ == 0 && refit_.is_ahead == false && relax()) {
+        fit_.contact_link = static_cast<std::int32_t>(frozen_links_) - 1;
+        if (frozen_links_ == 0 && refit_.has_surface_ahead == false && return_to_rest()) {
             return;
         }
         cut();
         const DiscClosure closure = closure_by(std::min(refit_.close_share, turn));
-        const bool touches = kept_ > 0 || closure.contact_link != DiscClosure::k_none;
-        const bool goes_on = !touches && refit_.is_ahead == true && turn <= refit_.close_share;
+        const bool touches = frozen_links_ > 0 || closure.contact_link != DiscClosure::k_none;
+        const bool goes_on =
+            !touches && refit_.has_surface_ahead == true && turn <= refit_.close_share;
         if (touches || goes_on) {
             take(closure);
-            fit_.is_on_its_way = !is_done();
+            fit_.is_turn_limited = !is_done();
         }
-        if ((!touches && !goes_on) || (fit_.is_on_its_way && turn > refit_.close_share)) {
+        if ((!touches && !goes_on) || (fit_.is_turn_limited && turn > refit_.close_share)) {
             const std::int32_t kept = fit_.contact_link + 1;
-            kept_ = static_cast<std::size_t>(kept);
+            frozen_links_ = static_cast<std::size_t>(kept);
             close_far(meshes, touches && turn < 1.0 ? turn - refit_.close_share : turn);
         }
     }
@@ -176,14 +177,14 @@ class ChainRefitter {
         gather_all(meshes);
         cut();
         const DiscClosure whole = closure_by(1.0);
-        fit_.has_looked_ahead = kept_ == 0;
-        fit_.is_ahead = whole.contact_link != DiscClosure::k_none;
-        if (kept_ == 0 && !fit_.is_ahead) {
-            relax();
+        fit_.has_look_ahead = frozen_links_ == 0;
+        fit_.has_surface_ahead = whole.contact_link != DiscClosure::k_none;
+        if (frozen_links_ == 0 && !fit_.has_surface_ahead) {
+            return_to_rest();
             return;
         }
         take(turn < 1.0 ? closure_by(turn) : whole);
-        fit_.is_on_its_way = !is_done();
+        fit_.is_turn_limited = !is_done();
     }
 
     void cut() {
@@ -198,7 +199,7 @@ class ChainRefitter {
         DiscChain flat = flat_chain(chain_, settings_.plane_offset);
         flat.open_rad = fit_.angle_rad;
         flat.closed_rad = fit_.angle_rad;
-        for (std::size_t i = kept_; i < chain_.link_count; ++i) {
+        for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
             // As fast as ever, but no hinge beyond its limit.
             flat.closed_rad[i] += std::min(chain_.closed_rad[i] - chain_.open_rad[i],
                                            (chain_.closed_rad[i] - fit_.angle_rad[i]) / share);
@@ -207,34 +208,33 @@ class ChainRefitter {
     }
 
     void take(const DiscClosure& closure) {
-        const std::int32_t kept_link = static_cast<std::int32_t>(kept_) - 1;
+        const std::int32_t kept_link = static_cast<std::int32_t>(frozen_links_) - 1;
         fit_.contact_link = std::max(kept_link, closure.contact_link);
         fit_.angle_rad = within_limits(closure.angle_rad);
         const ChainDepth others =
-            chain_depth(chain_, fit_.angle_rad, scratch_.patch, {.first = still_kept_});
-        fit_.depth_m = std::max(kept_depth_m_, others.depth_m);
+            chain_depth(chain_, fit_.angle_rad, scratch_.patch, {.first = unmoved_links_});
+        fit_.depth_m = std::max(unmoved_depth_m_, others.depth_m);
         fit_.fallback = ChainFallback::none;
     }
 
     // As far as it may turn; stays where that is sunk, and says so.
-    bool relax() {
-        fit_.fallback = ChainFallback::relaxed;
+    bool return_to_rest() {
+        fit_.fallback = ChainFallback::rest_pose;
         fit_.contact_link = DiscClosure::k_none;
-        double most_rad = 0.0;
+        double max_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            most_rad = std::max(most_rad, std::abs(chain_.relaxed_rad[i] - fit_.angle_rad[i]));
+            max_rad = std::max(max_rad, std::abs(chain_.rest_rad[i] - fit_.angle_rad[i]));
         }
-        const double share =
-            refit_.most_turn_rad < most_rad ? refit_.most_turn_rad / most_rad : 1.0;
+        const double share = refit_.max_turn_rad < max_rad ? refit_.max_turn_rad / max_rad : 1.0;
         ChainAngles angle_rad = fit_.angle_rad;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
-            angle_rad[i] += share * (chain_.relaxed_rad[i] - angle_rad[i]);
+            angle_rad[i] += share * (chain_.rest_rad[i] - angle_rad[i]);
         }
         const double depth_m = depth_of(angle_rad, 0.0).depth_m;
         if (depth_m <= settings_.open_depth_m) {
             fit_.angle_rad = angle_rad;
             fit_.depth_m = depth_m;
-            fit_.is_on_its_way = share < 1.0;
+            fit_.is_turn_limited = share < 1.0;
             return true;
         }
         return false;
@@ -245,9 +245,9 @@ class ChainRefitter {
     const ChainRefitSettings& refit_;
     ChainFitScratch& scratch_;
     ChainFit fit_;
-    std::size_t still_kept_ = 0;  // of these, links that have not moved at all
-    double kept_depth_m_ = 0.0;   // how deep the deepest of those is
-    std::size_t kept_ = 0;        // hinges that keep their angles: links up to there touch
+    std::size_t unmoved_links_ = 0;  // of these, links that have not moved at all
+    double unmoved_depth_m_ = 0.0;   // how deep the deepest of those is
+    std::size_t frozen_links_ = 0;   // hinges that keep their angles: links up to there touch
 };
 
 }  // namespace

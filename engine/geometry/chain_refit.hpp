@@ -15,17 +15,17 @@
 namespace handhold {
 
 struct ChainRefitSettings {
-    double still_gap_m = 5e-4;    // a chain as near to the surface stays
-    double still_depth_m = 3e-4;  // or sunk as deep
-    double look_gap_m = 2e-3;     // what is as near is followed by its gap
+    double touch_gap_m = 5e-4;    // a chain as near to the surface stays
+    double touch_depth_m = 3e-4;  // or sunk as deep
+    double query_gap_m = 2e-3;    // what is as near is followed by its gap
     double open_share = 0.02;     // at a time, of the way from open to closed
     std::int32_t open_steps = 3;
     double close_share = 0.06;  // what is so near is looked for first
     // Where it touches nothing: whether there is something to touch farther on, where that is known
-    // from a moment ago. Else it is looked for (ChainFit::has_looked_ahead).
-    std::optional<bool> is_ahead;
+    // from a moment ago. Else it is looked for (ChainFit::has_look_ahead).
+    std::optional<bool> has_surface_ahead;
     // A hinge turns no farther, but where it opens out of something.
-    double most_turn_rad = std::numeric_limits<double>::infinity();
+    double max_turn_rad = std::numeric_limits<double>::infinity();
 };
 
 // Never fails, but may be sunk deeper than fit_chain would be: then ChainFit::depth_m says so. A

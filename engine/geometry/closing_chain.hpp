@@ -12,18 +12,18 @@ namespace handhold {
 
 // The hinges, and the last link's end, in disc space.
 struct ChainMotion {
-    std::array<Vec2, k_most_disc_links + 1> point;
-    std::array<Vec2, k_most_disc_links + 1> velocity_m;  // for the whole closing
+    std::array<Vec2, k_max_disc_links + 1> point;
+    std::array<Vec2, k_max_disc_links + 1> velocity_m;  // for the whole closing
 };
 
-// Where the links are while those before `first_free` keep their angles.
+// Where the links are while those before `first_free_hinge` keep their angles.
 class ClosingChain {
   public:
     ClosingChain(const DiscChain& chain, double at) : chain_(chain) {
         for (std::size_t i = 0; i < chain.link_count; ++i) {
             angle_rad_[i] = angle_at(i, at);
         }
-        look_ahead();
+        cache_frozen_links();
     }
 
     double angle_at(std::size_t hinge, double at) const {
@@ -32,12 +32,12 @@ class ClosingChain {
 
     ChainMotion motion_at(double at) const {
         ChainMotion motion;
-        for (std::size_t i = 0; i <= first_free_; ++i) {
-            motion.point[i] = kept_point_[i];
+        for (std::size_t i = 0; i <= first_free_hinge_; ++i) {
+            motion.point[i] = frozen_points_[i];
             motion.velocity_m[i] = Vec2::Zero();
         }
-        double angle = kept_angle_rad_;
-        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+        double angle = frozen_angle_rad_;
+        for (std::size_t i = first_free_hinge_; i < chain_.link_count; ++i) {
             angle += angle_at(i, at);
             const Vec2 way = chain_.length_m[i] * direction(angle);
             motion.point[i + 1] = motion.point[i] + way;
@@ -52,15 +52,15 @@ class ClosingChain {
 
     // Hinges up to and with `last` keep the angles they have at `at`.
     void freeze(std::size_t last, double at) {
-        for (std::size_t i = first_free_; i <= last; ++i) {
+        for (std::size_t i = first_free_hinge_; i <= last; ++i) {
             angle_rad_[i] = angle_at(i, at);
         }
-        first_free_ = last + 1;
-        look_ahead();
+        first_free_hinge_ = last + 1;
+        cache_frozen_links();
     }
 
-    std::size_t first_free() const { return first_free_; }
-    const std::array<double, k_most_disc_links>& angle_rad() const { return angle_rad_; }
+    std::size_t first_free_hinge() const { return first_free_hinge_; }
+    const std::array<double, k_max_disc_links>& angle_rad() const { return angle_rad_; }
 
   private:
     static Vec2 direction(double angle) {
@@ -71,16 +71,17 @@ class ClosingChain {
     }
 
     // What stays the same until the next hinge is frozen.
-    void look_ahead() {
-        kept_angle_rad_ = 0.0;
-        kept_point_[0] = Vec2::Zero();
-        for (std::size_t i = 0; i < first_free_; ++i) {
-            kept_angle_rad_ += angle_rad_[i];
-            kept_point_[i + 1] = kept_point_[i] + chain_.length_m[i] * direction(kept_angle_rad_);
+    void cache_frozen_links() {
+        frozen_angle_rad_ = 0.0;
+        frozen_points_[0] = Vec2::Zero();
+        for (std::size_t i = 0; i < first_free_hinge_; ++i) {
+            frozen_angle_rad_ += angle_rad_[i];
+            frozen_points_[i + 1] =
+                frozen_points_[i] + chain_.length_m[i] * direction(frozen_angle_rad_);
         }
         acceleration_m_.fill(0.0);
         double turn_rad = 0.0;
-        for (std::size_t i = first_free_; i < chain_.link_count; ++i) {
+        for (std::size_t i = first_free_hinge_; i < chain_.link_count; ++i) {
             turn_rad += chain_.closed_rad[i] - chain_.open_rad[i];
             turn_rad_[i] = turn_rad;
             acceleration_m_[i + 1] = acceleration_m_[i] + turn_rad * turn_rad * chain_.length_m[i];
@@ -88,12 +89,12 @@ class ClosingChain {
     }
 
     const DiscChain& chain_;
-    std::array<double, k_most_disc_links> angle_rad_ = {};
-    std::size_t first_free_ = 0;
-    double kept_angle_rad_ = 0.0;  // of the last link that is kept
-    std::array<Vec2, k_most_disc_links + 1> kept_point_;
-    std::array<double, k_most_disc_links> turn_rad_ = {};  // of each link, for the whole closing
-    std::array<double, k_most_disc_links + 1> acceleration_m_ = {};
+    std::array<double, k_max_disc_links> angle_rad_ = {};
+    std::size_t first_free_hinge_ = 0;
+    double frozen_angle_rad_ = 0.0;  // of the last link that is kept
+    std::array<Vec2, k_max_disc_links + 1> frozen_points_;
+    std::array<double, k_max_disc_links> turn_rad_ = {};  // of each link, for the whole closing
+    std::array<double, k_max_disc_links + 1> acceleration_m_ = {};
 };
 
 }  // namespace handhold

@@ -22,15 +22,15 @@ struct HullFace {
 struct ConvexHull {
     std::vector<Vec3> corners;  // sorted by place
     std::vector<HullFace> faces;
-    double width_m = 0.0;     // its thinnest extent, in whatever direction
-    double left_out_m = 0.0;  // no given point is farther outside than this
+    double width_m = 0.0;    // its thinnest extent, in whatever direction
+    double omitted_m = 0.0;  // no given point is farther outside than this
 };
 
-constexpr std::size_t k_most_hull_corners = 64;  // and so at most 124 faces
+constexpr std::size_t k_max_hull_corners = 64;  // and so at most 124 faces
 
 // The hull of the points, whatever their order. Points nearer to it than a millionth of its size
 // add no corner, and corners that lie so near to one plane bound one face. Of more corners than
-// k_most_hull_corners those are taken that stand out most, one after another: left_out_m says what
+// k_max_hull_corners those are taken that stand out most, one after another: omitted_m says what
 // that cut off. nullopt where the points lie in a plane to a millionth of their size, or one is not
 // finite.
 std::optional<ConvexHull> make_convex_hull(std::span<const Vec3> points);

@@ -19,7 +19,7 @@ constexpr double k_aim_m = 1e-5;         // so near an advance may come: less th
 constexpr double k_disc_clear_m = 1e-4;  // what left an overlap by this much can touch again
 constexpr double k_surely_apart_m = 3e-5;  // from here on the closed form does: Box2D, which has
                                            // the last word about touches, is 5e-7 m off at most
-constexpr int k_most_rounds = 20000;       // a guard: a few dozen are usual
+constexpr int k_max_rounds = 20000;        // a guard: a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
 
@@ -43,10 +43,10 @@ struct DiscBox {
 
 // The first time at which a point may have come nearer by `room_m`, from now: it approaches at
 // `speed_m` now, and its speed changes by no more than `acceleration_m`.
-double time_to_cross(double room_m, double speed_m, double acceleration_m) {
-    const double root = std::sqrt(speed_m * speed_m + 2.0 * acceleration_m * room_m);
+double time_to_cross(double clearance_m, double speed_m, double acceleration_m) {
+    const double root = std::sqrt(speed_m * speed_m + 2.0 * acceleration_m * clearance_m);
     if (speed_m > 0.0) {
-        return 2.0 * room_m / (speed_m + root);
+        return 2.0 * clearance_m / (speed_m + root);
     }
     return acceleration_m > 0.0 ? (root - speed_m) / acceleration_m
                                 : std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ class Closing {
 
     DiscClosure run() {
         double at = sweep_.from;
-        while (links_.first_free() < chain_.link_count) {
+        while (links_.first_free_hinge() < chain_.link_count) {
             const std::optional<Touch> touch = first_touch(at);
             if (!touch) {
                 links_.freeze(chain_.link_count - 1, sweep_.to);
@@ -107,7 +107,7 @@ class Closing {
         for (std::size_t i = 0; i < 4 * scratch_.bounds.size(); ++i) {
             const DiscSegment& segment = segments_[std::min(i, segments_.size() - 1)];
             const DiscBox box(segment.a_ds, segment.b_ds);
-            DiscScratch::FourBounds& bounds = scratch_.bounds[i / 4];
+            DiscScratch::Bounds4& bounds = scratch_.bounds[i / 4];
             bounds.low[0][i % 4] = static_cast<float>(box.low.x());
             bounds.low[1][i % 4] = static_cast<float>(box.low.y());
             bounds.high[0][i % 4] = static_cast<float>(box.high.x());
@@ -165,12 +165,12 @@ class Closing {
 
     // Where the links pass in one stretch.
     struct Ways {
-        std::array<DiscBox, k_most_disc_links> box;
-        std::array<double, k_most_disc_links> bulge_m = {};  // of the way beyond the box
+        std::array<DiscBox, k_max_disc_links> box;
+        std::array<double, k_max_disc_links> bulge_m = {};  // of the way beyond the box
     };
     Ways ways_of(const ChainMotion& before, const ChainMotion& after, double length) const {
         Ways ways;
-        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
+        for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
             ways.box[link] = {before.point[link], before.point[link + 1]};
             ways.box[link].add({after.point[link], after.point[link + 1]});
             ways.bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
@@ -189,17 +189,17 @@ class Closing {
     // cost no more than a look at the segment's bounds.
     void add_near(const Ways& ways, double at, bool is_later) {
         constexpr double k_float_rounding_m = 1e-5;  // of floats below 50 m; fingers are decimetres
-        for (std::size_t link = links_.first_free(); link < chain_.link_count; ++link) {
+        for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
             if (thickest_m_[link] < 0.0) {
                 continue;
             }
             const double m =
                 thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_float_rounding_m;
             const DiscBox& box = ways.box[link];
-            const Limits limits = {{four_times(box.low.x() - m), four_times(box.low.y() - m)},
-                                   {four_times(box.high.x() + m), four_times(box.high.y() + m)}};
+            const Limits limits = {{splat4(box.low.x() - m), splat4(box.low.y() - m)},
+                                   {splat4(box.high.x() + m), splat4(box.high.y() + m)}};
             for (std::size_t four = 0; four < scratch_.bounds.size(); ++four) {
-                const FourInts is_near = limits.may_meet(scratch_.bounds[four]);
+                const Int4 is_near = limits.may_meet(scratch_.bounds[four]);
                 if (any_of(is_near)) {
                     add_near_of(ways, link, four, is_near, at, is_later);
                 }
@@ -209,16 +209,16 @@ class Closing {
 
     // What is beyond them on a side is not near.
     struct Limits {
-        std::array<FourFloats, 2> low;
-        std::array<FourFloats, 2> high;
+        std::array<Float4, 2> low;
+        std::array<Float4, 2> high;
 
-        FourInts may_meet(const DiscScratch::FourBounds& bounds) const {
+        Int4 may_meet(const DiscScratch::Bounds4& bounds) const {
             return ~((bounds.low[0] > high[0]) | (bounds.low[1] > high[1]) |
                      (bounds.high[0] < low[0]) | (bounds.high[1] < low[1]));
         }
     };
 
-    void add_near_of(const Ways& ways, std::size_t link, std::size_t four, const FourInts& is_near,
+    void add_near_of(const Ways& ways, std::size_t link, std::size_t four, const Int4& is_near,
                      double at, bool is_later) {
         const std::uint32_t bit = 1U << link;
         const std::size_t end = std::min(4 * four + 4, segments_.size());
@@ -262,7 +262,7 @@ class Closing {
     std::optional<Touch> first_touch_of(std::size_t near, double from, double end) {
         constexpr double k_together = 0.01;
         const std::span<Pair> pairs = std::span(pairs_).first(near);
-        for (int round = 0; round < k_most_rounds && !pairs.empty(); ++round) {
+        for (int round = 0; round < k_max_rounds && !pairs.empty(); ++round) {
             double at = pairs.front().next;
             for (const Pair& pair : pairs) {
                 at = std::min(at, pair.next);
@@ -336,7 +336,7 @@ class Closing {
     DiscScratch& scratch_;
     std::vector<Pair>& pairs_;
     ClosingChain links_;
-    std::array<double, k_most_disc_links> thickest_m_ = {-1.0, -1.0, -1.0};
+    std::array<double, k_max_disc_links> thickest_m_ = {-1.0, -1.0, -1.0};
     DiscClosure closure_;
 };
 
@@ -344,7 +344,7 @@ class Closing {
 
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch) {
-    HH_CHECK(chain.link_count >= 1 && chain.link_count <= k_most_disc_links,
+    HH_CHECK(chain.link_count >= 1 && chain.link_count <= k_max_disc_links,
              "a chain has one to three links", chain.link_count);
     return Closing(chain, segments, sweep, scratch).run();
 }

@@ -17,7 +17,7 @@
 // Box2D's GJK (disc_contact_box2d.cpp).
 namespace handhold {
 
-inline constexpr std::size_t k_most_disc_links = 3;
+inline constexpr std::size_t k_max_disc_links = 3;
 inline constexpr std::size_t k_disc_planes = 3;
 
 // A piece of a surface cut by one of the parallel planes that a chain with thickness is cut by.
@@ -31,18 +31,18 @@ struct DiscSegment {
 // Link i lies between hinge i and the next one; while the chain closes, the angle of hinge i goes
 // from open_rad[i] to closed_rad[i], all hinges in step.
 struct DiscChain {
-    std::uint32_t link_count = 3;  // 1 to k_most_disc_links
-    std::array<double, k_most_disc_links> length_m = {};
+    std::uint32_t link_count = 3;  // 1 to k_max_disc_links
+    std::array<double, k_max_disc_links> length_m = {};
     // Half thickness of each link where each plane cuts it: a plane beside a round link's middle
     // cuts it thinner. Negative: the plane misses the link.
-    std::array<std::array<double, k_most_disc_links>, k_disc_planes> radius_m = {};
-    std::array<double, k_most_disc_links> open_rad = {};
-    std::array<double, k_most_disc_links> closed_rad = {};
+    std::array<std::array<double, k_max_disc_links>, k_disc_planes> radius_m = {};
+    std::array<double, k_max_disc_links> open_rad = {};
+    std::array<double, k_max_disc_links> closed_rad = {};
 };
 
 struct DiscClosure {
     static constexpr std::int32_t k_none = -1;
-    std::array<double, k_most_disc_links> angle_rad = {};
+    std::array<double, k_max_disc_links> angle_rad = {};
     std::int32_t contact_link = k_none;  // the last link that touches
     std::uint32_t touching = 0;          // bit i: link i touches
     std::uint32_t segment = 0;           // the last contact's, where there is one
@@ -66,13 +66,13 @@ struct DiscScratch {
         bool seen = false;
     };
     // Around four segments, by axis.
-    struct FourBounds {
-        std::array<FourFloats, 2> low = {};
-        std::array<FourFloats, 2> high = {};
+    struct Bounds4 {
+        std::array<Float4, 2> low = {};
+        std::array<Float4, 2> high = {};
     };
     std::vector<Pair> pairs;            // that came near
     std::vector<std::uint32_t> paired;  // by segment, a bit for each link: is in `pairs`
-    std::vector<FourBounds> bounds;     // four segments each, the last repeated
+    std::vector<Bounds4> bounds;        // four segments each, the last repeated
 };
 
 // Closes the chain from `sweep.from` on. The first link that touches stops its hinge and those

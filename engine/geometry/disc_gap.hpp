@@ -45,7 +45,7 @@ class DiscGapFinder {
     }
 
   private:
-    static Vec2 foot(const Vec2& point, const Vec2& from, const Vec2& along, double squared) {
+    static Vec2 projected(const Vec2& point, const Vec2& from, const Vec2& along, double squared) {
         return squared > 0.0
                    ? Vec2(from + std::clamp((point - from).dot(along) / squared, 0.0, 1.0) * along)
                    : from;
@@ -60,10 +60,10 @@ class DiscGapFinder {
     }
     void take_on_segment(const Vec2& link_end, const Vec2& from, const Vec2& along,
                          double squared) {
-        take(link_end, foot(link_end, from, along, squared));
+        take(link_end, projected(link_end, from, along, squared));
     }
     void take_on_link(const Vec2& corner, const Vec2& from, const Vec2& along, double squared) {
-        take(foot(corner, from, along, squared), corner);
+        take(projected(corner, from, along, squared), corner);
     }
 
     double squared_ = std::numeric_limits<double>::infinity();

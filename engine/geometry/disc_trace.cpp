@@ -81,7 +81,7 @@ class CrossingSearcher {
                      TraceScratch& scratch)
         : graph_(graph), disc_(disc), order_(order), open_(scratch.open), seen_(scratch.seen) {
         open_.clear();
-        open_.reserve(3 * k_most_pops + k_most_starts);
+        open_.reserve(3 * k_max_pops + k_max_starts);
     }
 
     CrossingSearch run(std::span<const GraphPoint> starts) {
@@ -89,7 +89,7 @@ class CrossingSearcher {
         for (const GraphPoint& start : starts) {
             push(start.triangle, start.point, 0.0);
         }
-        while (!open_.empty() && found.pops < k_most_pops) {
+        while (!open_.empty() && found.pops < k_max_pops) {
             std::pop_heap(open_.begin(), open_.end(), later);
             const TraceScratch::Node node = open_.back();
             open_.pop_back();
@@ -110,15 +110,15 @@ class CrossingSearcher {
         return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.order > b.order;
     }
 
-    void push(std::uint32_t triangle, const Vec3& point, double way_m) {
+    void push(std::uint32_t triangle, const Vec3& point, double path_m) {
         if (triangle == k_no_triangle || !seen_.insert(triangle)) {
             return;
         }
         const std::array<double, 3> heights = corner_heights(graph_, disc_, triangle);
         const auto [low, high] = std::minmax({heights[0], heights[1], heights[2]});
         const double to_go_m = low >= 0.0 ? low : (high < 0.0 ? -high : 0.0);
-        const double cost_m = order_ == SearchOrder::best_first ? way_m + 2.0 * to_go_m : 0.0;
-        open_.push_back({cost_m, way_m, triangle, pushed_++, point});
+        const double cost_m = order_ == SearchOrder::best_first ? path_m + 2.0 * to_go_m : 0.0;
+        open_.push_back({cost_m, path_m, triangle, pushed_++, point});
         std::push_heap(open_.begin(), open_.end(), later);
     }
 
@@ -129,7 +129,7 @@ class CrossingSearcher {
             if (next != k_no_triangle && goes_over(graph_, disc_, node.triangle, i)) {
                 const Vec3 point = closest_on_segment(node.point, graph_.positions[corners[i]],
                                                       graph_.positions[corners[(i + 1) % 3]]);
-                push(next, point, node.way_m + (point - node.point).norm());
+                push(next, point, node.path_m + (point - node.point).norm());
             }
         }
     }
@@ -139,7 +139,7 @@ class CrossingSearcher {
     SearchOrder order_;
     std::vector<TraceScratch::Node>& open_;
     TriangleSet<1024> seen_;
-    static_assert(1024 >= 2 * (3 * k_most_pops + k_most_starts));
+    static_assert(1024 >= 2 * (3 * k_max_pops + k_max_starts));
     std::uint32_t pushed_ = 0;
 };
 
@@ -188,7 +188,7 @@ class CutWalk {
         std::uint32_t from = start;
         std::uint32_t at = graph_.neighbours[start][start_cut.edge[side]];
         Vec2 point = to_disc(disc_, start_cut.point[side]);
-        while (at != k_no_triangle && steps_ < k_most_steps) {
+        while (at != k_no_triangle && steps_ < k_max_steps) {
             if (at == start) {
                 return true;
             }
@@ -237,10 +237,10 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
 
 // `line_triangle[i]` is that of the piece from point i to the next one.
 void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
-    constexpr std::size_t k_most_merged = 16;  // is_straight looks at all again for every point
+    constexpr std::size_t k_max_merged = 16;  // is_straight looks at all again for every point
     std::size_t first = 0;
     for (std::size_t i = 1; i < scratch.line.size(); ++i) {
-        const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_most_merged &&
+        const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_max_merged &&
                              is_straight(scratch.line, first, i + 1);
         if (!goes_on) {
             add_segment(
@@ -269,8 +269,8 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     // One way out, turned round, then the start's own piece, then the other way.
     scratch.line.clear();
     scratch.line_triangle.clear();
-    scratch.line.reserve(k_most_steps + 4);
-    scratch.line_triangle.reserve(k_most_steps + 4);
+    scratch.line.reserve(k_max_steps + 4);
+    scratch.line_triangle.reserve(k_max_steps + 4);
     CutWalk walk(graph, disc, scratch);
     const bool is_closed = walk.run(triangle, *cut, 0);
     std::reverse(scratch.line.begin(), scratch.line.end());

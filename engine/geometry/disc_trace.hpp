@@ -48,7 +48,7 @@ struct CrossingSearch {
 struct TraceScratch {
     struct Node {
         double cost_m = 0.0;  // so far and still to go
-        double way_m = 0.0;
+        double path_m = 0.0;
         std::uint32_t triangle = 0;
         std::uint32_t order = 0;  // of insertion: breaks ties
         Vec3 point = Vec3::Zero();
@@ -59,16 +59,16 @@ struct TraceScratch {
     std::vector<std::uint32_t> line_triangle;
 };
 
-inline constexpr std::uint32_t k_most_pops = 128;
-inline constexpr std::uint32_t k_most_starts = 16;
-inline constexpr std::uint32_t k_most_steps = 512;
+inline constexpr std::uint32_t k_max_pops = 128;
+inline constexpr std::uint32_t k_max_starts = 16;
+inline constexpr std::uint32_t k_max_steps = 512;
 
 // From all `starts` at once over neighbours to the first triangle that the disc cuts. Its distance
 // is that of a path over the closest points of the edges in between, from its own start; what is
-// left is guessed as twice the distance to the plane. Gives up after k_most_pops, which all starts
+// left is guessed as twice the distance to the plane. Gives up after k_max_pops, which all starts
 // share, or where all that is left is farther than 30 mm outside of the disc. A flood finds the
 // same as breadth_first, but looks at the rest as well; what it has seen takes memory by the
-// surface's size. Preconditions: at most k_most_starts, their triangles the graph's, or none.
+// surface's size. Preconditions: at most k_max_starts, their triangles the graph's, or none.
 CrossingSearch find_crossing(const SurfaceGraph& graph, const Disc& disc,
                              std::span<const GraphPoint> starts, SearchOrder order,
                              TraceScratch& scratch);

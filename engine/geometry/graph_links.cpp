@@ -68,11 +68,11 @@ void link_graph(SurfaceGraph& graph) {
         graph.normals[t] = area_of(graph, t).normalized();
     }
     report.kept = static_cast<std::uint32_t>(graph.triangles.size());
-    report.parts = find_parts(graph).count;
+    report.parts = find_components(graph).count;
 }
 
-GraphParts find_parts(const SurfaceGraph& graph) {
-    GraphParts parts;
+GraphComponents find_components(const SurfaceGraph& graph) {
+    GraphComponents parts;
     parts.of_triangle.assign(graph.triangles.size(), k_no_triangle);
     std::vector<std::uint32_t> open;
     for (std::uint32_t seed = 0; seed < graph.triangles.size(); ++seed) {
@@ -96,7 +96,7 @@ GraphParts find_parts(const SurfaceGraph& graph) {
     return parts;
 }
 
-std::uint32_t wind_alike(SurfaceGraph& graph) {
+std::uint32_t orient_consistently(SurfaceGraph& graph) {
     if (graph.report.flipped_links == 0) {
         return 0;
     }
@@ -138,8 +138,8 @@ std::uint32_t wind_alike(SurfaceGraph& graph) {
     return turned;
 }
 
-std::uint32_t turn_outside_out(SurfaceGraph& graph) {
-    const GraphParts parts = find_parts(graph);
+std::uint32_t orient_outward(SurfaceGraph& graph) {
+    const GraphComponents parts = find_components(graph);
     std::vector<bool> closed(parts.count, true);
     for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -33,21 +33,21 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     GripMesh grip;
     SurfaceGraph full = build_surface_graph(mesh, settings.weld);
     grip.full_triangles = static_cast<std::uint32_t>(full.triangles.size());
-    grip.turned = wind_alike(full);
-    if (size_of(full) < settings.turned_below_m) {
-        grip.turned += turn_outside_out(full);
+    grip.turned = orient_consistently(full);
+    if (size_of(full) < settings.flip_below_m) {
+        grip.turned += orient_outward(full);
     }
     // The search detail is made of the contact detail: both are within their limits of it.
     grip.contact = std::move(full);
     if (settings.contact.deviation_m > 0.0) {
-        SurfaceGraph coarse = coarser(grip.contact, settings.contact);
+        SurfaceGraph coarse = simplify_surface(grip.contact, settings.contact);
         const double most = settings.contact_share * static_cast<double>(grip.full_triangles);
         if (static_cast<double>(coarse.triangles.size()) <= most) {
             grip.contact = std::move(coarse);
         }
     }
     grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
-    grip.search = coarser(grip.contact, settings.search);
+    grip.search = simplify_surface(grip.contact, settings.search);
     grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
     return grip;
 }

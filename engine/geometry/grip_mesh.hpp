@@ -21,7 +21,7 @@ struct GripMeshSettings {
     double contact_share = 0.7;
     // Meshes smaller than this whose closed parts are inside out are turned. Larger ones may be
     // rooms, seen from inside. 0: none.
-    double turned_below_m = 1.0;
+    double flip_below_m = 1.0;
 };
 
 // What one shape gives to hands, in the shape's frame: a coarse surface to search on and a fine one

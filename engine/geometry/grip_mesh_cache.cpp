@@ -186,7 +186,7 @@ std::uint64_t grip_mesh_key(const Mesh& mesh, const GripMeshSettings& settings) 
          {settings.weld.point_m, settings.weld.seam_m, settings.weld.seam_per_size,
           settings.weld.seam_per_edge, settings.shape_tolerance_m, settings.search.deviation_m,
           settings.search.edge_m, settings.contact.deviation_m, settings.contact.edge_m,
-          settings.contact_share, settings.turned_below_m}) {
+          settings.contact_share, settings.flip_below_m}) {
         hash.add(setting);
     }
     hash.add(static_cast<std::uint64_t>(mesh.positions.size()));

@@ -38,14 +38,14 @@ std::vector<ShapeId> all_of(const ShapeLibrary& shapes) {
 
 }  // namespace
 
-GripMeshLibrary::Likeness GripMeshLibrary::likeness_of(const Shape& shape) {
+GripMeshLibrary::SurfaceKey GripMeshLibrary::surface_key(const Shape& shape) {
     const auto address = [](const auto& pointer) {
         return static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(pointer.get()));
     };
-    Likeness likeness = {static_cast<std::uint64_t>(shape.kind),
-                         address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
-                         std::bit_cast<std::uint64_t>(shape.radius_m),
-                         std::bit_cast<std::uint64_t>(shape.half_height_m)};
+    SurfaceKey likeness = {static_cast<std::uint64_t>(shape.kind),
+                           address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
+                           std::bit_cast<std::uint64_t>(shape.radius_m),
+                           std::bit_cast<std::uint64_t>(shape.half_height_m)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<Eigen::Index>(axis);
         likeness[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
@@ -75,7 +75,7 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
             continue;
         }
         const auto [found, is_new] = known_.try_emplace(
-            likeness_of(shapes.at(id)), first + static_cast<std::uint32_t>(distinct.size()));
+            surface_key(shapes.at(id)), first + static_cast<std::uint32_t>(distinct.size()));
         if (is_new) {
             distinct.push_back(id);
         }

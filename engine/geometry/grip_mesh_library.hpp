@@ -41,11 +41,11 @@ class GripMeshLibrary {
   private:
     // Equal where two shapes have one surface. Addresses only tell shapes apart: no order follows
     // them.
-    using Likeness = std::array<std::uint64_t, 10>;
-    static Likeness likeness_of(const Shape& shape);
+    using SurfaceKey = std::array<std::uint64_t, 10>;
+    static SurfaceKey surface_key(const Shape& shape);
 
-    std::map<Likeness, std::uint32_t> known_;   // to meshes_
-    std::vector<std::uint32_t> mesh_of_shape_;  // by ShapeId::index; k_no_triangle: none
+    std::map<SurfaceKey, std::uint32_t> known_;  // to meshes_
+    std::vector<std::uint32_t> mesh_of_shape_;   // by ShapeId::index; k_no_triangle: none
     std::vector<GripMesh> meshes_;
 };
 

@@ -31,10 +31,10 @@ ReachBox arc_box(double from_rad, double to_rad) {
 
 }  // namespace
 
-std::array<Capsule, k_most_disc_links> chain_capsules(const HingeChain& chain,
-                                                      const ChainAngles& angle_rad) {
+std::array<Capsule, k_max_disc_links> chain_capsules(const HingeChain& chain,
+                                                     const ChainAngles& angle_rad) {
     const auto points_ds = chain_points_ds(chain, angle_rad);
-    std::array<Capsule, k_most_disc_links> capsules;
+    std::array<Capsule, k_max_disc_links> capsules;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
         capsules[i] = {
             {from_disc(chain.base, points_ds[i]), from_disc(chain.base, points_ds[i + 1])},
@@ -43,9 +43,9 @@ std::array<Capsule, k_most_disc_links> chain_capsules(const HingeChain& chain,
     return capsules;
 }
 
-std::array<Vec2, k_most_disc_links + 1> chain_points_ds(const HingeChain& chain,
-                                                        const ChainAngles& angle_rad) {
-    std::array<Vec2, k_most_disc_links + 1> points;
+std::array<Vec2, k_max_disc_links + 1> chain_points_ds(const HingeChain& chain,
+                                                       const ChainAngles& angle_rad) {
+    std::array<Vec2, k_max_disc_links + 1> points;
     points[0] = Vec2::Zero();
     double angle = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
@@ -58,7 +58,7 @@ std::array<Vec2, k_most_disc_links + 1> chain_points_ds(const HingeChain& chain,
     return points;
 }
 
-double thickest_m(const HingeChain& chain) {
+double max_radius_m(const HingeChain& chain) {
     double thickest = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
         thickest = std::max(thickest, chain.radius_m[i]);
@@ -67,7 +67,7 @@ double thickest_m(const HingeChain& chain) {
 }
 
 double reach_m(const HingeChain& chain) {
-    double reach = thickest_m(chain);
+    double reach = max_radius_m(chain);
     for (std::size_t i = 0; i < chain.link_count; ++i) {
         reach += chain.length_m[i];
     }
@@ -84,21 +84,21 @@ double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t 
 }
 
 double half_width_m(const HingeChain& chain, double plane_offset) {
-    return std::max(thickest_m(chain), plane_offset_m(chain, plane_offset, 1));
+    return std::max(max_radius_m(chain), plane_offset_m(chain, plane_offset, 1));
 }
 
-ChainReach chain_reach(const HingeChain& chain, const ChainAngles& least_rad,
-                       const ChainAngles& most_rad, double more_m) {
-    ChainReach reach = {chain.base, reach_m(chain), thickest_m(chain)};
+ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
+                       const ChainAngles& max_rad, double extra_radius_m) {
+    ChainReach reach = {chain.base, reach_m(chain), max_radius_m(chain)};
     ReachBox hinge = {Vec2::Zero(), Vec2::Zero()};
     std::array<double, 2> turn_rad = {};
     for (std::size_t i = 0; i < chain.link_count; ++i) {
-        turn_rad[0] += least_rad[i];
-        turn_rad[1] += most_rad[i];
+        turn_rad[0] += min_rad[i];
+        turn_rad[1] += max_rad[i];
         const ReachBox link = arc_box(turn_rad[0], turn_rad[1]);
         const ReachBox next = {hinge.low + chain.length_m[i] * link.low,
                                hinge.high + chain.length_m[i] * link.high};
-        const double margin_m = chain.radius_m[i] + more_m;
+        const double margin_m = chain.radius_m[i] + extra_radius_m;
         reach.boxes[i].low = hinge.low.cwiseMin(next.low).array() - margin_m;
         reach.boxes[i].high = hinge.high.cwiseMax(next.high).array() + margin_m;
         hinge = next;
@@ -140,31 +140,31 @@ DiscChain flat_chain(const HingeChain& chain, double plane_offset) {
 }
 
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
-                       const DepthQuestion& question) {
+                       const DepthQuery& query) {
     ChainDepth deepest;
     const auto points_ds = chain_points_ds(chain, angle_rad);
-    const std::size_t end = std::min<std::size_t>(chain.link_count, question.end);
-    for (std::size_t i = question.first; i < end; ++i) {
-        const SunkCapsule sunk = patch.find_sunk({points_ds[i], points_ds[i + 1]},
-                                                 chain.radius_m[i] + question.more_m, i);
-        double depth_m = sunk.depth_m;
-        if (sunk.crossed_at) {
-            depth_m += (1.0 - *sunk.crossed_at) * chain.length_m[i];
-            deepest.beyond_m[i] = (1.0 - *sunk.crossed_at) * chain.length_m[i];
+    const std::size_t end = std::min<std::size_t>(chain.link_count, query.end);
+    for (std::size_t i = query.first; i < end; ++i) {
+        const CapsulePenetration penetration = patch.find_penetration(
+            {points_ds[i], points_ds[i + 1]}, chain.radius_m[i] + query.extra_radius_m, i);
+        double depth_m = penetration.depth_m;
+        if (penetration.crossed_at) {
+            depth_m += (1.0 - *penetration.crossed_at) * chain.length_m[i];
+            deepest.beyond_m[i] = (1.0 - *penetration.crossed_at) * chain.length_m[i];
             for (std::size_t rest = i + 1; rest < chain.link_count; ++rest) {
                 depth_m += chain.length_m[rest];
                 deepest.beyond_m[i] += chain.length_m[rest];
             }
         }
-        deepest.nearest_m[i] = sunk.nearest_m;
-        deepest.nearest_ds[i] = sunk.nearest_ds;
-        deepest.away_ds[i] = sunk.away_ds;
+        deepest.nearest_m[i] = penetration.nearest_m;
+        deepest.nearest_ds[i] = penetration.nearest_ds;
+        deepest.away_ds[i] = penetration.away_ds;
         deepest.end = i + 1;
         if (depth_m > deepest.depth_m) {
             deepest.depth_m = depth_m;
             deepest.link = i;
         }
-        if (sunk.crossed_at || deepest.depth_m >= question.enough_m) {
+        if (penetration.crossed_at || deepest.depth_m >= query.sufficient_depth_m) {
             break;
         }
     }
@@ -177,13 +177,13 @@ double posed_depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
     return chain_depth(chain, angle_rad, patch).depth_m;
 }
 
-double ChainDepths::depth_m(const ChainAngles& angle_rad, double enough_m) {
+double ChainDepths::depth_m(const ChainAngles& angle_rad, double sufficient_depth_m) {
     const FirstLink& first = first_link(angle_rad);
-    if (first.is_crossed || first.depth_m >= enough_m) {
+    if (first.is_crossed || first.depth_m >= sufficient_depth_m) {
         return first.depth_m;
     }
-    const ChainDepth others =
-        chain_depth(chain_, angle_rad, patch_, {.first = 1, .enough_m = enough_m});
+    const ChainDepth others = chain_depth(chain_, angle_rad, patch_,
+                                          {.first = 1, .sufficient_depth_m = sufficient_depth_m});
     return std::max(first.depth_m, others.depth_m);
 }
 

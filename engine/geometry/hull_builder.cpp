@@ -24,7 +24,7 @@ std::optional<ConvexHull> HullBuilder::build() {
     }
     std::size_t corners = 4;
     for (Index face = outermost(); face != k_none; face = outermost()) {
-        if (corners == k_most_hull_corners) {
+        if (corners == k_max_hull_corners) {
             break;
         }
         corners += add_point(face) ? 1U : 0U;
@@ -318,7 +318,7 @@ ConvexHull HullBuilder::collect() const {
     hull = moved_hull(hull, {});
     for (const HullFace& face : hull.faces) {
         for (const Vec3& point : points_) {
-            hull.left_out_m = std::max(hull.left_out_m, face.normal.dot(point) - face.offset_m);
+            hull.omitted_m = std::max(hull.omitted_m, face.normal.dot(point) - face.offset_m);
         }
     }
     return hull;

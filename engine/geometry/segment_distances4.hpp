@@ -12,9 +12,9 @@ namespace handhold {
 // Of triangles about a segment's first end, the segment along the first axis. Squared. Never more
 // than the distances, but for some roundings of the largest coordinate. Source: Ericson, Real-Time
 // Collision Detection, section 5.1.9 (two segments).
-class FourDistances {
+class SegmentDistances4 {
   public:
-    FourDistances(const FourCorners& corner, const FourFloats& length)
+    SegmentDistances4(const Corners4& corner, const Float4& length)
         : corner_(corner), length_(length) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -23,74 +23,72 @@ class FourDistances {
         }
     }
 
-    FourFloats squared() const {
-        const FourFloats of_edges = lower(lower(to_edge(0), to_edge(1)), to_edge(2));
+    Float4 squared() const {
+        const Float4 of_edges = lower(lower(to_edge(0), to_edge(1)), to_edge(2));
         return lower(of_edges, to_inside());
     }
 
   private:
-    static FourFloats four(float value) { return FourFloats{value, value, value, value}; }
-    static FourFloats size_of(const FourFloats& value) { return higher(value, -value); }
+    static Float4 four(float value) { return Float4{value, value, value, value}; }
+    static Float4 size_of(const Float4& value) { return higher(value, -value); }
     // No less than the length.
-    static FourFloats size_of(const FourVectors& v) {
+    static Float4 size_of(const Vectors4& v) {
         return size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
     }
-    FourFloats on_segment(const FourFloats& along) const {
-        return lower(higher(along, FourFloats{}), length_);
-    }
+    Float4 on_segment(const Float4& along) const { return lower(higher(along, Float4{}), length_); }
 
     // Where both are lines, then what of that is on the segment, on the edge, on the segment again.
-    FourFloats to_edge(std::size_t i) const {
-        const FourFloats tiny = four(1e-30F);
-        const FourVectors& from = corner_[i];
-        const FourVectors& edge = edge_[i];
-        const FourFloats across = edge[1] * edge[1] + edge[2] * edge[2];
-        const FourFloats beside = from[1] * edge[1] + from[2] * edge[2];
-        const FourFloats met = on_segment(from[0] - beside / higher(across, tiny) * edge[0]);
-        const FourFloats share =
+    Float4 to_edge(std::size_t i) const {
+        const Float4 tiny = four(1e-30F);
+        const Vectors4& from = corner_[i];
+        const Vectors4& edge = edge_[i];
+        const Float4 across = edge[1] * edge[1] + edge[2] * edge[2];
+        const Float4 beside = from[1] * edge[1] + from[2] * edge[2];
+        const Float4 met = on_segment(from[0] - beside / higher(across, tiny) * edge[0]);
+        const Float4 share =
             ((met - from[0]) * edge[0] - beside) / higher(across + edge[0] * edge[0], tiny);
-        const FourFloats on_edge = lower(higher(share, FourFloats{}), four(1.0F));
-        const FourFloats along = from[0] + on_edge * edge[0];
-        const FourFloats x = along - on_segment(along);
-        const FourFloats y = from[1] + on_edge * edge[1];
-        const FourFloats z = from[2] + on_edge * edge[2];
+        const Float4 on_edge = lower(higher(share, Float4{}), four(1.0F));
+        const Float4 along = from[0] + on_edge * edge[0];
+        const Float4 x = along - on_segment(along);
+        const Float4 y = from[1] + on_edge * edge[1];
+        const Float4 z = from[2] + on_edge * edge[2];
         return x * x + y * y + z * z;
     }
 
     // Of the segment's ends over the triangle's inside; 0 where the segment goes through it. Where
     // a sliver's normal is not known well, less by what that may be.
-    FourFloats to_inside() const {
-        const FourFloats zero = {};
-        const FourFloats far = four(1e30F);
-        const FourVectors normal = cross(edge_[0], edge_[1]);
-        const FourFloats squared_normal = dot(normal, normal);
-        const FourFloats begin = -dot(normal, corner_[0]);
-        const FourFloats rise = normal[0] * length_;
-        const FourFloats end = begin + rise;
-        const FourFloats spare =
+    Float4 to_inside() const {
+        const Float4 zero = {};
+        const Float4 far = four(1e30F);
+        const Vectors4 normal = cross(edge_[0], edge_[1]);
+        const Float4 squared_normal = dot(normal, normal);
+        const Float4 begin = -dot(normal, corner_[0]);
+        const Float4 rise = normal[0] * length_;
+        const Float4 end = begin + rise;
+        const Float4 spare =
             four(0x1p-20F) * size_of(edge_[0]) * size_of(edge_[1]) * size_of(corner_[0]);
-        const FourInts goes_through = (begin > zero) ^ (end > zero);
-        const FourFloats passage = -begin / (rise != zero ? rise : far) * length_;
-        FourInts holds_begin = squared_normal > zero;
-        FourInts holds_end = holds_begin;
-        FourInts holds_passage = holds_begin & goes_through;
+        const Int4 goes_through = (begin > zero) ^ (end > zero);
+        const Float4 passage = -begin / (rise != zero ? rise : far) * length_;
+        Int4 holds_begin = squared_normal > zero;
+        Int4 holds_end = holds_begin;
+        Int4 holds_passage = holds_begin & goes_through;
         for (std::size_t i = 0; i < 3; ++i) {
-            const FourVectors inward = cross(normal, edge_[i]);
-            const FourFloats at_begin = -dot(inward, corner_[i]);
+            const Vectors4 inward = cross(normal, edge_[i]);
+            const Float4 at_begin = -dot(inward, corner_[i]);
             holds_begin &= at_begin >= zero;
             holds_end &= at_begin + inward[0] * length_ >= zero;
             holds_passage &= at_begin + inward[0] * passage >= zero;
         }
-        const FourFloats over_begin = higher(size_of(begin) - spare, zero);
-        const FourFloats over_end = higher(size_of(end) - spare, zero);
-        const FourFloats over = lower(holds_begin ? over_begin : far, holds_end ? over_end : far);
-        const FourFloats clear = over < far ? over * over / squared_normal : far;
+        const Float4 over_begin = higher(size_of(begin) - spare, zero);
+        const Float4 over_end = higher(size_of(end) - spare, zero);
+        const Float4 over = lower(holds_begin ? over_begin : far, holds_end ? over_end : far);
+        const Float4 clear = over < far ? over * over / squared_normal : far;
         return holds_passage ? zero : clear;
     }
 
-    const FourCorners& corner_;
-    const FourFloats& length_;
-    std::array<FourVectors, 3> edge_ = {};
+    const Corners4& corner_;
+    const Float4& length_;
+    std::array<Vectors4, 3> edge_ = {};
 };
 
 }  // namespace handhold

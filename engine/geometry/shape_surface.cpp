@@ -11,7 +11,7 @@ namespace {
 // A whole number of steps around, a multiple of four so that the axes' ends are corners.
 std::uint32_t sectors(double step_rad) {
     const double wanted = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
-    return static_cast<std::uint32_t>(std::clamp(wanted, 8.0, static_cast<double>(k_most_sectors)));
+    return static_cast<std::uint32_t>(std::clamp(wanted, 8.0, static_cast<double>(k_max_sectors)));
 }
 // A chord over an angle of s leaves its circle by r (1 - cos(s / 2)) < r s^2 / 8.
 std::uint32_t circle_sectors(double radius_m, double tolerance_m) {

@@ -8,14 +8,14 @@
 namespace handhold {
 
 // Upright boxes, by coordinate.
-struct FourBoxes {
-    std::array<FourFloats, 3> low = {};
-    std::array<FourFloats, 3> high = {};
+struct Boxes4 {
+    std::array<Float4, 3> low = {};
+    std::array<Float4, 3> high = {};
 };
 
-struct FourTriangles {
-    FourCorners corner = {};
-    std::array<FourFloats, 3> normal = {};  // by coordinate: unit, or zero where there is none
+struct Triangles4 {
+    Corners4 corner = {};
+    std::array<Float4, 3> normal = {};  // by coordinate: unit, or zero where there is none
 };
 
 }  // namespace handhold

@@ -110,7 +110,7 @@ std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits)
 
 // The parts of a graph, each with its triangles in their order.
 std::vector<Part> take_apart(const SurfaceGraph& graph) {
-    const GraphParts numbers = find_parts(graph);
+    const GraphComponents numbers = find_components(graph);
     std::vector<Part> parts(numbers.count);
     for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
         parts[numbers.of_triangle[t]].triangles.push_back(graph.triangles[t]);
@@ -137,7 +137,7 @@ std::vector<Part> take_apart(const SurfaceGraph& graph) {
 
 }  // namespace
 
-SurfaceGraph coarser(const SurfaceGraph& graph, const DetailLimits& limits) {
+SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits) {
     HH_CHECK(limits.deviation_m > 0.0, "a deviation must be above 0", limits.deviation_m);
     Mesh mesh;
     mesh.positions = graph.positions;

@@ -14,6 +14,6 @@ struct DetailLimits {
 // A coarser surface, part by part: a part that cannot be made coarser within the limits stays as it
 // is. Corners are corners of `graph`; source_triangle names the triangle of graph's source
 // nearest to the middle of each.
-SurfaceGraph coarser(const SurfaceGraph& graph, const DetailLimits& limits);
+SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits);
 
 }  // namespace handhold

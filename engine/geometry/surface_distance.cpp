@@ -7,8 +7,8 @@
 namespace handhold {
 namespace {
 
-constexpr int k_most_cuts = 40;  // in a row: halves of the halves of a triangle of 1 km are below
-                                 // a millimetre by then
+constexpr int k_max_cuts = 40;  // in a row: halves of the halves of a triangle of 1 km are below
+                                // a millimetre by then
 
 // Pieces are cut to this share of the limit: what is nearer to it than that counts as beyond.
 constexpr double k_finest = 0.02;
@@ -39,7 +39,7 @@ class Cover {
         if (hit->distance_m + radius <= limit_m_) {
             return true;
         }
-        if (cuts >= k_most_cuts || radius < k_finest * limit_m_) {
+        if (cuts >= k_max_cuts || radius < k_finest * limit_m_) {
             far_point_ = middle;
             return false;
         }

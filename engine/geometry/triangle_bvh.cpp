@@ -71,14 +71,16 @@ class RayEntry {
     }
 
     // As a fraction of the way; infinity where it does not come in before `most`.
-    Four of(const FourBoxes& boxes, double most) const {
-        Four enter = zero_four();
-        Four leave = same_four(most);
+    Double4 of(const Boxes4& boxes, double most) const {
+        Double4 enter = zero4();
+        Double4 leave = same_four(most);
         for (std::size_t i = 0; i < 3; ++i) {
-            const Four a = (__builtin_convertvector(boxes.low[i], Four) - start_[i]) * inverse_[i];
-            const Four b = (__builtin_convertvector(boxes.high[i], Four) - start_[i]) * inverse_[i];
-            const Four first = b < a ? b : a;
-            const Four last = b < a ? a : b;
+            const Double4 a =
+                (__builtin_convertvector(boxes.low[i], Double4) - start_[i]) * inverse_[i];
+            const Double4 b =
+                (__builtin_convertvector(boxes.high[i], Double4) - start_[i]) * inverse_[i];
+            const Double4 first = b < a ? b : a;
+            const Double4 last = b < a ? a : b;
             enter = enter < first ? first : enter;
             leave = last < leave ? last : leave;
         }
@@ -86,10 +88,10 @@ class RayEntry {
     }
 
   private:
-    static Four same_four(double value) { return Four{value, value, value, value}; }
+    static Double4 same_four(double value) { return Double4{value, value, value, value}; }
 
-    Four start_[3];    // NOLINT(*-avoid-c-arrays): of vector types, as four.hpp's
-    Four inverse_[3];  // NOLINT(*-avoid-c-arrays)
+    Double4 start_[3];    // NOLINT(*-avoid-c-arrays): of vector types, as four.hpp's
+    Double4 inverse_[3];  // NOLINT(*-avoid-c-arrays)
 };
 
 // What is still to be looked at. Of what was put there together the nearest is taken first.
@@ -121,7 +123,7 @@ class NearestFirst {
 };
 
 // The place of the least of the first `count` of four.
-std::uint32_t least_of(const FourFloats& values, std::uint32_t count) {
+std::uint32_t least_of(const Float4& values, std::uint32_t count) {
     std::uint32_t least = 0;
     for (std::uint32_t i = 1; i < count; ++i) {
         least = values[i] < values[least] ? i : least;
@@ -132,26 +134,25 @@ std::uint32_t least_of(const FourFloats& values, std::uint32_t count) {
 // Normals of what looks towards a side, as long as twice the triangles' areas.
 class TowardsSide {
   public:
-    TowardsSide(const Vec3& side, double most_m2)
-        : side_{four_times(side.x()), four_times(side.y()), four_times(side.z())},
-          most_(four_times(most_m2)) {}
+    TowardsSide(const Vec3& side, double max_area_m2)
+        : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())}, most_(splat4(max_area_m2)) {}
 
     // Of the first `count` of four, those that are wanted.
-    Vec3 areas_of(const FourTriangles& four, const FourInts& is_wanted, std::uint32_t count) const {
-        const FourFloats zero = {};
-        std::array<FourFloats, 3> b;
-        std::array<FourFloats, 3> c;
+    Vec3 areas_of(const Triangles4& four, const Int4& is_wanted, std::uint32_t count) const {
+        const Float4 zero = {};
+        std::array<Float4, 3> b;
+        std::array<Float4, 3> c;
         for (std::size_t i = 0; i < 3; ++i) {
             b[i] = four.corner[1][i] - four.corner[0][i];
             c[i] = four.corner[2][i] - four.corner[0][i];
         }
-        const FourFloats size = (b[1] * c[2] - b[2] * c[1]) * four.normal[0] +
-                                (b[2] * c[0] - b[0] * c[2]) * four.normal[1] +
-                                (b[0] * c[1] - b[1] * c[0]) * four.normal[2];
-        const FourFloats facing =
+        const Float4 size = (b[1] * c[2] - b[2] * c[1]) * four.normal[0] +
+                            (b[2] * c[0] - b[0] * c[2]) * four.normal[1] +
+                            (b[0] * c[1] - b[1] * c[0]) * four.normal[2];
+        const Float4 facing =
             side_[0] * four.normal[0] + side_[1] * four.normal[1] + side_[2] * four.normal[2];
-        const FourInts counts = is_wanted & (facing > zero);
-        const FourFloats area = counts ? lower(higher(size, zero), most_) : zero;
+        const Int4 counts = is_wanted & (facing > zero);
+        const Float4 area = counts ? lower(higher(size, zero), most_) : zero;
         Vec3 sum = Vec3::Zero();
         for (std::uint32_t i = 0; i < count; ++i) {
             sum += static_cast<double>(area[i]) * Vec3(static_cast<double>(four.normal[0][i]),
@@ -162,8 +163,8 @@ class TowardsSide {
     }
 
   private:
-    std::array<FourFloats, 3> side_;
-    FourFloats most_;
+    std::array<Float4, 3> side_;
+    Float4 most_;
 };
 
 // No more than the triangle's distance from the point, squared, but for rounding: that of a box
@@ -188,17 +189,17 @@ std::size_t TriangleBvh::memory_bytes() const {
 }
 
 Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
-                                  double most_m2) const {
+                                  double max_area_m2) const {
     Vec3 sum = Vec3::Zero();
     if (!is_finite(center) || !(radius_m >= 0.0)) {
         return sum;
     }
-    const LeastDistance least(center - origin_, reach_m());
-    const FourFloats most = four_times(radius_m * radius_m);
-    const TowardsSide towards(side, most_m2);
-    visit_leaves([&](const FourBoxes& boxes) -> FourInts { return least.squared(boxes) <= most; },
+    const DistanceLowerBound least(center - origin_, reach_m());
+    const Float4 most = splat4(radius_m * radius_m);
+    const TowardsSide towards(side, max_area_m2);
+    visit_leaves([&](const Boxes4& boxes) -> Int4 { return least.squared(boxes) <= most; },
                  [&](std::uint32_t first_slot, std::uint32_t count) {
-                     const FourTriangles& four = fours_[first_slot / 4];
+                     const Triangles4& four = fours_[first_slot / 4];
                      sum += towards.areas_of(four, least.squared(four) <= most, count);
                  });
     return sum;
@@ -212,7 +213,7 @@ bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
             return true;
         }
     }
-    return box_squared(center, triangle) <= squared_radius * LeastDistance::k_slack &&
+    return box_squared(center, triangle) <= squared_radius * DistanceLowerBound::k_slack &&
            (closest_on_triangle(center, triangle) - center).squaredNorm() <= squared_radius;
 }
 
@@ -225,7 +226,7 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
     const RayEntry entry(from - origin_, way);
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t best_number = 0;
-    NearestFirst<Child, double, k_most_open> open;
+    NearestFirst<Child, double, k_max_open> open;
     open.put({0, 0}, 0.0);
     while (!open.is_empty()) {
         const auto [next, enters] = open.take();
@@ -235,7 +236,7 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
             const double most = std::min(1.0, best);
-            const Four fraction = entry.of(node.box, most);
+            const Double4 fraction = entry.of(node.box, most);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
                 if (fraction[i] <= most && node.child[i].is_there()) {
@@ -264,12 +265,12 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
     if (nodes_.empty() || !is_finite(point) || !(max_distance_m >= 0.0)) {
         return std::nullopt;
     }
-    const LeastDistance least(point - origin_, reach_m());
+    const DistanceLowerBound least(point - origin_, reach_m());
     double best = max_distance_m * max_distance_m;
     TriangleHit hit;
     bool found = false;
-    float most = LeastDistance::limit(best);
-    NearestFirst<Child, float, k_most_open> open;
+    float most = DistanceLowerBound::limit(best);
+    NearestFirst<Child, float, k_max_open> open;
     open.put({0, 0}, 0.0F);
     while (!open.is_empty()) {
         const auto [next, least_squared] = open.take();
@@ -278,7 +279,7 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
         }
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
-            const FourFloats squared = least.squared(node.box);
+            const Float4 squared = least.squared(node.box);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
                 if (squared[i] <= most && node.child[i].is_there()) {
@@ -287,11 +288,11 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
             }
             continue;
         }
-        const FourTriangles& four = fours_[next.place / 4];
-        if (!any_of(least.squared(four) <= four_times(most))) {
+        const Triangles4& four = fours_[next.place / 4];
+        if (!any_of(least.squared(four) <= splat4(most))) {
             continue;
         }
-        FourFloats squared_least = least.squared_closely(four);
+        Float4 squared_least = least.squared_tight(four);
         for (std::uint32_t tried = 0; tried < next.count; ++tried) {
             const std::uint32_t i = least_of(squared_least, next.count);
             if (squared_least[i] > most) {
@@ -303,7 +304,7 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;
-                most = LeastDistance::limit(best);
+                most = DistanceLowerBound::limit(best);
                 hit = {numbers_[slot], on_triangle, 0.0};
                 found = true;
             }

@@ -52,15 +52,15 @@ class TriangleBvh {
 
     // Of triangles as near as radius_m, and a few that are hardly farther, those that look towards
     // `side`: the sum of their normals, each as long as twice its triangle's area, but no longer
-    // than most_m2. In floats: off by roundings of the mesh's reach.
+    // than max_area_m2. In floats: off by roundings of the mesh's reach.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
-                         double most_m2) const;
+                         double max_area_m2) const;
 
     // visit(first_slot, count, four) for each leaf that may meet the box, which is about origin(),
     // as the corners of `four` are: its one to four triangles, the last repeated. More triangles
     // than would be needed, but the cheapest way to them; always in the tree's order.
     template <typename Visit>
-    void visit_near_box(const TurnedBox& box, Visit&& visit) const;
+    void visit_near_box(const OrientedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
     // No coordinate of a corner about the origin is beyond.
     double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
@@ -97,11 +97,11 @@ class TriangleBvh {
     // Up to four children side by side. Boxes are about origin_, with k_padding of the mesh's reach
     // to spare, so that rounding hides nothing. That of a child that is not there is empty.
     struct Node {
-        FourBoxes box;
+        Boxes4 box;
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
-    static constexpr std::size_t k_most_depth = 64;
-    static constexpr std::size_t k_most_open = 3 * k_most_depth + 1;  // of each node three wait
+    static constexpr std::size_t k_max_depth = 64;
+    static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;  // of each node three wait
 
     // visit(first_slot, count) for the leaves of nodes that may be met: may_meet(boxes) tells
     // which. In the tree's order.
@@ -117,7 +117,7 @@ class TriangleBvh {
     // In leaf order. Each leaf has four slots; those beyond its count repeat its last one.
     std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles
     std::vector<std::uint32_t> numbers_;               // of the triangles
-    std::vector<FourTriangles> fours_;                 // of each leaf
+    std::vector<Triangles4> fours_;                    // of each leaf
     std::size_t triangle_count_ = 0;
 };
 
@@ -126,7 +126,7 @@ void TriangleBvh::visit_leaves(const MayMeet& may_meet, Visit&& visit) const {
     if (nodes_.empty()) {
         return;
     }
-    std::array<Child, k_most_open> open;  // NOLINT(*-member-init): filled as it grows
+    std::array<Child, k_max_open> open;  // NOLINT(*-member-init): filled as it grows
     std::size_t count = 0;
     open[count++] = {0, 0};
     while (count > 0) {
@@ -136,7 +136,7 @@ void TriangleBvh::visit_leaves(const MayMeet& may_meet, Visit&& visit) const {
             continue;
         }
         const Node& node = nodes_[next.place];
-        const FourInts is_met = may_meet(node.box);
+        const Int4 is_met = may_meet(node.box);
         for (std::size_t i = 4; i-- > 0;) {
             if (is_met[i] != 0 && node.child[i].is_there()) {
                 open[count++] = node.child[i];
@@ -146,9 +146,9 @@ void TriangleBvh::visit_leaves(const MayMeet& may_meet, Visit&& visit) const {
 }
 
 template <typename Visit>
-void TriangleBvh::visit_near_box(const TurnedBox& box, Visit&& visit) const {
-    const TurnedBoxTest test(box, reach_m());
-    visit_leaves([&](const FourBoxes& boxes) { return test.may_meet(boxes); },
+void TriangleBvh::visit_near_box(const OrientedBox& box, Visit&& visit) const {
+    const OrientedBoxTest test(box, reach_m());
+    visit_leaves([&](const Boxes4& boxes) { return test.may_meet(boxes); },
                  [&](std::uint32_t first_slot, std::uint32_t count) {
                      visit(first_slot, count, fours_[first_slot / 4]);
                  });
@@ -159,10 +159,10 @@ void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& v
     if (!is_finite(center) || !(radius_m >= 0.0)) {
         return;
     }
-    const LeastDistance least(center - origin_, reach_m());
+    const DistanceLowerBound least(center - origin_, reach_m());
     const double squared_radius = radius_m * radius_m;
-    const FourFloats most = four_times(LeastDistance::limit(squared_radius));
-    visit_leaves([&](const FourBoxes& boxes) -> FourInts { return least.squared(boxes) <= most; },
+    const Float4 most = splat4(DistanceLowerBound::limit(squared_radius));
+    visit_leaves([&](const Boxes4& boxes) -> Int4 { return least.squared(boxes) <= most; },
                  [&](std::uint32_t first_slot, std::uint32_t count) {
                      for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
                          if (meets_sphere(slot, center, squared_radius)) {

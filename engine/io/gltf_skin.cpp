@@ -444,7 +444,7 @@ bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const Af
     if (views.has_normals) {
         const Vec3 in_file = read_gltf_vector(views.normals, i);
         if (in_file.norm() > 1e-9) {
-            normal = turn_normal(to_scene.linear, in_file).stableNormalized();
+            normal = transform_normal(to_scene.linear, in_file).stableNormalized();
         }
         if (!is_finite(in_file) || !is_finite(normal)) {
             return refuse(place + "/attributes/NORMAL",

@@ -94,7 +94,7 @@ std::optional<FileError> check_roots(const std::vector<FileNode>& nodes,
 }  // namespace
 
 std::optional<Pose> rigid_part(const Affine& frame) {
-    constexpr double k_most_shear = 0.02;
+    constexpr double k_max_shear = 0.02;
     Mat3 axes = frame.linear;
     const double scale = std::cbrt(std::abs(axes.determinant()));
     if (!(scale > 1e-9) || !std::isfinite(scale) || !is_finite(frame.translation)) {
@@ -103,7 +103,7 @@ std::optional<Pose> rigid_part(const Affine& frame) {
     axes /= scale;
     const Mat3 off = axes.transpose() * axes - Mat3::Identity();
     if (!off.allFinite() || axes.determinant() < 0.0 ||
-        off.cwiseAbs().maxCoeff() > 2.0 * k_most_shear) {
+        off.cwiseAbs().maxCoeff() > 2.0 * k_max_shear) {
         return std::nullopt;
     }
     return Pose{frame.translation, Quat(axes).normalized()};

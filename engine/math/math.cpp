@@ -49,7 +49,7 @@ double arc_tangent_unit(double x) {
 
 }  // namespace
 
-Vec3 turn_normal(const Mat3& linear, const Vec3& normal) {
+Vec3 transform_normal(const Mat3& linear, const Vec3& normal) {
     const Vec3 x = linear.col(0);
     const Vec3 y = linear.col(1);
     const Vec3 z = linear.col(2);

@@ -52,7 +52,7 @@ inline Vec3 transform_point(const Affine& affine, const Vec3& point) {
 }
 // A surface's normal where `linear` takes the surface: by the matrix of cofactors, which keeps it
 // square to the surface whatever the scale, and outside where it mirrors. Not of unit length.
-Vec3 turn_normal(const Mat3& linear, const Vec3& normal);
+Vec3 transform_normal(const Mat3& linear, const Vec3& normal);
 inline Affine operator*(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, transform_point(a, b.translation)};
 }

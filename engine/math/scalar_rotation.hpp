@@ -10,7 +10,7 @@
 namespace handhold {
 
 // Unit, square to a unit axis.
-inline Vec3 any_square_to(const Vec3& axis) {
+inline Vec3 any_perpendicular(const Vec3& axis) {
     const Vec3 other = std::abs(axis.z()) < 0.7 ? Vec3::UnitZ() : Vec3::UnitX();
     return (other - axis * axis.dot(other)).normalized();
 }
@@ -37,7 +37,7 @@ inline Quat product(const Quat& a, const Quat& b) {
 
 // The rotation that carries the axes onto these: unit, square to each other, right-handed. After
 // Shepperd 1978: divides by the largest of four.
-inline Quat rotation_of_axes(const Vec3& x, const Vec3& y, const Vec3& z) {
+inline Quat rotation_from_axes(const Vec3& x, const Vec3& y, const Vec3& z) {
     const double trace = x.x() + y.y() + z.z();
     if (trace > 0.0) {
         return unit_quat(1.0 + trace, y.z() - z.y(), z.x() - x.z(), x.y() - y.x());

@@ -17,14 +17,14 @@
 namespace handhold {
 
 struct Wide3 {
-    Four x, y, z;
+    Double4 x, y, z;
 };
 struct Wide4 {
-    Four x, y, z, w;
+    Double4 x, y, z, w;
 };
 // Symmetric 3x3 matrices.
 struct WideSymmetric {
-    Four xx, yy, zz, xy, xz, yz;
+    Double4 xx, yy, zz, xy, xz, yz;
 };
 
 // Number by number: of the whole GCC makes copies in memory, in pieces of other sizes.
@@ -89,10 +89,12 @@ HH_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
 HH_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-HH_INLINE Wide3 operator*(const Four& factor, const Wide3& v) {
+HH_INLINE Wide3 operator*(const Double4& factor, const Wide3& v) {
     return {factor * v.x, factor * v.y, factor * v.z};
 }
-HH_INLINE Four dot(const Wide3& a, const Wide3& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+HH_INLINE Double4 dot(const Wide3& a, const Wide3& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
 HH_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -102,40 +104,40 @@ HH_INLINE Wide3 multiply(const WideSymmetric& m, const Wide3& v) {
 }
 
 // As std::max: of a number and NaN, `a`.
-HH_INLINE Four larger(const Four& a, const Four& b) { return b > a ? b : a; }
-HH_INLINE double largest(const Four& v) {
+HH_INLINE Double4 larger(const Double4& a, const Double4& b) { return b > a ? b : a; }
+HH_INLINE double largest(const Double4& v) {
     const double low = v[1] > v[0] ? v[1] : v[0];
     const double high = v[3] > v[2] ? v[3] : v[2];
     return high > low ? high : low;
 }
 
 // Lane by lane: -1, which is all bits, where something is true.
-using FourBits = std::int64_t __attribute__((vector_size(32), aligned(32)));
+using Mask4 = std::int64_t __attribute__((vector_size(32), aligned(32)));
 
 // By the instruction, not by std::sqrt, which would look at every number's sign for errno.
-HH_INLINE Four square_root(const Four& v) {
+HH_INLINE Double4 square_root(const Double4& v) {
 #ifdef __SSE2__
     const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]});
     const __m128d high = _mm_sqrt_pd(__m128d{v[2], v[3]});
-    return Four{low[0], low[1], high[0], high[1]};
+    return Double4{low[0], low[1], high[0], high[1]};
 #else
-    return Four{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+    return Double4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 #endif
 }
 
 // --- Between four vectors one by one and side by side ------------------------------------------
 
-HH_INLINE Wide4 to_wide4(const Four& a, const Four& b, const Four& c, const Four& d) {
-    const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);  // a0 b0 a2 b2
-    const Four ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-    const Four cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+HH_INLINE Wide4 to_wide4(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
+    const Double4 ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);  // a0 b0 a2 b2
+    const Double4 ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Double4 cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Double4 cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
     return {__builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5),
             __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5),
             __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7),
             __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7)};
 }
-HH_INLINE Wide3 to_wide3(const Four& a, const Four& b, const Four& c, const Four& d) {
+HH_INLINE Wide3 to_wide3(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
     const Wide4 all = to_wide4(a, b, c, d);
     return {all.x, all.y, all.z};
 }
@@ -143,6 +145,6 @@ HH_INLINE Wide3 to_wide3(const Four& a, const Four& b, const Four& c, const Four
 // The four of them: x, y, z, w of lane 0, of lane 1 ..
 HH_INLINE Wide4 to_rows(const Wide4& v) { return to_wide4(v.x, v.y, v.z, v.w); }
 // With 0 in the fourth place.
-HH_INLINE Wide4 to_rows(const Wide3& v) { return to_wide4(v.x, v.y, v.z, zero_four()); }
+HH_INLINE Wide4 to_rows(const Wide3& v) { return to_wide4(v.x, v.y, v.z, zero4()); }
 
 }  // namespace handhold

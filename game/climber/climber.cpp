@@ -11,16 +11,16 @@
 namespace handhold {
 namespace {
 
-constexpr double k_look_every_s = 0.1;
+constexpr double k_query_interval_s = 0.1;
 constexpr double k_missed_after_s = 0.02;  // a hand that closed and still holds nothing
 constexpr double k_grip_lost_m = 0.1;      // of a hand that something holds back
 constexpr double k_both_hold_s = 0.15;     // before one of two hands goes on
 constexpr double k_near_waypoint_m = 0.3;
-constexpr double k_leap_way_m = 1.2;  // free way that is worth a push
+constexpr double k_leap_clearance_m = 1.2;  // free way that is worth a push
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
 constexpr double k_leap_stretch_m = 0.62;
-constexpr std::uint32_t k_looks_before_leap = 3;
+constexpr std::uint32_t k_failed_queries_before_leap = 3;
 constexpr double k_adrift_s = 1.0;  // before he does something about it
 constexpr double k_return_mps = 1.2;
 constexpr double k_detour_s = 2.0;
@@ -113,12 +113,12 @@ Vec3 waypoint_ws(const Mind& mind) {
 bool head_for_waypoint(const Mind& mind) {
     ClimberState& state = mind.state;
     Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
-    if (way.norm() < k_near_waypoint_m && !has_arrived(mind.task, state)) {
+    if (way.norm() < k_near_waypoint_m && !is_at_target(mind.task, state)) {
         ++state.waypoint;
         state.waypoint_since_s = mind.now.t_s;
         way = waypoint_ws(mind) - mind.now.head_ws;
     }
-    if (has_arrived(mind.task, state) && way.norm() < 2.0 * k_near_waypoint_m) {
+    if (is_at_target(mind.task, state) && way.norm() < 2.0 * k_near_waypoint_m) {
         return false;
     }
     if (mind.now.t_s < state.detour_until_s) {
@@ -138,13 +138,13 @@ void head_anywhere(const Mind& mind) {
     ClimberState& state = mind.state;
     state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
     state.heading_until_s = mind.now.t_s + state.random.between(3.0, 9.0);
-    state.empty_looks = 0;
+    state.failed_queries = 0;
 }
 
 void look_ahead(const Mind& mind) {
     constexpr double k_far_m = 6.0;
-    const auto way_m =
-        free_way_m(mind.sight, mind.player(), mind.now.head_ws, mind.state.heading_ws, k_far_m);
+    const auto way_m = free_distance_m(mind.sight, mind.player(), mind.now.head_ws,
+                                       mind.state.heading_ws, k_far_m);
     mind.state.way_ahead_m = way_m.value_or(k_far_m);
     mind.state.shore_ahead = way_m.has_value();
 }
@@ -184,7 +184,7 @@ Vec3 steer(const Mind& mind) {
 
 bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
     const bool loose_too =
-        mind.task.takes_things && mind.now.carried && mind.state.random.chance(0.15);
+        mind.task.picks_up_bodies && mind.now.carried && mind.state.random.chance(0.15);
     const auto found =
         find_hold(mind.sight, {mind.task, mind.now, side, toward_ws, loose_too}, mind.state);
     if (!found) {
@@ -227,14 +227,14 @@ void hand_over(const Mind& mind) {
 void begin_leap(const Mind& mind) {
     mind.state.leaping = true;
     mind.state.leap_until_s = mind.now.t_s + k_leap_longest_s;
-    mind.state.empty_looks = 0;
+    mind.state.failed_queries = 0;
 }
 
 void go_on(const Mind& mind, const Vec3& wanted_mps) {
     ClimberState& state = mind.state;
     state.wanted_ps_mps = mind.now.origin_ws.rotation.conjugate() * wanted_mps;
     state.gaze_ws = state.heading_ws;
-    if (has_arrived(mind.task, state) && wanted_mps.norm() < 0.1) {
+    if (is_at_target(mind.task, state) && wanted_mps.norm() < 0.1) {
         return;
     }
     if (count_hands(state, ClimberHandMode::holding) == k_hand_count) {
@@ -249,9 +249,9 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
             continue;
         }
         if (try_reach(mind, side, state.heading_ws)) {
-            state.empty_looks = 0;
-        } else if (++state.empty_looks >= k_looks_before_leap) {
-            if (mind.task.may_leap && state.shore_ahead && state.way_ahead_m > k_leap_way_m) {
+            state.failed_queries = 0;
+        } else if (++state.failed_queries >= k_failed_queries_before_leap) {
+            if (mind.task.may_leap && state.shore_ahead && state.way_ahead_m > k_leap_clearance_m) {
                 begin_leap(mind);
             } else if (mind.task.waypoints.empty()) {
                 head_anywhere(mind);
@@ -338,11 +338,11 @@ void drift(const Mind& mind) {
     }
     if (mind.now.t_s - state.carried_s > k_adrift_s) {
         constexpr double k_far_m = 6.0;
-        const bool meets_something =
+        const bool path_is_blocked =
             speed_mps > k_drifts_mps &&
-            free_way_m(mind.sight, mind.player(), mind.now.head_ws, toward_ws, k_far_m);
+            free_distance_m(mind.sight, mind.player(), mind.now.head_ws, toward_ws, k_far_m);
         constexpr double k_patience_s = 4.0;
-        if (!meets_something || mind.now.t_s - state.carried_s > k_patience_s) {
+        if (!path_is_blocked || mind.now.t_s - state.carried_s > k_patience_s) {
             return_home(mind);
         }
     }
@@ -374,7 +374,7 @@ ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uin
     const Pose& origin_ws = scene.world.player_origin.at(task.player.player).pose_ws;
     state.heading_ws = origin_ws.rotation * -Vec3::UnitZ();
     state.gaze_ws = state.heading_ws;
-    state.next_look_s = now_s + state.random.between(0.0, k_look_every_s);
+    state.next_query_s = now_s + state.random.between(0.0, k_query_interval_s);
     state.carried_s = now_s;
     state.waypoint_since_s = now_s;
     place_body(state);
@@ -393,9 +393,9 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
     }
     feel_hands(mind);
     mind.now = sense(sight.scene, task, state);  // what he holds now is what carries him
-    if (mind.now.t_s >= state.next_look_s) {
+    if (mind.now.t_s >= state.next_query_s) {
         // Not all climbers of a crowd look about in the same frame.
-        state.next_look_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_look_every_s;
+        state.next_query_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_query_interval_s;
         decide(mind);
     }
     if (task.single_hand) {
@@ -415,7 +415,7 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
     return commands;
 }
 
-bool has_arrived(const ClimberTask& task, const ClimberState& state) {
+bool is_at_target(const ClimberTask& task, const ClimberState& state) {
     return !task.waypoints.empty() && state.waypoint >= task.waypoints.size();
 }
 

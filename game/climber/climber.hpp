@@ -29,7 +29,7 @@ struct ClimberTask {
     double sample_hz = 90.0;                 // [10, 1000]; buttons have samples of their own
     double cruise_mps = 0.6;                 // [0.2, 1]
     bool may_leap = true;                    // push off where there is nothing to reach for
-    bool takes_things = true;                // picks up what floats about, and throws it
+    bool picks_up_bodies = true;             // picks up what floats about, and throws it
     bool single_hand = false;  // lets go before the other hand closes: never two supports
 };
 
@@ -82,10 +82,10 @@ struct ClimberState {
     Vec3 heading_ws = -Vec3::UnitZ();  // unit
     Vec3 gaze_ws = -Vec3::UnitZ();     // unit
     double heading_until_s = 0.0;
-    double next_look_s = 0.0;
+    double next_query_s = 0.0;
     double way_ahead_m = 0.0;  // free along the heading, as last seen
     bool shore_ahead = false;  // something ends that way
-    std::uint32_t empty_looks = 0;
+    std::uint32_t failed_queries = 0;
     std::uint32_t waypoint = 0;
     double waypoint_since_s = 0.0;
     double detour_until_s = 0.0;
@@ -112,6 +112,6 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
                      ClimberState& state, std::vector<TrackingSample>& samples);
 
 // True once the last waypoint has been reached; never for one who wanders.
-bool has_arrived(const ClimberTask& task, const ClimberState& state);
+bool is_at_target(const ClimberTask& task, const ClimberState& state);
 
 }  // namespace handhold

@@ -17,7 +17,7 @@ constexpr double k_farthest_m = 0.62;
 constexpr double k_fastest_mps = 2.2;   // what moves faster past him tears his arm off
 constexpr double k_hold_gap_m = 0.004;  // of the palm over the surface
 constexpr double k_rail_search_m = 0.9;
-constexpr std::size_t k_rails_looked_at = 3;
+constexpr std::size_t k_queried_rails = 3;
 
 std::uint64_t id_of(const ClimberSight& sight, Entity entity) {
     return sight.scene.world.persistent_id.at(entity).value;
@@ -88,7 +88,7 @@ bool is_loose(const Search& search, const RigidBody& body) {
 }
 
 // Nothing where the hand cannot or should not go there.
-std::optional<HoldCandidate> judge(const Search& search, const Seen& seen, double luck) {
+std::optional<HoldCandidate> evaluate(const Search& search, const Seen& seen, double luck) {
     const World& world = search.sight.scene.world;
     const Entity body = body_of_id(world, seen.id);
     const RigidBody* const rigid = world.body.find(body);
@@ -122,7 +122,7 @@ std::optional<HoldCandidate> judge(const Search& search, const Seen& seen, doubl
 
 void offer(const Search& search, const Seen& seen, double luck,
            std::optional<HoldCandidate>& best) {
-    const std::optional<HoldCandidate> candidate = judge(search, seen, luck);
+    const std::optional<HoldCandidate> candidate = evaluate(search, seen, luck);
     if (candidate && (!best || candidate->value > best->value)) {
         best = candidate;
     }
@@ -165,10 +165,10 @@ RailPlace place_on(const SceneRail& rail, const Pose& body_ws, const Vec3& ideal
     return {axis, along, (axis - ideal_ws).norm()};
 }
 
-void look_at_rails(const Search& search, Random& random, std::optional<HoldCandidate>& best) {
+void query_rails(const Search& search, Random& random, std::optional<HoldCandidate>& best) {
     const World& world = search.sight.scene.world;
     const Vec3 ideal_ws = search.shoulder_ws + 0.4 * search.ask.toward_ws;
-    std::array<RailPlace, k_rails_looked_at> places;
+    std::array<RailPlace, k_queried_rails> places;
     std::size_t count = 0;
     for (const SceneRail& rail : search.sight.scene.rails) {
         const BodyPose* const pose = world.body_pose.find(rail.body);
@@ -214,7 +214,7 @@ ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
         const Quat tip = rotation_between(Vec3::UnitZ(), seen.normal_ws);
         fingers = tip * Vec3::UnitX();
     }
-    const PalmPlace palm{seen.point_ws + k_hold_gap_m * seen.normal_ws, seen.normal_ws, fingers};
+    const PalmFrame palm{seen.point_ws + k_hold_gap_m * seen.normal_ws, seen.normal_ws, fingers};
     const Pose wrist_ws = hand_on(palm, search.ask.side, search.sight.scene.tuning.hand);
     const Pose& body_ws = search.sight.scene.world.body_pose.at(chosen.body).pose_ws;
     return {chosen.body, inverse(body_ws) * wrist_ws,
@@ -223,8 +223,8 @@ ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
 
 }  // namespace
 
-std::optional<double> free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                                 const Vec3& direction_ws, double length_m) {
+std::optional<double> free_distance_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
+                                      const Vec3& direction_ws, double length_m) {
     const auto hit = look(sight, player, from_ws, from_ws + length_m * direction_ws);
     return hit ? std::optional(hit->distance_m) : std::nullopt;
 }
@@ -241,7 +241,7 @@ Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_w
         const double luck = state.random.unit();
         // Open space is no way at all: nothing there stops him again.
         const double way_m =
-            free_way_m(sight, player, from_ws, direction, k_far_m).value_or(k_open_m);
+            free_distance_m(sight, player, from_ws, direction, k_far_m).value_or(k_open_m);
         const double value = way_m + 1.0 * direction.dot(state.heading_ws) + 2.0 * luck;
         if (value > best_value) {
             best_value = value;
@@ -255,7 +255,7 @@ std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& 
                                    ClimberState& state) {
     const Search search = begin_search(sight, ask, state);
     std::optional<HoldCandidate> best;
-    look_at_rails(search, state.random, best);
+    query_rails(search, state.random, best);
     glance_about(search, state.random, best);
     if (!best) {
         return std::nullopt;

@@ -9,8 +9,8 @@
 namespace handhold {
 
 // How far the way is free for him; nothing where it is for more than length_m.
-std::optional<double> free_way_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
-                                 const Vec3& direction_ws, double length_m);
+std::optional<double> free_distance_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
+                                      const Vec3& direction_ws, double length_m);
 
 // A direction for someone who wanders: free for some metres, rather ahead than back.
 Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,

@@ -19,7 +19,7 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
     task.waypoints = plan.waypoints;
     task.cruise_mps = plan.cruise_mps;
     task.may_leap = plan.may_leap;
-    task.takes_things = false;
+    task.picks_up_bodies = false;
     task.single_hand = plan.single_hand;
     return task;
 }
@@ -48,7 +48,7 @@ Recording record_climb(Scene& scene, const ClimbPlan& plan) {
         }
         const PlayerInput input{player.player, samples, {}};
         step_frame(scene.world, caches, scene.tuning, {1.0 / k_hz, {&input, 1}}, stats);
-        if (!has_arrived(task, state)) {
+        if (!is_at_target(task, state)) {
             continue;
         }
         end_s = std::min(end_s, state.waypoint_since_s + plan.linger_s);

@@ -9,10 +9,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_apart_m = 0.8;    // of two heads; less where there is no room
-constexpr double k_closest_m = 0.3;  // but no closer
-constexpr double k_view_m = 8.0;     // what is that far from everything is outside
-constexpr std::size_t k_tries = 60;  // a player, before they stand closer
+constexpr double k_apart_m = 0.8;           // of two heads; less where there is no room
+constexpr double k_closest_m = 0.3;         // but no closer
+constexpr double k_view_m = 8.0;            // what is that far from everything is outside
+constexpr std::size_t k_max_attempts = 60;  // a player, before they stand closer
 
 class Spreader {
   public:
@@ -64,7 +64,7 @@ std::vector<Pose> spread_players(const Scene& scene, FrameCaches& caches, const 
         spreader.seeds.push_back(head_over(spawn.pose_ws));
     }
     for (double apart_m = k_apart_m; apart_m >= k_closest_m; apart_m -= 0.1) {
-        for (std::size_t tries = 0; tries < k_tries * count && spreader.heads.size() < count;
+        for (std::size_t tries = 0; tries < k_max_attempts * count && spreader.heads.size() < count;
              ++tries) {
             spreader.add(apart_m);
         }

@@ -94,9 +94,9 @@ std::optional<FileError> pose_known(const Scene& scene, const GripMesh& mesh,
     }
     const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning, &hand);
     out.fingers = fitted.fingers;
-    if (fitted.sunk_fingers > 0) {
+    if (fitted.penetrating_fingers > 0) {
         std::fprintf(stderr, "%d posed fingers would be sunk and are fitted\n",
-                     static_cast<int>(fitted.sunk_fingers));
+                     static_cast<int>(fitted.penetrating_fingers));
     }
     return std::nullopt;
 }

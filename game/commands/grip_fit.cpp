@@ -13,7 +13,7 @@ namespace handhold {
 FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_bs,
                     const Tuning& tuning, const AuthoredHand* authored) {
     constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
-    constexpr int k_most_lifts = 4;
+    constexpr int k_max_lifts = 4;
     EntityPool entities;
     const Entity hand = entities.create();
     const Entity body = entities.create();
@@ -33,7 +33,7 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     ChainFitScratch fit;
     StageStats stats;
     search_grip({k_at_once_s, hands, surface, search}, tuning, stats);
-    for (int lift = 0; lift < k_most_lifts; ++lift) {
+    for (int lift = 0; lift < k_max_lifts; ++lift) {
         constrain_palms({k_at_once_s, hands, surface, offset, palm}, tuning);
         sweep_fingers({k_at_once_s, hands, tracking, surface, palm, offset, fingers, {}, fit},
                       tuning, stats);
@@ -44,8 +44,8 @@ FittedGrip fit_grip(const GripMesh& mesh, const HandRig& rig, const Pose& wrist_
     fitted.wrist_bs = palm.at(hand).pose_ws;
     fitted.fingers = fingers.at(hand).shown;
     fitted.is_gripping = surface.at(hand).triangle != GripSurface::k_none;
-    fitted.sunk_fingers =
-        stats.fallbacks[static_cast<std::size_t>(Fallback::authored_finger_fitted)];
+    fitted.penetrating_fingers =
+        stats.fallbacks[static_cast<std::size_t>(Fallback::authored_finger_rejected)];
     return fitted;
 }
 

@@ -13,7 +13,7 @@ struct FittedGrip {
     Pose wrist_bs;
     std::array<FingerAngles, k_finger_count> fingers;  // by place in HandRig::fingers
     bool is_gripping = false;                          // false: no surface in reach
-    std::uint64_t sunk_fingers = 0;  // posed, but fitted, since they would be sunk
+    std::uint64_t penetrating_fingers = 0;  // posed, but fitted, since they would be sunk
 };
 
 // From where the hand would close: palm and fingers fitted to the surface. With `authored`: the

@@ -81,7 +81,7 @@ void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
 RobotHandSkin make_robot_hand_skin(const HandRig& rig,
                                    const std::array<FingerAngles, k_finger_count>& fingers,
                                    const Pose& wrist_ms) {
-    std::vector<std::array<Pose, k_most_links>> frames;
+    std::vector<std::array<Pose, k_max_links>> frames;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         frames.push_back(finger_link_frames(rig.fingers[i], fingers[i]));
     }

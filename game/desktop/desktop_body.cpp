@@ -18,7 +18,7 @@ constexpr double k_no_surface_m = 0.6;
 constexpr double k_reach_mps = 3.5;
 constexpr double k_hand_return_mps = 2.5;
 constexpr double k_longest_reach_s = 0.5;
-constexpr double k_arrived_m = 0.005;
+constexpr double k_at_target_m = 0.005;
 constexpr double k_pull_mps = 0.9;
 
 double sign_of(HandSide side) { return side == HandSide::right ? 1.0 : -1.0; }
@@ -40,7 +40,7 @@ Vec3 fingers_on(const Vec3& away, const Quat& head) {
 
 // Open, at the height of the chest, in sight.
 Pose DesktopBody::rest_ps(HandSide side, const HandTuning& tuning) const {
-    const PalmPlace place{mirrored({0.2, -0.24, -0.42}, side),
+    const PalmFrame place{mirrored({0.2, -0.24, -0.42}, side),
                           mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
     return head_ps_ * hand_on(place, side, tuning);
 }
@@ -67,7 +67,7 @@ void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
 
 // On what he looks at; else out in front of him.
 Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
-    const PalmPlace ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
+    const PalmFrame ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
                           head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
     return hand_on(aim_ps_.value_or(ahead), side, tuning);
 }
@@ -76,7 +76,7 @@ Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
 void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     const double distance_m = (target_ps.position - hand.hand_ps.position).norm();
     const double share =
-        distance_m > k_arrived_m ? std::min(1.0, k_reach_mps * dt_s / distance_m) : 1.0;
+        distance_m > k_at_target_m ? std::min(1.0, k_reach_mps * dt_s / distance_m) : 1.0;
     hand.hand_ps = interpolate(hand.hand_ps, target_ps, share);
     hand.reaches_s += dt_s;
     if (share == 1.0 || hand.reaches_s > k_longest_reach_s) {

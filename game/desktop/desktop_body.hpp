@@ -58,7 +58,7 @@ class DesktopBody {
     double yaw_rad_ = 0.0;
     double pitch_rad_ = 0.0;
     Pose head_ps_;
-    std::optional<PalmPlace> aim_ps_;  // what he looks at
+    std::optional<PalmFrame> aim_ps_;  // what he looks at
     std::array<Hand, k_hand_count> hands_;
     std::array<Use, k_hand_count> uses_{};
     bool has_hands_ = false;  // in play space: not before the first frame

@@ -16,7 +16,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_most_behind_s = 0.1;  // then time goes slower
+constexpr double k_max_behind_s = 0.1;  // then time goes slower
 constexpr double k_status_s = 0.1;
 
 double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
@@ -28,7 +28,7 @@ class Clock {
     int advance() {
         const std::int64_t now = now_ns();
         behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
-        behind_s_ = std::min(behind_s_, k_most_behind_s);
+        behind_s_ = std::min(behind_s_, k_max_behind_s);
         last_ns_ = now;
         const auto due = static_cast<int>(behind_s_ / DesktopSession::k_dt_s);
         behind_s_ -= due * DesktopSession::k_dt_s;

@@ -27,10 +27,10 @@ int HeadsetClock::advance(std::int64_t display_ns, std::int64_t period_ns) {
     if (due <= 0) {
         return 0;
     }
-    if (due > k_most_frames) {
-        const std::int64_t lost = due - k_most_frames;
+    if (due > k_max_frames) {
+        const std::int64_t lost = due - k_max_frames;
         begin_ns_ += std::llround(static_cast<double>(lost) / hz_ * k_ns_per_s);
-        due = k_most_frames;
+        due = k_max_frames;
     }
     done_ += due;
     return static_cast<int>(due);

@@ -11,7 +11,7 @@ class HeadsetClock {
   public:
     // Frames that are due until a picture that will be seen at display_ns; 0 where that refresh had
     // its frame. The first call, and the first after pause(), has none due. The first
-    // period_ns > 0 decides how long a frame is. Later than k_most_frames, time goes slower.
+    // period_ns > 0 decides how long a frame is. Later than k_max_frames, time goes slower.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
     // Until the next advance() no time passes: the runtime was away, or its clock is another.
@@ -22,7 +22,7 @@ class HeadsetClock {
     // Of the n-th last of the frames that advance() gave, 0 being the last: when it is seen.
     std::int64_t frame_ns(int before_last) const;
 
-    static constexpr int k_most_frames = 9;
+    static constexpr int k_max_frames = 9;
 
   private:
     double hz_ = 90.0;

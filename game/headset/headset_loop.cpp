@@ -17,8 +17,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_between_lines_s = 0.1;
-constexpr auto k_between_tries = std::chrono::milliseconds(500);
-constexpr int k_tries = 60;
+constexpr auto k_retry_interval = std::chrono::milliseconds(500);
+constexpr int k_max_attempts = 60;
 
 double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(now_ns() - begin_ns);
@@ -88,9 +88,9 @@ class HeadsetLoop {
     bool find_again(std::string& why_not) {
         std::fprintf(stderr, "the headset's runtime is lost; looking for it\n");
         ++figures_.losses;
-        for (int i = 0; i < k_tries && !ends_; ++i) {
+        for (int i = 0; i < k_max_attempts && !ends_; ++i) {
             headset_.reset();
-            std::this_thread::sleep_for(k_between_tries);
+            std::this_thread::sleep_for(k_retry_interval);
             look_around();
             headset_ = Headset::open(stage_.options.xr_headless, why_not);
             if (headset_ != nullptr && begin(why_not)) {
@@ -103,9 +103,9 @@ class HeadsetLoop {
 
     // The runtime ends the session while frames go on.
     void leave() {
-        constexpr int k_most_frames = 200;
+        constexpr int k_max_frames = 200;
         headset_->ask_to_leave();
-        for (int i = 0; i < k_most_frames && headset_->poll() == HeadsetState::runs; ++i) {
+        for (int i = 0; i < k_max_frames && headset_->poll() == HeadsetState::runs; ++i) {
             HeadsetFrame frame = headset_->begin_frame();
             frame.is_seen = false;
             headset_->end_frame(frame, {});

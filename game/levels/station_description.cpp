@@ -17,8 +17,8 @@ constexpr NumberRange k_place_m = {-1e3, 1e3, false};
 constexpr NumberRange k_radius_m = {0.002, 0.5, false};
 constexpr NumberRange k_drift_mps = {-2.0, 2.0, false};
 constexpr NumberRange k_spin_radps = {-6.0, 6.0, false};
-constexpr std::int64_t k_most_racks = 64;
-constexpr std::size_t k_most_points = 256;
+constexpr std::int64_t k_max_racks = 64;
+constexpr std::size_t k_max_points = 256;
 
 template <typename T>
 struct Word {
@@ -133,7 +133,7 @@ HoseLine DescriptionReader::read_hose(const JsonValue& value) {
     hose.material = read_word(value["material"], k_hose_materials);
     hose.radius_m = value["radius_m"].number(k_radius_m);
     const std::vector<JsonValue> points = value["points_m"].items();
-    if (points.size() < 2 || points.size() > k_most_points) {
+    if (points.size() < 2 || points.size() > k_max_points) {
         value["points_m"].refuse("2 to 256 points");
     }
     for (const JsonValue& point : points) {
@@ -227,10 +227,10 @@ void DescriptionReader::read_section(const JsonValue& value) {
     section.type = read_word(value["type"], k_section_types);
     const bool is_module = section.type == SectionType::module;
     if (is_module) {
-        section.racks = static_cast<std::size_t>(value["racks"].integer(1, k_most_racks));
+        section.racks = static_cast<std::size_t>(value["racks"].integer(1, k_max_racks));
         section.far_end = read_word(value["far_end"], k_end_kinds);
     } else if (section.type == SectionType::truss) {
-        section.racks = static_cast<std::size_t>(value["bays"].integer(2, k_most_racks));
+        section.racks = static_cast<std::size_t>(value["bays"].integer(2, k_max_racks));
     }
     for (const char* key : {"racks", "far_end", "walls"}) {
         if (!is_module && value[key].exists()) {

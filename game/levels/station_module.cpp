@@ -13,7 +13,7 @@ constexpr double k_liner_half_m = 1.42;
 constexpr double k_hull_radius_m = 1.90;
 constexpr double k_plate_m = 0.12;           // thickness of an end
 constexpr double k_recess_m = 0.015;         // of an end's outside behind the hull's rim
-constexpr double k_end_room_m = 0.17;        // from an end's outside to the first rack
+constexpr double k_end_clearance_m = 0.17;   // from an end's outside to the first rack
 constexpr double k_module_corner_m = 1.365;  // from the axis to a stand-off's face
 constexpr double k_hatch_corner_m = 0.22;
 
@@ -105,7 +105,7 @@ void add_end(StationKit& kit, const Module& module, EndKind kind, bool is_far) {
 
 // Cables that sag between their clamps along a lower stand-off.
 void add_cables(StationKit& kit, const Pose& frame, const Module& module, std::size_t corner) {
-    const double from = k_end_room_m + 0.02;
+    const double from = k_end_clearance_m + 0.02;
     const double to = module_length_m(module.section) - from;
     for (std::size_t cable = 0; cable < 3; ++cable) {
         std::vector<Vec3> path;
@@ -132,7 +132,7 @@ void add_standoffs(StationKit& kit, const Module& module) {
         const Pose frame = module.pose * wall_frame(angle, k_module_corner_m);
         const bool is_upper = corner == 1 || corner == 2;
         for (std::size_t rack = 0; rack < module.section.racks; ++rack) {
-            const double z = k_end_room_m + (static_cast<double>(rack) + 0.5) * k_rack_pitch_m;
+            const double z = k_end_clearance_m + (static_cast<double>(rack) + 0.5) * k_rack_pitch_m;
             const double half_z = 0.5 * k_rack_pitch_m;
             kit.panel(is_upper ? Material::panel : Material::liner, frame, Vec3(0.0, -0.03, z),
                       Vec3(0.186, 0.03, half_z - 0.005));
@@ -220,7 +220,7 @@ void add_door(StationKit& kit, const Pose& frame) {
 }
 
 double module_length_m(const StationSection& section) {
-    return 2.0 * k_end_room_m + static_cast<double>(section.racks) * k_rack_pitch_m;
+    return 2.0 * k_end_clearance_m + static_cast<double>(section.racks) * k_rack_pitch_m;
 }
 
 Pose wall_frame(double angle_rad, double distance_m) {
@@ -292,7 +292,7 @@ void build_module(Structure& out, const StationSection& section, const Pose& pos
     for (std::size_t wall = 0; wall < k_wall_count; ++wall) {
         const Pose frame = pose * wall_frame(static_cast<double>(wall) * k_half_pi, k_clear_half_m);
         for (std::size_t rack = 0; rack < section.racks; ++rack) {
-            build_rack(kit, frame, k_end_room_m + static_cast<double>(rack) * k_rack_pitch_m,
+            build_rack(kit, frame, k_end_clearance_m + static_cast<double>(rack) * k_rack_pitch_m,
                        section.walls[wall][rack], section.seed * 64 + wall * 8 + rack);
         }
     }

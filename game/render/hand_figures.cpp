@@ -65,7 +65,7 @@ Result<HandModels> choose_hand_models(std::span<const std::string> files) {
 
 std::vector<Pose> skeleton_pose(const HandRig& rig,
                                 const std::array<FingerAngles, k_finger_count>& fingers) {
-    std::vector<std::array<Pose, k_most_links>> frames;
+    std::vector<std::array<Pose, k_max_links>> frames;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         frames.push_back(finger_link_frames(rig.fingers[i], fingers[i]));
     }
@@ -109,7 +109,7 @@ void HandFigures::add_parts(HandSide side, const Pose& wrist_ws,
                             const std::array<FingerAngles, k_finger_count>& fingers,
                             RenderFrame& frame) const {
     const HandRig& rig = models_[index_of(side)].rig;
-    std::array<std::array<Pose, k_most_links>, k_finger_count> links_ws;
+    std::array<std::array<Pose, k_max_links>, k_finger_count> links_ws;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         links_ws[i] = finger_link_frames(rig.fingers[i], fingers[i]);
         for (Pose& link : links_ws[i]) {

@@ -9,10 +9,10 @@ namespace handhold {
 namespace {
 
 constexpr int k_max_ticks = 100;
-constexpr double k_least_span = 1e-100;  // below, nothing was measured
+constexpr double k_min_span = 1e-100;  // below, nothing was measured
 
 // What has no span gets one of 1.
-double choose_high(double low, double high) { return high - low > k_least_span ? high : low + 1.0; }
+double choose_high(double low, double high) { return high - low > k_min_span ? high : low + 1.0; }
 
 double choose_step(double span, int count) {
     const double rough = span / count;

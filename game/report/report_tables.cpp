@@ -79,7 +79,7 @@ const char* meaning_of(Fallback reason) {
         case Fallback::grip_reanchored:
             return "Tracking came back, or the other hand left: the anchor was taken anew where "
                    "the hand was.";
-        case Fallback::hand_left_two_hand_grip:
+        case Fallback::two_hand_grip_ended:
             return "One of two hands let go; nothing was thrown.";
         case Fallback::hands_too_close:
             return "Two hands on one thing were too close to turn it by; the first led alone.";
@@ -90,20 +90,20 @@ const char* meaning_of(Fallback reason) {
             return "Hands asked for what contacts forbid; the hands' rows were set aside.";
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
-        case Fallback::put_back:
+        case Fallback::restored_last_valid_pose:
             return "Nothing took bodies out of a surface; they went back to where they were "
                    "clear of it.";
-        case Fallback::active_set_unsettled:
+        case Fallback::active_set_not_converged:
             return "A solve ended before it was clear which contacts push; some may overlap.";
-        case Fallback::hands_led:
+        case Fallback::hands_load_stepped:
             return "Hands jumped too far for a solve's steps; it took them there part by part.";
-        case Fallback::hands_led_in_vain:
+        case Fallback::load_stepping_failed:
             return "Hands jumped too far for a solve's steps, and could not be taken there part by "
                    "part either.";
         case Fallback::friction_wedged:
             return "Contacts wedged something in, or would have given it energy; their friction "
                    "was set aside.";
-        case Fallback::friction_undecided:
+        case Fallback::friction_not_converged:
             return "What sticks and what slides was not settled; the last answer was taken.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
@@ -113,14 +113,14 @@ const char* meaning_of(Fallback reason) {
         case Fallback::head_ignores_full:
             return "The head passed through more bodies than it remembers; the oldest was "
                    "forgotten.";
-        case Fallback::finger_searched_all:
+        case Fallback::finger_full_search:
             return "A finger looked at every surface within its reach: its searches did not do.";
-        case Fallback::finger_bent:
+        case Fallback::finger_depenetrated:
             return "A finger would have reached into something, straight or as it closed; it was "
                    "bent until it was clear.";
         case Fallback::finger_opened:
             return "A finger was still sunk and opened a little.";
-        case Fallback::finger_touches_nothing:
+        case Fallback::finger_no_contact:
             return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
         case Fallback::palm_lifted:
             return "Fingers did not fit; the hand that is shown was lifted off its surface.";
@@ -128,13 +128,13 @@ const char* meaning_of(Fallback reason) {
             return "A gripped body has no surface for hands; the hand is shown as it is tracked.";
         case Fallback::palm_no_surface:
             return "A gripping hand had nothing under its palm; it is shown as it is tracked.";
-        case Fallback::authored_grip_taken:
+        case Fallback::authored_grip_occupied:
             return "A hand closed where another one sits in the grip; it took the next best.";
         case Fallback::authored_grip_blocked:
             return "Something stood between a hand and a grip; the hand took the next best.";
-        case Fallback::authored_grip_left:
+        case Fallback::authored_grip_abandoned:
             return "A hand turned far away from its grip; it holds on as to any surface.";
-        case Fallback::authored_finger_fitted:
+        case Fallback::authored_finger_rejected:
             return "A finger would have been sunk as it was posed; it closed as on any surface.";
         case Fallback::pull_refused_fixed:
             return "A distance grab met what cannot move or has joints; nothing was pulled.";

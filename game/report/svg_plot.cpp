@@ -76,10 +76,10 @@ void make_equal(PlotRanges& ranges, double width_px, double height_px) {
     constexpr double k_room = 1.1;
     constexpr double k_narrowest = 0.1;
     // Far from zero a span must still be more than the numbers' own steps.
-    constexpr double k_least_share = 1e-9;
+    constexpr double k_min_share = 1e-9;
     const double farthest = std::max({std::abs(ranges.x.low), std::abs(ranges.x.high),
                                       std::abs(ranges.y.low), std::abs(ranges.y.high)});
-    const double least_span = std::max(k_narrowest, k_least_share * farthest);
+    const double least_span = std::max(k_narrowest, k_min_share * farthest);
     const double per_px =
         std::max({ranges.x.span() * k_room / width_px, ranges.y.span() * k_room / height_px,
                   least_span / std::min(width_px, height_px)});

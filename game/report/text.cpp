@@ -75,9 +75,9 @@ void append_fixed(std::string& text, double value, int decimals) {
 }
 
 std::string format_figure(double value) {
-    constexpr double k_least_fixed = 1e-3;
-    constexpr double k_most_fixed = 1e9;
-    constexpr int k_most_decimals = 6;
+    constexpr double k_min_fixed = 1e-3;
+    constexpr double k_max_fixed = 1e9;
+    constexpr int k_max_decimals = 6;
     std::string text;
     if (value == 0.0) {
         return "0";
@@ -88,11 +88,11 @@ std::string format_figure(double value) {
     if (value < 0.0) {
         return "−" + format_figure(-value);
     }
-    if (value < k_least_fixed || value >= k_most_fixed) {
+    if (value < k_min_fixed || value >= k_max_fixed) {
         return format_scientific(value);
     }
     const int exponent = static_cast<int>(std::floor(std::log10(value)));
-    append_fixed(text, value, std::clamp(k_figure_digits - 1 - exponent, 0, k_most_decimals));
+    append_fixed(text, value, std::clamp(k_figure_digits - 1 - exponent, 0, k_max_decimals));
     if (text.find('.') != std::string::npos) {
         text.erase(text.find_last_not_of('0') + 1);
         text.erase(text.find_last_not_of('.') + 1);

@@ -14,9 +14,9 @@ namespace handhold {
 namespace {
 
 constexpr int k_climbers = 12;
-constexpr std::size_t k_things = 24;
+constexpr std::size_t k_body_count = 24;
 constexpr std::uint64_t k_seed = 7;
-constexpr double k_session_room_m = 3.0;  // about the first spawn, where the session begins
+constexpr double k_session_clearance_m = 3.0;  // about the first spawn, where the session begins
 
 struct Thing {
     const char* name;
@@ -33,8 +33,8 @@ std::array<Thing, k_body_kinds> kinds() {
              {"can", 0.6, Vec3(0.05, 0.08, 0.05), {0.10F, 0.32F, 0.55F}}}};
 }
 
-void add_thing(Scene& scene, const Thing& thing, const std::string& name, const Pose& pose_ws,
-               const BodyVelocity& velocity) {
+void add_free_body(Scene& scene, const Thing& thing, const std::string& name, const Pose& pose_ws,
+                   const BodyVelocity& velocity) {
     const bool ball = thing.half_m.y() == 0.0;
     BodyDescription body;
     body.name = name;
@@ -61,7 +61,7 @@ void fill_with_crowd(Scene& scene) {
     std::vector<Pose> places;
     {
         FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
-        places = spread_players(scene, caches, first_ws, 4 * k_things, k_seed);
+        places = spread_players(scene, caches, first_ws, 4 * k_body_count, k_seed);
     }
     Random random(k_seed);
     std::size_t made = 0;
@@ -69,12 +69,13 @@ void fill_with_crowd(Scene& scene) {
         const Vec3 center_ws = head_over(place);
         const Vec3 drift = 0.05 * random.direction();
         const Vec3 spin = 0.3 * random.direction();
-        if (made == k_things || (center_ws - head_over(first_ws)).norm() < k_session_room_m) {
+        if (made == k_body_count ||
+            (center_ws - head_over(first_ws)).norm() < k_session_clearance_m) {
             continue;
         }
         const Thing thing = kinds()[made % k_body_kinds];
-        add_thing(scene, thing, std::string(thing.name) + std::to_string(made),
-                  {center_ws, place.rotation}, {drift, spin});
+        add_free_body(scene, thing, std::string(thing.name) + std::to_string(made),
+                      {center_ws, place.rotation}, {drift, spin});
         ++made;
     }
 }

@@ -158,9 +158,9 @@ class SceneBuilder {
     }
 
     void refuse_size(const std::filesystem::path& path, const Mesh& mesh) {
-        if (mesh.triangles.size() > k_most_triangles) {
+        if (mesh.triangles.size() > k_max_triangles) {
             error_ = FileError{path.string(), "",
-                               "expected at most " + std::to_string(k_most_triangles) +
+                               "expected at most " + std::to_string(k_max_triangles) +
                                    " triangles in one mesh, found " +
                                    std::to_string(mesh.triangles.size())};
         }

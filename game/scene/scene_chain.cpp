@@ -10,7 +10,7 @@ namespace {
 
 constexpr NumberRange k_link_radius_m = {1e-3, 1e3, false};
 constexpr NumberRange k_friction_nm = {0.0, 1e12, false};
-constexpr std::int64_t k_most_chain_links = 2000;
+constexpr std::int64_t k_max_chain_links = 2000;
 
 std::string read_body_name(const JsonValue& value, const SceneJointNames& names) {
     if (!value.exists()) {
@@ -29,7 +29,7 @@ void read_scene_chain(const JsonValue& value, const std::string& name, SceneJoin
                       SceneFile& scene) {
     value.allow_only({"name", "links", "a", "b", "from_m", "to_m", "radius_m", "mass_kg",
                       "friction_nm", "color"});
-    const auto links = std::max<std::int64_t>(1, value["links"].integer(1, k_most_chain_links));
+    const auto links = std::max<std::int64_t>(1, value["links"].integer(1, k_max_chain_links));
     const auto count = static_cast<double>(links);
     const Vec3 from = value["from_m"].vector(k_coordinate_m);
     const Vec3 way = value["to_m"].vector(k_coordinate_m) - from;

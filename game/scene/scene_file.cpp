@@ -190,8 +190,8 @@ SceneBody SceneReader::read_body(const JsonValue& value) {
 
 void SceneReader::read_grips(const JsonValue& value, SceneBody& body) {
     const std::vector<JsonValue> grips = value.optional_items();
-    if (grips.size() > k_most_authored_grips) {
-        value.refuse("at most " + std::to_string(k_most_authored_grips) + " grips");
+    if (grips.size() > k_max_authored_grips) {
+        value.refuse("at most " + std::to_string(k_max_authored_grips) + " grips");
     }
     std::set<std::string> names;
     for (const JsonValue& grip : grips) {

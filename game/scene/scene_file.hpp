@@ -61,7 +61,7 @@ struct SceneBody {
                                    // empty: the shape
     double restitution = 0.0;      // [0, 1]; the larger of two bodies' counts
     double friction = 0.4;         // Coulomb's coefficient; of two bodies the geometric mean
-    std::vector<SceneGrip> grips;  // at most k_most_authored_grips
+    std::vector<SceneGrip> grips;  // at most k_max_authored_grips
 };
 
 struct SceneSpawn {

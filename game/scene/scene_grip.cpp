@@ -16,7 +16,7 @@ constexpr NumberRange k_curl_deg = {-30.0, 130.0, false};
 constexpr NumberRange k_opposition_deg = {-180.0, 180.0, false};
 constexpr NumberRange k_snap_radius_m = {0.0, 1.0, true};
 constexpr NumberRange k_snap_angle_deg = {0.0, 180.0, true};
-constexpr std::int64_t k_most_priority = 100;
+constexpr std::int64_t k_max_priority = 100;
 
 constexpr std::array<const char*, k_hand_count> k_sides = {"left", "right"};  // by HandSide
 constexpr std::array<const char*, 3> k_axes = {"x", "y", "z"};
@@ -30,7 +30,7 @@ void read_finger(const JsonValue& value, FingerName name, FingerAngles& angles) 
         value.allow_only({"curl_deg"});
     }
     const std::vector<JsonValue> curls = value["curl_deg"].items();
-    if (curls.size() < 2 || curls.size() > k_most_links) {
+    if (curls.size() < 2 || curls.size() > k_max_links) {
         value["curl_deg"].refuse("2 or 3 angles, the knuckle's first");
         return;
     }
@@ -148,7 +148,7 @@ SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken) 
     }
     if (const JsonValue priority = value["priority"]; priority.exists()) {
         grip.priority =
-            static_cast<std::int32_t>(priority.integer(-k_most_priority, k_most_priority));
+            static_cast<std::int32_t>(priority.integer(-k_max_priority, k_max_priority));
     }
     grip.snap_radius_m = value["snap_radius_m"].number_or(grip.snap_radius_m, k_snap_radius_m);
     grip.snap_angle_rad = k_degree * value["snap_angle_deg"].number_or(

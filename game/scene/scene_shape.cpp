@@ -58,7 +58,7 @@ void read_hull(const JsonValue& value, const std::filesystem::path& folder, Scen
 void read_parts(const JsonValue& value, const std::filesystem::path& folder, SceneShape& shape) {
     value.allow_only({"type", "children"});
     const std::vector<JsonValue> children = value["children"].items();
-    if (children.empty() || children.size() > k_most_parts) {
+    if (children.empty() || children.size() > k_max_parts) {
         value["children"].refuse("1 to 64 children");
         return;
     }

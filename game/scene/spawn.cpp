@@ -167,7 +167,7 @@ struct SurfaceSampler {
     }
 };
 
-std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
+std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
     std::vector<Candidate> best;
     const SurfaceSampler surface(scene);
     if (surface.pieces.empty()) {
@@ -182,15 +182,15 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& judge) {
             const SurfaceSampler::Sample sample = surface.draw(random);
             // Either side of the surface; any of the first grabs, or the head, laid next to it.
             const double side = random.unit() < 0.5 ? -1.0 : 1.0;
-            const std::size_t grabs = std::min<std::size_t>(judge.rehearsal.grabs.size(), 3);
+            const std::size_t grabs = std::min<std::size_t>(evaluate.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
             const bool lay_head = grabs == 0;
-            const Vec3 laid =
-                lay_head ? judge.rehearsal.heads.front() : judge.rehearsal.grabs[pick].palm_ws;
+            const Vec3 laid = lay_head ? evaluate.rehearsal.heads.front()
+                                       : evaluate.rehearsal.grabs[pick].palm_ws;
             const double gap = lay_head ? 0.5 : k_palm_gap_m;
             const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid,
                                  rotation};
-            const double score = judge.score(origin_ws);
+            const double score = evaluate.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
             }
@@ -243,9 +243,9 @@ FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& 
     if (rehearsal.heads.empty()) {
         return found;
     }
-    const Judge judge{caches.collision, rehearsal, scene.tuning.head, scene.tuning.hand};
+    const Judge evaluate{caches.collision, rehearsal, scene.tuning.head, scene.tuning.hand};
     double best_path_m = -1.0;
-    for (const Candidate& candidate : propose(scene, judge)) {
+    for (const Candidate& candidate : propose(scene, evaluate)) {
         const Played played =
             play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
         if (best_path_m < 0.0 || played.gripped > found.gripped ||

@@ -7,14 +7,14 @@
 namespace handhold {
 
 // Where a hand's skin lies on something.
-struct PalmPlace {
+struct PalmFrame {
     Vec3 palm = Vec3::Zero();
     Vec3 away = Vec3::UnitY();      // unit, from what is touched into the palm
     Vec3 fingers = -Vec3::UnitZ();  // not along `away`; only what is across `away` counts
 };
 
 // The wrist of a hand whose palm lies there.
-inline Pose hand_on(const PalmPlace& place, HandSide side, const HandTuning& tuning) {
+inline Pose hand_on(const PalmFrame& place, HandSide side, const HandTuning& tuning) {
     Mat3 axes;
     const Vec3 across = (place.fingers - place.away * place.away.dot(place.fingers)).normalized();
     axes.col(1) = place.away;

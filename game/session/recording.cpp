@@ -162,8 +162,8 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
         }
         column_of[i] = *column;
     }
-    constexpr std::size_t k_least_samples = 2;
-    if (table.value().row_count() < k_least_samples) {
+    constexpr std::size_t k_min_samples = 2;
+    if (table.value().row_count() < k_min_samples) {
         return FileError{
             file, "",
             "expected at least 2 samples, found " + std::to_string(table.value().row_count())};

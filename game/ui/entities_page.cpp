@@ -15,7 +15,7 @@ namespace {
 
 const ImVec4 k_key_color(0.55F, 0.85F, 1.0F, 1.0F);
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
-constexpr std::size_t k_most_listed = 8;  // of an array's elements
+constexpr std::size_t k_max_listed = 8;  // of an array's elements
 
 // Shows every field of a component, structs and arrays as trees.
 class FieldShower {
@@ -63,12 +63,12 @@ class FieldShower {
     }
     template <typename T, std::size_t N>
     void show(const char* name, const std::array<T, N>& values) const {
-        for (std::size_t i = 0; i < std::min(N, k_most_listed); ++i) {
+        for (std::size_t i = 0; i < std::min(N, k_max_listed); ++i) {
             show((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
         }
-        if (N > k_most_listed) {
+        if (N > k_max_listed) {
             begin(name);
-            ImGui::TextColored(k_soft, "and %zu more", N - k_most_listed);
+            ImGui::TextColored(k_soft, "and %zu more", N - k_max_listed);
         }
     }
     template <typename T>

@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_look_about_m = 1.0;  // for the nearest surface that was not near enough
+constexpr double k_query_radius_m = 1.0;  // for the nearest surface that was not near enough
 constexpr double k_pointed_cos = 0.9962;
 
 [[gnu::format(printf, 1, 2)]] std::string say(const char* format, ...) {
@@ -42,7 +42,7 @@ void explain_reach(const Scene& scene, const CollisionWorld& collision, const Ha
     }
     story.reasons.push_back(
         say("The palm's ray meets nothing within %.0f cm.", 100.0 * before_palm_m));
-    const auto near = collision.closest_point(ray.palm_ws, k_look_about_m, own_head);
+    const auto near = collision.closest_point(ray.palm_ws, k_query_radius_m, own_head);
     if (!near) {
         story.reasons.emplace_back("No surface within 1 m of the palm.");
     } else if (near->distance_m <= tuning.reach_m) {

@@ -21,8 +21,8 @@ struct GhostSettings {
     float hidden = 0.55F;  // and where a wall hides it
     // An empty hand that is in a wall, or behind one, shines through it in its own player's eyes:
     // from so deep on along the view, wholly from the second. Rails are not that thick.
-    double sunk_from_m = 0.045;
-    double sunk_full_m = 0.09;
+    double fade_start_m = 0.045;
+    double fade_full_m = 0.09;
     float sunk = 0.62F;
     Color tracked = {0.10F, 0.52F, 0.95F};
     // An empty hand near an authored grip: how it would sit there, where the grip's zone begins to

@@ -115,11 +115,11 @@ void add_spine(const SpinePose& pose, std::vector<Line>& out) {
 
 void add_velocities(const World& world, std::vector<Line>& out) {
     constexpr double k_shown_s = 0.25;  // where it will be
-    constexpr double k_least_mps = 1e-3;
+    constexpr double k_min_mps = 1e-3;
     for (std::size_t row = 0; row < world.body_velocity.size(); ++row) {
         const BodyVelocity& velocity = world.body_velocity.rows()[row];
         const Entity body = world.body_velocity.owners()[row];
-        if (velocity.linear_mps.norm() > k_least_mps) {
+        if (velocity.linear_mps.norm() > k_min_mps) {
             const Vec3 from_ws = world.body_pose.at(body).pose_ws.position;
             out.push_back({from_ws, from_ws + k_shown_s * velocity.linear_mps, k_velocity, 2.0});
         }
@@ -131,8 +131,8 @@ void add_contact(const FrameGraph& graph, const RowBlock& block, std::vector<Lin
     const SolverBody& b = bodies[block.b];
     const Vec3 point_ws = transform_point(b.pose_ws, block.point_b_bs);
     const double separation_m = contact_separation_m(bodies, block);
-    constexpr double k_sunk_m = -1e-4;
-    const Color& color = separation_m < k_sunk_m ? k_overlaps : k_apart;
+    constexpr double k_penetration_slop_m = -1e-4;
+    const Color& color = separation_m < k_penetration_slop_m ? k_overlaps : k_apart;
     add_cross(point_ws, 0.02, color, out);
     out.push_back(
         {point_ws, point_ws + 0.1 * (b.pose_ws.rotation * block.normal_b_bs), color, 2.0});
@@ -197,7 +197,7 @@ GizmoInfo info_of(Gizmo gizmo) {
         case Gizmo::palm_rays:
             return {"palm rays", "update_grabs", "what a palm looks for; green while it grips"};
         case Gizmo::grips:
-            return {"grips", "settle_grabs", "the point and the normal that each hand holds"};
+            return {"grips", "anchor_grabs", "the point and the normal that each hand holds"};
         case Gizmo::velocities:
             return {"velocities", "predict_bodies", "where bodies will be in a quarter second"};
         case Gizmo::contacts:

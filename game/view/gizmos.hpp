@@ -16,7 +16,7 @@ namespace handhold {
 enum class Gizmo : std::uint8_t {
     tracked_hands,  // read_tracking
     palm_rays,      // update_grabs
-    grips,          // settle_grabs
+    grips,          // anchor_grabs
     velocities,     // predict_bodies
     contacts,       // find_contacts
     joints,         // build_constraints

@@ -68,10 +68,10 @@ Pose OutsideCamera::behind(const RenderPose& render) {
 Pose OutsideCamera::before(const RenderPose& render) {
     constexpr std::array<Offset, 3> k_tries = {
         {{1.5, 0.15, 0.0}, {1.3, 0.2, 0.7}, {1.3, 0.2, -0.7}}};
-    constexpr double k_least_m = 0.6;
+    constexpr double k_min_m = 0.6;
     const Vec3 target_ws = render.head_ws.position - 0.3 * scene_->up_ws;
     const Pose camera = look_from(k_tries, render.head_ws.position, target_ws, level_ahead(render));
-    return (camera.position - target_ws).norm() < k_least_m ? behind(render) : camera;
+    return (camera.position - target_ws).norm() < k_min_m ? behind(render) : camera;
 }
 
 }  // namespace handhold

@@ -136,11 +136,11 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
 }
 
 // What was added since `first`, where something hides it that is not his own.
-void PlayerView::add_sunk(std::size_t first, RenderFrame& frame) const {
+void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
         frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.sunk,
-                                ghosts_.sunk_from_m, ghosts_.sunk_full_m, true});
+                                ghosts_.fade_start_m, ghosts_.fade_full_m, true});
     }
 }
 
@@ -157,7 +157,7 @@ void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame
         const std::size_t first = frame.instances.size();
         add_hand(side, hand, controls_of(row, side), frame);
         if (seen == BodyFigures::Seen::by_himself && !grips) {
-            add_sunk(first, frame);
+            add_penetrating_hands(first, frame);
         }
         if (shows_hand_lines_) {
             add_hand_lines(render.head_ws.position, hand, frame);

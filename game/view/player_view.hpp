@@ -58,7 +58,7 @@ class PlayerView {
                       const std::array<FingerAngles, k_finger_count>& fingers, const Ghost& like,
                       RenderFrame& frame);
     void add_snap_hint(Entity hand, RenderFrame& frame);
-    void add_sunk(std::size_t first, RenderFrame& frame) const;
+    void add_penetrating_hands(std::size_t first, RenderFrame& frame) const;
     void add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost, RenderFrame& frame);
 
     struct PlayerControls {

@@ -27,9 +27,9 @@ EyeSizes eye_sizes_of(const HeadsetInstance& instance) {
         return {};
     }
     const auto size = [](std::uint32_t width_px, std::uint32_t height_px) {
-        constexpr std::uint32_t k_most_px = 16384;
-        return EyeSize{static_cast<int>(std::min(width_px, k_most_px)),
-                       static_cast<int>(std::min(height_px, k_most_px))};
+        constexpr std::uint32_t k_max_px = 16384;
+        return EyeSize{static_cast<int>(std::min(width_px, k_max_px)),
+                       static_cast<int>(std::min(height_px, k_max_px))};
     };
     return {size(views[0].recommendedImageRectWidth, views[0].recommendedImageRectHeight),
             size(views[0].maxImageRectWidth, views[0].maxImageRectHeight)};

@@ -121,7 +121,7 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
     const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
     const double length = aside.norm();
     const bool fresh = arm.afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
-    const Vec3 before_ts = fresh ? any_square_to(axis_ts) : carry_bend(memory, axis_ts, tuning);
+    const Vec3 before_ts = fresh ? any_perpendicular(axis_ts) : carry_bend(memory, axis_ts, tuning);
     const Vec3 wanted_ts = reachable_bend(
         circle, length > 1e-6 ? Vec3(aside * (1.0 / length)) : before_ts, arm.side, tuning);
     if (fresh) {
@@ -196,13 +196,13 @@ Pose between(const Pose& a, const Pose& b, double share) {
 // rate down to 10 Hz. The bounds between numbers of steps lie between usual rates.
 void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;
-    constexpr double k_most_steps = 9.0;
+    constexpr double k_max_steps = 9.0;
     constexpr double k_round_up = 0.3;
     const double dt_s = frame.dt_s;
     const bool afresh =
         !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
     const int steps =
-        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_most_steps));
+        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
     if (steps > 1) {
         Player before{
             memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
@@ -390,7 +390,7 @@ Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning&
     const Vec3 side_then = (1.0 - stays) * carried + (stays * by_upper) * arm.elbow_ts;
     const Vec3 bend = side_then - axis_ts * axis_ts.dot(side_then);
     const double length = bend.norm();
-    return length > 1e-6 ? Vec3(bend * (1.0 / length)) : any_square_to(axis_ts);
+    return length > 1e-6 ? Vec3(bend * (1.0 / length)) : any_perpendicular(axis_ts);
 }
 
 Vec3 turn_bend(const Vec3& axis_ts, const Vec3& bend_ts, const Vec3& wanted_ts,

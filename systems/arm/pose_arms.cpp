@@ -22,7 +22,7 @@ Pose bone(const Vec3& from, const Vec3& to, const Vec3& up) {
         return {from, rotation_between(Vec3::UnitZ(), back)};
     }
     const Vec3 x = right * (1.0 / across);
-    return {from, rotation_of_axes(x, back.cross(x), back)};
+    return {from, rotation_from_axes(x, back.cross(x), back)};
 }
 
 // Both bones of an arm lie in one plane: its frame has -Z to the hand and +Y to the elbow's side.
@@ -81,7 +81,7 @@ void pose_arm(const Arms& arms, const ArmEstimate::Arm& estimate, const Pose& pa
         out.forearm_ws = bone(elbow_ws, hand_ws, bend_ws);
         return;
     }
-    const Quat frame = rotation_of_axes(bend_ws.cross(-axis), bend_ws, -axis);
+    const Quat frame = rotation_from_axes(bend_ws.cross(-axis), bend_ws, -axis);
     out.upper_ws = {shoulder_ws, in_plane(frame, elbow.along_m, elbow.aside_m)};
     out.forearm_ws = {elbow_ws, in_plane(frame, rest_m, -elbow.aside_m)};
 }

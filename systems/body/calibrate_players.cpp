@@ -57,8 +57,8 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
     const double span = level.norm();
-    if (!is_finite(head_ps) || !(span >= TPoseRange::k_least_span_m) ||
-        !(span <= TPoseRange::k_most_span_m)) {
+    if (!is_finite(head_ps) || !(span >= TPoseRange::k_min_span_m) ||
+        !(span <= TPoseRange::k_max_span_m)) {
         return std::nullopt;
     }
     const Vec3 middle = 0.5 * (left_ps + right_ps);
@@ -66,8 +66,8 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     const double below = (head_ps.y() - middle.y()) / span;
     const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
                         below >= k_highest && below <= k_lowest &&
-                        head_ps.y() > TPoseRange::k_least_eyes_m &&
-                        head_ps.y() < TPoseRange::k_most_eyes_m;
+                        head_ps.y() > TPoseRange::k_min_eyes_m &&
+                        head_ps.y() < TPoseRange::k_max_eyes_m;
     return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
 }
 

@@ -127,7 +127,7 @@ void turn_clavicle(const BodyClips& clips, HandSide side, double arm_m, double r
         const Vec3 axis = line / distance;
         const Vec3 bend = arm.bend_ps - axis * axis.dot(arm.bend_ps);
         const double length = bend.norm();
-        arm.bend_ps = length > 1e-6 ? Vec3(bend / length) : any_square_to(axis);
+        arm.bend_ps = length > 1e-6 ? Vec3(bend / length) : any_perpendicular(axis);
     }
 }
 

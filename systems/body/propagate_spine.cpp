@@ -204,8 +204,8 @@ Vec3 before_surface(const Vec3& towards, const Vec3& base_m, const Link& link, d
     const double length_m = scale * link.length_m;
     const double place_m = link.kind == LinkKind::shin ? contact.ankle_m : contact.surface_m;
     const double least_m = place_m - contact.normal_ps.dot(base_m);
-    return turn_out(towards, above.axes.transpose() * contact.normal_ps, least_m / length_m,
-                    k_out_mps * k_tick_s / length_m);
+    return deflect_outward(towards, above.axes.transpose() * contact.normal_ps, least_m / length_m,
+                           k_out_mps * k_tick_s / length_m);
 }
 
 // What of a correction would throw a joint off the surface faster than it goes already.
@@ -245,8 +245,8 @@ void tick(const Ticked& now, double scale, const SpineTuning& tuning, SpineMemor
         }
         const JointRange& range = shares.range[static_cast<std::size_t>(link.kind)];
         const Vec3 allowed = link.kind == LinkKind::shin
-                                 ? within_hinge(returned, range, memory.angle_rad[i])
-                                 : within_cone(returned, link.rest, range, memory.angle_rad[i]);
+                                 ? clamp_to_hinge(returned, range, memory.angle_rad[i])
+                                 : clamp_to_cone(returned, link.rest, range, memory.angle_rad[i]);
         memory.offset_m[i] = base + above.axes * ((scale * link.length_m) * allowed);
         // With the return in it the velocity swings past the rest; what is handed back damps that.
         Vec3 correction_mps = (memory.offset_m[i] - predicted) * k_ticks_per_s;
@@ -311,7 +311,7 @@ struct Motion {
 
 void play(const Motion& motion, double scale, const SpineTuning& tuning, SpineMemory& memory) {
     const double span_s = std::min(motion.dt_s, k_longest_s);
-    const BentWay way(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
+    const QuadraticPath way(motion.moved_m, span_s, memory.rate_mps, memory.rate_span_s);
     const Quat from = memory.chest_ps.rotation;
     double played_s = 0.0;
     while (memory.since_tick_s + (span_s - played_s) >= k_tick_s) {

@@ -9,12 +9,13 @@
 namespace handhold {
 namespace {
 
-constexpr double k_lifts_kept_m = 0.01;  // a hand that moved farther may try its surface again
-constexpr double k_lifts_kept_rad = 0.17;
+constexpr double k_lift_reset_m = 0.01;  // a hand that moved farther may try its surface again
+constexpr double k_lift_reset_rad = 0.17;
 
 // search_grip knows already, but for lifts.
 bool is_known(const HandSurroundings& hand, const GripSurface& surface, double lift_m) {
-    return surface.is_held && lift_m == 0.0 && surface.surroundings == hand.signature &&
+    return surface.has_fitted_wrist && lift_m == 0.0 &&
+           surface.surroundings_signature == hand.signature &&
            surface.wrist_bs.position == hand.wrist_bs.position &&
            surface.wrist_bs.rotation.coeffs() == hand.wrist_bs.rotation.coeffs();
 }
@@ -26,50 +27,50 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         offset.target_m = target.position;
         offset.target_turn_rad = rotation_to_vector(target.rotation);
         offset.lift_m = 0.0;
-        offset.target_surroundings = 0;
+        offset.target_signature = 0;
         return;
     }
     if (surface.triangle == GripSurface::k_none) {
         offset.target_m = Vec3::Zero();
         offset.target_turn_rad = Vec3::Zero();
         offset.lift_m = 0.0;
-        offset.target_surroundings = 0;
+        offset.target_signature = 0;
         return;
     }
-    const Pose moved = inverse(offset.lifted_at_bs) * hand.wrist_bs;
-    if (moved.position.norm() > k_lifts_kept_m ||
-        rotation_to_vector(moved.rotation).norm() > k_lifts_kept_rad) {
+    const Pose moved = inverse(offset.lift_wrist_bs) * hand.wrist_bs;
+    if (moved.position.norm() > k_lift_reset_m ||
+        rotation_to_vector(moved.rotation).norm() > k_lift_reset_rad) {
         offset.lift_m = 0.0;
     }
     const bool knows = is_known(hand, surface, offset.lift_m);
-    if (!knows && offset.target_surroundings == hand.signature &&
+    if (!knows && offset.target_signature == hand.signature &&
         offset.target_lift_m == offset.lift_m && offset.target_triangle == surface.triangle &&
-        hand_way_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m) {
+        hand_travel_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
         return;
     }
-    offset.target_surroundings = hand.signature;
+    offset.target_signature = hand.signature;
     offset.target_wrist_bs = hand.wrist_bs;
     offset.target_lift_m = offset.lift_m;
     offset.target_triangle = surface.triangle;
-    const Pose held_bs =
-        knows ? surface.held_bs
+    const Pose fitted_wrist_bs =
+        knows ? surface.fitted_wrist_bs
               : fit_palm(hand, surface, offset.lift_m, tuning.palm, {.last = &surface}).wrist_bs;
-    const Pose target = inverse(hand.wrist_bs) * held_bs;
+    const Pose target = inverse(hand.wrist_bs) * fitted_wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
 }
 
 // Both parts go the same share of their way, turning counted as the search counts it.
 void follow_target(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
-    const Vec3 way_m = offset.target_m - offset.shown_m;
+    const Vec3 remaining_m = offset.target_m - offset.shown_m;
     const Vec3 turn_rad = offset.target_turn_rad - offset.shown_turn_rad;
-    const double all_m = way_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
+    const double all_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
     const double step_m = tuning.rate_mps * dt_s;
     if (all_m <= step_m) {
         offset.shown_m = offset.target_m;
         offset.shown_turn_rad = offset.target_turn_rad;
     } else {
-        offset.shown_m += step_m / all_m * way_m;
+        offset.shown_m += step_m / all_m * remaining_m;
         offset.shown_turn_rad += step_m / all_m * turn_rad;
     }
 }

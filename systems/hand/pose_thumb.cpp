@@ -44,36 +44,36 @@ class ThumbPoser {
         const HandSurroundings& hand = io_.hands[place];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
-        const bool waited = std::exchange(pose.thumb_waits, false);
+        const bool was_deferred = std::exchange(pose.thumb_refit_pending, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
-            rest(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
+            set_rest_pose(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
             if (const auto posed = posed_in(hand, thumb)) {
                 pose.target[f] = *posed;
             }
             pose.thumb_solved = false;
             pose.thumb_search = {};
-            pose.retry[f].queued = 0;
+            pose.backoff[f].queued_frames = 0;
             return;
         }
-        if (pose.thumb_solved && pose.thumb_arrived &&
-            same_place(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+        if (pose.thumb_solved && pose.thumb_converged &&
+            same_pose(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        if (take_posed(hand, thumb, pose, f) || waits_for_fingers(hand, f, pose)) {
+        if (take_posed(hand, thumb, pose, f) || defer_to_fingers(hand, f, pose)) {
             return;
         }
-        const ThumbFit best = fit_thumb(hand, thumb, f, waited, pose);
+        const ThumbFit best = fit_thumb(hand, thumb, f, was_deferred, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         if (best.fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = best.fit.contact_triangle;
         }
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
-        pose.thumb_arrived =
-            !(is_well(best.fit) ? best.fit.is_on_its_way : pose.retry[f].since_m > 0.0);
-        lift(hand, f, best.fit.depth_m, pose);
-        if (best.fit.fallback == ChainFallback::relaxed) {
-            stats_.count(Fallback::finger_touches_nothing);
+        pose.thumb_converged = !(is_good_fit(best.fit) ? best.fit.is_turn_limited
+                                                       : pose.backoff[f].travel_since_m > 0.0);
+        lift_palm(hand, f, best.fit.depth_m, pose);
+        if (best.fit.fallback == ChainFallback::rest_pose) {
+            stats_.count(Fallback::finger_no_contact);
         }
         if (!io_.traces.empty()) {
             io_.traces[place][f] = {best.fit.discs,        best.fit.pops,     best.fit.walked,
@@ -82,7 +82,8 @@ class ThumbPoser {
     }
 
   private:
-    static constexpr std::uint32_t k_beside = 3;  // an opposition's step and those beside it
+    static constexpr std::uint32_t k_neighbour_steps =
+        3;  // an opposition's step and those beside it
 
     static std::optional<FingerAngles> posed_in(const HandSurroundings& hand,
                                                 const FingerRig& thumb) {
@@ -94,51 +95,51 @@ class ThumbPoser {
                     std::size_t f) {
         const auto posed = posed_in(hand, thumb);
         if (!posed) {
-            pose.pose_refused[f] = false;
+            pose.authored_pose_rejected[f] = false;
             return false;
         }
         const HingeChain chain = finger_chain(thumb, posed->opposition_rad, pose.solved_wrist_bs);
         if (posed_depth_m(chain, posed->curl_rad, hand.meshes, io_.scratch.patch) >
             tuning_.finger.search_depth_m) {
-            count_refusal(io_.offset.at(hand.hand), f, pose, stats_);
+            count_rejected_pose(io_.offset.at(hand.hand), f, pose, stats_);
             return false;
         }
-        pose.pose_refused[f] = false;
+        pose.authored_pose_rejected[f] = false;
         pose.target[f] = *posed;
         pose.thumb_wrist_bs = pose.solved_wrist_bs;
         pose.thumb_solved = true;
-        pose.thumb_arrived = true;
+        pose.thumb_converged = true;
         pose.thumb_search = {};
-        pose.retry[f].queued = 0;
+        pose.backoff[f].queued_frames = 0;
         return true;
     }
 
     // At first fingers are closed, a few in each frame, and then the thumb; but where they have no
     // end, since the hand is fast, it has its turn beside them.
-    static bool waits_for_fingers(const HandSurroundings& hand, std::size_t thumb,
-                                  FingerPose& pose) {
-        constexpr std::uint32_t k_most_frames = 4;
+    static bool defer_to_fingers(const HandSurroundings& hand, std::size_t thumb,
+                                 FingerPose& pose) {
+        constexpr std::uint32_t k_max_frames = 4;
         bool is_queue = false;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            is_queue = is_queue || (f != thumb && pose.retry[f].queued > 0);
+            is_queue = is_queue || (f != thumb && pose.backoff[f].queued_frames > 0);
         }
-        std::uint32_t& queued = pose.retry[thumb].queued;
-        const bool waits = is_queue && !pose.thumb_solved && queued < k_most_frames;
-        queued = waits ? queued + 1 : 0;
-        return waits;
+        std::uint32_t& queued_frames = pose.backoff[thumb].queued_frames;
+        const bool is_deferred = is_queue && !pose.thumb_solved && queued_frames < k_max_frames;
+        queued_frames = is_deferred ? queued_frames + 1 : 0;
+        return is_deferred;
     }
 
     // As a thumb should be: else another opposition may do better.
-    bool is_well(const ChainFit& fit) const {
-        return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::relaxed &&
-               !is_bent_away(fit);
+    bool is_good_fit(const ChainFit& fit) const {
+        return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::rest_pose &&
+               !is_bent_clear(fit);
     }
 
-    void lift(const HandSurroundings& hand, std::size_t f, double depth_m, FingerPose& pose) {
-        if (pose.retry[f].wait_m > 0.0 &&
-            lift_if_sunk(hand, depth_m, tuning_.palm, io_.offset.at(hand.hand))) {
+    void lift_palm(const HandSurroundings& hand, std::size_t f, double depth_m, FingerPose& pose) {
+        if (pose.backoff[f].retry_in_m > 0.0 &&
+            lift_if_penetrating(hand, depth_m, tuning_.palm, io_.offset.at(hand.hand))) {
             stats_.count(Fallback::palm_lifted);
-            if (lifts_at_once(tuning_.palm, io_.dt_s)) {
+            if (lifts_within_frame(tuning_.palm, io_.dt_s)) {
                 pose.solved = false;
                 pose.thumb_solved = false;
                 pose.thumb_search = {};
@@ -151,16 +152,16 @@ class ThumbPoser {
                           std::max(thumb.lower_opposition_rad, thumb.upper_opposition_rad));
     }
 
-    void rest(const FingerRig& thumb, bool is_fist, FingerAngles& target) const {
+    void set_rest_pose(const FingerRig& thumb, bool is_fist, FingerAngles& target) const {
         target.opposition_rad = rest_opposition(thumb);
         for (std::size_t i = 0; i < thumb.link_count; ++i) {
             const double fist =
                 thumb.lower_rad[i] + k_fist * (thumb.upper_rad[i] - thumb.lower_rad[i]);
-            target.curl_rad[i] = is_fist ? fist : thumb.relaxed_rad[i];
+            target.curl_rad[i] = is_fist ? fist : thumb.rest_rad[i];
         }
     }
 
-    static bool same_place(const Pose& a, const Pose& b) {
+    static bool same_pose(const Pose& a, const Pose& b) {
         return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
     }
 
@@ -188,78 +189,83 @@ class ThumbPoser {
     // As long as it touches there and is hardly sunk, a thumb keeps its opposition; and where
     // another was looked for in vain, for a while.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       bool waited, FingerPose& pose) {
-        FingerRetry& retry = pose.retry[f];
+                       bool was_deferred, FingerPose& pose) {
+        FingerBackoff& backoff = pose.backoff[f];
         const bool is_new =
-            !pose.thumb_solved || !is_moment_later(pose.thumb_wrist_bs, pose.solved_wrist_bs);
-        if (is_new && !pose.thumb_search.runs) {
+            !pose.thumb_solved || !is_small_move(pose.thumb_wrist_bs, pose.solved_wrist_bs);
+        if (is_new && !pose.thumb_search.is_running) {
             begin_search(thumb, f, pose);
         }
-        if (pose.thumb_search.runs) {
-            return go_on(hand, thumb, f, pose);
+        if (pose.thumb_search.is_running) {
+            return continue_search(hand, thumb, f, pose);
         }
-        const double way_m = hand_way_m(pose.thumb_wrist_bs, pose.solved_wrist_bs);
-        age(retry, way_m, io_.dt_s);
-        age(pose.outlook[f], way_m, io_.dt_s);
+        const double travel_m = hand_travel_m(pose.thumb_wrist_bs, pose.solved_wrist_bs);
+        advance(backoff, travel_m, io_.dt_s);
+        advance(pose.lookahead[f], travel_m, io_.dt_s);
         const FingerAngles& last = pose.target[f];
         ChainRefitSettings refit;
-        refit.most_turn_rad = io_.dt_s * tuning_.finger.close_radps;
-        const bool is_turn =
-            std::isinf(io_.dt_s) || (!io_.surface.at(hand.hand).was_judged && !pose.finger_tried);
-        refit.is_ahead = is_ahead(pose.outlook[f], is_turn);
+        refit.max_turn_rad = io_.dt_s * tuning_.finger.close_radps;
+        const bool has_budget =
+            std::isinf(io_.dt_s) ||
+            (!io_.surface.at(hand.hand).evaluated_this_frame && !pose.finger_refit_this_frame);
+        refit.has_surface_ahead = has_surface_ahead(pose.lookahead[f], has_budget);
         ThumbFit kept;
         kept.opposition_rad = last.opposition_rad;
         kept.fit = refit_chain(finger_chain(thumb, last.opposition_rad, pose.solved_wrist_bs),
                                last.curl_rad, hand.meshes, settings_, refit, io_.scratch);
-        note_outlook(kept.fit, pose.outlook[f]);
-        const bool will_do = touches(kept.fit) && kept.fit.depth_m <= tuning_.finger.slide_depth_m;
-        if (is_well(kept.fit) || (!is_slow(pose) && will_do)) {
-            retry.tries = retry.wait_m <= 0.0 ? 0 : retry.tries;
+        update_lookahead(kept.fit, pose.lookahead[f]);
+        const bool is_acceptable =
+            touches(kept.fit) && kept.fit.depth_m <= tuning_.finger.fast_refit_depth_m;
+        if (is_good_fit(kept.fit) || (!is_slow(pose) && is_acceptable)) {
+            backoff.failures = backoff.retry_in_m <= 0.0 ? 0 : backoff.failures;
             return kept;
         }
         // A judged surface takes the turn of both: whose it was stays.
-        pose.thumb_waits = may_retry(retry) && !is_turn && (pose.finger_tried || waited);
-        if (!may_retry(retry) || !is_turn) {
+        pose.thumb_refit_pending =
+            is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_deferred);
+        if (!is_retry_due(backoff) || !has_budget) {
             return kept;
         }
-        return change_if_better(hand, thumb, f, kept, pose);
+        return refit_if_better(hand, thumb, f, kept, pose);
     }
 
     // One opposition at a time: a hand that slides never pays for more in one frame.
-    ThumbFit change_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                              const ThumbFit& kept, FingerPose& pose) {
-        const bool is_sunk = kept.fit.depth_m > settings_.open_depth_m;
-        const std::uint32_t most = is_sunk ? steps() : std::min(steps(), k_beside);
-        FingerRetry& retry = pose.retry[f];
-        const bool slow = is_slow(pose);
-        if (slow && retry.was_fast) {
-            retry.tries = 0;  // all of them once more
+    ThumbFit refit_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                             const ThumbFit& kept, FingerPose& pose) {
+        const bool is_penetrating = kept.fit.depth_m > settings_.open_depth_m;
+        const std::uint32_t most = is_penetrating ? steps() : std::min(steps(), k_neighbour_steps);
+        FingerBackoff& backoff = pose.backoff[f];
+        const bool slow_hand = is_slow(pose);
+        if (slow_hand && backoff.was_fast_hand) {
+            backoff.failures = 0;  // all of them once more
         }
         const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
-        const std::uint32_t step = step_beside(kept_step, retry.tries % most);
-        const ChainFitSettings usual =
-            std::exchange(settings_, in_a_slide(settings_, kept.fit.angle_rad, slow));
-        ThumbFit anew = close_at(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
-        settings_ = usual;
+        const std::uint32_t step = nearest_step(kept_step, backoff.failures % most);
+        const ChainFitSettings saved_settings = std::exchange(
+            settings_, sliding_refit_settings(settings_, kept.fit.angle_rad, slow_hand));
+        ThumbFit refitted =
+            fit_at_opposition(hand, thumb, opposition_at(thumb, step), pose.seed_triangle[f]);
+        settings_ = saved_settings;
         const bool changes =
-            is_well(anew.fit) || (is_sunk && is_clearly_better(anew.fit, kept.fit, settings_));
-        const double since_m = retry.since_m;
-        note_try(retry, !is_well(anew.fit), !slow, most);
+            is_good_fit(refitted.fit) ||
+            (is_penetrating && is_clearly_better(refitted.fit, kept.fit, settings_));
+        const double travel_since_m = backoff.travel_since_m;
+        record_attempt(backoff, !is_good_fit(refitted.fit), !slow_hand, most);
         if (!changes) {
             return kept;
         }
-        if (!is_well(anew.fit) && step != kept_step) {
-            retry.tries = 1;  // those beside it come next
-            retry.since_m = since_m;
+        if (!is_good_fit(refitted.fit) && step != kept_step) {
+            backoff.failures = 1;  // those beside it come next
+            backoff.travel_since_m = travel_since_m;
         }
-        begin_change(anew.fit.angle_rad, f, pose);
-        pose.outlook[f] = {};
-        anew.fit.is_on_its_way = true;  // hinges that it was stopped by nothing at close on
-        return anew;
+        begin_transition(refitted.fit.angle_rad, f, pose);
+        pose.lookahead[f] = {};
+        refitted.fit.is_turn_limited = true;  // hinges that it was stopped by nothing at close on
+        return refitted;
     }
 
     // Of all steps the one that is `rank`th nearest to `step`, from 0.
-    std::uint32_t step_beside(std::uint32_t step, std::uint32_t rank) const {
+    std::uint32_t nearest_step(std::uint32_t step, std::uint32_t rank) const {
         const std::uint32_t last = steps() - 1;
         step = std::min(step, last);
         if (rank-- == 0) {
@@ -279,76 +285,77 @@ class ThumbPoser {
     void begin_search(const FingerRig& thumb, std::size_t f, FingerPose& pose) const {
         const double from_rad =
             pose.thumb_solved ? pose.target[f].opposition_rad : rest_opposition(thumb);
-        pose.retry[f] = {};
-        pose.outlook[f] = {};
+        pose.backoff[f] = {};
+        pose.lookahead[f] = {};
         pose.thumb_search = {};
-        pose.thumb_search.runs = true;
-        pose.thumb_search.is_near = pose.thumb_solved;
-        pose.thumb_search.from_step = step_at(thumb, from_rad);
+        pose.thumb_search.is_running = true;
+        pose.thumb_search.may_end_early = pose.thumb_solved;
+        pose.thumb_search.start_step = step_at(thumb, from_rad);
     }
 
     // The cheapest of all oppositions. A few are tried in each frame, those next to where it stands
     // first; a thumb that was posed before turns by one step at most, as long as it fits there.
-    ThumbFit go_on(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                   FingerPose& pose) {
-        constexpr double k_once_more_m = 1e-3;
+    ThumbFit continue_search(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
+                             FingerPose& pose) {
+        constexpr double k_verify_travel_m = 1e-3;
         ThumbSearch& search = pose.thumb_search;
-        ThumbFit best = best_so_far(pose, f);
+        ThumbFit best = resume_best(pose, f);
         const std::uint32_t seed = pose.seed_triangle[f];
-        settings_.mends = false;
-        for (std::uint32_t left = most_tries(); left > 0 && !is_over(search, best); --left) {
-            const std::uint32_t step = step_beside(search.from_step, search.tried);
-            take_better(try_at(hand, thumb, opposition_at(thumb, step), seed), best);
-            ++search.tried;
+        settings_.depenetrates = false;
+        for (std::uint32_t left = max_evaluations(); left > 0 && !is_done(search, best); --left) {
+            const std::uint32_t step = nearest_step(search.start_step, search.evaluated_count);
+            keep_better(evaluate_opposition(hand, thumb, opposition_at(thumb, step), seed), best);
+            ++search.evaluated_count;
         }
-        settings_.mends = true;
+        settings_.depenetrates = true;
         search.cost_m = best.cost_m;
-        search.wants_mending = best.fit.wants_mending;
-        search.runs = !is_over(search, best);
+        search.needs_depenetration = best.fit.needs_depenetration;
+        search.is_running = !is_done(search, best);
         if (!std::isinf(io_.dt_s)) {
             // It is looked at once more in the next frame: what is sunk is mended then.
-            best.fit.is_on_its_way = true;
-            pose.retry[f].since_m = k_once_more_m;
+            best.fit.is_turn_limited = true;
+            pose.backoff[f].travel_since_m = k_verify_travel_m;
             return best;
         }
-        if (best.fit.wants_mending) {
-            ThumbFit mended = try_at(hand, thumb, best.opposition_rad, seed);
-            add_visits(best.fit, mended.fit);
-            best = mended;
+        if (best.fit.needs_depenetration) {
+            ThumbFit depenetrated = evaluate_opposition(hand, thumb, best.opposition_rad, seed);
+            add_visits(best.fit, depenetrated.fit);
+            best = depenetrated;
         }
-        note_try(pose.retry[f], !is_well(best.fit), false);  // all oppositions
+        record_attempt(pose.backoff[f], !is_good_fit(best.fit), false);  // all oppositions
         return best;
     }
 
-    static ThumbFit best_so_far(const FingerPose& pose, std::size_t f) {
+    static ThumbFit resume_best(const FingerPose& pose, std::size_t f) {
         ThumbFit best;
-        if (pose.thumb_search.tried > 0) {
+        if (pose.thumb_search.evaluated_count > 0) {
             best.cost_m = pose.thumb_search.cost_m;
             best.opposition_rad = pose.target[f].opposition_rad;
             best.fit.angle_rad = pose.target[f].curl_rad;
-            best.fit.wants_mending = pose.thumb_search.wants_mending;
+            best.fit.needs_depenetration = pose.thumb_search.needs_depenetration;
         }
         return best;
     }
 
-    bool is_over(const ThumbSearch& search, const ThumbFit& best) const {
-        const bool ends_early =
-            search.is_near && search.tried >= k_beside && !best.fit.wants_mending;
-        return search.tried >= steps() || ends_early;
+    bool is_done(const ThumbSearch& search, const ThumbFit& best) const {
+        const bool ends_early = search.may_end_early &&
+                                search.evaluated_count >= k_neighbour_steps &&
+                                !best.fit.needs_depenetration;
+        return search.evaluated_count >= steps() || ends_early;
     }
 
-    std::uint32_t most_tries() const {
+    std::uint32_t max_evaluations() const {
         return std::isinf(io_.dt_s)
                    ? steps()
-                   : static_cast<std::uint32_t>(std::max(1, tuning_.thumb.tries_per_frame));
+                   : static_cast<std::uint32_t>(std::max(1, tuning_.thumb.evaluations_per_frame));
     }
 
     // Keeps the cheaper, and counts what both took.
-    static void take_better(ThumbFit tried, ThumbFit& best) {
-        if (tried.cost_m < best.cost_m) {
-            std::swap(tried, best);
+    static void keep_better(ThumbFit candidate, ThumbFit& best) {
+        if (candidate.cost_m < best.cost_m) {
+            std::swap(candidate, best);
         }
-        add_visits(tried.fit, best.fit);
+        add_visits(candidate.fit, best.fit);
     }
 
     static void add_visits(const ChainFit& other, ChainFit& fit) {
@@ -357,8 +364,8 @@ class ThumbPoser {
         fit.walked += other.walked;
     }
 
-    ThumbFit close_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
-                      std::uint32_t last_triangle) const {
+    ThumbFit fit_at_opposition(const HandSurroundings& hand, const FingerRig& thumb,
+                               double opposition_rad, std::uint32_t last_triangle) const {
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
         const ChainSeed seed =
@@ -371,18 +378,19 @@ class ThumbPoser {
     }
 
     // And what it costs.
-    ThumbFit try_at(const HandSurroundings& hand, const FingerRig& thumb, double opposition_rad,
-                    std::uint32_t last_triangle) const {
-        ThumbFit tried = close_at(hand, thumb, opposition_rad, last_triangle);
+    ThumbFit evaluate_opposition(const HandSurroundings& hand, const FingerRig& thumb,
+                                 double opposition_rad, std::uint32_t last_triangle) const {
+        ThumbFit candidate = fit_at_opposition(hand, thumb, opposition_rad, last_triangle);
         const Pose& wrist_bs = io_.fingers.at(hand.hand).solved_wrist_bs;
         const HingeChain chain = finger_chain(thumb, opposition_rad, wrist_bs);
-        const auto capsules = chain_capsules(chain, tried.fit.angle_rad);
-        tried.cost_m =
-            tuning_.thumb.sunk_cost * tried.fit.depth_m +
-            (touches(tried.fit) ? 0.0 : tuning_.thumb.open_cost_m) +
-            tuning_.thumb.gap_cost * tip_gap_m(capsules[chain.link_count - 1], hand.meshes) +
-            tuning_.thumb.turn_cost_m_per_rad * std::abs(opposition_rad - rest_opposition(thumb));
-        return tried;
+        const auto capsules = chain_capsules(chain, candidate.fit.angle_rad);
+        candidate.cost_m =
+            tuning_.thumb.penetration_cost * candidate.fit.depth_m +
+            (touches(candidate.fit) ? 0.0 : tuning_.thumb.open_cost_m) +
+            tuning_.thumb.tip_gap_cost * tip_gap_m(capsules[chain.link_count - 1], hand.meshes) +
+            tuning_.thumb.opposition_cost_m_per_rad *
+                std::abs(opposition_rad - rest_opposition(thumb));
+        return candidate;
     }
 
     const PoseThumbIo& io_;

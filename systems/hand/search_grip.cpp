@@ -12,28 +12,29 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_patience = 24;    // pops without a better triangle end the search
-constexpr std::uint32_t k_patience_on = 6;  // where it was found a moment ago
-constexpr double k_search_again_m = 0.006;  // what was found is followed so far
-constexpr std::uint32_t k_most_pushed_at_rest = 24;
+constexpr std::uint32_t k_patience = 24;            // pops without a better triangle end the search
+constexpr std::uint32_t k_follow_patience = 6;      // where it was found a moment ago
+constexpr double k_full_search_interval_m = 0.006;  // what was found is followed so far
+constexpr std::uint32_t k_max_stationary_refine_frames = 24;
 
 // Under a palm in an authored grip: fingers that close begin there.
-GripSurface surface_in_grip(const HandSurroundings& hand, double dt_s, const PalmTuning& tuning) {
-    const PalmHolder holder(hand, hand.authored->wrist_bs, dt_s, tuning);
+GripSurface authored_grip_surface(const HandSurroundings& hand, double dt_s,
+                                  const PalmTuning& tuning) {
+    const PalmFitter fitter(hand, hand.authored->wrist_bs, dt_s, tuning);
     const auto near =
-        holder.placed().mesh->search_bvh.closest_point(holder.palm().center, tuning.reach_m);
+        fitter.placed().mesh->search_bvh.closest_point(fitter.palm().center, tuning.reach_m);
     GripSurface surface;
     if (near) {
-        surface = holder.surface_at({near->triangle, near->point, 0.0});
+        surface = fitter.surface_at({near->triangle, near->point, 0.0});
     }
     surface.wrist_bs = hand.authored->wrist_bs;
-    surface.surroundings = 0;  // out of the grip the surface is searched for
+    surface.surroundings_signature = 0;  // out of the grip the surface is searched for
     return surface;
 }
 
-std::optional<TriangleHit> cast_palm_ray(const PalmHolder& holder, const HandTuning& tuning) {
-    const PalmPlace& palm = holder.palm();
-    return holder.placed().mesh->search_bvh.cast_ray(
+std::optional<TriangleHit> cast_palm_ray(const PalmFitter& fitter, const HandTuning& tuning) {
+    const PalmFrame& palm = fitter.palm();
+    return fitter.placed().mesh->search_bvh.cast_ray(
         palm.center + tuning.ray_back_m * palm.up,
         palm.center - (tuning.ray_length_m - tuning.ray_back_m) * palm.up);
 }
@@ -47,131 +48,135 @@ class GripSearcher {
           tuning_(tuning),
           last_(last),
           scratch_(scratch),
-          way_m_(hand_way_m(last.wrist_bs, hand.wrist_bs)),
-          holder_(hand, hand.wrist_bs, dt_s, tuning.palm),
-          searcher_(holder_.placed().mesh->search, holder_.palm(), tuning.palm, scratch) {
-        searcher_.add_seed(last.triangle);
+          travel_m_(hand_travel_m(last.wrist_bs, hand.wrist_bs)),
+          fitter_(hand, hand.wrist_bs, dt_s, tuning.palm),
+          search_(fitter_.placed().mesh->search, fitter_.palm(), tuning.palm, scratch) {
+        search_.add_seed(last.triangle);
     }
 
     GripSurface run() {
         const bool is_known = last_.triangle != GripSurface::k_none;
-        const double search_in_m = last_.search_in_m - way_m_;
+        const double full_search_in_m = last_.full_search_in_m - travel_m_;
         // What fails to follow is not held anew: what is taken of it keeps its normal for as long.
-        double search_again_m = k_search_again_m;
-        if (is_known && search_in_m > 0.0 && !holder_.is_at_once()) {
-            searcher_.run(k_patience_on);
-            search_again_m = search_in_m;
-            holder_.keep_normal(last_.normal_bs);
-            if (auto surface = go_on()) {
-                surface->search_in_m = search_in_m;
+        double next_full_search_in_m = k_full_search_interval_m;
+        if (is_known && full_search_in_m > 0.0 && !fitter_.is_unbudgeted()) {
+            search_.run(k_follow_patience);
+            next_full_search_in_m = full_search_in_m;
+            fitter_.reuse_normal(last_.normal_bs);
+            if (auto surface = follow_last()) {
+                surface->full_search_in_m = full_search_in_m;
                 return *surface;
             }
-            holder_.keep_normal(std::nullopt);
+            fitter_.reuse_normal(std::nullopt);
         }
-        search_all_around();
-        std::optional<GripSurface> surface = is_known ? go_on() : std::nullopt;
+        run_full_search();
+        std::optional<GripSurface> surface = is_known ? follow_last() : std::nullopt;
         if (!surface) {
-            surface = SurfaceTries(holder_, searcher_, tuning_.palm, scratch_.patch).run(last_);
+            surface = SurfaceCandidates(fitter_, search_, tuning_.palm, scratch_.patch).run(last_);
         }
-        surface->search_in_m = search_again_m;
+        surface->full_search_in_m = next_full_search_in_m;
         return *surface;
     }
 
   private:
-    using Found = SurfaceSearch::Found;
+    using Candidate = SurfaceSearch::Candidate;
 
-    void search_all_around() {
-        const auto hit = cast_palm_ray(holder_, tuning_.hand);
-        const auto near = holder_.placed().mesh->search_bvh.closest_point(holder_.palm().center,
+    void run_full_search() {
+        const auto hit = cast_palm_ray(fitter_, tuning_.hand);
+        const auto near = fitter_.placed().mesh->search_bvh.closest_point(fitter_.palm().center,
                                                                           tuning_.palm.reach_m);
-        searcher_.add_seed(hit ? hit->triangle : GripSurface::k_none);
-        searcher_.add_seed(near ? near->triangle : GripSurface::k_none);
-        searcher_.run(k_patience);
+        search_.add_seed(hit ? hit->triangle : GripSurface::k_none);
+        search_.add_seed(near ? near->triangle : GripSurface::k_none);
+        search_.run(k_patience);
     }
 
     // On the surface that it had. None where surfaces are to be judged.
-    std::optional<GripSurface> go_on() {
+    std::optional<GripSurface> follow_last() {
         std::optional<GripSurface> surface;
-        if (last_.was_judged && !holder_.is_at_once()) {
-            surface = rest();
+        if (last_.evaluated_this_frame && !fitter_.is_unbudgeted()) {
+            surface = skip_after_evaluation();
         }
-        if (!surface && last_.tried_count == 0) {
-            surface = stay();
+        if (!surface && last_.evaluated_count == 0) {
+            surface = reuse_candidate();
         }
-        if (!surface && last_.tried_count == 0) {
-            surface = keep_room();
+        if (!surface && last_.evaluated_count == 0) {
+            surface = reuse_clearance();
         }
         return surface;
     }
 
     // Time counts as a way too: a hand at rest looks again.
-    double still_to_go_m(double left_m) const {
-        constexpr double k_time_mps = 0.045;
+    double travel_left_m(double remaining_m) const {
+        constexpr double k_travel_per_time_mps = 0.045;
         constexpr double k_at_once_m = 5e-4;
-        const double least_m = holder_.is_at_once() ? k_at_once_m : k_time_mps * dt_s_;
-        return left_m - std::max(way_m_, least_m);
+        const double least_m =
+            fitter_.is_unbudgeted() ? k_at_once_m : k_travel_per_time_mps * dt_s_;
+        return remaining_m - std::max(travel_m_, least_m);
     }
 
     // As it is held. None where it is gone, or had room and has it no more.
-    std::optional<GripSurface> held_still() {
-        const auto near = holder_.near_last(searcher_, last_);
+    std::optional<GripSurface> refine_last() {
+        const auto near = fitter_.candidate_near_last(search_, last_);
         if (!near) {
             return std::nullopt;
         }
-        const HeldPalm held = holder_.keep_at(*near, last_);
-        if (last_.has_room_m > 0.0 && held.sunk_m > k_palm_has_room_m) {
+        const FittedPalm held = fitter_.refine_at(*near, last_);
+        if (last_.clearance_recheck_in_m > 0.0 &&
+            held.penetration_m > k_palm_penetration_tolerance_m) {
             return std::nullopt;
         }
         GripSurface surface = held.surface;
-        surface.has_room_m = std::max(still_to_go_m(last_.has_room_m), 0.0);
+        surface.clearance_recheck_in_m = std::max(travel_left_m(last_.clearance_recheck_in_m), 0.0);
         return surface;
     }
 
     // No surface is judged in two frames in a row: digits have their turn. None where it is gone,
     // or its room is.
-    std::optional<GripSurface> rest() {
+    std::optional<GripSurface> skip_after_evaluation() {
         constexpr double k_next_m = 1e-9;
-        std::optional<GripSurface> surface = held_still();
+        std::optional<GripSurface> surface = refine_last();
         if (surface) {
             surface->cost_m = last_.cost_m;
-            surface->tried = last_.tried;
-            surface->tried_count = last_.tried_count;
-            surface->listed_count = last_.listed_count;
-            surface->goes_through = last_.goes_through;
-            surface->to_clear = last_.to_clear;
-            surface->look_in_m =
-                last_.look_in_m > 0.0 ? std::max(still_to_go_m(last_.look_in_m), k_next_m) : 0.0;
+            surface->candidates = last_.candidates;
+            surface->evaluated_count = last_.evaluated_count;
+            surface->candidate_count = last_.candidate_count;
+            surface->allows_backfaces = last_.allows_backfaces;
+            surface->pending_finger_samples = last_.pending_finger_samples;
+            surface->candidate_recheck_in_m =
+                last_.candidate_recheck_in_m > 0.0
+                    ? std::max(travel_left_m(last_.candidate_recheck_in_m), k_next_m)
+                    : 0.0;
         }
         return surface;
     }
 
     // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
     // looked stays with what it found for a while. None where it is to look now.
-    std::optional<GripSurface> stay() {
-        const double left_m = still_to_go_m(last_.look_in_m);
+    std::optional<GripSurface> reuse_candidate() {
+        const double remaining_m = travel_left_m(last_.candidate_recheck_in_m);
         std::optional<GripSurface> surface;
-        if (left_m > 0.0) {
-            surface = held_still();
+        if (remaining_m > 0.0) {
+            surface = refine_last();
         }
         if (surface) {
-            surface->look_in_m = left_m;
+            surface->candidate_recheck_in_m = remaining_m;
         }
         return surface;
     }
 
     // What had room for fingers mostly has it a little farther on. None where it is to be asked.
-    std::optional<GripSurface> keep_room() {
-        const double left_m = still_to_go_m(last_.has_room_m);
-        const auto cheapest = searcher_.cheapest_beside({});
-        if (left_m <= 0.0 || !cheapest || !holder_.is_near_last(*cheapest, last_)) {
+    std::optional<GripSurface> reuse_clearance() {
+        const double remaining_m = travel_left_m(last_.clearance_recheck_in_m);
+        const auto cheapest = search_.cheapest_excluding({});
+        if (remaining_m <= 0.0 || !cheapest || !fitter_.is_near_last(*cheapest, last_)) {
             return std::nullopt;
         }
-        const HeldPalm held = holder_.keep_at(*cheapest, last_);
-        if (held.sunk_m > k_palm_has_room_m) {
+        const FittedPalm held = fitter_.refine_at(*cheapest, last_);
+        if (held.penetration_m > k_palm_penetration_tolerance_m) {
             return std::nullopt;
         }
         GripSurface surface = held.surface;
-        surface.has_room_m = left_m;
+        surface.clearance_recheck_in_m = remaining_m;
         return surface;
     }
 
@@ -179,22 +184,22 @@ class GripSearcher {
     const Tuning& tuning_;
     const GripSurface& last_;
     GripSearchScratch& scratch_;
-    double way_m_;  // of the hand since then
-    PalmHolder holder_;
-    SurfaceSearch searcher_;
+    double travel_m_;  // of the hand since then
+    PalmFitter fitter_;
+    SurfaceSearch search_;
 };
 
 // Where the hand was a frame ago; nothing where that was on another body, or on a mesh that was
 // larger.
-GripSurface known_surface(const HandSurroundings& hand, const GripSurface& surface) {
+GripSurface valid_last_surface(const HandSurroundings& hand, const GripSurface& surface) {
     const std::size_t triangles = hand.meshes.front().mesh->search.triangles.size();
     return surface.body == hand.body && surface.triangle < triangles ? surface : GripSurface{};
 }
 
 GripSurface surface_of_ray(const HandSurroundings& hand, double dt_s, const Tuning& tuning) {
-    const PalmHolder holder(hand, hand.wrist_bs, dt_s, tuning.palm);
-    const auto hit = cast_palm_ray(holder, tuning.hand);
-    return hit ? holder.surface_at({hit->triangle, hit->point, 0.0}) : GripSurface{};
+    const PalmFitter fitter(hand, hand.wrist_bs, dt_s, tuning.palm);
+    const auto hit = cast_palm_ray(fitter, tuning.hand);
+    return hit ? fitter.surface_at({hit->triangle, hit->point, 0.0}) : GripSurface{};
 }
 
 }  // namespace
@@ -208,33 +213,35 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             continue;
         }
         if (hand.authored != nullptr) {
-            const bool is_known = surface.body == hand.body && surface.surroundings == 0 &&
-                                  hand_way_m(surface.wrist_bs, hand.authored->wrist_bs) == 0.0;
+            const bool is_known = surface.body == hand.body &&
+                                  surface.surroundings_signature == 0 &&
+                                  hand_travel_m(surface.wrist_bs, hand.authored->wrist_bs) == 0.0;
             if (!is_known) {
-                surface = surface_in_grip(hand, io.dt_s, tuning.palm);
+                surface = authored_grip_surface(hand, io.dt_s, tuning.palm);
             }
             continue;
         }
-        const bool is_to_look =
-            surface.tried_count > 0 ||
-            (surface.look_in_m > 0.0 && surface.look_in_m < k_way_between_looks_m);
-        const bool is_to_push =
-            !surface.is_settled && surface.pushed_at_rest < k_most_pushed_at_rest;
-        const bool rests = surface.surroundings == hand.signature &&
-                           surface.triangle != GripSurface::k_none &&
-                           hand_way_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.stroll_m;
-        if (rests && !is_to_look && !is_to_push) {
-            surface.was_judged = false;
+        const bool is_evaluation_due =
+            surface.evaluated_count > 0 || (surface.candidate_recheck_in_m > 0.0 &&
+                                            surface.candidate_recheck_in_m < k_recheck_interval_m);
+        const bool is_refinement_due = !surface.is_converged && surface.stationary_refine_frames <
+                                                                    k_max_stationary_refine_frames;
+        const bool is_stationary =
+            surface.surroundings_signature == hand.signature &&
+            surface.triangle != GripSurface::k_none &&
+            hand_travel_m(surface.wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m;
+        if (is_stationary && !is_evaluation_due && !is_refinement_due) {
+            surface.evaluated_this_frame = false;
             continue;
         }
         // While it looks, each is tried with a few pushes: those of the best are still to come.
-        const std::uint32_t more = surface.tried_count > 0 ? 0 : 1;
-        const std::uint32_t pushed = rests ? surface.pushed_at_rest + more : 0;
-        const GripSurface last = known_surface(hand, surface);
+        const std::uint32_t more = surface.evaluated_count > 0 ? 0 : 1;
+        const std::uint32_t pushed = is_stationary ? surface.stationary_refine_frames + more : 0;
+        const GripSurface last = valid_last_surface(hand, surface);
         surface = search == GripSearch::ray_only
                       ? surface_of_ray(hand, io.dt_s, tuning)
                       : GripSearcher(hand, io.dt_s, tuning, last, io.scratch).run();
-        surface.pushed_at_rest = pushed;
+        surface.stationary_refine_frames = pushed;
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);
         }

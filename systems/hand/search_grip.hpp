@@ -13,8 +13,8 @@ namespace handhold {
 
 // Which surface the palm is held to where the ray's is not the only one.
 enum class GripSearch : std::uint8_t {
-    least_sync,  // the one that moves the palm least
-    ray_only,    // where the palm's ray ends; for comparison
+    smallest_sync,  // the one that moves the palm least
+    ray_only,       // where the palm's ray ends; for comparison
 };
 
 struct SearchGripIo {
@@ -28,8 +28,8 @@ struct SearchGripIo {
 // limits: best first over the surface's neighbours, from where the palm's ray ends, from the
 // nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
 // PalmTuning::tilt_cost_m_per_rad apart. In the order of these costs surfaces are tried,
-// PalmTuning::tries_per_frame in every second frame, until the others' are no less than the best
-// one's (where that is not near, all around is looked at for one such turn, and listed): what
+// PalmTuning::evaluations_per_frame in every second frame, until the others' are no less than the
+// best one's (where that is not near, all around is looked at for one such turn, and listed): what
 // counts then is the whole move that holds the palm there and pushes it out of what it is sunk in,
 // and, where palm or fingers have no room however they bend, what stays sunk; such fingers are held
 // clear with the palm where that costs less. A surface that is held is followed from its triangle
@@ -37,6 +37,6 @@ struct SearchGripIo {
 // PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17. Under a palm in an authored
 // grip nothing is searched for: it has the nearest triangle.
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
-                 GripSearch search = GripSearch::least_sync);
+                 GripSearch search = GripSearch::smallest_sync);
 
 }  // namespace handhold

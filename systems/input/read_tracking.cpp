@@ -153,8 +153,8 @@ void measure_release(const HandHistory& history, double t_s, double window_s, Ha
         angular +=
             dt * rotation_to_vector(entry.hand_ps.rotation * hand.edge_ps.rotation.conjugate());
     });
-    constexpr double k_least_spread_s2 = 1e-6;
-    if (spread > k_least_spread_s2) {
+    constexpr double k_min_spread_s2 = 1e-6;
+    if (spread > k_min_spread_s2) {
         hand.release_velocity_ps_mps = linear / spread;
         hand.release_spin_ps_radps = angular / spread;
     }

@@ -46,8 +46,8 @@ bool is_jointed(const PullBodiesIo& io, std::size_t body_row) {
 }
 
 // Why this hand may not pull a body; nothing where it may.
-std::optional<Fallback> refusal(const PullBodiesIo& io, Entity hand, Entity pulled,
-                                const PullTuning& tuning) {
+std::optional<Fallback> refusal_reason(const PullBodiesIo& io, Entity hand, Entity pulled,
+                                       const PullTuning& tuning) {
     const RigidBody& body = io.body.at(pulled);
     if (body.kind != BodyKind::free || is_jointed(io, io.body.find_row(pulled))) {
         return Fallback::pull_refused_fixed;
@@ -69,7 +69,8 @@ Entity body_of_id(const PullBodiesIo& io, std::uint64_t id) {
 }
 
 // What the palm points at, where it may be pulled; null where not, and counted why.
-Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, StageStats& stats) {
+Entity find_pullable_body(const PullBodiesIo& io, Entity hand, const Tuning& tuning,
+                          StageStats& stats) {
     const PalmRay ray = ray_of(io, hand, io.hand.at(hand).edge_ps, tuning.hand);
     const Vec3 along = (ray.to_ws - ray.from_ws).normalized();
     const std::array own_head = {io.persistent_id.at(io.owner.at(hand).player).value};
@@ -79,7 +80,7 @@ Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, Sta
     if (is_null(found)) {
         return k_no_entity;
     }
-    if (const auto reason = refusal(io, hand, found, tuning.pull)) {
+    if (const auto reason = refusal_reason(io, hand, found, tuning.pull)) {
         stats.count(*reason);
         return k_no_entity;
     }
@@ -88,14 +89,14 @@ Entity find_loose(const PullBodiesIo& io, Entity hand, const Tuning& tuning, Sta
 
 // From what of the body is nearest to the palm: a ring's middle may come to a palm that then has
 // nothing to close on, and that of a long pole be far away. Its middle, where it has no surface.
-Vec3 way_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
+Vec3 offset_to_palm(const PullBodiesIo& io, Entity pulled, const Vec3& palm_ws) {
     const auto near = io.collision.closest_point_on(io.persistent_id.at(pulled).value, palm_ws);
     return palm_ws - (near ? near->point_ws : io.body_pose.at(pulled).pose_ws.position);
 }
 
 // False where it ends; counted where that is not the hand's will.
-bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
-             StageStats& stats) {
+bool can_continue(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tuning& tuning,
+                  StageStats& stats) {
     const HandTracking& tracking = io.hand.at(hand);
     if (!tracking.pressed || io.grab.at(hand).kind != GripKind::none) {
         return false;
@@ -103,8 +104,9 @@ bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tu
     const bool is_there = io.body_pose.find(pull.body) != nullptr;
     const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
     const bool is_seen = tracking.state == TrackingState::tracked && !tracking.resumed;
-    const bool may_go_on = is_there && is_seen && !refusal(io, hand, pull.body, tuning.pull) &&
-                           way_to_palm(io, pull.body, palm_ws).norm() <=
+    const bool may_go_on = is_there && is_seen &&
+                           !refusal_reason(io, hand, pull.body, tuning.pull) &&
+                           offset_to_palm(io, pull.body, palm_ws).norm() <=
                                k_too_far * tuning.pull.reach_m + tuning.hand.reach_m;
     if (!may_go_on) {
         stats.count(Fallback::pull_lost);
@@ -113,14 +115,14 @@ bool goes_on(const PullBodiesIo& io, Entity hand, const HandPull& pull, const Tu
 }
 
 // One frame of the rope: an impulse on the body, and its opposite on the player.
-void draw_together(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning& tuning) {
+void apply_pull(const PullBodiesIo& io, Entity hand, Entity pulled, const Tuning& tuning) {
     const Entity player = io.owner.at(hand).player;
     const HandTracking& tracking = io.hand.at(hand);
     const Vec3 palm_ws = ray_of(io, hand, tracking.start_ps, tuning.hand).palm_ws;
     const Vec3 palm_end_ws = ray_of(io, hand, tracking.pose_ps, tuning.hand).palm_ws;
     Vec3& player_mps = io.player_velocity.at(player).linear_mps;
     Vec3& body_mps = io.body_velocity.at(pulled).linear_mps;
-    const Vec3 way = way_to_palm(io, pulled, palm_ws);
+    const Vec3 way = offset_to_palm(io, pulled, palm_ws);
     const double distance_m = std::max(way.norm(), 1e-6);
     const double body_kg = io.body.at(pulled).mass_kg;
     const double player_kg = io.player.at(player).mass_kg;
@@ -150,17 +152,17 @@ void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats
         const HandTracking& tracking = io.hand.at(hand);
         const HandPull* const pull = io.pull.find(hand);
         if (pull != nullptr &&
-            (tracking.edge != GrabEdge::none || !goes_on(io, hand, *pull, tuning, stats))) {
+            (tracking.edge != GrabEdge::none || !can_continue(io, hand, *pull, tuning, stats))) {
             io.pull.remove(hand);
         }
         if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none) {
-            const Entity loose = find_loose(io, hand, tuning, stats);
+            const Entity loose = find_pullable_body(io, hand, tuning, stats);
             if (!is_null(loose)) {
                 io.pull.add(hand, {loose, tracking.edge_t_s});
             }
         }
         if (const HandPull* const now = io.pull.find(hand)) {
-            draw_together(io, hand, now->body, tuning);
+            apply_pull(io, hand, now->body, tuning);
         }
     }
 }

@@ -131,7 +131,7 @@ class SnapFinder {
             return;
         }
         if (is_taken(io_, hand_, body, place)) {
-            stats_.count(Fallback::authored_grip_taken);
+            stats_.count(Fallback::authored_grip_occupied);
             return;
         }
         Snap snap;
@@ -258,13 +258,13 @@ Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped) {
 
 // The hand lets go now. Another with which it shared what they could not both have holds on from
 // where it is, before anything has moved: nobody is drawn to where it closed.
-void let_go(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
+void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
     Grab& grab = io.grab.rows()[row];
     stats.count(reason);
     if (const std::optional<std::size_t> partner = partner_of(io, row)) {
         Grab& staying = io.grab.rows()[*partner];
         const Entity hand = io.grab.owners()[*partner];
-        // Of hands that lead a free body together settle_grabs takes care.
+        // Of hands that lead a free body together anchor_grabs takes care.
         if (share_hold(grab, staying) && !share_free_body(grab, staying) && is_there(io, staying)) {
             const Pose hand_ws =
                 io.origin.at(io.owner.at(hand).player).pose_ws * io.hand.at(hand).start_ps;
@@ -278,7 +278,7 @@ void let_go(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStat
 
 // Of a player's two hands the one that is stretched more lets go, of two alike the one that grips
 // for the shorter time, of two that closed at once the left one: what is left may then be met.
-bool gives_way(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
+bool yields_to_partner(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
     const Grab& grab = io.grab.rows()[row];
     const Grab& other = io.grab.rows()[partner];
     constexpr double k_alike_m = 1e-6;
@@ -291,17 +291,17 @@ bool gives_way(const UpdateGrabsIo& io, std::size_t row, std::size_t partner) {
                : io.owner.at(io.grab.owners()[row]).side == HandSide::left;
 }
 
-void let_go_of_what_is_gone(const UpdateGrabsIo& io, StageStats& stats) {
+void release_destroyed_bodies(const UpdateGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Grab& grab = io.grab.rows()[row];
         if (grab.kind != GripKind::none && !is_there(io, grab)) {
-            let_go(io, row, Fallback::grip_body_gone, stats);
+            release_grab(io, row, Fallback::grip_body_gone, stats);
         }
     }
 }
 
 // Hands that grip alone first: whose partner lets go here is left to the next frame.
-void let_go_where_stretched(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
+void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, StageStats& stats) {
     for (const bool alone : {true, false}) {
         for (std::size_t row = 0; row < io.grab.size(); ++row) {
             const Grab& grab = io.grab.rows()[row];
@@ -309,8 +309,8 @@ void let_go_where_stretched(const UpdateGrabsIo& io, double max_stretch_m, Stage
                 continue;
             }
             const std::optional<std::size_t> partner = partner_of(io, row);
-            if (alone != partner.has_value() && (alone || gives_way(io, row, *partner))) {
-                let_go(io, row, Fallback::grip_stretched, stats);
+            if (alone != partner.has_value() && (alone || yields_to_partner(io, row, *partner))) {
+                release_grab(io, row, Fallback::grip_stretched, stats);
             }
         }
     }
@@ -318,7 +318,8 @@ void let_go_where_stretched(const UpdateGrabsIo& io, double max_stretch_m, Stage
 
 // What a hand sits in ends with its grip, and where a hand that may turn on what it grips has
 // turned too far away.
-void keep_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab, StageStats& stats) {
+void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab,
+                          StageStats& stats) {
     const AuthoredHold* const hold = io.authored_hold.find(entity);
     if (hold == nullptr) {
         return;
@@ -333,7 +334,7 @@ void keep_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab, StageSt
         stays = rotation_to_vector((hand_ws.conjugate() * grip_ws).normalized()).norm() <=
                 hold->leave_angle_rad;
         if (!stays) {
-            stats.count(Fallback::authored_grip_left);
+            stats.count(Fallback::authored_grip_abandoned);
         }
     }
     if (!stays) {
@@ -344,8 +345,8 @@ void keep_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab, StageSt
 }  // namespace
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
-    let_go_of_what_is_gone(io, stats);
-    let_go_where_stretched(io, tuning.hand.max_stretch_m, stats);
+    release_destroyed_bodies(io, stats);
+    release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];
         const Entity entity = io.grab.owners()[row];
@@ -353,7 +354,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
             grab.phase = GrabPhase::releasing;
         }
-        keep_hold(io, entity, grab, stats);
+        update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
         if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;

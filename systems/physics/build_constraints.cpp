@@ -14,7 +14,7 @@ namespace {
 
 void write_player(const BuildConstraintsIo& io, Entity player, const HeadTuning& tuning,
                   SolverBody& out) {
-    out.role = BodyRole::player;
+    out.role = BodyRole::translating;
     out.pose_ws = io.origin.at(player).pose_ws;
     out.velocity_mps = io.player_velocity.at(player).linear_mps;
     out.mass_kg = io.player.at(player).mass_kg;
@@ -61,7 +61,7 @@ void write_bodies(const BuildConstraintsIo& io, const Tuning& tuning) {
 RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand_id) {
     RowBlock block;
     const bool welded = grab.kind == GripKind::held && !grab.jointed;
-    block.kind = welded ? RowKind::hand_weld : RowKind::hand_point;
+    block.kind = welded ? RowKind::drive_weld : RowKind::drive_point;
     block.key = hand_id;
     block.point_a_bs = grab.target_ps.position;
     block.point_b_bs = grab.anchor_bs.position;
@@ -95,13 +95,13 @@ Pose target_before(const Grab& grab, double dt_s) {
 void set_direction(const Grab& first, const Grab& second, const SolverBody& player,
                    const SolverBody& body, double dt_s, RowBlock& block) {
     const Quat near = player.pose_ws.rotation.conjugate() * body.pose_ws.rotation;
-    const Quat now = rotation_by_two_hands(
+    const Quat now = rotation_from_drive_pair(
         {first.target_ps, second.target_ps, first.anchor_bs, second.anchor_bs}, near);
     const Quat before =
-        rotation_by_two_hands({target_before(first, dt_s), target_before(second, dt_s),
-                               first.anchor_bs, second.anchor_bs},
-                              now);
-    block.kind = RowKind::hand_direction;
+        rotation_from_drive_pair({target_before(first, dt_s), target_before(second, dt_s),
+                                  first.anchor_bs, second.anchor_bs},
+                                 now);
+    block.kind = RowKind::drive_direction;
     block.rotation_a_bs = now;
     block.rotation_b_bs = Quat::Identity();
     block.drive_spin_ws_radps =
@@ -117,7 +117,7 @@ bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) 
         return true;
     }
     if (is_first_hand(io.owner, io.grab, row, other)) {
-        block.kind = grab.two_handed ? RowKind::hand_point : block.kind;
+        block.kind = grab.two_handed ? RowKind::drive_point : block.kind;
         return true;
     }
     if (grab.two_handed) {
@@ -210,12 +210,13 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     rows.upper = joint.upper;
     rows.previous = state.coordinate + state.speed * dt_s;  // as predicted: it may turn fast
     rows.friction_impulse = joint.friction * dt_s;
-    rows.drive_to = rows.drive_s = rows.drive_impulse = 0.0;
+    rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
     rows.lock_limit_impulse = rows.lock_impulse = 0.0;
     if (joint.detent_spacing > 0.0) {
-        rows.drive_to = joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
-        rows.drive_s = std::max(k_detent_s, dt_s);
-        rows.drive_impulse = joint.detent_strength * dt_s;
+        rows.motor_target =
+            joint.detent_spacing * std::round(state.coordinate / joint.detent_spacing);
+        rows.motor_time_s = std::max(k_detent_s, dt_s);
+        rows.motor_max_impulse = joint.detent_strength * dt_s;
     }
     if (state.latched) {
         rows.limited = true;
@@ -254,7 +255,7 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
     block.rotation_b_bs = joint.frame_b_bs.rotation;
     write_joint_rows(joint, io.joint_state.at(entity), io.dt_s, block.joint);
     block.impulse_ws_ns.setZero();
-    block.couple_ws_nms.setZero();
+    block.angular_impulse_ws_nms.setZero();
     return true;
 }
 
@@ -278,7 +279,7 @@ bool rewrite_joints(const BuildConstraintsIo& io) {
 bool rewrite_hands(FrameGraph& frame) {
     std::size_t rewritten = 0;
     for (RowBlock& block : frame.graph.blocks) {
-        if (!is_hand(block)) {
+        if (!is_drive(block)) {
             continue;
         }
         const auto now = std::ranges::lower_bound(frame.hand_blocks, block.source, {},
@@ -311,7 +312,7 @@ void place_hands(FrameGraph& frame) {
         return;
     }
     std::vector<RowBlock>& blocks = frame.graph.blocks;
-    std::erase_if(blocks, [](const RowBlock& block) { return is_hand(block); });
+    std::erase_if(blocks, [](const RowBlock& block) { return is_drive(block); });
     blocks.insert(blocks.end(), frame.hand_blocks.begin(), frame.hand_blocks.end());
 }
 

@@ -13,14 +13,14 @@ namespace {
 // ------------------------------------------------------------------------------------
 
 // As far as an arm jumps: what has been dragged along sunk for longer stays where it is.
-constexpr double k_farthest_back_m = 2.0;
-constexpr double k_gain = 0.5;  // of its error must be gone
+constexpr double k_max_restore_distance_m = 2.0;
+constexpr double k_max_error_ratio = 0.5;  // of its error must be gone
 
 // The worst error of a body's own rows, hands excepted; or of its contacts alone.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
     double worst = 0.0;
     for (const RowBlock& block : graph.blocks) {
-        const bool counts = only_contacts ? is_contact(block) : !is_hand(block);
+        const bool counts = only_contacts ? is_contact(block) : !is_drive(block);
         if (counts && (block.a == body || block.b == body)) {
             worst = std::max(worst, block_error_m(graph.bodies, block));
         }
@@ -29,7 +29,8 @@ double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_c
 }
 
 // What is fixed or driven that a body overlaps most, if anything.
-std::optional<std::uint32_t> deepest_wall(const ConstraintGraph& graph, std::uint32_t body) {
+std::optional<std::uint32_t> deepest_fixed_contact(const ConstraintGraph& graph,
+                                                   std::uint32_t body) {
     std::optional<std::uint32_t> wall;
     double depth_m = 0.0;
     for (const RowBlock& block : graph.blocks) {
@@ -51,8 +52,8 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
 }
 
 // The same, or where no contact says so what it is sunk into unseen.
-std::optional<std::uint32_t> wall_around(const FrameGraph& frame, std::uint32_t body) {
-    const std::optional<std::uint32_t> wall = deepest_wall(frame.graph, body);
+std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std::uint32_t body) {
+    const std::optional<std::uint32_t> wall = deepest_fixed_contact(frame.graph, body);
     const Overlap& hidden = frame.hidden_overlaps.of_body[body];
     const bool is_wall =
         hidden.depth_m > 0.0 && frame.graph.bodies[hidden.with].role == BodyRole::fixed;
@@ -74,27 +75,28 @@ double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     return worst;
 }
 
-void note_if_sunk(double sunk_m, std::uint32_t index, std::uint32_t island, FrameGraph& frame) {
+void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32_t island,
+                        FrameGraph& frame) {
     const SolverBody& body = frame.graph.bodies[index];
     const double hidden_m = hidden_overlap_m(frame, index);
     if (body.role == BodyRole::free &&
-        std::max(own_error_m(frame.graph, index, true), hidden_m) >= sunk_m) {
+        std::max(own_error_m(frame.graph, index, true), hidden_m) >= restore_depth_m) {
         const double error_m = std::max(own_error_m(frame.graph, index, false), hidden_m);
-        frame.sunk_bodies.push_back(
+        frame.penetrating_bodies.push_back(
             {index, island, error_m, body.pose_ws, body.velocity_mps, body.spin_radps});
     }
 }
 
 // Lists free bodies that are sunk, as they are: by island, then those that no row holds, for
 // themselves.
-void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
+void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
-    frame.sunk_bodies.clear();
+    frame.penetrating_bodies.clear();
     const auto islands = static_cast<std::uint32_t>(graph.islands.size());
     for (std::uint32_t i = 0; i < islands; ++i) {
-        if (worst_overlap_m(frame, graph.islands[i]) >= sunk_m) {
+        if (worst_overlap_m(frame, graph.islands[i]) >= restore_depth_m) {
             for (const std::uint32_t index : graph.bodies_of(graph.islands[i])) {
-                note_if_sunk(sunk_m, index, i, frame);
+                add_if_penetrating(restore_depth_m, index, i, frame);
             }
         }
     }
@@ -102,18 +104,18 @@ void note_sunk_bodies(double sunk_m, FrameGraph& frame) {
         const auto holds_it = [index](const RowBlock& block) {
             return block.a == index || block.b == index;
         };
-        if (hidden_overlap_m(frame, index) >= sunk_m &&
+        if (hidden_overlap_m(frame, index) >= restore_depth_m &&
             std::ranges::none_of(graph.blocks, holds_it)) {
-            note_if_sunk(sunk_m, index, islands + index, frame);
+            add_if_penetrating(restore_depth_m, index, islands + index, frame);
         }
     }
 }
 
 // To where it last overlapped nothing, carried along by the wall it is sunk into.
-void step_back(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
+void restore_last_valid_pose(const FrameGraph::PenetratingBody& sunk, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[sunk.body];
     Pose valid_ws = frame.proxies[sunk.body].from_ws;
-    if (const std::optional<std::uint32_t> found = wall_around(frame, sunk.body)) {
+    if (const std::optional<std::uint32_t> found = overlapped_fixed_body(frame, sunk.body)) {
         const SolverBody& wall = frame.graph.bodies[*found];
         const ColliderProxy& proxy = frame.proxies[*found];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
@@ -124,7 +126,7 @@ void step_back(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
     body.pose_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
 }
 
-void undo(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
+void undo_restore(const FrameGraph::PenetratingBody& sunk, FrameGraph& frame) {
     SolverBody& body = frame.graph.bodies[sunk.body];
     body.pose_ws = sunk.pose_ws;
     body.velocity_mps = sunk.velocity_mps;
@@ -132,21 +134,21 @@ void undo(const FrameGraph::SunkBody& sunk, FrameGraph& frame) {
 }
 
 // What was found inside of things says nothing about where they are now.
-void find_contacts_anew(const FinishPositionsIo& io, const ContactTuning& tuning,
-                        StageStats& stats) {
+void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
     FrameGraph& frame = io.frame;
-    const auto is_sunk = [&frame](std::uint64_t id) {
-        return std::ranges::any_of(frame.sunk_bodies, [&](const FrameGraph::SunkBody& sunk) {
-            return frame.graph.bodies[sunk.body].id == id;
-        });
+    const auto is_penetrating = [&frame](std::uint64_t id) {
+        return std::ranges::any_of(frame.penetrating_bodies,
+                                   [&](const FrameGraph::PenetratingBody& sunk) {
+                                       return frame.graph.bodies[sunk.body].id == id;
+                                   });
     };
     std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
-        return is_sunk(contact.id_a) || is_sunk(contact.id_b);
+        return is_penetrating(contact.id_a) || is_penetrating(contact.id_b);
     });
     const FoundContacts found = refresh_contacts(
         {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {tuning.margin_m, tuning.sweep_m}, OldPoints::replaced);
-    if (found == FoundContacts::as_before) {
+    if (found == FoundContacts::unchanged) {
         replace_contact_rows(frame.contacts, frame.graph);
     } else {
         ++stats.contact_rounds;
@@ -155,27 +157,29 @@ void find_contacts_anew(const FinishPositionsIo& io, const ContactTuning& tuning
 
 // The sunk bodies of one island stay put back, which is counted, or are all sunk again. True where
 // any are.
-bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
-    const auto is_better = [&frame](const FrameGraph::SunkBody& sunk) {
-        const double way_m =
+bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
+    const auto is_better = [&frame](const FrameGraph::PenetratingBody& sunk) {
+        const double moved_m =
             (frame.graph.bodies[sunk.body].pose_ws.position - sunk.pose_ws.position).norm();
-        return way_m < k_farthest_back_m &&
-               own_error_m(frame.graph, sunk.body, false) < k_gain * sunk.error_m;
+        return moved_m < k_max_restore_distance_m &&
+               own_error_m(frame.graph, sunk.body, false) < k_max_error_ratio * sunk.error_m;
     };
-    const std::vector<FrameGraph::SunkBody>& sunk = frame.sunk_bodies;
+    const std::vector<FrameGraph::PenetratingBody>& sunk = frame.penetrating_bodies;
     bool undone = false;
     for (auto first = sunk.begin(); first != sunk.end();) {
-        const auto last = std::find_if(first, sunk.end(), [&](const FrameGraph::SunkBody& other) {
-            return other.island != first->island;
-        });
+        const auto last =
+            std::find_if(first, sunk.end(), [&](const FrameGraph::PenetratingBody& other) {
+                return other.island != first->island;
+            });
         if (std::all_of(first, last, is_better)) {
-            stats.count(Fallback::put_back);
-            std::for_each(first, last, [&](const FrameGraph::SunkBody& body) {
+            stats.count(Fallback::restored_last_valid_pose);
+            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
                 frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
             });
         } else {
-            std::for_each(first, last,
-                          [&](const FrameGraph::SunkBody& body) { undo(body, frame); });
+            std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
+                undo_restore(body, frame);
+            });
             undone = true;
         }
         first = last;
@@ -183,21 +187,22 @@ bool undo_where_no_better(FrameGraph& frame, StageStats& stats) {
     return undone;
 }
 
-void put_back(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
+void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning& tuning,
+                                StageStats& stats) {
     FrameGraph& frame = io.frame;
-    find_hidden_overlaps(
+    find_missed_overlaps(
         {io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {tuning.margin_m, tuning.sweep_m}, frame.hidden_overlaps);
-    note_sunk_bodies(tuning.sunk_m, frame);
-    if (frame.sunk_bodies.empty()) {
+    find_penetrating_bodies(tuning.restore_depth_m, frame);
+    if (frame.penetrating_bodies.empty()) {
         return;
     }
-    for (const FrameGraph::SunkBody& sunk : frame.sunk_bodies) {
-        step_back(sunk, frame);
+    for (const FrameGraph::PenetratingBody& sunk : frame.penetrating_bodies) {
+        restore_last_valid_pose(sunk, frame);
     }
-    find_contacts_anew(io, tuning, stats);
-    if (undo_where_no_better(frame, stats)) {
-        find_contacts_anew(io, tuning, stats);
+    rebuild_contacts(io, tuning, stats);
+    if (undo_failed_restores(frame, stats)) {
+        rebuild_contacts(io, tuning, stats);
     }
 }
 
@@ -212,7 +217,7 @@ void write_poses(const FinishPositionsIo& io) {
             continue;
         }
         const Entity entity = frame.entities[i];
-        if (body.role == BodyRole::player) {
+        if (body.role == BodyRole::translating) {
             io.origin.at(entity).pose_ws.position = body.pose_ws.position;
             frame.phase[i].push_back_m =
                 (body.pose_ws.position - frame.phase[i].reached_ws.position).norm();
@@ -224,7 +229,7 @@ void write_poses(const FinishPositionsIo& io) {
 
 void write_hand_error(const FinishPositionsIo& io, const RowBlock& block, StageStats& stats) {
     RowBlock point = block;
-    point.kind = RowKind::hand_point;
+    point.kind = RowKind::drive_point;
     const double error = block_error_m(io.frame.graph.bodies, point);
     stats.hand_error_m = std::max(stats.hand_error_m, error);
     io.grab.rows()[block.source].error_m = error;
@@ -236,18 +241,18 @@ void take_worst(const JointError& error, StageStats& stats) {
 }
 
 // What the island's last solve left of its joints, if it told and nothing was moved since.
-std::optional<JointError> told_error(const FrameGraph& frame, std::size_t island) {
-    const bool is_told = frame.sunk_bodies.empty() && frame.island_errors[island];
-    return is_told ? frame.island_errors[island]->joints : std::nullopt;
+std::optional<JointError> cached_joint_error(const FrameGraph& frame, std::size_t island) {
+    const bool is_cached = frame.penetrating_bodies.empty() && frame.island_errors[island];
+    return is_cached ? frame.island_errors[island]->joints : std::nullopt;
 }
 
 void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageStats& stats) {
     const ConstraintGraph& graph = io.frame.graph;
-    const std::optional<JointError> told = told_error(io.frame, island);
-    take_worst(told.value_or(JointError{}), stats);
+    const std::optional<JointError> cached = cached_joint_error(io.frame, island);
+    take_worst(cached.value_or(JointError{}), stats);
     for (const std::uint32_t i : graph.blocks_of(graph.islands[island])) {
         const RowBlock& block = graph.blocks[i];
-        if (is_hand(block)) {
+        if (is_drive(block)) {
             write_hand_error(io, block, stats);
         } else if (is_contact(block)) {
             const double overlap = block_error_m(graph.bodies, block);
@@ -255,7 +260,7 @@ void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageS
             if (overlap > k_new_overlap_m) {
                 stats.count(Fallback::contacts_unresolved);
             }
-        } else if (!told) {
+        } else if (!cached) {
             take_worst(joint_error(graph.bodies, block), stats);
         }
     }
@@ -276,7 +281,7 @@ void write_errors(const FinishPositionsIo& io, StageStats& stats) {
 }  // namespace
 
 void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
-    put_back(io, tuning, stats);
+    restore_penetrating_bodies(io, tuning, stats);
     write_poses(io);
     write_errors(io, stats);
     stats.contacts += io.frame.contacts.size();

@@ -60,7 +60,7 @@ bool has_hand_or_joint(const Solve& s, const Island& island) {
 // the forward phase cannot move.
 bool may_push(const Solve& s, const Island& island) {
     const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
-        return s.graph().bodies[i].role == BodyRole::player;
+        return s.graph().bodies[i].role == BodyRole::translating;
     });
     if (players == 0) {
         return false;
@@ -91,7 +91,7 @@ double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase
             return 1.0;
         case BodyRole::heavy:
             return phase == Phase::forward ? 0.0 : 1.0;
-        case BodyRole::player:
+        case BodyRole::translating:
             break;
     }
     switch (phase) {
@@ -118,7 +118,7 @@ void set_masses(const Solve& s, const Island& island, Phase phase) {
         const double share = share_of(s, island, i, phase);
         body.inverse_mass = share / body.mass_kg;
         body.inverse_inertia_bs.setZero();
-        if (body.role != BodyRole::player && share > 0.0) {
+        if (body.role != BodyRole::translating && share > 0.0) {
             body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
         }
     }
@@ -130,18 +130,20 @@ void set_masses(const Solve& s, const Island& island, Phase phase) {
 NewtonSettings settings_of(const Solve& s, Phase phase) {
     const SolverTuning& tuning = s.tuning.solver;
     const double hand =
-        phase == Phase::forward ? tuning.forward_hand_softness : tuning.hand_softness;
+        phase == Phase::forward ? tuning.forward_drive_regularisation : tuning.drive_regularisation;
     return {.max_iterations = tuning.max_iterations,
             .tolerance_m = tuning.tolerance_m,
             .step_tolerance_m = tuning.step_tolerance_m,
-            .softness = {hand, tuning.contact_softness, tuning.joint_softness},
-            .stiffness_from_m = tuning.stiffness_from_m,
-            .lead_from_m = tuning.lead_from_m,
+            .regularisation = {hand, tuning.contact_regularisation, tuning.joint_regularisation},
+            .geometric_stiffness_from_m = tuning.geometric_stiffness_from_m,
+            .load_stepping_from_m = tuning.load_stepping_from_m,
             // Softest is never harder than hardest, or than what contacts begin with.
-            .schedule = {std::max(tuning.softest_hand, tuning.hardest_hand), tuning.hardest_hand,
-                         std::max(tuning.softest_contact, tuning.contact_softness),
-                         tuning.hardening, tuning.softening, tuning.steady_steps,
-                         tuning.steady_share, tuning.largest_turn_rad, tuning.least_scale}};
+            .schedule = {std::max(tuning.max_drive_regularisation, tuning.min_drive_regularisation),
+                         tuning.min_drive_regularisation,
+                         std::max(tuning.max_contact_regularisation, tuning.contact_regularisation),
+                         tuning.regularisation_decrease, tuning.regularisation_increase,
+                         tuning.linear_decrease_steps, tuning.linear_decrease_ratio,
+                         tuning.max_step_rotation_rad, tuning.min_step_scale}};
 }
 
 BlockFilter filter_of(Phase phase) {
@@ -149,7 +151,7 @@ BlockFilter filter_of(Phase phase) {
         case Phase::reach:
             return BlockFilter::without_contacts;
         case Phase::contradiction:
-            return BlockFilter::without_hands;
+            return BlockFilter::without_drives;
         default:
             return BlockFilter::all;
     }
@@ -197,12 +199,13 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     parallel_for(frame.island_order.size(), solve_one);
     for (const NewtonResult& result : frame.island_results) {
         s.stats.newton_iterations += static_cast<std::uint64_t>(result.iterations);
-        if (result.unsettled) {
-            s.stats.count(Fallback::active_set_unsettled);
+        if (result.active_set_unconverged) {
+            s.stats.count(Fallback::active_set_not_converged);
         }
-        if (result.leading != Leading::none) {
-            s.stats.count(result.leading == Leading::arrived ? Fallback::hands_led
-                                                             : Fallback::hands_led_in_vain);
+        if (result.load_stepping != LoadStepping::none) {
+            s.stats.count(result.load_stepping == LoadStepping::converged
+                              ? Fallback::hands_load_stepped
+                              : Fallback::load_stepping_failed);
         }
     }
     return frame.island_order.size();
@@ -214,7 +217,7 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
     const FoundContacts found = refresh_contacts(
         {s.io.collision, frame.proxies, frame.contacts, frame.graph, frame.fresh_contacts},
         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
-    if (found != FoundContacts::as_before) {
+    if (found != FoundContacts::unchanged) {
         ++s.stats.contact_rounds;
         forget_errors(s);
     }
@@ -250,7 +253,7 @@ void forward(const Solve& s) {
     HH_DETAIL_ZONE("forward");
     solve_rounds(s, Phase::forward, [&](const Island& island) {
         return has_role(s, island, BodyRole::free) &&
-               errors_of(s, island).without_hands_m() > s.tuning.solver.tolerance_m;
+               errors_of(s, island).without_drives_m() > s.tuning.solver.tolerance_m;
     });
 }
 
@@ -271,7 +274,7 @@ bool prepare_backward(const Solve& s) {
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
             s.phase_of(i).pushed = true;
-            if (body.role == BodyRole::player || s.phase_of(i).held) {
+            if (body.role == BodyRole::translating || s.phase_of(i).held) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
         }
@@ -304,7 +307,7 @@ void backward(const Solve& s) {
 void contradiction(const Solve& s) {
     HH_DETAIL_ZONE("contradiction");
     const auto wanted = [&](const Island& island) {
-        return errors_of(s, island).without_hands_m() > s.violated_m();
+        return errors_of(s, island).without_drives_m() > s.violated_m();
     };
     for (const Island& island : s.graph().islands) {
         if (!wanted(island)) {

@@ -21,7 +21,7 @@ bool has_hand_or_joint(const ConstraintGraph& graph, const Island& island) {
 }
 
 bool joint_has_force(const JointRows& joint) {
-    return joint.friction_impulse > 0.0 || joint.drive_impulse > 0.0 ||
+    return joint.friction_impulse > 0.0 || joint.motor_max_impulse > 0.0 ||
            joint.lock_limit_impulse > 0.0;
 }
 
@@ -31,7 +31,7 @@ bool shares_momentum(const FrameGraph& frame, const Island& island) {
     int players = 0;
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
         const BodyRole role = frame.graph.bodies[i].role;
-        players += role == BodyRole::player ? 1 : 0;
+        players += role == BodyRole::translating ? 1 : 0;
         if (role == BodyRole::heavy || players > 1) {
             return true;
         }
@@ -57,7 +57,7 @@ double heaviest_free_kg(const FrameGraph& frame, const Island& island) {
 // him alike whatever he weighs; light things that he moves meanwhile do not shake him, as in the
 // forward phase: to them he is so many times heavier.
 double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tuning) {
-    constexpr double k_times_heaviest = 1000.0;  // heavier still, and softness would show
+    constexpr double k_times_heaviest = 1000.0;  // heavier still, and regularisation would show
     const double exchanged =
         smooth_step(heaviest_kg, tuning.kappa_light_kg,
                     std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
@@ -75,7 +75,7 @@ void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuni
         SolverBody& body = frame.graph.bodies[i];
         const FrameGraph::PhaseBody& info = frame.phase[i];
         double share = 1.0;
-        if (body.role == BodyRole::player) {
+        if (body.role == BodyRole::translating) {
             const double pushed = shares ? 1.0 : pushed_share(heaviest_kg, body.mass_kg, tuning);
             share = info.grips_surface ? 1.0 : info.pushed ? pushed : info.forward_share;
         } else if (body.role == BodyRole::heavy) {
@@ -83,7 +83,7 @@ void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuni
         }
         body.inverse_mass = share / body.mass_kg;
         body.inverse_inertia_bs.setZero();
-        if (body.role != BodyRole::player && share > 0.0) {
+        if (body.role != BodyRole::translating && share > 0.0) {
             body.inverse_inertia_bs = share * body.inertia_kgm2.cwiseInverse();
         }
     }
@@ -91,8 +91,8 @@ void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuni
 
 VelocitySettings settings_of(const Tuning& tuning) {
     VelocitySettings settings{k_valid_overlap_m, tuning.contact.restitution_speed_mps};
-    settings.softness.contact = tuning.solver.contact_softness;
-    settings.softness.joint = tuning.solver.joint_softness;
+    settings.regularisation.contact = tuning.solver.contact_regularisation;
+    settings.regularisation.joint = tuning.solver.joint_regularisation;
     settings.friction_passes = tuning.solver.friction_passes;
     return settings;
 }
@@ -118,14 +118,14 @@ void solve_islands(FrameGraph& frame, const Tuning& tuning, StageStats& stats) {
     };
     parallel_for(graph.islands.size(), solve_one);
     for (const VelocityResult& result : frame.velocity_results) {
-        if (result.unsettled) {
-            stats.count(Fallback::active_set_unsettled);
+        if (result.active_set_unconverged) {
+            stats.count(Fallback::active_set_not_converged);
         }
         if (result.wedged) {
             stats.count(Fallback::friction_wedged);
         }
-        if (result.undecided) {
-            stats.count(Fallback::friction_undecided);
+        if (result.friction_unconverged) {
+            stats.count(Fallback::friction_not_converged);
         }
     }
 }
@@ -137,14 +137,14 @@ void add_to(MomentumLedger& ledger, MomentumLedger::Receiver receiver, const Vec
 }
 
 bool is_object(const SolverBody& body) {
-    return body.role != BodyRole::player && body.inverse_mass > 0.0;
+    return body.role != BodyRole::translating && body.inverse_mass > 0.0;
 }
 
 // One side of a row's impulse, by who takes it.
 void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse,
                   const Vec3& couple, MomentumLedger& ledger) {
     const Vec3 angular = point_ws.cross(impulse) + couple;
-    if (body.role != BodyRole::player) {
+    if (body.role != BodyRole::translating) {
         add_to(ledger, is_object(body) ? MomentumLedger::objects : MomentumLedger::statics, impulse,
                angular);
         return;
@@ -167,8 +167,8 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
         // Both sides at one point, as the rows have it: a's point for contacts, else b's.
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
-        book_impulse(a, point_ws, block.impulse_ws_ns, block.couple_ws_nms, ledger);
-        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.couple_ws_nms, ledger);
+        book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
+        book_impulse(b, point_ws, -block.impulse_ws_ns, -block.angular_impulse_ws_nms, ledger);
     }
 }
 
@@ -202,7 +202,7 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
     for (std::size_t i = 0; i < io.frame.entities.size(); ++i) {
         const SolverBody& body = io.frame.graph.bodies[i];
         const Entity entity = io.frame.entities[i];
-        if (body.role == BodyRole::player) {
+        if (body.role == BodyRole::translating) {
             io.player_velocity.at(entity).linear_mps = body.velocity_mps;
         } else if (body.role != BodyRole::fixed) {
             io.body_velocity.at(entity) = {body.velocity_mps,
@@ -239,7 +239,7 @@ void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
     for (const Island& island : io.frame.graph.islands) {
         for (const std::uint32_t i : io.frame.graph.bodies_of(island)) {
             const FrameGraph::PhaseBody& info = io.frame.phase[i];
-            if (io.frame.graph.bodies[i].role != BodyRole::player ||
+            if (io.frame.graph.bodies[i].role != BodyRole::translating ||
                 !(info.pushed || info.grips_surface)) {
                 continue;
             }
@@ -264,7 +264,7 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
     for (const Island& island : frame.graph.islands) {
         const std::span<const std::uint32_t> blocks = frame.graph.blocks_of(island);
         const auto hand = std::ranges::find_if(
-            blocks, [&](std::uint32_t i) { return is_hand(frame.graph.blocks[i]); });
+            blocks, [&](std::uint32_t i) { return is_drive(frame.graph.blocks[i]); });
         if (hand == blocks.end()) {
             continue;
         }
@@ -351,7 +351,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
         }
         const SolverBody& body = frame.graph.bodies[i];
         const HeadTracking* const head =
-            body.role == BodyRole::player ? io.head.find(frame.entities[i]) : nullptr;
+            body.role == BodyRole::translating ? io.head.find(frame.entities[i]) : nullptr;
         valid->known = head == nullptr || head->state != TrackingState::never;
         if (frame.overlaps_with[i] == i) {
             valid->pose_ws = collider_pose(body);

@@ -20,7 +20,7 @@ class BoneFinder {
     BoneFinder(const SkinnedMesh& figure, const BodyMap& map) : figure_(figure), map_(map) {}
 
     Result<BodyBones> find() {
-        if (const auto error = look_up_map()) {
+        if (const auto error = find_body_map()) {
             return *error;
         }
         guess();
@@ -34,7 +34,7 @@ class BoneFinder {
     }
 
   private:
-    std::optional<FileError> look_up_map() {
+    std::optional<FileError> find_body_map() {
         for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
             for (const HandSide side : {HandSide::left, HandSide::right}) {
                 if (auto error = look_up({static_cast<BodyBone>(bone), side})) {

@@ -12,8 +12,8 @@ constexpr std::array<std::string_view, k_clip_bones> k_bone_names = {
     "left_foot", "right_thigh", "right_shin", "right_foot", "clavicle"};
 constexpr std::array<std::string_view, k_body_clip_count> k_clip_names = {
     "idle", "push_off", "look_yaw", "look_pitch", "clavicle"};
-constexpr double k_most_turn_deg = 90.0;
-constexpr std::size_t k_most_keys = 1000;
+constexpr double k_max_turn_deg = 90.0;
+constexpr std::size_t k_max_keys = 1000;
 
 // The first two clips go by seconds, the others by degrees.
 bool is_timed(std::size_t clip) { return clip <= static_cast<std::size_t>(BodyClipName::push_off); }
@@ -27,7 +27,7 @@ ClipKey read_key(const JsonValue& value, std::size_t clip) {
                             : k_degree * value["at"].number({-180.0, 180.0, false});
     for (std::size_t bone = 0; bone < k_clip_bones; ++bone) {
         if (const JsonValue turn = value[k_bone_names[bone]]; turn.exists()) {
-            key.turns[bone] = k_degree * turn.vector({-k_most_turn_deg, k_most_turn_deg, false});
+            key.turns[bone] = k_degree * turn.vector({-k_max_turn_deg, k_max_turn_deg, false});
         }
     }
     return key;
@@ -35,7 +35,7 @@ ClipKey read_key(const JsonValue& value, std::size_t clip) {
 
 void read_clip(const JsonValue& value, std::size_t clip, BodyClip& out) {
     const std::vector<JsonValue> keys = value["keys"].items();
-    if (keys.empty() || keys.size() > k_most_keys) {
+    if (keys.empty() || keys.size() > k_max_keys) {
         value.refuse("1 to 1000 keys");
         return;
     }

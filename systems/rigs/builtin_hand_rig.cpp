@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_mm = 1e-3;
 
-using Links = std::array<double, k_most_links>;
+using Links = std::array<double, k_max_links>;
 
 Links scaled(const Links& values, double scale) {
     return {values[0] * scale, values[1] * scale, values[2] * scale};

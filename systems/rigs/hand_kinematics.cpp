@@ -2,9 +2,9 @@
 
 namespace handhold {
 
-std::array<Pose, k_most_links> finger_link_frames(const FingerRig& finger,
-                                                  const FingerAngles& angles) {
-    std::array<Pose, k_most_links> frames;
+std::array<Pose, k_max_links> finger_link_frames(const FingerRig& finger,
+                                                 const FingerAngles& angles) {
+    std::array<Pose, k_max_links> frames;
     Pose at = finger.base_hs;
     at.rotation = rotation_about(finger.opposition_axis_hs, angles.opposition_rad) * at.rotation;
     for (std::size_t link = 0; link < finger.link_count; ++link) {
@@ -15,10 +15,10 @@ std::array<Pose, k_most_links> finger_link_frames(const FingerRig& finger,
     return frames;
 }
 
-std::array<Vec3, k_most_links + 1> finger_points(const FingerRig& finger,
-                                                 const FingerAngles& angles) {
-    const std::array<Pose, k_most_links> frames = finger_link_frames(finger, angles);
-    std::array<Vec3, k_most_links + 1> points;
+std::array<Vec3, k_max_links + 1> finger_points(const FingerRig& finger,
+                                                const FingerAngles& angles) {
+    const std::array<Pose, k_max_links> frames = finger_link_frames(finger, angles);
+    std::array<Vec3, k_max_links + 1> points;
     points.fill(finger.base_hs.position);
     for (std::size_t link = 0; link < finger.link_count; ++link) {
         points[link + 1] = transform_point(frames[link], Vec3(0.0, 0.0, -finger.length_m[link]));
@@ -60,7 +60,7 @@ FingerAngles coupled_angles(const FingerRig& finger, double share) {
 
 FingerAngles relaxed_angles(const FingerRig& finger) {
     FingerAngles angles;
-    angles.curl_rad = finger.relaxed_rad;
+    angles.curl_rad = finger.rest_rad;
     return angles;
 }
 

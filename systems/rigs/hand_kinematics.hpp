@@ -10,12 +10,12 @@
 namespace handhold {
 
 // Frames of a finger's links in hand space: hinge at the origin, -Z along the link.
-std::array<Pose, k_most_links> finger_link_frames(const FingerRig& finger,
-                                                  const FingerAngles& angles);
+std::array<Pose, k_max_links> finger_link_frames(const FingerRig& finger,
+                                                 const FingerAngles& angles);
 // The hinges in hand space and, behind the last one, the tip: link i's capsule lies between points
 // i and i + 1.
-std::array<Vec3, k_most_links + 1> finger_points(const FingerRig& finger,
-                                                 const FingerAngles& angles);
+std::array<Vec3, k_max_links + 1> finger_points(const FingerRig& finger,
+                                                const FingerAngles& angles);
 
 // The angles at which finger_link_frames gives these rotations; of rotations that no angles give,
 // those whose opposition and hinges come nearest, one link after the other. Not limited to the

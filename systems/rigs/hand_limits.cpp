@@ -6,7 +6,7 @@ namespace handhold {
 namespace {
 
 struct CurlLimits {
-    std::array<double, k_most_links> lower_deg, upper_deg, relaxed_deg;
+    std::array<double, k_max_links> lower_deg, upper_deg, relaxed_deg;
 };
 constexpr CurlLimits k_finger = {{-10.0, 0.0, 0.0}, {115.0, 105.0, 75.0}, {20.0, 30.0, 15.0}};
 constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.0, 35.0, 0.0}};
@@ -20,10 +20,10 @@ constexpr double k_opposition_lean = 0.25;  // for 1 forward
 void set_hand_limits(HandSide side, FingerRig& finger) {
     const bool is_thumb = finger.name == FingerName::thumb;
     const CurlLimits& limits = is_thumb ? k_thumb : finger.link_count == 2 ? k_two_bones : k_finger;
-    for (std::size_t link = 0; link < k_most_links; ++link) {
+    for (std::size_t link = 0; link < k_max_links; ++link) {
         finger.lower_rad[link] = limits.lower_deg[link] * k_degree;
         finger.upper_rad[link] = limits.upper_deg[link] * k_degree;
-        finger.relaxed_rad[link] = limits.relaxed_deg[link] * k_degree;
+        finger.rest_rad[link] = limits.relaxed_deg[link] * k_degree;
     }
     if (!is_thumb) {
         return;

@@ -14,7 +14,7 @@ namespace {
 void add_finger_joints(const SkinnedMesh& skin, const FingerBones& bones, const Pose& to_hand,
                        HandRigFit& fit) {
     const std::size_t place = fit.rig.fingers.size() - 1;
-    const std::array<Pose, k_most_links> frames =
+    const std::array<Pose, k_max_links> frames =
         finger_link_frames(fit.rig.fingers[place], fit.bind[place]);
     const auto add = [&](std::size_t joint, std::uint32_t link) {
         fit.rig.joints[joint].finger = static_cast<std::int32_t>(place);
@@ -56,8 +56,8 @@ const std::vector<double>* find_numbers(const SkinJoint& joint, const char* key)
 
 // False where there is a fault in the numbers.
 bool take_palm(const SkinJoint& wrist, HandRig& rig) {
-    constexpr double k_most_m = 1.0;
-    const auto is_good = [](double number) { return std::abs(number) <= k_most_m; };
+    constexpr double k_max_m = 1.0;
+    const auto is_good = [](double number) { return std::abs(number) <= k_max_m; };
     if (const auto* center = find_numbers(wrist, k_palm_center_key)) {
         if (center->size() != 3 || !std::all_of(center->begin(), center->end(), is_good)) {
             return false;

@@ -10,9 +10,9 @@
 namespace handhold {
 namespace {
 
-constexpr double k_least_bone_m = 0.004;
-constexpr double k_least_hand_m = 0.05;  // from the wrist to the farthest tip
-constexpr double k_most_hand_m = 1.0;
+constexpr double k_min_bone_m = 0.004;
+constexpr double k_min_hand_m = 0.05;  // from the wrist to the farthest tip
+constexpr double k_max_hand_m = 1.0;
 constexpr double k_axes_cosine = 0.819;  // 35 degrees
 // How much a joint's x axis says about its finger's plane beside the bones' directions: a straight
 // finger has any plane, a bent one only one.
@@ -175,7 +175,7 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
         for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
             const double bone_m =
                 (bind_position(skin, chain[i]) - bind_position(skin, chain[i + 1])).norm();
-            if (bone_m < k_least_bone_m) {
+            if (bone_m < k_min_bone_m) {
                 return FileError{skin.file, "/skins",
                                  "expected bones of at least 4 mm, found another at \"" +
                                      skin.joints[chain[i]].name + "\""};
@@ -185,7 +185,7 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
         reach_m = std::max(reach_m, tip.norm());
         (finger.name == FingerName::thumb ? thumb_x : fingers_x) += tip.x();
     }
-    if (!(reach_m >= k_least_hand_m && reach_m <= k_most_hand_m)) {
+    if (!(reach_m >= k_min_hand_m && reach_m <= k_max_hand_m)) {
         return FileError{skin.file, "/skins",
                          "expected a hand of 0.05 to 1 m, found " + std::to_string(reach_m) + " m"};
     }
@@ -223,7 +223,7 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Pose>& joints_h
     };
     const Vec3 first = flattened(points[1] - points[0]);
     const Vec3 forward =
-        is_thumb ? rotation_about(hinge, finger.relaxed_rad[0]) * first : flattened(-Vec3::UnitZ());
+        is_thumb ? rotation_about(hinge, finger.rest_rad[0]) * first : flattened(-Vec3::UnitZ());
     Mat3 axes;
     axes.col(0) = hinge;
     axes.col(2) = -forward;

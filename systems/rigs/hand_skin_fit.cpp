@@ -9,12 +9,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_least_radius_m = 0.003;
-constexpr double k_most_radius_m = 0.03;
+constexpr double k_min_radius_m = 0.003;
+constexpr double k_max_radius_m = 0.03;
 // Where a hand's skin is looked for around a capsule of the palm, to either side.
 constexpr double k_half_width_m = 0.011;
 // The radius of a thumb's first link, of the next one's.
-constexpr double k_most_ball = 1.3;
+constexpr double k_max_ball = 1.3;
 // Of the knuckles' distance from the wrist.
 constexpr double k_palm_center_share = 0.88;
 
@@ -31,7 +31,7 @@ double percentile(std::vector<double>& values, double share, double fallback) {
 }
 
 double clamp_radius(double radius_m) {
-    return std::clamp(radius_m, k_least_radius_m, k_most_radius_m);
+    return std::clamp(radius_m, k_min_radius_m, k_max_radius_m);
 }
 
 struct SkinPart {
@@ -64,8 +64,8 @@ SkinPart part_of(const SkinWeights& weights, const HandRig& rig) {
 // the skin.
 void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<SkinPart>& parts,
                      std::int32_t place, const FingerAngles& bind, FingerRig& finger) {
-    const std::array<Pose, k_most_links> frames = finger_link_frames(finger, bind);
-    std::array<std::vector<double>, k_most_links> distances_m;
+    const std::array<Pose, k_max_links> frames = finger_link_frames(finger, bind);
+    std::array<std::vector<double>, k_max_links> distances_m;
     std::vector<double> ends_m;  // along the last link
     for (std::size_t i = 0; i < positions_hs.size(); ++i) {
         if (parts[i].finger != place) {
@@ -88,7 +88,7 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
     }
     if (finger.name ==
         FingerName::thumb) {  // whose first link lies in the ball, which is not round
-        finger.radius_m[0] = std::min(finger.radius_m[0], k_most_ball * finger.radius_m[1]);
+        finger.radius_m[0] = std::min(finger.radius_m[0], k_max_ball * finger.radius_m[1]);
     }
     const std::size_t last = finger.link_count - 1;
     const double end_m = percentile(ends_m, 0.99, finger.length_m[last] + finger.radius_m[last]);

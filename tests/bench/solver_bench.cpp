@@ -100,7 +100,7 @@ Step chain(std::uint32_t links) {
             joint(RowKind::ball, i - 1, i, 0.5 * k_link_m, -0.5 * k_link_m));
     }
     step.graph.blocks.push_back(
-        joint(RowKind::hand_point, links - 1, links + 1, 0.5 * k_link_m, 0.0));
+        joint(RowKind::drive_point, links - 1, links + 1, 0.5 * k_link_m, 0.0));
     sort_blocks(step.graph);
     build_islands(step.graph);
     return step;
@@ -124,7 +124,7 @@ Step hub(std::uint32_t spokes) {
     SolverBody hand;
     hand.id = spokes + 2;
     step.graph.bodies.push_back(hand);
-    step.graph.blocks.push_back(joint(RowKind::hand_point, 0, spokes + 1, 0.0, 0.0));
+    step.graph.blocks.push_back(joint(RowKind::drive_point, 0, spokes + 1, 0.0, 0.0));
     sort_blocks(step.graph);
     build_islands(step.graph);
     return step;

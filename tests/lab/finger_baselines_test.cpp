@@ -21,7 +21,7 @@ HingeChain make_chain(double height_m, std::uint32_t links = 3) {
     chain.radius_m = {0.009, 0.008, 0.007};
     chain.open_rad = {0.0, 0.0, 0.0};
     chain.closed_rad = {2.0, 2.0, 2.0};
-    chain.relaxed_rad = {0.3, 0.5, 0.2};
+    chain.rest_rad = {0.3, 0.5, 0.2};
     return chain;
 }
 
@@ -86,7 +86,7 @@ TEST(CloseOnCrossings, LineOutOfReachLeavesTheFingerRelaxed) {
     const std::array<Vec2, 2> line = {Vec2(-1.0, height_m), Vec2(1.0, height_m)};
     const ClosedFinger closed = close_on_crossings(chain, line);
     EXPECT_EQ(closed.contact_link, DiscClosure::k_none);
-    EXPECT_EQ(closed.angle_rad, chain.relaxed_rad);
+    EXPECT_EQ(closed.angle_rad, chain.rest_rad);
 }
 
 TEST(CloseOnCrossings, HighestCrossingStopsTheFingerAndWhatItBeganBeyondDoesNot) {
@@ -192,7 +192,7 @@ TEST(CloseBySpheres, WhatIsThinAndBetweenTwoSpheresIsPassedThrough) {
 
 TEST(CloseBySpheres, NothingInReachLeavesTheFingerRelaxed) {
     const HingeChain chain = make_chain(0.5);
-    EXPECT_EQ(close_by_spheres(chain, make_floor()).angle_rad, chain.relaxed_rad);
+    EXPECT_EQ(close_by_spheres(chain, make_floor()).angle_rad, chain.rest_rad);
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ class Scores(unittest.TestCase):
         self.assertAlmostEqual(alone["two"]["yaw_deg"]["mean"], 8.0)
         self.assertAlmostEqual(yaw["mean"], 6.0)
         self.assertAlmostEqual(yaw["deviation"], 8.0 ** 0.5)
-        self.assertEqual((yaw["worst"], yaw["worst_value"]), ("two", 8.0))
+        self.assertEqual((yaw["worst"], yaw["worst_residual"]), ("two", 8.0))
         self.assertAlmostEqual(yaw["least_without_one"], 4.0)
         self.assertAlmostEqual(yaw["most_without_one"], 8.0)
         self.assertAlmostEqual(yaw["error"], 2.0)

@@ -308,10 +308,10 @@ void BulletRun::step(FrameRecord& record) {
 }
 
 std::vector<double> bullet_residuals(const LabScene& scene, Holder holder, double hz, int frame) {
-    constexpr int k_most_iterations = 50;
+    constexpr int k_max_iterations = 50;
     std::vector<double> residuals;
     FrameRecord record;
-    for (int iterations = 1; iterations <= k_most_iterations; ++iterations) {
+    for (int iterations = 1; iterations <= k_max_iterations; ++iterations) {
         BulletRun run(scene, holder, hz);
         for (int i = 0; i < frame; ++i) {
             run.step(record);

@@ -138,20 +138,20 @@ ClosedFinger close_on_crossings(const HingeChain& chain, std::span<const Vec2> l
         joint += chain.length_m[i] * Vec2(std::cos(direction_rad), std::sin(direction_rad));
     }
     if (closed.contact_link == DiscClosure::k_none) {
-        closed.angle_rad = chain.relaxed_rad;
+        closed.angle_rad = chain.rest_rad;
     }
     return closed;
 }
 
 ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
-                           const GraphPoint& under_palm, SearchOrder order,
+                           const GraphPoint& seed_under_palm, SearchOrder order,
                            ChainFitScratch& scratch) {
     ClosedFinger closed;
-    closed.angle_rad = chain.relaxed_rad;
+    closed.angle_rad = chain.rest_rad;
     closed.discs = 1;
     const Disc disc = disc_of(chain);
     const CrossingSearch found =
-        find_crossing(mesh.search, disc, {&under_palm, 1}, order, scratch.trace);
+        find_crossing(mesh.search, disc, {&seed_under_palm, 1}, order, scratch.trace);
     closed.pops = found.pops;
     // The walk is on the surface that is touched: what is compared is how fingers close, not on
     // which detail.
@@ -199,7 +199,7 @@ ClosedFinger close_by_spheres(const HingeChain& chain, const GripMesh& mesh) {
         }
     }
     if (closed.contact_link == DiscClosure::k_none) {
-        closed.angle_rad = chain.relaxed_rad;
+        closed.angle_rad = chain.rest_rad;
     }
     return closed;
 }

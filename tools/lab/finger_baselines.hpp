@@ -29,7 +29,7 @@ struct ClosedFinger {
 // walk along the crossing edges, and for each joint in turn the highest contact.
 // Where the search finds nothing, or nothing can be touched, the finger is relaxed.
 ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
-                           const GraphPoint& under_palm, SearchOrder order,
+                           const GraphPoint& seed_under_palm, SearchOrder order,
                            ChainFitScratch& scratch);
 
 // The half of it that is flat. `line_ds`: the crossings of edges with the disc, in the walk's

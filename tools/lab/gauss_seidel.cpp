@@ -9,10 +9,10 @@
 namespace handhold::lab {
 namespace {
 
-constexpr int k_most_rows = 6;
-using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                                  k_most_rows, k_most_rows>;
-using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, k_most_rows, 1>;
+constexpr int k_max_rows = 6;
+using BlockMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, k_max_rows, k_max_rows>;
+using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, k_max_rows, 1>;
 
 int g_sweeps = k_sweeps;
 
@@ -124,10 +124,10 @@ class GaussSeidel {
 
     // The block's equations together: what a joint's rows say does not depend on its axes.
     void solve_equations(const RowBlock& block, const Mobility& a, const Mobility& b) const {
-        std::array<const Row*, k_most_rows> equations{};
+        std::array<const Row*, k_max_rows> equations{};
         Eigen::Index count = 0;
         for (const Row& row : rows_) {
-            if (!row.unilateral && count < k_most_rows) {
+            if (!row.unilateral && count < k_max_rows) {
                 equations[static_cast<std::size_t>(count++)] = &row;
             }
         }
@@ -138,7 +138,7 @@ class GaussSeidel {
         BlockVector values(count);
         for (Eigen::Index i = 0; i < count; ++i) {
             const Row& row = *equations[static_cast<std::size_t>(i)];
-            values[i] = -row.value_m;
+            values[i] = -row.residual;
             for (Eigen::Index j = 0; j < count; ++j) {
                 system(i, j) = coupling(row, *equations[static_cast<std::size_t>(j)], a, b);
             }
@@ -164,8 +164,8 @@ class GaussSeidel {
     void solve_inequalities(const RowBlock& block, const Mobility& a, const Mobility& b) const {
         for (const Row& row : rows_) {
             const double stiffness = coupling(row, row, a, b);
-            if (row.unilateral && row.value_m < 0.0 && stiffness > 0.0) {
-                apply(block, row, -row.value_m / stiffness, a, b);
+            if (row.unilateral && row.residual < 0.0 && stiffness > 0.0) {
+                apply(block, row, -row.residual / stiffness, a, b);
             }
         }
     }

@@ -67,7 +67,7 @@ GripVariant variant_of(const GripOptions& options) {
     GripVariant variant;
     variant.sync = options.sync == "on";
     variant.order = search_order_of(options.search);
-    variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::least_sync;
+    variant.palm = options.palm == "ray" ? GripSearch::ray_only : GripSearch::smallest_sync;
     variant.fingers = finger_method_of(options.fingers);
     return variant;
 }

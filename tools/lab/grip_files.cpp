@@ -23,7 +23,7 @@ Json json_of(const Pose& pose) {
             {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-Json json_of(const std::array<double, k_most_links>& values, std::size_t count) {
+Json json_of(const std::array<double, k_max_links>& values, std::size_t count) {
     return std::vector<double>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
@@ -33,10 +33,10 @@ const char* fallback_text(ChainFallback fallback) {
             return "none";
         case ChainFallback::all_cuts:
             return "bvh";
-        case ChainFallback::bent:
+        case ChainFallback::sample_pose:
         case ChainFallback::opened:
             return "open";
-        case ChainFallback::relaxed:
+        case ChainFallback::rest_pose:
             return "relaxed";
     }
     return "none";
@@ -162,7 +162,7 @@ std::string hand_rig_json(const HandRig& rig) {
                            {"radius_m", json_of(finger.radius_m, count)},
                            {"lower_rad", json_of(finger.lower_rad, count)},
                            {"upper_rad", json_of(finger.upper_rad, count)},
-                           {"relaxed_rad", json_of(finger.relaxed_rad, count)},
+                           {"relaxed_rad", json_of(finger.rest_rad, count)},
                            {"opposition_axis_hs", json_of(finger.opposition_axis_hs)},
                            {"lower_opposition_rad", finger.lower_opposition_rad},
                            {"upper_opposition_rad", finger.upper_opposition_rad}});

@@ -114,10 +114,10 @@ class OneHand {
         FingerAngles& shown = fingers_.rows().front().shown[f];
         shown.opposition_rad = resting_opposition(finger, tuning.thumb);
         const HingeChain chain = finger_chain(finger, shown.opposition_rad, wrist());
-        const GripSurface& under_palm = surface();
+        const GripSurface& seed_under_palm = surface();
         const ClosedFinger closed =
             variant.fingers == FingerMethod::talk
-                ? close_by_talk(chain, mesh_, {under_palm.triangle, under_palm.point_bs},
+                ? close_by_talk(chain, mesh_, {seed_under_palm.triangle, seed_under_palm.point_bs},
                                 variant.order, fit_scratch_)
                 : close_by_spheres(chain, mesh_);
         shown.curl_rad = closed.angle_rad;
@@ -127,7 +127,7 @@ class OneHand {
                               closed.pops,
                               closed.walked,
                               closed.contact_link,
-                              touches ? ChainFallback::none : ChainFallback::relaxed,
+                              touches ? ChainFallback::none : ChainFallback::rest_pose,
                               0.0};
     }
     void sweep(double dt_s, const Tuning& tuning, const GripVariant& variant) {
@@ -175,19 +175,19 @@ class SlidingWrist {
     }
 
     Pose next() {
-        constexpr double k_most_m = 0.04;
-        if (std::abs(way_m_ + step_m_) > k_most_m) {
+        constexpr double k_max_m = 0.04;
+        if (std::abs(travel_m_ + step_m_) > k_max_m) {
             step_m_ = -step_m_;
         }
-        way_m_ += step_m_;
-        return {from_.position + way_m_ * along_, from_.rotation};
+        travel_m_ += step_m_;
+        return {from_.position + travel_m_ * along_, from_.rotation};
     }
 
   private:
     Pose from_;
     Vec3 along_;
     double step_m_;
-    double way_m_ = 0.0;
+    double travel_m_ = 0.0;
 };
 
 void count_jumps(const HandRig& rig, const FingerPose& before, const FingerPose& after,
@@ -266,8 +266,8 @@ WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
     }
     describe(hand, mesh, rig, warm.slid);
     // The palm that is shown comes to rest first.
-    constexpr int k_settle_frames = 45;
-    for (int frame = 0; frame < k_settle_frames; ++frame) {
+    constexpr int k_convergence_frames = 45;
+    for (int frame = 0; frame < k_convergence_frames; ++frame) {
         hand.run_frame_us(at, tuning, variant);
     }
     for (std::int32_t frame = 0; frame < slide.frames; ++frame) {

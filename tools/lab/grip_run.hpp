@@ -19,7 +19,7 @@ namespace handhold::lab {
 struct GripVariant {
     bool sync = true;  // the palm moves to its limits; else it stays where it is tracked
     SearchOrder order = SearchOrder::best_first;
-    GripSearch palm = GripSearch::least_sync;
+    GripSearch palm = GripSearch::smallest_sync;
     // The talk's fingers come with its palm: held to its three limits, never pushed out of what its
     // knuckles and heel are sunk in. Palms are lifted for none but the runtime's own fingers.
     FingerMethod fingers = FingerMethod::sweep;

@@ -8,7 +8,7 @@
 namespace handhold::lab {
 namespace {
 
-constexpr int k_most_iterations = 50;
+constexpr int k_max_iterations = 50;
 
 PositionSolver g_solver = &solve_positions;
 bool g_is_armed = false;
@@ -27,10 +27,10 @@ double residual_m(const IslandView& island) {
 void probe(const IslandView& island, const NewtonSettings& settings, SolveScratch& scratch) {
     const std::vector<SolverBody> start(island.bodies.begin(), island.bodies.end());
     g_residuals = {residual_m(island)};
-    for (int iterations = 1; iterations <= k_most_iterations; ++iterations) {
+    for (int iterations = 1; iterations <= k_max_iterations; ++iterations) {
         NewtonSettings few = settings;
         few.max_iterations = iterations;
-        few.lead_from_m = std::numeric_limits<double>::infinity();
+        few.load_stepping_from_m = std::numeric_limits<double>::infinity();
         set_sweeps(iterations);
         const NewtonResult result = g_solver(island, few, scratch);
         if (result.iterations == iterations) {

@@ -29,7 +29,7 @@ double half_time(const SceneOptions& options) {
     return options.holder == Holder::player ? 0.5 * options.duration_s : k_never_s;
 }
 
-LabHold hold_thing(const PathOfTime& path) {
+LabHold hold_body(const PathOfTime& path) {
     LabHold hold;
     hold.point_only = true;
     hold.hand_ps = path;
@@ -37,8 +37,8 @@ LabHold hold_thing(const PathOfTime& path) {
 }
 
 // The thing, and the player who holds it.
-void add_thing(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
-               const Vec3& center_ws) {
+void add_jointed_body(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
+                      const Vec3& center_ws) {
     add_box(scene, name, mass_kg, half_m, center_ws);
     scene.players.emplace_back();
 }
@@ -47,8 +47,8 @@ void add_thing(LabScene& scene, const std::string& name, double mass_kg, const V
 
 LabScene make_lever(const SceneOptions& options) {
     LabScene scene;
-    add_thing(scene, "lever", 2.0, Vec3(0.015, 0.5 * k_lever_m, 0.015),
-              Vec3(0.0, 0.5 * k_lever_m, 0.0));
+    add_jointed_body(scene, "lever", 2.0, Vec3(0.015, 0.5 * k_lever_m, 0.015),
+                     Vec3(0.0, 0.5 * k_lever_m, 0.0));
     LabJoint hinge;
     hinge.kind = JointKind::hinge;
     hinge.limited = true;
@@ -58,7 +58,7 @@ LabScene make_lever(const SceneOptions& options) {
     const double half_s = half_time(options);
     const double pull_s =
         half_s + 0.2;  // once the lever is at rest: else it pushes him as it stops
-    scene.add_hold(hold_thing([half_s, pull_s](double t_s) {
+    scene.add_hold(hold_body([half_s, pull_s](double t_s) {
         const double angle =
             to_and_fro(std::min(t_s, half_s), 1.8, k_hand_speed_mps / k_lever_m, 0.9) - 0.9;
         const double twist = to_and_fro(t_s, k_twist_rad, 2.0);
@@ -77,14 +77,14 @@ LabScene make_lever(const SceneOptions& options) {
 
 LabScene make_drawer(const SceneOptions& options) {
     LabScene scene;
-    add_thing(scene, "drawer", 5.0, Vec3(0.2, 0.1, 0.2), Vec3(0.0, 0.0, -0.2));
+    add_jointed_body(scene, "drawer", 5.0, Vec3(0.2, 0.1, 0.2), Vec3(0.0, 0.0, -0.2));
     LabJoint slider;
     slider.kind = JointKind::slider;
     slider.limited = true;
     slider.upper = 0.3;
     scene.add_joint_at(slider, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const double half_s = half_time(options);
-    scene.add_hold(hold_thing([half_s](double t_s) {
+    scene.add_hold(hold_body([half_s](double t_s) {
         const double out = t_s <= half_s ? to_and_fro(t_s, 0.28, k_hand_speed_mps)
                                          : to_and_fro(half_s, 0.28, k_hand_speed_mps) +
                                                2.0 * pull_off(t_s - half_s);
@@ -97,14 +97,14 @@ LabScene make_drawer(const SceneOptions& options) {
 
 LabScene make_door(const SceneOptions& options) {
     LabScene scene;
-    add_thing(scene, "door", 20.0, Vec3(0.4, 0.9, 0.02), Vec3(0.4, 0.0, 0.0));
+    add_jointed_body(scene, "door", 20.0, Vec3(0.4, 0.9, 0.02), Vec3(0.4, 0.0, 0.0));
     LabJoint hinge;
     hinge.kind = JointKind::hinge;
     hinge.limited = true;
     hinge.upper = 1.6;
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitY())});
     const double half_s = half_time(options);
-    scene.add_hold(hold_thing([half_s](double t_s) {
+    scene.add_hold(hold_body([half_s](double t_s) {
         constexpr double k_edge_m = 0.75;
         const double turn = to_and_fro(t_s, 1.5, k_hand_speed_mps / k_edge_m);
         const double angle = t_s <= half_s ? turn

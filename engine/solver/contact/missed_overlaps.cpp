@@ -22,7 +22,7 @@ bool is_long(const ColliderProxy& a, const ColliderProxy& b, double sweep_m) {
 
 // Colliders that may have been swept are where they are. True where any of them can move: those
 // are marked.
-bool hold_still(const MovingContacts& moving, double sweep_m, HiddenOverlaps& hidden) {
+bool hold_still(const MovingContacts& moving, double sweep_m, MissedOverlaps& hidden) {
     hidden.proxies.clear();
     hidden.is_suspect.assign(moving.graph.bodies.size(), 0);
     bool any = false;
@@ -53,8 +53,8 @@ bool hold_still(const MovingContacts& moving, double sweep_m, HiddenOverlaps& hi
 
 }  // namespace
 
-void find_hidden_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          HiddenOverlaps& hidden) {
+void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
+                          MissedOverlaps& hidden) {
     hidden.of_body.resize(moving.graph.bodies.size());
     for (std::uint32_t i = 0; i < hidden.of_body.size(); ++i) {
         hidden.of_body[i] = {0.0, i};

@@ -13,7 +13,7 @@ struct Overlap {
     std::uint32_t with = 0;  // into ConstraintGraph::bodies
 };
 
-struct HiddenOverlaps {
+struct MissedOverlaps {
     std::vector<Overlap> of_body;          // out
     std::vector<ColliderProxy> proxies;    // scratch
     std::vector<std::uint8_t> is_suspect;  // scratch, by body
@@ -24,7 +24,7 @@ struct HiddenOverlaps {
 // end up with its far end in the same rack. Looks at what moved by more than is swept, against the
 // world or what it touches, where it is now. Call once contacts have been refreshed at the bodies'
 // poses.
-void find_hidden_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          HiddenOverlaps& hidden);
+void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
+                          MissedOverlaps& hidden);
 
 }  // namespace handhold

@@ -12,7 +12,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
-constexpr double k_slid_m = 5e-3;   // a point whose bodies slid farther touches something else now
+constexpr double k_max_slide_m =
+    5e-3;  // a point whose bodies slid farther touches something else now
 constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
 
@@ -61,7 +62,7 @@ bool slid_away(const ConstraintGraph& graph, const ContactPoint& contact) {
     const Vec3 apart = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
                        transform_point(b, contact.point_b_bs);
     const Vec3 normal = b.rotation * contact.normal_b_bs;
-    return (apart - normal * normal.dot(apart)).norm() > k_slid_m;
+    return (apart - normal * normal.dot(apart)).norm() > k_max_slide_m;
 }
 
 bool is_among(const ContactPoint& contact, std::span<const ContactPoint> points) {
@@ -108,7 +109,7 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points) {
     if (!move_proxies(moving)) {
-        return FoundContacts::as_before;
+        return FoundContacts::unchanged;
     }
     moving.collision.set_proxies(moving.proxies);
     moving.collision.find_contacts(limits, moving.scratch);

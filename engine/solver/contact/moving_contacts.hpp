@@ -27,7 +27,7 @@ enum class OldPoints : std::uint8_t {
            // to the next is met by all of them
 };
 
-enum class FoundContacts : std::uint8_t { as_before, clear, overlapping };
+enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 
 // Sweeps colliders from their last valid pose to where the solver's bodies are now, and makes the
 // contacts found there the graph's rows; islands are built anew. As before, and nothing done, where

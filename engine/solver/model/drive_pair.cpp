@@ -8,9 +8,9 @@ constexpr double k_no_line_m = 1e-6;
 
 }  // namespace
 
-Quat rotation_by_two_hands(const TwoHands& hands, const Quat& near) {
-    const Vec3 apart = hands.second.position - hands.first.position;
-    const Vec3 apart_bs = hands.second_anchor_bs.position - hands.first_anchor_bs.position;
+Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
+    const Vec3 apart = drives.second.position - drives.first.position;
+    const Vec3 apart_bs = drives.second_anchor_bs.position - drives.first_anchor_bs.position;
     if (apart.norm() < k_no_line_m || apart_bs.norm() < k_no_line_m) {
         return near;
     }
@@ -19,14 +19,14 @@ Quat rotation_by_two_hands(const TwoHands& hands, const Quat& near) {
     const Quat lined = rotation_between((near * apart_bs).normalized(), line) * near;
     double sine = 0.0;
     double cosine = 0.0;
-    const auto add = [&](const Quat& hand, const Quat& anchor_bs) {
-        const Quat error = hand * (lined * anchor_bs).conjugate();
+    const auto add = [&](const Quat& drive, const Quat& anchor_bs) {
+        const Quat error = drive * (lined * anchor_bs).conjugate();
         const double sign = error.w() < 0.0 ? -1.0 : 1.0;
         sine += sign * error.vec().dot(line);
         cosine += sign * error.w();
     };
-    add(hands.first.rotation, hands.first_anchor_bs.rotation);
-    add(hands.second.rotation, hands.second_anchor_bs.rotation);
+    add(drives.first.rotation, drives.first_anchor_bs.rotation);
+    add(drives.second.rotation, drives.second_anchor_bs.rotation);
     // Half-angle vectors of equal length: their sum points half way between them.
     return (rotation_about(line, 2.0 * arc_tangent2(sine, cosine)) * lined).normalized();
 }

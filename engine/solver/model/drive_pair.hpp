@@ -9,7 +9,7 @@ namespace handhold {
 
 // The hands in one space, which the rotations below are seen in too; anchors in the body's frame.
 // Both the hands and the anchors lie apart.
-struct TwoHands {
+struct DrivePair {
     Pose first;
     Pose second;
     Pose first_anchor_bs;
@@ -24,6 +24,6 @@ struct TwoHands {
 //   by half a turn has no twist, and no say.
 // `near`, any rotation within half a turn of both hands' twists, says which turns are meant.
 // Returns `near` where hands or anchors are closer than a micrometre.
-Quat rotation_by_two_hands(const TwoHands& hands, const Quat& near);
+Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near);
 
 }  // namespace handhold

@@ -7,22 +7,23 @@
 namespace handhold {
 namespace {
 
-using FourTumbling = FreeRotations::FourTumbling;
+using FreeRotation4 = FreeRotations::FreeRotation4;
 
 // One of a body's three axes: its moment, and what the momentum and the rotation's vector have
 // along it.
 struct PrincipalAxis {
-    Four inertia;
-    Four momentum;
-    Four vector;
+    Double4 inertia;
+    Double4 momentum;
+    Double4 vector;
 };
 // From the smallest moment to the largest. An odd number of exchanges mirrors them: `hand` is -1.
 struct SortedAxes {
     PrincipalAxis axis[3];
-    Four hand;
+    Double4 handedness;
 };
 
-HH_INLINE FourBits exchange(const FourBits& where, PrincipalAxis& a, PrincipalAxis& b, Four& hand) {
+HH_INLINE Mask4 exchange(const Mask4& where, PrincipalAxis& a, PrincipalAxis& b,
+                         Double4& handedness) {
     const PrincipalAxis first = a;
     a.inertia = where ? b.inertia : a.inertia;
     a.momentum = where ? b.momentum : a.momentum;
@@ -30,85 +31,88 @@ HH_INLINE FourBits exchange(const FourBits& where, PrincipalAxis& a, PrincipalAx
     b.inertia = where ? first.inertia : b.inertia;
     b.momentum = where ? first.momentum : b.momentum;
     b.vector = where ? first.vector : b.vector;
-    hand = where ? -hand : hand;
+    handedness = where ? -handedness : handedness;
     return where;
 }
-HH_INLINE FourBits sort_two(PrincipalAxis& a, PrincipalAxis& b, Four& hand) {
-    return exchange(b.inertia < a.inertia, a, b, hand);
+HH_INLINE Mask4 sort_two(PrincipalAxis& a, PrincipalAxis& b, Double4& handedness) {
+    return exchange(b.inertia < a.inertia, a, b, handedness);
 }
 
-struct FourSines {
-    Four sine, cosine;
+struct Sines4 {
+    Double4 sine, cosine;
 };
 
 // Turns the bodies about one of their own axes, by the sines of half the angle; the momentum stays
 // in the world, so it turns back in the body. `following` and `remaining` come after it in the
 // order of a right hand.
-HH_INLINE void turn_about_axis(const FourSines& half, const Four& hand, PrincipalAxis& about,
-                               PrincipalAxis& following, PrincipalAxis& remaining, Four& w) {
-    const Four& s = half.sine;
-    const Four& c = half.cosine;
-    const Four before = w;
+HH_INLINE void turn_about_axis(const Sines4& half, const Double4& handedness, PrincipalAxis& about,
+                               PrincipalAxis& following, PrincipalAxis& remaining, Double4& w) {
+    const Double4& s = half.sine;
+    const Double4& c = half.cosine;
+    const Double4 before = w;
     w = before * c - about.vector * s;
     about.vector = about.vector * c + before * s;
-    const Four along = following.vector;
-    const Four handed = hand * s;
+    const Double4 along = following.vector;
+    const Double4 handed = handedness * s;
     following.vector = along * c + remaining.vector * handed;
     remaining.vector = remaining.vector * c - along * handed;
-    const Four sine = 2.0 * handed * c;
-    const Four cosine = c * c - s * s;
-    const Four momentum = following.momentum;
+    const Double4 sine = 2.0 * handed * c;
+    const Double4 cosine = c * c - s * s;
+    const Double4 momentum = following.momentum;
     following.momentum = momentum * cosine + remaining.momentum * sine;
     remaining.momentum = remaining.momentum * cosine - momentum * sine;
 }
-HH_INLINE void turn_about_axis(const Four& angle_rad, const Four& hand, PrincipalAxis& about,
-                               PrincipalAxis& following, PrincipalAxis& remaining, Four& w) {
-    FourSines half;
+HH_INLINE void turn_about_axis(const Double4& angle_rad, const Double4& handedness,
+                               PrincipalAxis& about, PrincipalAxis& following,
+                               PrincipalAxis& remaining, Double4& w) {
+    Sines4 half;
     sin_cos(0.5 * angle_rad, half.sine, half.cosine);
-    turn_about_axis(half, hand, about, following, remaining, w);
+    turn_about_axis(half, handedness, about, following, remaining, w);
 }
 
-HH_INLINE Four steps_for(const Four& spin_radps, double dt_s) {
+HH_INLINE Double4 steps_for(const Double4& spin_radps, double dt_s) {
     constexpr double k_largest_turn_rad = 0.25;
-    constexpr double k_most_steps = 256.0;
-    const Four wanted = spin_radps * dt_s / k_largest_turn_rad;
-    const Four nearest = (wanted + k_last_place_one) - k_last_place_one;
-    const Four up = nearest < wanted ? nearest + 1.0 : nearest;
-    const Four some = larger(zero_four() + 1.0, up);
-    return some < k_most_steps ? some : zero_four() + k_most_steps;
+    constexpr double k_max_steps = 256.0;
+    const Double4 wanted = spin_radps * dt_s / k_largest_turn_rad;
+    const Double4 nearest = (wanted + k_last_place_one) - k_last_place_one;
+    const Double4 up = nearest < wanted ? nearest + 1.0 : nearest;
+    const Double4 some = larger(zero4() + 1.0, up);
+    return some < k_max_steps ? some : zero4() + k_max_steps;
 }
 
-HH_INLINE void turn_others(double dt_s, const Four& spin_radps, const Four& of_least,
-                           const Four& of_most, SortedAxes& axes, Four& w) {
+HH_INLINE void turn_others(double dt_s, const Double4& spin_radps, const Double4& of_least,
+                           const Double4& of_most, SortedAxes& axes, Double4& w) {
     PrincipalAxis& least = axes.axis[0];
     PrincipalAxis& middle = axes.axis[1];
     PrincipalAxis& most = axes.axis[2];
-    const Four steps = steps_for(spin_radps, dt_s);
-    const Four step_s = dt_s / steps;
+    const Double4 steps = steps_for(spin_radps, dt_s);
+    const Double4 step_s = dt_s / steps;
     const double count = largest(steps);
     for (double i = 0.0; i < count; i += 1.0) {
-        const Four now_s = steps > i ? step_s : zero_four();  // some are there before others
-        const Four half_s = 0.5 * now_s;
-        turn_about_axis(half_s * of_least * least.momentum, axes.hand, least, middle, most, w);
-        turn_about_axis(now_s * of_most * most.momentum, axes.hand, most, least, middle, w);
-        turn_about_axis(half_s * of_least * least.momentum, axes.hand, least, middle, most, w);
+        const Double4 now_s = steps > i ? step_s : zero4();  // some are there before others
+        const Double4 half_s = 0.5 * now_s;
+        turn_about_axis(half_s * of_least * least.momentum, axes.handedness, least, middle, most,
+                        w);
+        turn_about_axis(now_s * of_most * most.momentum, axes.handedness, most, least, middle, w);
+        turn_about_axis(half_s * of_least * least.momentum, axes.handedness, least, middle, most,
+                        w);
     }
 }
 
 // A four on its way through the stages below.
-struct FourTurning {
+struct Rotation4 {
     Wide3 momentum_ws;
     SortedAxes axes;
-    FourBits exchanged[3];   // of the axes, in turn
-    Four of_least, of_most;  // 1 / moment: what the outer axes have more or less than the middle
-    Wide3 turn;              // the part all three moments share: about the momentum, in the world
-    Four turn_rad;           // its length
-    Four top_rad;            // tops: of the turn about their own axis
-    FourSines half_turn, half_top;
+    Mask4 exchanged[3];         // of the axes, in turn
+    Double4 of_least, of_most;  // 1 / moment: what the outer axes have more or less than the middle
+    Wide3 turn;        // the part all three moments share: about the momentum, in the world
+    Double4 turn_rad;  // its length
+    Double4 top_rad;   // tops: of the turn about their own axis
+    Sines4 half_turn, half_top;
 };
 
 // Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
-HH_INLINE void begin_turn(double dt_s, const FourTumbling& bodies, FourTurning& out) {
+HH_INLINE void begin_turn(double dt_s, const FreeRotation4& bodies, Rotation4& out) {
     const WideAxes before = axes_of(bodies.rotation);
     const Wide3 spin_bs = rotate_back(before, bodies.spin);
     const Wide3& inertia = bodies.inertia;
@@ -117,16 +121,16 @@ HH_INLINE void begin_turn(double dt_s, const FourTumbling& bodies, FourTurning& 
     SortedAxes axes{{{inertia.x, momentum_bs.x, bodies.rotation.x},
                      {inertia.y, momentum_bs.y, bodies.rotation.y},
                      {inertia.z, momentum_bs.z, bodies.rotation.z}},
-                    zero_four() + 1.0};
-    out.exchanged[0] = sort_two(axes.axis[0], axes.axis[1], axes.hand);
-    out.exchanged[1] = sort_two(axes.axis[1], axes.axis[2], axes.hand);
-    out.exchanged[2] = sort_two(axes.axis[0], axes.axis[1], axes.hand);
-    const Four shared = 1.0 / axes.axis[1].inertia;
+                    zero4() + 1.0};
+    out.exchanged[0] = sort_two(axes.axis[0], axes.axis[1], axes.handedness);
+    out.exchanged[1] = sort_two(axes.axis[1], axes.axis[2], axes.handedness);
+    out.exchanged[2] = sort_two(axes.axis[0], axes.axis[1], axes.handedness);
+    const Double4 shared = 1.0 / axes.axis[1].inertia;
     out.of_least = 1.0 / axes.axis[0].inertia - shared;
     out.of_most = 1.0 / axes.axis[2].inertia - shared;
     const Wide3 turn = (dt_s * shared) * momentum_ws;
     out.turn_rad = square_root(dot(turn, turn));
-    const FourBits is_most = out.of_most != 0.0;
+    const Mask4 is_most = out.of_most != 0.0;
     out.top_rad = dt_s * (is_most ? out.of_most : out.of_least) *
                   (is_most ? axes.axis[2].momentum : axes.axis[0].momentum);
     assign(turn, out.turn);
@@ -135,38 +139,38 @@ HH_INLINE void begin_turn(double dt_s, const FourTumbling& bodies, FourTurning& 
 }
 
 // Bodies two of whose moments are equal turn about one axis of their own only, and exactly.
-HH_INLINE void turn_tops(const FourTurning& turning, SortedAxes& axes, Four& w) {
-    const FourBits is_most = turning.of_most != 0.0;
-    Four hand = axes.hand;
-    exchange(is_most, axes.axis[0], axes.axis[2], hand);
-    turn_about_axis(turning.half_top, hand, axes.axis[0], axes.axis[1], axes.axis[2], w);
-    exchange(is_most, axes.axis[0], axes.axis[2], hand);
+HH_INLINE void turn_tops(const Rotation4& turning, SortedAxes& axes, Double4& w) {
+    const Mask4 is_most = turning.of_most != 0.0;
+    Double4 handedness = axes.handedness;
+    exchange(is_most, axes.axis[0], axes.axis[2], handedness);
+    turn_about_axis(turning.half_top, handedness, axes.axis[0], axes.axis[1], axes.axis[2], w);
+    exchange(is_most, axes.axis[0], axes.axis[2], handedness);
 }
 
 template <bool AreTops>
-HH_INLINE void turn_four(double dt_s, const FourTurning& turning, FourTumbling& bodies) {
+HH_INLINE void turn_four(double dt_s, const Rotation4& turning, FreeRotation4& bodies) {
     SortedAxes axes = turning.axes;
-    Four w = bodies.rotation.w;
+    Double4 w = bodies.rotation.w;
     if (AreTops) {
         turn_tops(turning, axes, w);
     } else {
         turn_others(dt_s, square_root(dot(bodies.spin, bodies.spin)), turning.of_least,
                     turning.of_most, axes, w);
     }
-    Four hand = axes.hand;
-    exchange(turning.exchanged[2], axes.axis[0], axes.axis[1], hand);
-    exchange(turning.exchanged[1], axes.axis[1], axes.axis[2], hand);
-    exchange(turning.exchanged[0], axes.axis[0], axes.axis[1], hand);
+    Double4 handedness = axes.handedness;
+    exchange(turning.exchanged[2], axes.axis[0], axes.axis[1], handedness);
+    exchange(turning.exchanged[1], axes.axis[1], axes.axis[2], handedness);
+    exchange(turning.exchanged[0], axes.axis[0], axes.axis[1], handedness);
     constexpr double k_still_rad = 1e-12;
-    const Four share = turning.turn_rad < k_still_rad ? zero_four() + 0.5
-                                                      : turning.half_turn.sine / turning.turn_rad;
+    const Double4 share =
+        turning.turn_rad < k_still_rad ? zero4() + 0.5 : turning.half_turn.sine / turning.turn_rad;
     assign(turned(share * turning.turn, turning.half_turn.cosine,
                   {axes.axis[0].vector, axes.axis[1].vector, axes.axis[2].vector, w}),
            bodies.rotation);
 }
 
 // From the momentum in the world, which is what it was: no rounding adds up.
-HH_INLINE void write_spin(const FourTurning& turning, FourTumbling& bodies) {
+HH_INLINE void write_spin(const Rotation4& turning, FreeRotation4& bodies) {
     const Wide3& inertia = bodies.inertia;
     const WideAxes after = axes_of(bodies.rotation);
     const Wide3 back = rotate_back(after, turning.momentum_ws);
@@ -177,17 +181,17 @@ HH_INLINE void write_spin(const FourTurning& turning, FourTumbling& bodies) {
 // Stage by stage: a four's numbers wait for each other in long chains, and while one waits the
 // processor looks ahead to the next only where that is near.
 template <bool AreTops>
-HH_INLINE void advance_fours(double dt_s, std::span<FourTumbling> fours) {
-    FourTurning turnings[FreeRotations::k_fours];
+HH_INLINE void advance_fours(double dt_s, std::span<FreeRotation4> fours) {
+    Rotation4 turnings[FreeRotations::k_fours];
     for (std::size_t i = 0; i < fours.size(); ++i) {
         begin_turn(dt_s, fours[i], turnings[i]);
     }
     for (std::size_t i = 0; i < fours.size(); ++i) {
-        FourTurning& turning = turnings[i];
+        Rotation4& turning = turnings[i];
         sin_cos(0.5 * turning.turn_rad, turning.half_turn.sine, turning.half_turn.cosine);
     }
     for (std::size_t i = 0; AreTops && i < fours.size(); ++i) {
-        FourTurning& turning = turnings[i];
+        Rotation4& turning = turnings[i];
         sin_cos(0.5 * turning.top_rad, turning.half_top.sine, turning.half_top.cosine);
     }
     for (std::size_t i = 0; i < fours.size(); ++i) {
@@ -198,18 +202,18 @@ HH_INLINE void advance_fours(double dt_s, std::span<FourTumbling> fours) {
     }
 }
 
-void advance_tops_portable(double dt_s, std::span<FourTumbling> fours) {
+void advance_tops_portable(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<true>(dt_s, fours);
 }
-void advance_any_portable(double dt_s, std::span<FourTumbling> fours) {
+void advance_any_portable(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<false>(dt_s, fours);
 }
 
 #ifdef __x86_64__
-HH_AVX2 void advance_tops_avx2(double dt_s, std::span<FourTumbling> fours) {
+HH_AVX2 void advance_tops_avx2(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<true>(dt_s, fours);
 }
-HH_AVX2 void advance_any_avx2(double dt_s, std::span<FourTumbling> fours) {
+HH_AVX2 void advance_any_avx2(double dt_s, std::span<FreeRotation4> fours) {
     advance_fours<false>(dt_s, fours);
 }
 #else
@@ -246,7 +250,7 @@ void FreeRotations::finish() {
 
 void FreeRotations::write(std::size_t place, const Vec3& inertia_kgm2, const Quat& rotation,
                           const Vec3& spin_radps, Batch& batch) {
-    FourTumbling& four = batch.fours[place / k_lanes];
+    FreeRotation4& four = batch.fours[place / k_lanes];
     set_lane(place % k_lanes, inertia_kgm2, four.inertia);
     set_lane(place % k_lanes, rotation, four.rotation);
     set_lane(place % k_lanes, spin_radps, four.spin);
@@ -269,7 +273,7 @@ void FreeRotations::advance(Kind kind) {
         (has_avx2 ? advance_any_avx2 : advance_any_portable)(dt_s_, {batch.fours.data(), fours});
     }
     for (std::size_t place = 0; place < batch.count; ++place) {
-        const FourTumbling& four = batch.fours[place / k_lanes];
+        const FreeRotation4& four = batch.fours[place / k_lanes];
         get_lane(place % k_lanes, four.rotation, *batch.out[place].rotation);
         get_lane(place % k_lanes, four.spin, *batch.out[place].spin_radps);
     }

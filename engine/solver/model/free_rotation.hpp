@@ -29,7 +29,7 @@ class FreeRotations {
     // cache before it is read four at a time.
     static constexpr std::size_t k_fours = 8;
     // Lane i is the i-th of four bodies.
-    struct FourTumbling {
+    struct FreeRotation4 {
         Wide3 inertia;
         Wide4 rotation;
         Wide3 spin;
@@ -43,7 +43,7 @@ class FreeRotations {
         Vec3* spin_radps = nullptr;
     };
     struct Batch {
-        std::array<FourTumbling, k_fours> fours;
+        std::array<FreeRotation4, k_fours> fours;
         std::array<Out, k_batch> out;
         std::size_t count = 0;
     };

@@ -6,8 +6,8 @@ bool passes(BlockFilter filter, const RowBlock& block) {
     switch (filter) {
         case BlockFilter::without_contacts:
             return !is_contact(block);
-        case BlockFilter::without_hands:
-            return !is_hand(block);
+        case BlockFilter::without_drives:
+            return !is_drive(block);
         case BlockFilter::all:
             break;
     }

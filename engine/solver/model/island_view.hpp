@@ -7,7 +7,7 @@
 
 namespace handhold {
 
-enum class BlockFilter : std::uint8_t { all, without_contacts, without_hands };
+enum class BlockFilter : std::uint8_t { all, without_contacts, without_drives };
 bool passes(BlockFilter filter, const RowBlock& block);
 
 // An island's part of the graph. Blocks between two bodies with zero inverse mass are passed over.

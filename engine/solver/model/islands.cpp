@@ -65,7 +65,7 @@ void place_members(ConstraintGraph& graph) {
 }
 
 // True where bodies and blocks are tied as they were when the islands were built.
-bool is_tied_as_before(const ConstraintGraph& graph) {
+bool has_same_topology(const ConstraintGraph& graph) {
     const auto is_same_body = [](const SolverBody& body, std::uint8_t was_movable) {
         return is_movable(body) == (was_movable != 0);
     };
@@ -73,22 +73,22 @@ bool is_tied_as_before(const ConstraintGraph& graph) {
         return block.a == tie[0] && block.b == tie[1];
     };
     return std::ranges::equal(graph.bodies, graph.are_movable, is_same_body) &&
-           std::ranges::equal(graph.blocks, graph.ties, is_same_block);
+           std::ranges::equal(graph.blocks, graph.block_bodies, is_same_block);
 }
 
-void note_ties(ConstraintGraph& graph) {
+void record_topology(ConstraintGraph& graph) {
     graph.are_movable.clear();
     for (const SolverBody& body : graph.bodies) {
         graph.are_movable.push_back(is_movable(body) ? 1 : 0);
     }
-    graph.ties.clear();
+    graph.block_bodies.clear();
     for (const RowBlock& block : graph.blocks) {
-        graph.ties.push_back({block.a, block.b});
+        graph.block_bodies.push_back({block.a, block.b});
     }
 }
 
 // Bodies are written anew in every frame.
-void number_slots(ConstraintGraph& graph) {
+void assign_slots(ConstraintGraph& graph) {
     for (const Island& island : graph.islands) {
         std::uint32_t slot = 0;
         for (const std::uint32_t body : graph.bodies_of(island)) {
@@ -135,11 +135,11 @@ void sort_blocks(ConstraintGraph& graph) {
 
 void build_islands(ConstraintGraph& graph) {
     ++graph.revision;
-    if (is_tied_as_before(graph)) {
-        number_slots(graph);
+    if (has_same_topology(graph)) {
+        assign_slots(graph);
         return;
     }
-    note_ties(graph);
+    record_topology(graph);
     unite_blocks(graph);
     graph.islands.clear();
     graph.island_of_root.assign(graph.bodies.size(), k_none);
@@ -162,7 +162,7 @@ void build_islands(ConstraintGraph& graph) {
         ++graph.islands[graph.island_of_root[root]].blocks_end;
     }
     place_members(graph);
-    number_slots(graph);
+    assign_slots(graph);
 }
 
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands) {
@@ -177,7 +177,7 @@ IslandErrors island_errors(const ConstraintGraph& graph, const Island& island) {
     IslandErrors errors;
     for (const std::uint32_t i : graph.blocks_of(island)) {
         const RowBlock& block = graph.blocks[i];
-        double& worst = is_hand(block)      ? errors.hands_m
+        double& worst = is_drive(block)     ? errors.drives_m
                         : is_contact(block) ? errors.contacts_m
                                             : errors.joints_m;
         worst = std::max(worst, block_error_m(graph.bodies, block));

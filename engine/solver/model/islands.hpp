@@ -38,8 +38,8 @@ struct ConstraintGraph {
     }
 
     // What the islands were built from: they stay as long as it does.
-    std::vector<std::uint8_t> are_movable;           // by body
-    std::vector<std::array<std::uint32_t, 2>> ties;  // by block: its bodies
+    std::vector<std::uint8_t> are_movable;                   // by body
+    std::vector<std::array<std::uint32_t, 2>> block_bodies;  // by block: its bodies
 
     // Scratch of sort_blocks and build_islands.
     struct BlockPlace {
@@ -72,13 +72,13 @@ void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> i
 
 // The worst error of each kind of row at the present poses, or a bound on it, metres.
 struct IslandErrors {
-    double hands_m = 0.0;
+    double drives_m = 0.0;
     double joints_m = 0.0;
     double contacts_m = 0.0;
     std::optional<JointError> joints;  // the joints' own, not a bound, where a solve has told it
 
-    double without_hands_m() const { return std::max(joints_m, contacts_m); }
-    double worst_m() const { return std::max(hands_m, without_hands_m()); }
+    double without_drives_m() const { return std::max(joints_m, contacts_m); }
+    double worst_m() const { return std::max(drives_m, without_drives_m()); }
 };
 IslandErrors island_errors(const ConstraintGraph& graph, const Island& island);
 

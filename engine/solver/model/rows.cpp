@@ -63,7 +63,7 @@ void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
         row.linear_a = unit;
         row.angular_a = ends.arm_a.cross(unit);
         row.angular_b = -ends.arm_b.cross(unit);
-        row.value_m = ends.error[axis];
+        row.residual = ends.error[axis];
         row.width = axis == 0 ? 3 : 0;
         rows.push_back(row);
     }
@@ -73,9 +73,9 @@ void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
 void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
     row.linear_a.setZero();
     for (int axis = 0; axis < 3; ++axis) {
-        row.angular_a = k_angle_m * Vec3::Unit(axis);
+        row.angular_a = k_angle_lever_m * Vec3::Unit(axis);
         row.angular_b = -row.angular_a;
-        row.value_m = k_angle_m * error_rad[axis];
+        row.residual = k_angle_lever_m * error_rad[axis];
         row.width = axis == 0 ? 3 : 0;
         rows.push_back(row);
     }
@@ -93,11 +93,11 @@ void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
     row.linear_a.setZero();
     for (int axis = 1; axis < 3; ++axis) {
         const Vec3 side = frame_a_ws * Vec3::Unit(axis);
-        row.angular_a = (k_angle_m * stretch) * side.cross(axis_b_ws);
+        row.angular_a = (k_angle_lever_m * stretch) * side.cross(axis_b_ws);
         row.angular_b = -row.angular_a;
-        row.value_m = k_angle_m * stretch * side.dot(axis_b_ws);
+        row.residual = k_angle_lever_m * stretch * side.dot(axis_b_ws);
         if (is_opposed) {
-            row.value_m = axis == 1 ? k_angle_m * angle : 0.0;
+            row.residual = axis == 1 ? k_angle_lever_m * angle : 0.0;
         }
         row.width = axis == 1 ? 2 : 0;
         rows.push_back(row);
@@ -110,7 +110,7 @@ void append_line_rows(const Quat& frame_a_ws, const Ends& ends, Row row, std::ve
         row.linear_a = frame_a_ws * Vec3::Unit(axis);
         row.angular_a = (ends.arm_a - ends.error).cross(row.linear_a);
         row.angular_b = -ends.arm_b.cross(row.linear_a);
-        row.value_m = row.linear_a.dot(ends.error);
+        row.residual = row.linear_a.dot(ends.error);
         row.width = axis == 1 ? 2 : 0;
         rows.push_back(row);
     }
@@ -124,7 +124,7 @@ void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& bloc
     row.angular_a = ends.arm_a.cross(normal);
     // The normal turns with b: b's arm reaches to a's point, not to its own.
     row.angular_b = -(ends.arm_b + ends.error).cross(normal);
-    row.value_m = normal.dot(ends.error);
+    row.residual = normal.dot(ends.error);
     rows.push_back(row);
 }
 
@@ -169,7 +169,7 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     if (!joint.limited) {
         return;
     }
-    const double lever = turns(block.kind) ? k_angle_m : 1.0;
+    const double lever = is_angular(block.kind) ? k_angle_lever_m : 1.0;
     const double coordinate = joint_coordinate(bodies, block);
     // A cone's angle and a distance are never below 0: there no row may stop what swings through.
     const bool has_lower =
@@ -185,13 +185,13 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     set_rate(bodies, block, row);
     scale(row, lever);
     row.unilateral = !locked;
-    row.value_m = above;
+    row.residual = above;
     if (locked || above < reach_m) {
         rows.push_back(row);
     }
     if (!locked && below < reach_m) {
         scale(row, -1.0);
-        row.value_m = below;
+        row.residual = below;
         rows.push_back(row);
     }
 }
@@ -207,23 +207,23 @@ double limit_excess(std::span<const SolverBody> bodies, const RowBlock& block) {
 
 }  // namespace
 
-bool turns(RowKind kind) { return kind == RowKind::hinge || kind == RowKind::ball; }
+bool is_angular(RowKind kind) { return kind == RowKind::hinge || kind == RowKind::ball; }
 
 void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                  std::uint32_t block_index, std::vector<Row>& rows, double reach_m) {
     const Ends ends(bodies, block);
-    const Row hand = empty_row(block, block_index, RowGroup::hand);
+    const Row drive = empty_row(block, block_index, RowGroup::drive);
     const Row joint = empty_row(block, block_index, RowGroup::joint);
     switch (block.kind) {
-        case RowKind::hand_point:
-            append_point_rows(ends, hand, rows);
+        case RowKind::drive_point:
+            append_point_rows(ends, drive, rows);
             return;
-        case RowKind::hand_weld:
-            append_point_rows(ends, hand, rows);
-            append_weld_rows(rotation_error(bodies, block), hand, rows);
+        case RowKind::drive_weld:
+            append_point_rows(ends, drive, rows);
+            append_weld_rows(rotation_error(bodies, block), drive, rows);
             return;
-        case RowKind::hand_direction:
-            append_weld_rows(rotation_error(bodies, block), hand, rows);
+        case RowKind::drive_direction:
+            append_weld_rows(rotation_error(bodies, block), drive, rows);
             return;
         case RowKind::contact:
             append_contact_row(bodies, block, ends,
@@ -298,7 +298,7 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
     const Vec3 apart = Ends(bodies, block).error;
     JointError error;
     switch (block.kind) {
-        case RowKind::hand_weld:
+        case RowKind::drive_weld:
         case RowKind::fixed:
             error = {apart.norm(), rotation_error(bodies, block).norm()};
             break;
@@ -311,10 +311,10 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
                      rotation_error(bodies, block).norm()};
             break;
         }
-        case RowKind::hand_direction:
+        case RowKind::drive_direction:
             error.angle_rad = rotation_error(bodies, block).norm();
             break;
-        case RowKind::hand_point:
+        case RowKind::drive_point:
         case RowKind::ball:
             error.point_m = apart.norm();
             break;
@@ -322,7 +322,7 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
         case RowKind::contact:
             break;
     }
-    double& limited = turns(block.kind) ? error.angle_rad : error.point_m;
+    double& limited = is_angular(block.kind) ? error.angle_rad : error.point_m;
     limited = std::max(limited, limit_excess(bodies, block));
     return error;
 }
@@ -332,7 +332,7 @@ double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block) 
         return std::max(0.0, -contact_separation_m(bodies, block));
     }
     const JointError error = joint_error(bodies, block);
-    return std::max(error.point_m, k_angle_m * error.angle_rad);
+    return std::max(error.point_m, k_angle_lever_m * error.angle_rad);
 }
 
 double joint_coordinate(std::span<const SolverBody> bodies, const RowBlock& block) {

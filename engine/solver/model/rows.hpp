@@ -15,7 +15,7 @@ enum class BodyRole : std::uint8_t {
     fixed,  // static or kinematic: moved by nothing here
     heavy,  // free, but unmoved by the forward phase
     free,
-    player,  // three degrees of freedom: never turns
+    translating,  // three degrees of freedom: never turns
 };
 
 struct SolverBody {
@@ -40,17 +40,17 @@ struct SolverBody {
 // What a block of rows holds together. "a's frame" and "b's frame" are point and rotation of the
 // block in each body; a joint's axis is the local x of its frames.
 enum class RowKind : std::uint8_t {
-    hand_point,  // 3 rows: a's point on b's point
-    hand_weld,   // 6 rows: and a's rotation on b's
+    drive_point,  // 3 rows: a's point on b's point
+    drive_weld,   // 6 rows: and a's rotation on b's
     // 3 rows: a's rotation on b's. The second of two hands on one body: the direction of the line
     // between the hands and the twist about it, both turned by the body alone; its points take part
     // in no row, they may slide along the line. See two_hands.hpp.
-    hand_direction,
+    drive_direction,
     contact,   // 1 row, >= 0: separation along b's normal
     ball,      // 3 rows: a's point on b's point
     hinge,     // 5 rows: and the axes along each other
     slider,    // 5 rows: b's point on a's axis, and a's rotation on b's
-    fixed,     // 6 rows: as hand_weld
+    fixed,     // 6 rows: as drive_weld
     distance,  // no row of its own: only limits
 };
 
@@ -67,9 +67,9 @@ struct JointRows {
     // coordinate, at most this impulse, N s or N m s; a pull towards a coordinate, as fast as gets
     // there in a time, by at most that impulse; and what a lock takes before it gives way, 0: all.
     double friction_impulse = 0.0;
-    double drive_to = 0.0;  // m or rad
-    double drive_s = 0.0;   // > 0 where it is driven
-    double drive_impulse = 0.0;
+    double motor_target = 0.0;  // m or rad
+    double motor_time_s = 0.0;  // > 0 where it is driven
+    double motor_max_impulse = 0.0;
     double lock_limit_impulse = 0.0;
 
     double lock_impulse = 0.0;  // out of solve_velocities: what held a locked coordinate
@@ -98,21 +98,21 @@ struct RowBlock {
 
     Vec3 impulse_ws_ns =
         Vec3::Zero();  // out of solve_velocities: on a at its point; b gets the opposite
-    Vec3 couple_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite
+    Vec3 angular_impulse_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite
 };
-inline bool is_hand(RowKind kind) {
-    return kind == RowKind::hand_point || kind == RowKind::hand_weld ||
-           kind == RowKind::hand_direction;
+inline bool is_drive(RowKind kind) {
+    return kind == RowKind::drive_point || kind == RowKind::drive_weld ||
+           kind == RowKind::drive_direction;
 }
-inline bool is_hand(const RowBlock& block) { return is_hand(block.kind); }
+inline bool is_drive(const RowBlock& block) { return is_drive(block.kind); }
 inline bool is_contact(const RowBlock& block) { return block.kind == RowKind::contact; }
-inline bool is_joint(const RowBlock& block) { return !is_hand(block) && !is_contact(block); }
+inline bool is_joint(const RowBlock& block) { return !is_drive(block) && !is_contact(block); }
 
 // Angular errors count as lengths at this lever, metres.
-inline constexpr double k_angle_m = 0.1;
+inline constexpr double k_angle_lever_m = 0.1;
 
 // How a row gives way where not all can be met.
-enum class RowGroup : std::uint8_t { hand, joint, limit, contact };
+enum class RowGroup : std::uint8_t { drive, joint, limit, contact };
 
 // One scalar equation: value + J dx = 0, or >= 0. J as the parts that belong to a's and b's
 // translation and rotation.
@@ -120,7 +120,7 @@ struct Row {
     Vec3 linear_a = Vec3::Zero();  // b's linear part is its negative
     Vec3 angular_a = Vec3::Zero();
     Vec3 angular_b = Vec3::Zero();
-    double value_m = 0.0;
+    double residual = 0.0;
     std::uint32_t block = 0;  // into the graph's blocks
     std::uint32_t a = 0;      // into the graph's bodies
     std::uint32_t b = 0;
@@ -132,7 +132,7 @@ struct Row {
 };
 
 // True where a joint's coordinate is an angle.
-bool turns(RowKind kind);
+bool is_angular(RowKind kind);
 
 // Appends the block's rows at the bodies' present poses. Limits farther away than reach_m (angles
 // at their lever) are left out.
@@ -146,7 +146,9 @@ Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block);
 // one on the other.
 Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block);
 // True for the first of three rows that hold a's point on b's, one a world axis.
-inline bool begins_point(const Row& row) { return row.width == 3 && row.linear_a == Vec3::UnitX(); }
+inline bool starts_point_rows(const Row& row) {
+    return row.width == 3 && row.linear_a == Vec3::UnitX();
+}
 
 // Rows that only velocities have: a contact's two directions along the surface, a joint's free
 // directions. Value 0. Returns how many.
@@ -154,8 +156,8 @@ std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlo
                                 std::uint32_t block_index, std::vector<Row>& rows);
 
 // The block's error at the present poses, metres: length of the point error or of the angular one
-// times k_angle_m, whichever is larger; how far a limit is passed; a contact's overlap, 0 where it
-// is apart.
+// times k_angle_lever_m, whichever is larger; how far a limit is passed; a contact's overlap, 0
+// where it is apart.
 double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block);
 // Its two parts where they matter apart, of joints: metres, and radians.
 struct JointError {

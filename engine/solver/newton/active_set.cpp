@@ -9,8 +9,8 @@ namespace handhold {
 namespace {
 
 constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
-constexpr int k_block_changes = 4;  // of all wrong rows at once that may fail to make them fewer
-constexpr int k_descents = 60;      // factorisations after that
+constexpr int k_max_block_pivots = 4;  // of all wrong rows at once that may fail to make them fewer
+constexpr int k_max_descent_steps = 60;  // factorisations after that
 constexpr double k_overlap_m = 1e-10;
 constexpr double k_noise_m = 1e-8;
 
@@ -22,13 +22,13 @@ void RowSystem::assemble(std::span<const SolverBody> bodies,
     lambda_.assign(rows.size(), 0.0);
     values_.resize(rows.size());
     chosen_.resize(rows.size());
-    take_over_active_set(rows);
-    held_.assign(rows.size(), 0);
-    held_lambda_.assign(rows.size(), 0.0);
+    warm_start_active_set(rows);
+    fixed_.assign(rows.size(), 0);
+    fixed_lambda_.assign(rows.size(), 0.0);
 }
 
 // Both lists are in the order of their blocks.
-void RowSystem::take_over_active_set(std::span<const Row> rows) {
+void RowSystem::warm_start_active_set(std::span<const Row> rows) {
     std::swap(keys_, previous_keys_);
     std::swap(active_, previous_active_);
     keys_.clear();
@@ -48,30 +48,30 @@ void RowSystem::take_over_active_set(std::span<const Row> rows) {
     }
 }
 
-void RowSystem::hold(std::size_t row, double lambda) {
-    held_[row] = 1;
-    held_lambda_[row] = lambda;
+void RowSystem::fix_multiplier(std::size_t row, double lambda) {
+    fixed_[row] = 1;
+    fixed_lambda_[row] = lambda;
 }
 
-void RowSystem::release(std::size_t row) {
-    held_[row] = 0;
-    held_lambda_[row] = 0.0;
+void RowSystem::free_multiplier(std::size_t row) {
+    fixed_[row] = 0;
+    fixed_lambda_[row] = 0.0;
 }
 
-double RowSystem::remainder(std::size_t row, double value) const {
+double RowSystem::remaining_residual(std::size_t row, double value) const {
     return value + matrix_.row_motion(row);
 }
 
 // A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
 // it.
-bool RowSystem::is_wrong(const Row& row, std::size_t index) const {
-    if (!row.unilateral || held_[index] != 0) {
+bool RowSystem::violates_complementarity(const Row& row, std::size_t index) const {
+    if (!row.unilateral || fixed_[index] != 0) {
         return false;
     }
     if (active_[index] != 0) {
         return lambda_[index] < 0.0;
     }
-    return remainder(index, row.value_m) < -k_overlap_m;
+    return remaining_residual(index, row.residual) < -k_overlap_m;
 }
 
 void RowSystem::solve_active() {
@@ -81,48 +81,48 @@ void RowSystem::solve_active() {
     matrix_.factorise(chosen_);
     matrix_.solve(values_, lambda_);
     for (std::size_t i = 0; i < size(); ++i) {
-        lambda_[i] = held_[i] != 0 ? held_lambda_[i] : lambda_[i];
+        lambda_[i] = fixed_[i] != 0 ? fixed_lambda_[i] : lambda_[i];
     }
     matrix_.gather_moves(lambda_);
 }
 
 std::span<const double> RowSystem::solve(std::span<const Row> rows) {
     // What the held rows do to the others.
-    const bool holds = std::ranges::any_of(held_, [](std::uint8_t held) { return held != 0; });
+    const bool holds = std::ranges::any_of(fixed_, [](std::uint8_t held) { return held != 0; });
     if (holds) {
-        matrix_.gather_moves(held_lambda_);
+        matrix_.gather_moves(fixed_lambda_);
     }
     for (std::size_t i = 0; i < size(); ++i) {
-        values_[i] = rows[i].value_m + (holds ? matrix_.row_motion(i) : 0.0);
+        values_[i] = rows[i].residual + (holds ? matrix_.row_motion(i) : 0.0);
         if (active_[i] == k_undecided) {
             active_[i] = values_[i] < 0.0 ? 1 : 0;
         }
     }
-    is_unsettled_ = !change_all_wrong(rows) && !descend(rows);
+    active_set_unconverged_ = !block_pivot(rows) && !descend_active_set(rows);
     return lambda_;
 }
 
 // True where it ends with every acting row pushing and no other overlapping. It need not.
-bool RowSystem::change_all_wrong(std::span<const Row> rows) {
+bool RowSystem::block_pivot(std::span<const Row> rows) {
     std::size_t fewest = size() + 1;
-    for (int blocks_left = k_block_changes; blocks_left > 0;) {
+    for (int blocks_left = k_max_block_pivots; blocks_left > 0;) {
         solve_active();
-        wrong_rows_.clear();
+        violating_rows_.clear();
         for (std::uint32_t i = 0; i < size(); ++i) {
-            if (is_wrong(rows[i], i)) {
-                wrong_rows_.push_back(i);
+            if (violates_complementarity(rows[i], i)) {
+                violating_rows_.push_back(i);
             }
         }
-        if (wrong_rows_.empty()) {
+        if (violating_rows_.empty()) {
             return true;
         }
-        if (wrong_rows_.size() < fewest) {
-            fewest = wrong_rows_.size();
-            blocks_left = k_block_changes;
+        if (violating_rows_.size() < fewest) {
+            fewest = violating_rows_.size();
+            blocks_left = k_max_block_pivots;
         } else {
             --blocks_left;
         }
-        for (const std::uint32_t i : wrong_rows_) {
+        for (const std::uint32_t i : violating_rows_) {
             active_[i] ^= 1U;
         }
     }
@@ -133,99 +133,99 @@ bool RowSystem::change_all_wrong(std::span<const Row> rows) {
 // so that no set comes twice, and where the steps run out nothing pulls. Rows that overlap join all
 // at once, or only the worst where that led nowhere. True where the minimum was found, but for
 // noise: a worst overlap that is left out again as soon as it joins.
-bool RowSystem::descend(std::span<const Row> rows) {
-    point_.assign(lambda_.begin(), lambda_.end());
+bool RowSystem::descend_active_set(std::span<const Row> rows) {
+    feasible_lambda_.assign(lambda_.begin(), lambda_.end());
     for (std::size_t i = 0; i < size(); ++i) {
-        if (rows[i].unilateral && held_[i] == 0) {
-            point_[i] = active_[i] != 0 ? std::max(0.0, point_[i]) : 0.0;
-            active_[i] = point_[i] > 0.0 ? 1 : 0;
+        if (rows[i].unilateral && fixed_[i] == 0) {
+            feasible_lambda_[i] = active_[i] != 0 ? std::max(0.0, feasible_lambda_[i]) : 0.0;
+            active_[i] = feasible_lambda_[i] > 0.0 ? 1 : 0;
         }
     }
     bool moves = true;
-    bool one_joined = false;
-    for (int step = 0; step < k_descents; ++step) {
+    bool activated_one = false;
+    for (int step = 0; step < k_max_descent_steps; ++step) {
         solve_active();
-        const Approach approach = approach_solution(rows);
+        const Approach approach = step_towards_solution(rows);
         moves = moves || approach.moves;
-        if (!approach.arrives) {
+        if (!approach.reaches_solution) {
             continue;
         }
-        if (one_joined && !moves) {
-            return worst_remainder(rows) > -k_noise_m;
+        if (activated_one && !moves) {
+            return worst_remaining_residual(rows) > -k_noise_m;
         }
-        one_joined = !moves;
-        if (!join_overlapping(rows, one_joined)) {
+        activated_one = !moves;
+        if (!activate_overlapping(rows, activated_one)) {
             return true;
         }
         moves = false;
     }
-    lambda_.assign(point_.begin(), point_.end());
+    lambda_.assign(feasible_lambda_.begin(), feasible_lambda_.end());
     matrix_.gather_moves(lambda_);
     return false;
 }
 
 // Takes the point towards lambda until a row begins to pull, which is left out.
-RowSystem::Approach RowSystem::approach_solution(std::span<const Row> rows) {
-    constexpr double k_whole_way = 2.0;  // what pulls ever so little stops it at 1 or before
-    const auto way_of = [&](std::size_t i) {
+RowSystem::Approach RowSystem::step_towards_solution(std::span<const Row> rows) {
+    constexpr double k_full_step = 2.0;  // what pulls ever so little stops it at 1 or before
+    const auto step_length_of = [&](std::size_t i) {
         const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
-        return pulls ? point_[i] / (point_[i] - lambda_[i]) : k_whole_way;
+        return pulls ? feasible_lambda_[i] / (feasible_lambda_[i] - lambda_[i]) : k_full_step;
     };
-    double way = k_whole_way;
+    double step_length = k_full_step;
     for (std::size_t i = 0; i < size(); ++i) {
-        way = std::min(way, way_of(i));
+        step_length = std::min(step_length, step_length_of(i));
     }
-    Approach approach{way == k_whole_way};
+    Approach approach{step_length == k_full_step};
     for (std::size_t i = 0; i < size(); ++i) {
-        const double before = point_[i];
-        if (approach.arrives) {
-            point_[i] = lambda_[i];
-        } else if (way_of(i) <= way) {
-            point_[i] = 0.0;
+        const double before = feasible_lambda_[i];
+        if (approach.reaches_solution) {
+            feasible_lambda_[i] = lambda_[i];
+        } else if (step_length_of(i) <= step_length) {
+            feasible_lambda_[i] = 0.0;
             active_[i] = 0;
         } else {
-            point_[i] += way * (lambda_[i] - point_[i]);
+            feasible_lambda_[i] += step_length * (lambda_[i] - feasible_lambda_[i]);
         }
-        approach.moves = approach.moves || point_[i] != before;
+        approach.moves = approach.moves || feasible_lambda_[i] != before;
     }
     return approach;
 }
 
 // The deepest overlap of those that do not act, negative; 0 where none overlaps.
-double RowSystem::worst_remainder(std::span<const Row> rows) const {
+double RowSystem::worst_remaining_residual(std::span<const Row> rows) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
-        if (rows[i].unilateral && held_[i] == 0 && active_[i] == 0) {
-            worst = std::min(worst, remainder(i, rows[i].value_m));
+        if (rows[i].unilateral && fixed_[i] == 0 && active_[i] == 0) {
+            worst = std::min(worst, remaining_residual(i, rows[i].residual));
         }
     }
     return worst;
 }
 
 // True where any row overlaps that does not act.
-bool RowSystem::join_overlapping(std::span<const Row> rows, bool only_worst) {
-    wrong_rows_.clear();
+bool RowSystem::activate_overlapping(std::span<const Row> rows, bool only_worst) {
+    violating_rows_.clear();
     double worst = 0.0;
     for (std::uint32_t i = 0; i < size(); ++i) {
-        if (active_[i] != 0 || !is_wrong(rows[i], i)) {
+        if (active_[i] != 0 || !violates_complementarity(rows[i], i)) {
             continue;
         }
-        const double rest = remainder(i, rows[i].value_m);
+        const double rest = remaining_residual(i, rows[i].residual);
         if (only_worst && rest < worst) {
-            wrong_rows_.clear();
+            violating_rows_.clear();
         }
         if (!only_worst || rest < worst) {
-            wrong_rows_.push_back(i);
+            violating_rows_.push_back(i);
             worst = std::min(worst, rest);
         }
     }
-    for (const std::uint32_t i : wrong_rows_) {
+    for (const std::uint32_t i : violating_rows_) {
         active_[i] = 1;
     }
-    return !wrong_rows_.empty();
+    return !violating_rows_.empty();
 }
 
-std::span<const double> RowSystem::solve_again(std::span<const double> values) {
+std::span<const double> RowSystem::solve_with_last_factor(std::span<const double> values) {
     matrix_.solve(values, lambda_);
     matrix_.gather_moves(lambda_);
     return lambda_;

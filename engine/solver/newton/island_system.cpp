@@ -40,23 +40,23 @@ namespace {
 
 constexpr double k_limit = 100.0;  // times a joint: limits may contradict each other
 
-double softness_of(const Row& row, const Softness& softness) {
+double regularisation_of(const Row& row, const Regularisation& regularisation) {
     switch (row.group) {
-        case RowGroup::hand:
-            return softness.hand;
+        case RowGroup::drive:
+            return regularisation.drive;
         case RowGroup::contact:
-            return softness.contact;
+            return regularisation.contact;
         case RowGroup::limit:
-            return row.unilateral ? k_limit * softness.joint : softness.joint;
+            return row.unilateral ? k_limit * regularisation.joint : regularisation.joint;
         case RowGroup::joint:
             break;
     }
-    return softness.joint;
+    return regularisation.joint;
 }
 
 }  // namespace
 
-void regularise(std::span<const Row> rows, const Softness& softness, double factor,
+void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
                 RowSystem& system) {
     double inverse_sum = 0.0;
     double count = 0.0;
@@ -74,21 +74,21 @@ void regularise(std::span<const Row> rows, const Softness& softness, double fact
     }
     const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;
     for (std::size_t i = 0; i < system.size(); ++i) {
-        const double size = rows[i].group == RowGroup::hand ? mean : system.diagonal(i);
-        system.alpha()[i] = factor * softness_of(rows[i], softness) * size;
+        const double size = rows[i].group == RowGroup::drive ? mean : system.diagonal(i);
+        system.alpha()[i] = factor * regularisation_of(rows[i], regularisation) * size;
     }
 }
 
 double gather_moves(SolveScratch& scratch) {
     const std::span<const RowSystem::Twist> moves = scratch.system.moves();
     scratch.moves_m.resize(moves.size());
-    scratch.turns_rad.resize(moves.size());
+    scratch.rotations_rad.resize(moves.size());
     double largest = 0.0;
     for (std::size_t slot = 0; slot < moves.size(); ++slot) {
         const RowSystem::Twist& move = moves[slot];
         scratch.moves_m[slot] = Vec3(move[0], move[1], move[2]);
-        scratch.turns_rad[slot] = Vec3(move[3], move[4], move[5]);
-        largest = std::max(largest, scratch.turns_rad[slot].squaredNorm());
+        scratch.rotations_rad[slot] = Vec3(move[3], move[4], move[5]);
+        largest = std::max(largest, scratch.rotations_rad[slot].squaredNorm());
     }
     return std::sqrt(largest);
 }

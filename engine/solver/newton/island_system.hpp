@@ -22,7 +22,7 @@ struct SolveScratch {
     std::vector<Mat3> inverse_inertia_ws;  // by slot
     std::vector<Mat3> stiffness;           // by slot
     std::vector<Vec3> moves_m;             // by slot
-    std::vector<Vec3> turns_rad;
+    std::vector<Vec3> rotations_rad;
     std::vector<double> values;
     std::vector<double> lambda;
     std::vector<double> approach_mps;  // by row: normal velocity before the solve
@@ -33,14 +33,14 @@ struct SolveScratch {
         std::size_t normal = 0;  // row whose multiplier times `coefficient` is the limit
         double coefficient = 0.0;
         bool slides = false;
-        bool is_off = false;  // slips freely: its contacts are wedged
+        bool is_frictionless = false;  // slips freely: its contacts are wedged
     };
     std::vector<Friction> frictions;
-    bool is_driven = false;  // a hand or a detent may give energy
+    bool has_energy_source = false;  // a hand or a detent may give energy
     RowSystem system;
     TriadSystem triads;  // in place of all the others where it serves
-    LedHands led;
-    std::vector<Pose> at_once;  // by slot, where steps ran out before hands were led
+    LoadSteppedDrives load_stepped;
+    std::vector<Pose> full_load;  // by slot, where steps ran out before hands were led
 };
 
 bool has_contact(std::span<const Row> rows);
@@ -51,13 +51,13 @@ void clear_stiffness(const IslandView& island, SolveScratch& scratch);
 void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 
 // Times that a solve whose answer is too large to be meant softens its rows.
-inline constexpr int k_softening_retries = 3;
+inline constexpr int k_max_regularisation_retries = 3;
 // The farthest that rows of contacts may move a body, in what they lack: a lever of 1 m.
-inline constexpr double k_largest_move = 10.0;
+inline constexpr double k_max_move_ratio = 10.0;
 
 // Hands by the harmonic mean of the diagonal, so that what one holds weighs as much as the other's;
 // all else by its own entry. Times `factor`.
-void regularise(std::span<const Row> rows, const Softness& softness, double factor,
+void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
                 RowSystem& system);
 
 // W J^T lambda of the system's last solve by slot; returns the largest turn in radians.

@@ -18,56 +18,56 @@ void reserve(std::size_t size, std::vector<T>& values) {
 void reserve_poses(const IslandView& island, std::vector<Pose>& poses) {
     reserve(island.island_bodies.size(), poses);
 }
-void keep_poses(const IslandView& island, std::vector<Pose>& poses) {
+void save_poses(const IslandView& island, std::vector<Pose>& poses) {
     poses.clear();
     for (const std::uint32_t index : island.island_bodies) {
         poses.push_back(island.bodies[index].pose_ws);
     }
 }
-void put_back(const IslandView& island, std::span<const Pose> poses) {
+void restore_poses(const IslandView& island, std::span<const Pose> poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
         island.bodies[island.island_bodies[i]].pose_ws = poses[i];
     }
 }
 
-void LedHands::reserve(const IslandView& island) {
+void LoadSteppedDrives::reserve(const IslandView& island) {
     reserve_poses(island, start_);
-    const auto hands = std::ranges::count_if(
-        island.island_blocks, [&](std::uint32_t index) { return is_hand(island.blocks[index]); });
-    handhold::reserve(static_cast<std::size_t>(hands), hands_);
+    const auto drives = std::ranges::count_if(
+        island.island_blocks, [&](std::uint32_t index) { return is_drive(island.blocks[index]); });
+    handhold::reserve(static_cast<std::size_t>(drives), drives_);
 }
 
-bool LedHands::take(const IslandView& island) {
-    keep_poses(island, start_);
-    hands_.clear();
+bool LoadSteppedDrives::take(const IslandView& island) {
+    save_poses(island, start_);
+    drives_.clear();
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
-        if (!is_hand(block) || !takes_part(island, block)) {
+        if (!is_drive(block) || !takes_part(island, block)) {
             continue;
         }
         const Quat& a_ws = island.bodies[block.a].pose_ws.rotation;
         const Quat& b_ws = island.bodies[block.b].pose_ws.rotation;
-        Hand hand{index, block.point_a_bs, block.rotation_a_bs};
-        if (block.kind != RowKind::hand_direction) {
-            hand.lack_a_bs = a_ws.conjugate() * point_error(island.bodies, block);
+        Drive drive{index, block.point_a_bs, block.rotation_a_bs};
+        if (block.kind != RowKind::drive_direction) {
+            drive.point_error_a_bs = a_ws.conjugate() * point_error(island.bodies, block);
         }
-        if (block.kind != RowKind::hand_point) {
-            hand.turn_a_bs = a_ws.conjugate() * rotation_error(a_ws, b_ws, block);
+        if (block.kind != RowKind::drive_point) {
+            drive.rotation_error_a_bs = a_ws.conjugate() * rotation_error(a_ws, b_ws, block);
         }
-        hands_.push_back(hand);
+        drives_.push_back(drive);
     }
-    return !hands_.empty();
+    return !drives_.empty();
 }
 
-void LedHands::hold_back(const IslandView& island, double share) const {
-    for (const Hand& hand : hands_) {
-        RowBlock& block = island.blocks[hand.block];
-        block.point_a_bs = hand.point_a_bs;
-        block.rotation_a_bs = hand.rotation_a_bs;
+void LoadSteppedDrives::withhold_load(const IslandView& island, double share) const {
+    for (const Drive& drive : drives_) {
+        RowBlock& block = island.blocks[drive.block];
+        block.point_a_bs = drive.point_a_bs;
+        block.rotation_a_bs = drive.rotation_a_bs;
         if (share > 0.0) {
-            block.point_a_bs -= share * hand.lack_a_bs;
+            block.point_a_bs -= share * drive.point_error_a_bs;
             block.rotation_a_bs =
-                rotation_from_vector(-share * hand.turn_a_bs) * hand.rotation_a_bs;
+                rotation_from_vector(-share * drive.rotation_error_a_bs) * drive.rotation_a_bs;
         }
     }
 }

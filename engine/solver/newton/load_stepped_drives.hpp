@@ -10,33 +10,34 @@
 namespace handhold {
 
 // Poses of the island's bodies, by slot.
-void keep_poses(const IslandView& island, std::vector<Pose>& poses);
+void save_poses(const IslandView& island, std::vector<Pose>& poses);
 void reserve_poses(const IslandView& island, std::vector<Pose>& poses);
-void put_back(const IslandView& island, std::span<const Pose> poses);
+void restore_poses(const IslandView& island, std::span<const Pose> poses);
 
 // The hands of one island, and how far they are from what they hold where the bodies start. Keeps
 // its memory.
-class LedHands {
+class LoadSteppedDrives {
   public:
     // As they are at the bodies' present poses. False where there are none.
     bool take(const IslandView& island);
     // Room for such an island's, so that taking them allocates nothing.
     void reserve(const IslandView& island);
     // Puts the bodies where they were then.
-    void go_back(const IslandView& island) const { put_back(island, start_); }
+    void restore_start(const IslandView& island) const { restore_poses(island, start_); }
 
     // Has hands ask for all but `share` of that, in [0, 1]. 0: bitwise as they were taken.
-    void hold_back(const IslandView& island, double share) const;
+    void withhold_load(const IslandView& island, double share) const;
 
   private:
-    struct Hand {
+    struct Drive {
         std::uint32_t block = 0;  // into the graph's blocks
         Vec3 point_a_bs = Vec3::Zero();
         Quat rotation_a_bs = Quat::Identity();
-        Vec3 lack_a_bs = Vec3::Zero();  // from b's point to a's, in a's frame
-        Vec3 turn_a_bs = Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
+        Vec3 point_error_a_bs = Vec3::Zero();  // from b's point to a's, in a's frame
+        Vec3 rotation_error_a_bs =
+            Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
     };
-    std::vector<Hand> hands_;
+    std::vector<Drive> drives_;
     std::vector<Pose> start_;  // by slot
 };
 

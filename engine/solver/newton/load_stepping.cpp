@@ -5,59 +5,61 @@
 namespace handhold {
 namespace {
 
-constexpr int k_parts = 4;
-constexpr double k_on_its_way_m = 1e-5;  // all but the last part end where this is left
+constexpr int k_load_steps = 4;
+constexpr double k_load_step_tolerance_m = 1e-5;  // all but the last part end where this is left
 
 // Gives up where one part cannot be had.
-NewtonResult go_in_parts(const IslandView& island, const NewtonSettings& settings,
-                         SolveScratch& scratch, SolvePart solve) {
-    NewtonSettings on_its_way = settings;
-    on_its_way.tolerance_m = std::max(settings.tolerance_m, k_on_its_way_m);
-    scratch.led.go_back(island);
+NewtonResult run_load_steps(const IslandView& island, const NewtonSettings& settings,
+                            SolveScratch& scratch, SolveLoadStep solve) {
+    NewtonSettings load_step_settings = settings;
+    load_step_settings.tolerance_m = std::max(settings.tolerance_m, k_load_step_tolerance_m);
+    scratch.load_stepped.restore_start(island);
     NewtonResult result;
     int iterations = 0;
-    for (int part = 1; part <= k_parts; ++part) {
-        scratch.led.hold_back(island, 1.0 - static_cast<double>(part) / k_parts);
-        result = solve(island, part < k_parts ? on_its_way : settings, scratch);
+    for (int load_step = 1; load_step <= k_load_steps; ++load_step) {
+        scratch.load_stepped.withhold_load(island,
+                                           1.0 - static_cast<double>(load_step) / k_load_steps);
+        result = solve(island, load_step < k_load_steps ? load_step_settings : settings, scratch);
         iterations += result.iterations;
         if (!result.converged) {
             break;
         }
     }
-    scratch.led.hold_back(island, 0.0);
+    scratch.load_stepped.withhold_load(island, 0.0);
     result.iterations = iterations;
     return result;
 }
 
 }  // namespace
 
-void reserve_leading(const IslandView& island, SolveScratch& scratch) {
-    scratch.led.reserve(island);
-    reserve_poses(island, scratch.at_once);
+void reserve_load_stepping(const IslandView& island, SolveScratch& scratch) {
+    scratch.load_stepped.reserve(island);
+    reserve_poses(island, scratch.full_load);
 }
 
-bool needs_leading(const NewtonResult& at_once, const NewtonSettings& settings) {
-    return !at_once.converged && at_once.iterations == settings.max_iterations &&
-           at_once.hands_from_m - at_once.residual_m > settings.lead_from_m;
+bool needs_load_stepping(const NewtonResult& full_load, const NewtonSettings& settings) {
+    return !full_load.converged && full_load.iterations == settings.max_iterations &&
+           full_load.initial_drive_error_m - full_load.residual_m > settings.load_stepping_from_m;
 }
 
-NewtonResult lead_hands(const IslandView& island, const NewtonSettings& settings,
-                        const NewtonResult& at_once, SolveScratch& scratch, SolvePart solve) {
-    keep_poses(island, scratch.at_once);
-    NewtonResult led = go_in_parts(island, settings, scratch, solve);
-    led.iterations += at_once.iterations;
-    if (led.converged) {
-        led.hands_from_m = at_once.hands_from_m;
-        led.leading = Leading::arrived;
-        return led;
+NewtonResult solve_by_load_stepping(const IslandView& island, const NewtonSettings& settings,
+                                    const NewtonResult& full_load, SolveScratch& scratch,
+                                    SolveLoadStep solve) {
+    save_poses(island, scratch.full_load);
+    NewtonResult load_stepped = run_load_steps(island, settings, scratch, solve);
+    load_stepped.iterations += full_load.iterations;
+    if (load_stepped.converged) {
+        load_stepped.initial_drive_error_m = full_load.initial_drive_error_m;
+        load_stepped.load_stepping = LoadStepping::converged;
+        return load_stepped;
     }
-    put_back(island, scratch.at_once);
+    restore_poses(island, scratch.full_load);
     // With the hands where they were: the solve of velocities goes on from here. What has been
     // loaded before is so again; and if it were not, velocities would load for themselves.
     scratch.triads.load(island);
-    NewtonResult result = at_once;
-    result.iterations = led.iterations;
-    result.leading = Leading::in_vain;
+    NewtonResult result = full_load;
+    result.iterations = load_stepped.iterations;
+    result.load_stepping = LoadStepping::failed;
     return result;
 }
 

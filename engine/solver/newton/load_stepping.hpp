@@ -6,23 +6,24 @@ namespace handhold {
 
 // Newton's method from the bodies' present poses, which it leaves where they got to. Not converged,
 // in no steps, where the island is not what triads serve.
-using SolvePart = NewtonResult (*)(const IslandView& island, const NewtonSettings& settings,
-                                   SolveScratch& scratch);
+using SolveLoadStep = NewtonResult (*)(const IslandView& island, const NewtonSettings& settings,
+                                       SolveScratch& scratch);
 
 // Where hands jump far, on links of very different masses, no number of steps suffices. True where
 // a solve ran out of them on such a jump. A rope that is pulled taut, or that a hand stretches,
 // runs out of them too, frame by frame: there the steps brought the hand next to nothing, and parts
 // of its way are no easier.
-bool needs_leading(const NewtonResult& at_once, const NewtonSettings& settings);
+bool needs_load_stepping(const NewtonResult& full_load, const NewtonSettings& settings);
 
 // Room for what leading takes: whether an island's hands will ever be led nobody knows, and a warm
 // frame allocates nothing.
-void reserve_leading(const IslandView& island, SolveScratch& scratch);
+void reserve_load_stepping(const IslandView& island, SolveScratch& scratch);
 
 // Leads hands part by part of their way, from where `scratch.led` was taken; each part may take as
 // many steps as a solve. `at_once` is the solve that ran out of them, the bodies are where it left
 // them. What cannot be had in parts either stays so.
-NewtonResult lead_hands(const IslandView& island, const NewtonSettings& settings,
-                        const NewtonResult& at_once, SolveScratch& scratch, SolvePart solve);
+NewtonResult solve_by_load_stepping(const IslandView& island, const NewtonSettings& settings,
+                                    const NewtonResult& full_load, SolveScratch& scratch,
+                                    SolveLoadStep solve);
 
 }  // namespace handhold

@@ -20,9 +20,9 @@ double row_velocity(const IslandView& island, const Row& row) {
 }
 
 // Only what has one free coordinate can be pulled to a speed.
-bool has_drive(const RowBlock& block) {
+bool has_motor(const RowBlock& block) {
     return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
-           block.joint.drive_impulse > 0.0;
+           block.joint.motor_max_impulse > 0.0;
 }
 
 // What may slide against a bounded impulse, and what pulls a joint to a speed.
@@ -41,15 +41,15 @@ void collect_frictions(const IslandView& island, const RowBlock& block, std::uin
     }
     if (block.joint.lock_limit_impulse > 0.0 && block.joint.lower == block.joint.upper) {
         // The lock is the last of the joint's rows; angular rows are scaled by their lever.
-        const double lever = turns(block.kind) ? k_angle_m : 1.0;
+        const double lever = is_angular(block.kind) ? k_angle_lever_m : 1.0;
         scratch.frictions.push_back(
             {normal, 1, block.joint.lock_limit_impulse / lever, normal, 0.0, false});
     }
     if (is_joint(block) && block.joint.friction_impulse > 0.0) {
         add(block.joint.friction_impulse, 0.0);
     }
-    if (has_drive(block)) {
-        add(block.joint.drive_impulse, 0.0);
+    if (has_motor(block)) {
+        add(block.joint.motor_max_impulse, 0.0);
     }
 }
 
@@ -57,19 +57,20 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
                            SolveScratch& scratch) {
     scratch.rows.clear();
     scratch.frictions.clear();
-    scratch.is_driven = false;
+    scratch.has_energy_source = false;
     scratch.approach_mps.clear();
     for (const std::uint32_t index : island.island_blocks) {
         RowBlock& block = island.blocks[index];
         block.impulse_ws_ns.setZero();
-        block.couple_ws_nms.setZero();
+        block.angular_impulse_ws_nms.setZero();
         block.joint.lock_impulse = 0.0;
         const bool counts =
             !is_contact(block) || contact_separation_m(island.bodies, block) < settings.touch_m;
         if (!counts || !takes_part(island, block)) {
             continue;
         }
-        scratch.is_driven = scratch.is_driven || is_hand(block) || has_drive(block);
+        scratch.has_energy_source =
+            scratch.has_energy_source || is_drive(block) || has_motor(block);
         append_rows(island.bodies, block, index, scratch.rows, settings.touch_m);
         for (std::size_t i = scratch.approach_mps.size(); i < scratch.rows.size(); ++i) {
             const double speed = row_velocity(island, scratch.rows[i]);
@@ -78,10 +79,10 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
         }
         collect_frictions(island, block, index, scratch);
         scratch.approach_mps.resize(scratch.rows.size(), 0.0);
-        if (has_drive(block)) {
+        if (has_motor(block)) {
             scratch.approach_mps.back() =
-                (joint_coordinate(island.bodies, block) - block.joint.drive_to) /
-                block.joint.drive_s;
+                (joint_coordinate(island.bodies, block) - block.joint.motor_target) /
+                block.joint.motor_time_s;
         }
     }
 }
@@ -92,20 +93,20 @@ void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
         Row& row = scratch.rows[i];
         const RowBlock& block = island.blocks[row.block];
         double speed = row_velocity(island, row) + scratch.approach_mps[i];
-        if (row.group == RowGroup::hand) {
+        if (row.group == RowGroup::drive) {
             speed += row.linear_a.dot(block.drive_velocity_ws_mps);
             if (row.linear_a.isZero(0.0)) {
                 speed += row.angular_a.dot(block.drive_spin_ws_radps);
             }
         }
-        row.value_m = speed;  // metres a second here
+        row.residual = speed;  // metres a second here
     }
 }
 
 void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
     friction.slides = false;
     for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.release(friction.row + i);
+        scratch.system.free_multiplier(friction.row + i);
     }
 }
 
@@ -123,7 +124,7 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
         const std::size_t row = friction.row + i;
         push[static_cast<Eigen::Index>(i)] = lambda[row];
         slip[static_cast<Eigen::Index>(i)] =
-            scratch.system.remainder(row, scratch.rows[row].value_m);
+            scratch.system.remaining_residual(row, scratch.rows[row].residual);
     }
     const double tolerance = 1e-6 * limit + 1e-15;
     if (!friction.slides && push.norm() <= limit + tolerance) {
@@ -141,7 +142,7 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
     const bool changes = !friction.slides || (wanted - push).norm() > tolerance;
     friction.slides = true;
     for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.hold(friction.row + i, wanted[static_cast<Eigen::Index>(i)]);
+        scratch.system.fix_multiplier(friction.row + i, wanted[static_cast<Eigen::Index>(i)]);
     }
     return changes;
 }
@@ -150,7 +151,7 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
 double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) {
     double largest = 0.0;
     for (const SolveScratch::Friction& friction : scratch.frictions) {
-        if (friction.coefficient > 0.0 && !friction.is_off) {
+        if (friction.coefficient > 0.0 && !friction.is_frictionless) {
             largest = std::max(largest, std::abs(lambda[friction.normal]));
         }
     }
@@ -159,19 +160,19 @@ double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) 
 
 // True where the rows of an island that nothing drives give it more energy than they take: half of
 // impulse times velocity, before and after.
-bool gives_energy(std::span<const double> lambda, const VelocityResult& result,
-                  const SolveScratch& scratch) {
+bool adds_energy(std::span<const double> lambda, const VelocityResult& result,
+                 const SolveScratch& scratch) {
     // Of what they exchange, which is out of all proportion where friction was not settled.
-    const double tolerance = result.undecided ? 1e-9 : 1e-3;
+    const double tolerance = result.friction_unconverged ? 1e-9 : 1e-3;
     constexpr double k_slow_mps = 1e-3;
-    if (scratch.is_driven) {
+    if (scratch.has_energy_source) {
         return false;
     }
     double work = 0.0;
     double exchanged = 0.0;
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
-        const double before = scratch.rows[i].value_m - scratch.approach_mps[i];
-        const double after = scratch.system.remainder(i, before);
+        const double before = scratch.rows[i].residual - scratch.approach_mps[i];
+        const double after = scratch.system.remaining_residual(i, before);
         work += 0.5 * lambda[i] * (before + after);
         exchanged += 0.5 * std::abs(lambda[i]) * (std::abs(before) + std::abs(after) + k_slow_mps);
     }
@@ -179,16 +180,17 @@ bool gives_energy(std::span<const double> lambda, const VelocityResult& result,
 }
 
 // Who sticks and who slides, by fixed point. The multipliers are those of the last pass.
-std::span<const double> settle_friction(int passes, SolveScratch& scratch, VelocityResult& result) {
-    constexpr int k_sticking_passes = 6;  // later ones only slide: no going round in circles
-    constexpr double k_wedge = 10.0;      // times what pressed while all stuck
+std::span<const double> solve_stick_slip(int passes, SolveScratch& scratch,
+                                         VelocityResult& result) {
+    constexpr int k_max_stick_passes = 6;  // later ones only slide: no going round in circles
+    constexpr double k_wedge = 10.0;       // times what pressed while all stuck
     std::span<const double> lambda = scratch.system.solve(scratch.rows);
     const double pressed = pressure_of(lambda, scratch);
     for (int pass = 0; pass < passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
-            changes |= !friction.is_off &&
-                       apply_friction_law(lambda, pass < k_sticking_passes, scratch, friction);
+            changes |= !friction.is_frictionless &&
+                       apply_friction_law(lambda, pass < k_max_stick_passes, scratch, friction);
         }
         if (!changes) {
             return lambda;
@@ -199,22 +201,22 @@ std::span<const double> settle_friction(int passes, SolveScratch& scratch, Veloc
             return lambda;
         }
     }
-    result.undecided = true;
+    result.friction_unconverged = true;
     return lambda;
 }
 
-void slip_freely(SolveScratch& scratch, SolveScratch::Friction& friction) {
-    friction.is_off = true;
+void release_friction(SolveScratch& scratch, SolveScratch::Friction& friction) {
+    friction.is_frictionless = true;
     for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.hold(friction.row + i, 0.0);
+        scratch.system.fix_multiplier(friction.row + i, 0.0);
     }
 }
 
 // Newton's law of restitution gains energy where some contacts bounce and others do not.
-void drop_bounce(SolveScratch& scratch) {
+void clear_restitution(SolveScratch& scratch) {
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
         if (scratch.rows[i].group == RowGroup::contact) {
-            scratch.rows[i].value_m -= scratch.approach_mps[i];
+            scratch.rows[i].residual -= scratch.approach_mps[i];
             scratch.approach_mps[i] = 0.0;
         }
     }
@@ -225,14 +227,14 @@ std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
                                             VelocityResult& result) {
     result = {};
     for (SolveScratch::Friction& friction : scratch.frictions) {
-        friction.is_off = false;
+        friction.is_frictionless = false;
         stick(scratch, friction);
     }
     if (scratch.frictions.empty()) {
         return scratch.system.solve(scratch.rows);
     }
-    const std::span<const double> lambda = settle_friction(passes, scratch, result);
-    if (!result.wedged && !gives_energy(lambda, result, scratch)) {
+    const std::span<const double> lambda = solve_stick_slip(passes, scratch, result);
+    if (!result.wedged && !adds_energy(lambda, result, scratch)) {
         return lambda;
     }
     // The harder it is held, the harder it presses, or the more it gains. A wedge has no answer;
@@ -240,14 +242,14 @@ std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
     for (SolveScratch::Friction& friction : scratch.frictions) {
         stick(scratch, friction);
         if (friction.coefficient > 0.0) {
-            slip_freely(scratch, friction);
+            release_friction(scratch, friction);
         }
     }
     result = {};
-    std::span<const double> without = settle_friction(passes, scratch, result);
-    if (gives_energy(without, result, scratch)) {
-        drop_bounce(scratch);
-        without = settle_friction(passes, scratch, result);
+    std::span<const double> without = solve_stick_slip(passes, scratch, result);
+    if (adds_energy(without, result, scratch)) {
+        clear_restitution(scratch);
+        without = solve_stick_slip(passes, scratch, result);
     }
     result.wedged = true;
     return without;
@@ -260,7 +262,7 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
         SolverBody& body = island.bodies[index];
         if (body.inverse_mass > 0.0) {
             body.velocity_mps += scratch.moves_m[body.slot];
-            body.spin_radps += scratch.turns_rad[body.slot];
+            body.spin_radps += scratch.rotations_rad[body.slot];
         }
     }
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
@@ -268,12 +270,12 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
         RowBlock& block = island.blocks[row.block];
         block.impulse_ws_ns += lambda[i] * row.linear_a;
         if (row.linear_a.isZero(0.0)) {
-            block.couple_ws_nms += lambda[i] * row.angular_a;
+            block.angular_impulse_ws_nms += lambda[i] * row.angular_a;
         }
         if (row.group == RowGroup::limit && !row.unilateral) {
             // In the coordinate's own unit: angular rows are scaled by their lever.
             const bool angle = row.linear_a.isZero(0.0);
-            block.joint.lock_impulse += std::abs(lambda[i]) * (angle ? k_angle_m : 1.0);
+            block.joint.lock_impulse += std::abs(lambda[i]) * (angle ? k_angle_lever_m : 1.0);
         }
     }
 }
@@ -282,7 +284,7 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
 double worst_speed(std::span<const Row> rows, const RowSystem& system) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].value_m)) : worst;
+        worst = system.is_active(i) ? std::max(worst, std::abs(rows[i].residual)) : worst;
     }
     return worst;
 }
@@ -301,9 +303,9 @@ void refine_velocities(const IslandView& island, const VelocitySettings& setting
         previous = worst;
         scratch.values.clear();
         for (const Row& row : scratch.rows) {
-            scratch.values.push_back(row.value_m);
+            scratch.values.push_back(row.residual);
         }
-        apply_impulses(island, scratch.system.solve_again(scratch.values), scratch);
+        apply_impulses(island, scratch.system.solve_with_last_factor(scratch.values), scratch);
     }
 }
 
@@ -321,30 +323,32 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     evaluate_velocity_rows(island, scratch);
     clear_stiffness(island, scratch);
     prepare_inertia(island, scratch);
-    scratch.system.forget_active_set();
+    scratch.system.reset_active_set();
     scratch.system.assemble(island.bodies, scratch.inverse_inertia_ws, scratch.rows);
-    double lacking = 0.0;
+    double largest_residual = 0.0;
     for (const Row& row : scratch.rows) {
-        lacking = std::max(lacking, std::abs(row.value_m));
+        largest_residual = std::max(largest_residual, std::abs(row.residual));
     }
     // Contacts that contradict each other (a jam) are met by no velocity; hard ones would try with
     // huge ones. Nobody may gain more than the rows lack.
-    Softness softness = settings.softness;
-    for (int attempt = 0; attempt <= k_softening_retries; ++attempt) {
-        regularise(scratch.rows, softness, 1.0, scratch.system);
+    Regularisation regularisation = settings.regularisation;
+    for (int attempt = 0; attempt <= k_max_regularisation_retries; ++attempt) {
+        regularise(scratch.rows, regularisation, 1.0, scratch.system);
         const std::span<const double> lambda =
             solve_with_friction(settings.friction_passes, scratch, result);
         gather_moves(scratch);
         scratch.lambda.assign(lambda.begin(), lambda.end());
-        if (!has_contact(scratch.rows) || longest_move(scratch) <= k_largest_move * lacking) {
+        if (!has_contact(scratch.rows) ||
+            longest_move(scratch) <= k_max_move_ratio * largest_residual) {
             break;
         }
-        softness.hand *= 100.0;
-        softness.contact *= 100.0;
+        regularisation.drive *= 100.0;
+        regularisation.contact *= 100.0;
     }
-    result.unsettled = scratch.system.is_unsettled();
+    result.active_set_unconverged = scratch.system.is_active_set_unconverged();
     apply_impulses(island, scratch.lambda, scratch);
-    if (softness.contact == settings.softness.contact && !result.unsettled) {
+    if (regularisation.contact == settings.regularisation.contact &&
+        !result.active_set_unconverged) {
         refine_velocities(island, settings, scratch);
     }
     return result;

@@ -8,17 +8,17 @@ namespace handhold {
 struct VelocitySettings {
     double touch_m = 1e-4;               // contacts closer than this count
     double restitution_speed_mps = 0.2;  // slower impacts do not bounce
-    Softness softness{};                 // at first
+    Regularisation regularisation{};     // at first
     int friction_passes = 16;            // at most, to find who sticks and who slides
     double tolerance_mps = 1e-10;        // refined until nothing lacks more
     int refinements = 8;                 // at most
 };
 // What an island's friction had no answer to in one frame.
 struct VelocityResult {
-    bool wedged = false;     // pressed the harder the harder it was held, or gained energy by it:
-                             // its contacts slip freely
-    bool undecided = false;  // who sticks and who slides still changed in the last pass
-    bool unsettled =
+    bool wedged = false;  // pressed the harder the harder it was held, or gained energy by it:
+                          // its contacts slip freely
+    bool friction_unconverged = false;  // who sticks and who slides still changed in the last pass
+    bool active_set_unconverged =
         false;  // rows were left out that may overlap: changes of the active set ran out
 };
 // One solve over the same rows: hands move as they are driven, joints keep, contacts

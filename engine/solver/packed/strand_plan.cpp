@@ -17,9 +17,9 @@ std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }
 
 }  // namespace
 
-void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
-    slot_count_ = turns.size();
-    braids_.clear();
+void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
+    slot_count_ = can_rotate.size();
+    strand_packs_.clear();
     bodies_.clear();
     links_.clear();
     places_.assign(nodes.size(), 0);
@@ -32,17 +32,17 @@ void StrandPlan::build(std::span<const RowNode> nodes, std::span<const std::uint
             cut(nodes);
         }
     }
-    lay_out_rest(nodes, turns);
+    lay_out_rest(nodes, can_rotate);
 }
 
 void StrandPlan::reserve(const StrandPlan& other) {
-    reserve_as(other.braids_, braids_);
+    reserve_as(other.strand_packs_, strand_packs_);
     reserve_as(other.bodies_, bodies_);
     reserve_as(other.links_, links_);
     reserve_as(other.rest_, rest_);
     reserve_as(other.places_, places_);
     reserve_as(other.rest_nodes_, rest_nodes_);
-    reserve_as(other.rest_turns_, rest_turns_);
+    reserve_as(other.rest_can_rotate_, rest_can_rotate_);
     reserve_as(other.rest_slots_, rest_slots_);
     reserve_as(other.ends_, ends_);
     reserve_as(other.uses_, uses_);
@@ -77,7 +77,8 @@ void StrandPlan::find_links(std::span<const RowNode> nodes) {
         };
         const std::uint32_t a = nodes[node].slots[0];
         const std::uint32_t b = nodes[node].slots[1];
-        is_open_[node] = nodes[node].is_link && a != b && is_passed(a) && is_passed(b) ? 1 : 0;
+        is_open_[node] =
+            nodes[node].is_point_link && a != b && is_passed(a) && is_passed(b) ? 1 : 0;
     }
 }
 
@@ -134,14 +135,14 @@ void StrandPlan::cut(std::span<const RowNode> nodes) {
     }
     const std::uint32_t length = (size - k_separators) / k_strands;
     std::uint32_t spare = size - k_separators - k_strands * length;  // separators take them
-    Braid braid;
-    braid.length = length;
-    braid.row = static_cast<std::uint32_t>(bodies_.size());
-    braid.links = static_cast<std::uint32_t>(links_.size());
+    StrandPack strand_pack;
+    strand_pack.length = length;
+    strand_pack.row = static_cast<std::uint32_t>(bodies_.size());
+    strand_pack.links = static_cast<std::uint32_t>(links_.size());
     Lanes none;
     none.fill(k_no_slot);
-    braid.before = braid.after = none;
-    braids_.push_back(braid);
+    strand_pack.before = strand_pack.after = none;
+    strand_packs_.push_back(strand_pack);
     bodies_.resize(bodies_.size() + length + 1, none);
     links_.resize(links_.size() + length, none);
     std::uint32_t begin = 0;
@@ -159,28 +160,29 @@ void StrandPlan::cut(std::span<const RowNode> nodes) {
 
 void StrandPlan::add_strand(std::span<const RowNode> nodes, std::span<const std::uint32_t> ends,
                             std::uint32_t lane) {
-    Braid& braid = braids_.back();
+    StrandPack& strand_pack = strand_packs_.back();
     const auto strand =
-        static_cast<std::uint32_t>(slot_count_ + k_strands * (braids_.size() - 1)) + lane;
+        static_cast<std::uint32_t>(slot_count_ + k_strands * (strand_packs_.size() - 1)) + lane;
     const auto place = [&](std::uint32_t row, std::uint32_t end) {
         const std::uint32_t slot = nodes[end / 2].slots[end % 2];
-        bodies_[braid.row + row][lane] = slot;
+        bodies_[strand_pack.row + row][lane] = slot;
         if (slot != k_no_slot) {
             strand_of_slot_[slot] = strand;
         }
     };
     for (std::uint32_t k = 0; k < ends.size(); ++k) {
-        links_[braid.links + k][lane] = ends[k];
+        links_[strand_pack.links + k][lane] = ends[k];
         places_[ends[k] / 2] = k_no_slot;
         place(k, ends[k]);
     }
-    place(braid.length, other_side(ends.back()));
+    place(strand_pack.length, other_side(ends.back()));
     // Nodes of all; lay_out_rest knows their places.
-    braid.before[lane] = beyond(nodes, ends.front());
-    braid.after[lane] = beyond(nodes, other_side(ends.back()));
+    strand_pack.before[lane] = beyond(nodes, ends.front());
+    strand_pack.after[lane] = beyond(nodes, other_side(ends.back()));
 }
 
-void StrandPlan::lay_out_rest(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
+void StrandPlan::lay_out_rest(std::span<const RowNode> nodes,
+                              std::span<const std::uint8_t> can_rotate) {
     rest_.clear();
     rest_nodes_.clear();
     rest_slots_.clear();
@@ -197,15 +199,15 @@ void StrandPlan::lay_out_rest(std::span<const RowNode> nodes, std::span<const st
             }
         }
     }
-    for (Braid& braid : braids_) {
-        for (Lanes* const ends : {&braid.before, &braid.after}) {
+    for (StrandPack& strand_pack : strand_packs_) {
+        for (Lanes* const ends : {&strand_pack.before, &strand_pack.after}) {
             for (std::uint32_t& end : *ends) {
                 end = end == k_no_slot ? end : 2 * places_[end / 2] + end % 2;
             }
         }
     }
-    rest_turns_.assign(turns.begin(), turns.end());
-    rest_turns_.resize(slot_count_ + k_strands * braids_.size(), 1);
+    rest_can_rotate_.assign(can_rotate.begin(), can_rotate.end());
+    rest_can_rotate_.resize(slot_count_ + k_strands * strand_packs_.size(), 1);
     for (std::uint32_t slot = 0; slot < slot_count_; ++slot) {
         if (strand_of_slot_[slot] == k_no_slot) {
             rest_slots_.push_back(slot);

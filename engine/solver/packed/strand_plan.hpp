@@ -21,12 +21,12 @@ class StrandPlan {
   public:
     using Lanes = std::array<std::uint32_t, 4>;
 
-    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Room for what the other has room for: a build of its structure allocates nothing.
     void reserve(const StrandPlan& other);
 
     // Four strands.
-    struct Braid {
+    struct StrandPack {
         std::uint32_t length = 0;  // links of each
         std::uint32_t row = 0;     // the first of length + 1, into `bodies`
         std::uint32_t links = 0;   // the first of `length`, into `links`
@@ -34,7 +34,7 @@ class StrandPlan {
                          // (its place in `rest`) + side
         Lanes after{};   // and at the last body
     };
-    std::span<const Braid> braids() const { return braids_; }
+    std::span<const StrandPack> strand_packs() const { return strand_packs_; }
     std::size_t row_count() const { return bodies_.size(); }
     // By row: slots. k_no_slot where the strand begins at what nothing moves.
     std::span<const Lanes> bodies() const { return bodies_; }
@@ -45,7 +45,7 @@ class StrandPlan {
     // The place of a node in `rest`; k_no_slot for a strand's.
     std::span<const std::uint32_t> places() const { return places_; }
     std::span<const RowNode> rest_nodes() const { return rest_nodes_; }
-    std::span<const std::uint8_t> rest_turns() const { return rest_turns_; }
+    std::span<const std::uint8_t> rest_can_rotate() const { return rest_can_rotate_; }
     std::span<const std::uint32_t> rest_slots() const { return rest_slots_; }  // ascending
     std::size_t slot_count() const { return slot_count_; }
 
@@ -57,15 +57,15 @@ class StrandPlan {
     void cut(std::span<const RowNode> nodes);
     void add_strand(std::span<const RowNode> nodes, std::span<const std::uint32_t> ends,
                     std::uint32_t lane);
-    void lay_out_rest(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    void lay_out_rest(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
 
-    std::vector<Braid> braids_;
+    std::vector<StrandPack> strand_packs_;
     std::vector<Lanes> bodies_;
     std::vector<Lanes> links_;
     std::vector<std::uint32_t> rest_;
     std::vector<std::uint32_t> places_;
     std::vector<RowNode> rest_nodes_;
-    std::vector<std::uint8_t> rest_turns_;
+    std::vector<std::uint8_t> rest_can_rotate_;
     std::vector<std::uint32_t> rest_slots_;
     std::size_t slot_count_ = 0;
 

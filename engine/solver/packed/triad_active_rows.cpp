@@ -6,75 +6,75 @@
 
 namespace handhold {
 
-double TriadSystem::worst_value() { return std::sqrt(kernels_->worst_square(arrays())); }
+double TriadSystem::worst_residual() { return std::sqrt(kernels_->worst_square(arrays())); }
 
-double TriadSystem::worst_hand_value() const {
+double TriadSystem::worst_drive_residual() const {
     double worst = 0.0;
-    for (std::size_t i = 0; has_hand_ && i < hands_.size(); ++i) {
-        worst = hands_[i] != 0 ? std::max(worst, dot3(values_[i].v, values_[i].v)) : worst;
+    for (std::size_t i = 0; has_drive_rows_ && i < is_drive_.size(); ++i) {
+        worst = is_drive_[i] != 0 ? std::max(worst, dot3(values_[i].v, values_[i].v)) : worst;
     }
     return std::sqrt(worst);
 }
 
 JointError TriadSystem::worst_joints() const {
-    Four of_strands = zero_four();
-    for (const FourLinks& links : links_) {
+    Double4 of_strands = zero4();
+    for (const Links4& links : links_) {
         of_strands = larger(of_strands, dot(links.value, links.value));
     }
     double points = largest(of_strands);
-    double turns = 0.0;
+    double is_angular = 0.0;
     const std::span<const std::uint32_t> rest = plans_.current().rest();
     for (std::size_t i = 0; i < rest.size(); ++i) {
-        if (hands_[i] == 0) {
-            double& worst = triads_[rest[i]].turns ? turns : points;
+        if (is_drive_[i] == 0) {
+            double& worst = triads_[rest[i]].is_angular ? is_angular : points;
             worst = std::max(worst, dot3(values_[i].v, values_[i].v));
         }
     }
-    return {std::sqrt(points), std::sqrt(turns) / k_angle_m};
+    return {std::sqrt(points), std::sqrt(is_angular) / k_angle_lever_m};
 }
 
-void TriadSystem::widen() {
-    is_narrow_ = false;
+void TriadSystem::activate_all_rows() {
+    is_restricted_ = false;
     windows_.clear();
-    for (const TriadPlan::Braid& braid : plans_.current().braids()) {
-        windows_.push_back({0, braid.length + 1});
+    for (const TriadPlan::StrandPack& strand_pack : plans_.current().strand_packs()) {
+        windows_.push_back({0, strand_pack.length + 1});
     }
 }
 
 // What the last solve moved in the window, and some rows around it; all of it where nothing moved.
-RowWindow TriadSystem::busy_window(const TriadPlan::Braid& braid, const RowWindow& window,
-                                   double still_m) const {
+RowWindow TriadSystem::active_window(const TriadPlan::StrandPack& strand_pack,
+                                     const RowWindow& window, double min_move_m) const {
     constexpr std::uint32_t k_margin = 4;  // pulls fade by a factor of four or so a link
-    RowWindow busy{window.end, window.begin};
+    RowWindow active{window.end, window.begin};
     for (std::uint32_t row = window.begin; row < window.end; ++row) {
-        const FourBodies& bodies = bodies_[braid.row + row];
+        const Bodies4& bodies = bodies_[strand_pack.row + row];
         const double turn_square = largest(dot(bodies.turn, bodies.turn));
-        const double square =
-            std::max(largest(dot(bodies.move, bodies.move)), k_angle_m * k_angle_m * turn_square);
-        if (square >= still_m * still_m) {
-            busy = {std::min(busy.begin, row), row + 1};
+        const double square = std::max(largest(dot(bodies.move, bodies.move)),
+                                       k_angle_lever_m * k_angle_lever_m * turn_square);
+        if (square >= min_move_m * min_move_m) {
+            active = {std::min(active.begin, row), row + 1};
         }
     }
-    if (busy.begin >= busy.end) {
+    if (active.begin >= active.end) {
         return window;
     }
-    const std::uint32_t begin = busy.begin - std::min(busy.begin, k_margin);
-    return {std::max(window.begin, begin), std::min(window.end, busy.end + k_margin)};
+    const std::uint32_t begin = active.begin - std::min(active.begin, k_margin);
+    return {std::max(window.begin, begin), std::min(window.end, active.end + k_margin)};
 }
 
-void TriadSystem::narrow(double still_m) {
+void TriadSystem::restrict_to_active(double min_move_m) {
     constexpr std::uint32_t k_short = 48;  // looking for a part of it costs as much as it saves
-    const std::span<const TriadPlan::Braid> braids = plans_.current().braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        if (braids[i].length < k_short) {
+    const std::span<const TriadPlan::StrandPack> strand_packs = plans_.current().strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        if (strand_packs[i].length < k_short) {
             continue;
         }
-        windows_[i] = busy_window(braids[i], windows_[i], still_m);
+        windows_[i] = active_window(strand_packs[i], windows_[i], min_move_m);
     }
-    is_narrow_ = busy_rows() < strand_rows();
+    is_restricted_ = active_rows() < strand_rows();
 }
 
-std::size_t TriadSystem::busy_rows() const {
+std::size_t TriadSystem::active_rows() const {
     std::size_t rows = 0;
     for (const RowWindow& window : windows_) {
         rows += window.end - window.begin;
@@ -82,7 +82,7 @@ std::size_t TriadSystem::busy_rows() const {
     return rows;
 }
 std::size_t TriadSystem::strand_rows() const {
-    return plans_.current().braid_steps() + plans_.current().braids().size();
+    return plans_.current().strand_pack_steps() + plans_.current().strand_packs().size();
 }
 
 }  // namespace handhold

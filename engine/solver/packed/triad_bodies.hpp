@@ -11,7 +11,7 @@ namespace handhold::triads {
 
 // --- Poses and ends ----------------------------------------------------------------------------
 
-HH_INLINE Wide3 zero_three() { return {zero_four(), zero_four(), zero_four()}; }
+HH_INLINE Wide3 zero_wide3() { return {zero4(), zero4(), zero4()}; }
 
 HH_INLINE void write_ends(const Wide3& parts, const TriadPlan::Lanes& lanes,
                           const TriadArrays& arrays) {
@@ -28,14 +28,14 @@ HH_INLINE void add_up_ends(const TriadArrays& arrays) {
     }
 }
 
-HH_INLINE void write_axes(FourBodies& bodies) {
+HH_INLINE void write_axes(Bodies4& bodies) {
     const WideAxes axes = axes_of(bodies.rotation);
     assign(axes.x, bodies.axes.x);
     assign(axes.y, bodies.axes.y);
     assign(axes.z, bodies.axes.z);
 }
 // An end's part in its triad's value; its arm on the way.
-HH_INLINE Wide3 part_of(const FourBodies& bodies, FourEnds& end) {
+HH_INLINE Wide3 part_of(const Bodies4& bodies, Ends4& end) {
     const Wide3 arm = rotate(bodies.axes, end.point_bs);
     assign(arm, end.arm);
     return end.sign * bodies.position + arm;
@@ -44,10 +44,10 @@ HH_INLINE Wide3 part_of(const FourBodies& bodies, FourEnds& end) {
 HH_INLINE void evaluate(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        FourBodies& bodies = arrays.bodies[groups[i].four];
+        Bodies4& bodies = arrays.bodies[groups[i].four];
         write_axes(bodies);
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
-            FourEnds& ends = arrays.body_ends[groups[i].packed + j];
+            Ends4& ends = arrays.body_ends[groups[i].packed + j];
             write_ends(part_of(bodies, ends), arrays.plan->ends()[groups[i].ends + j], arrays);
         }
     }
@@ -55,7 +55,7 @@ HH_INLINE void evaluate(const TriadArrays& arrays) {
 }
 
 template <bool HasTurn>
-HH_INLINE Wide3 speed_of(const FourBodies& bodies, const FourEnds& end) {
+HH_INLINE Wide3 speed_of(const Bodies4& bodies, const Ends4& end) {
     const Wide3 speed = end.sign * bodies.velocity + cross(bodies.spin, end.arm);
     return HasTurn ? speed + end.lever * bodies.spin : speed;
 }
@@ -64,7 +64,7 @@ template <bool HasTurn>
 HH_INLINE void evaluate_velocities(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        const FourBodies& bodies = arrays.bodies[groups[i].four];
+        const Bodies4& bodies = arrays.bodies[groups[i].four];
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
             write_ends(speed_of<HasTurn>(bodies, arrays.body_ends[groups[i].packed + j]),
                        arrays.plan->ends()[groups[i].ends + j], arrays);
@@ -78,7 +78,7 @@ HH_INLINE void evaluate_velocities(const TriadArrays& arrays) {
 
 HH_INLINE double worst_square(const TriadArrays& arrays) {
     const std::span<const TriadVector> values = arrays.values;
-    Four worst = zero_four();
+    Double4 worst = zero4();
     std::size_t i = 0;
     for (; i + 4 <= values.size(); i += 4) {
         const Wide3 four = to_wide3(values[i].v, values[i + 1].v, values[i + 2].v, values[i + 3].v);
@@ -107,11 +107,11 @@ HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
             (axes.x.y * x.z + axes.y.y * y.z) + axes.z.y * z.z};
 }
 
-HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Four& times) {
-    const Four xx = m.yy * m.zz - m.yz * m.yz;
-    const Four xy = m.xz * m.yz - m.xy * m.zz;
-    const Four xz = m.xy * m.yz - m.xz * m.yy;
-    const Four factor = times / ((m.xx * xx + m.xy * xy) + m.xz * xz);
+HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Double4& times) {
+    const Double4 xx = m.yy * m.zz - m.yz * m.yz;
+    const Double4 xy = m.xz * m.yz - m.xy * m.zz;
+    const Double4 xz = m.xy * m.yz - m.xz * m.yy;
+    const Double4 factor = times / ((m.xx * xx + m.xy * xy) + m.xz * xz);
     return {factor * xx,
             factor * (m.xx * m.zz - m.xz * m.xz),
             factor * (m.xx * m.yy - m.xy * m.xy),
@@ -121,24 +121,25 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Four& times) {
 }
 
 // Inertia is taken times the product of its inverses, which one division at the end makes good.
-HH_INLINE WideSymmetric stiff_inverse(const FourBodies& bodies, const WideSymmetric& stiffness) {
+HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
+                                               const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
-    const FourBits may_turn = ((in.x + in.y) + in.z) > 0.0;
-    const Four yz = in.y * in.z;
-    const Four scale = in.x * yz;
+    const Mask4 may_turn = ((in.x + in.y) + in.z) > 0.0;
+    const Double4 yz = in.y * in.z;
+    const Double4 scale = in.x * yz;
     const WideSymmetric m = to_world(bodies.axes, {yz, in.x * in.z, in.x * in.y});
     const WideSymmetric inverse = inverse_of(
         {m.xx + scale * stiffness.xx, m.yy + scale * stiffness.yy, m.zz + scale * stiffness.zz,
          m.xy + scale * stiffness.xy, m.xz + scale * stiffness.xz, m.yz + scale * stiffness.yz},
         scale);
-    const Four zero = zero_four();
+    const Double4 zero = zero4();
     return {may_turn ? inverse.xx : zero, may_turn ? inverse.yy : zero,
             may_turn ? inverse.zz : zero, may_turn ? inverse.xy : zero,
             may_turn ? inverse.xz : zero, may_turn ? inverse.yz : zero};
 }
 
 // += factor v v^T
-HH_INLINE void add_outer(const Wide3& v, const Four& factor, WideSymmetric& out) {
+HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& out) {
     const Wide3 scaled = factor * v;
     out.xx += scaled.x * v.x;
     out.yy += scaled.y * v.y;
@@ -151,29 +152,29 @@ HH_INLINE void add_outer(const Wide3& v, const Four& factor, WideSymmetric& out)
 // positive_stiffness of a force and an arm, or of a negative one with its sign.
 HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
     constexpr double k_least = 1e-12;
-    const Four zero = zero_four();
-    const Four force_square = dot(force, force);
-    const Four arm_square = dot(arm, arm);
-    const Four product = square_root(force_square * arm_square);
-    const Four along = dot(force, arm);
+    const Double4 zero = zero4();
+    const Double4 force_square = dot(force, force);
+    const Double4 arm_square = dot(arm, arm);
+    const Double4 product = square_root(force_square * arm_square);
+    const Double4 along = dot(force, arm);
     const Wide3 normal = cross(force, arm);
-    const Four normal_square = dot(normal, normal);
-    const FourBits counts = product >= k_least;
-    const FourBits pulls = along > 0.0;
-    const FourBits is_straight = pulls & (normal_square <= k_least * product * product);
-    const Four ratio = counts ? product / arm_square : zero;
+    const Double4 normal_square = dot(normal, normal);
+    const Mask4 counts = product >= k_least;
+    const Mask4 pulls = along > 0.0;
+    const Mask4 is_straight = pulls & (normal_square <= k_least * product * product);
+    const Double4 ratio = counts ? product / arm_square : zero;
     const Wide3 bent = force - ratio * arm;
     const Wide3 axis{is_straight ? force.x : bent.x, is_straight ? force.y : bent.y,
                      is_straight ? force.z : bent.z};
     // One division for two: what does not count is divided by 1.
-    const FourBits has_normal = pulls & ~is_straight;
-    const Four one = zero + 1.0;
-    const Four axis_size = is_straight ? force_square : dot(bent, bent);
-    const Four normal_size = has_normal ? normal_square : one;
-    const Four by = 1.0 / (axis_size * normal_size);
-    const Four of_axis = (is_straight ? -product : 0.5 * (product + along)) * (normal_size * by);
-    const Four of_normal = has_normal ? along * (axis_size * by) : zero;
-    const Four of_all = (counts & is_straight) ? product : zero;
+    const Mask4 has_normal = pulls & ~is_straight;
+    const Double4 one = zero + 1.0;
+    const Double4 axis_size = is_straight ? force_square : dot(bent, bent);
+    const Double4 normal_size = has_normal ? normal_square : one;
+    const Double4 by = 1.0 / (axis_size * normal_size);
+    const Double4 of_axis = (is_straight ? -product : 0.5 * (product + along)) * (normal_size * by);
+    const Double4 of_normal = has_normal ? along * (axis_size * by) : zero;
+    const Double4 of_all = (counts & is_straight) ? product : zero;
     add_outer(axis, counts ? of_axis : zero, out);
     add_outer(normal, counts ? of_normal : zero, out);
     out.xx += of_all;
@@ -188,7 +189,7 @@ HH_INLINE Wide3 lambdas_of(const TriadPlan::Lanes& ends, const TriadArrays& arra
 
 HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
-    const Four zero = zero_four();
+    const Double4 zero = zero4();
     for (std::size_t i = 0; i < groups.size(); ++i) {
         WideSymmetric sum{zero, zero, zero, zero, zero, zero};
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
@@ -204,10 +205,10 @@ HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
 HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int place,
                          const TriadArrays& arrays) {
     const Wide4 rows = to_rows(row);
-    Four& a = arrays.blocks[pair.blocks[0]].row[place];
-    Four& b = arrays.blocks[pair.blocks[1]].row[place];
-    Four& c = arrays.blocks[pair.blocks[2]].row[place];
-    Four& d = arrays.blocks[pair.blocks[3]].row[place];
+    Double4& a = arrays.blocks[pair.blocks[0]].row[place];
+    Double4& b = arrays.blocks[pair.blocks[1]].row[place];
+    Double4& c = arrays.blocks[pair.blocks[2]].row[place];
+    Double4& d = arrays.blocks[pair.blocks[3]].row[place];
     if (pair.is_alone) {
         a = rows.x;
         b = rows.y;
@@ -223,7 +224,7 @@ HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int plac
 
 // Rows of J W of an end, the rotation's part: J's are arm x e_k, or the axes at their lever.
 template <bool HasTurn>
-HH_INLINE void write_side(const WideSymmetric& w, const FourEnds& end, Wide3* side) {
+HH_INLINE void write_side(const WideSymmetric& w, const Ends4& end, Wide3* side) {
     const Wide3 x{w.xx, w.xy, w.xz};
     const Wide3 y{w.xy, w.yy, w.yz};
     const Wide3 z{w.xz, w.yz, w.zz};
@@ -237,22 +238,22 @@ HH_INLINE void write_side(const WideSymmetric& w, const FourEnds& end, Wide3* si
     }
 }
 template <bool HasTurn>
-HH_INLINE Wide3 times_end(const Wide3& side, const FourEnds& end) {
+HH_INLINE Wide3 times_end(const Wide3& side, const Ends4& end) {
     const Wide3 product = cross(side, end.arm);
     return HasTurn ? product + end.lever * side : product;
 }
 
 template <bool HasTurn>
-HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Group& group,
+HH_INLINE void multiply_out_four(const Bodies4& bodies, const TriadPlan::Group& group,
                                  const TriadArrays& arrays) {
     const TriadPlan::Pair* pair = arrays.plan->pairs().data() + group.pairs;
-    const FourEnds* const ends = arrays.body_ends.data() + group.packed;
+    const Ends4* const ends = arrays.body_ends.data() + group.packed;
     for (std::uint32_t i = 0; i < group.width; ++i) {
         Wide3 side[3];
         write_side<HasTurn>(bodies.inverse_inertia, ends[i], side);
-        const Four mass = bodies.inverse_mass * ends[i].sign;
+        const Double4 mass = bodies.inverse_mass * ends[i].sign;
         for (std::uint32_t j = i; j < group.width; ++j) {
-            const Four shared = mass * ends[j].sign;
+            const Double4 shared = mass * ends[j].sign;
             Wide3 x = times_end<HasTurn>(side[0], ends[j]);
             Wide3 y = times_end<HasTurn>(side[1], ends[j]);
             Wide3 z = times_end<HasTurn>(side[2], ends[j]);
@@ -268,9 +269,9 @@ HH_INLINE void multiply_out_four(const FourBodies& bodies, const TriadPlan::Grou
 }
 
 HH_INLINE void write_inertia(std::size_t four, const TriadArrays& arrays) {
-    FourBodies& bodies = arrays.bodies[four];
-    if (arrays.is_stiff) {
-        assign(stiff_inverse(bodies, arrays.stiffness[four]), bodies.inverse_inertia);
+    Bodies4& bodies = arrays.bodies[four];
+    if (arrays.has_stiffness) {
+        assign(inverse_with_stiffness(bodies, arrays.stiffness[four]), bodies.inverse_inertia);
     } else {
         assign(to_world(bodies.axes, bodies.inverse_inertia_bs), bodies.inverse_inertia);
     }
@@ -279,13 +280,13 @@ HH_INLINE void write_inertia(std::size_t four, const TriadArrays& arrays) {
 HH_INLINE void multiply_out(const TriadArrays& arrays) {
     for (const std::uint32_t zero : arrays.plan->zeros()) {
         Rows3& block = arrays.blocks[zero];
-        block.row[0] = zero_four();
-        block.row[1] = zero_four();
-        block.row[2] = zero_four();
+        block.row[0] = zero4();
+        block.row[1] = zero4();
+        block.row[2] = zero4();
     }
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        FourBodies& bodies = arrays.bodies[groups[i].four];
+        Bodies4& bodies = arrays.bodies[groups[i].four];
         write_inertia(groups[i].four, arrays);
         if (arrays.has_turn) {
             multiply_out_four<true>(bodies, groups[i], arrays);
@@ -301,7 +302,7 @@ struct WideWrench {
     Wide3 impulse, couple;
 };
 
-HH_INLINE void add_end(const FourEnds& end, const Wide3& lambda, bool has_turn, WideWrench& out) {
+HH_INLINE void add_end(const Ends4& end, const Wide3& lambda, bool has_turn, WideWrench& out) {
     out.impulse = out.impulse + end.sign * lambda;
     out.couple = out.couple + cross(end.arm, lambda);
     if (has_turn) {
@@ -309,12 +310,12 @@ HH_INLINE void add_end(const FourEnds& end, const Wide3& lambda, bool has_turn, 
     }
 }
 
-struct WideReach {
-    Four move = zero_four();
-    Four turn = zero_four();
+struct WideLargestMove {
+    Double4 move = zero4();
+    Double4 turn = zero4();
 };
 
-HH_INLINE void take_moves(const WideWrench& wrench, FourBodies& bodies, WideReach& reach) {
+HH_INLINE void take_moves(const WideWrench& wrench, Bodies4& bodies, WideLargestMove& reach) {
     const Wide3 move = bodies.inverse_mass * wrench.impulse;
     const Wide3 turn = multiply(bodies.inverse_inertia, wrench.couple);
     assign(move, bodies.move);
@@ -324,11 +325,11 @@ HH_INLINE void take_moves(const WideWrench& wrench, FourBodies& bodies, WideReac
 }
 
 // W J^T lambda.
-HH_INLINE TriadReach gather_moves(const TriadArrays& arrays) {
+HH_INLINE LargestMove gather_moves(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
-    WideReach reach;
+    WideLargestMove reach;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        WideWrench wrench{zero_three(), zero_three()};
+        WideWrench wrench{zero_wide3(), zero_wide3()};
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
             add_end(arrays.body_ends[groups[i].packed + j],
                     lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays), arrays.has_turn,
@@ -339,7 +340,7 @@ HH_INLINE TriadReach gather_moves(const TriadArrays& arrays) {
     return {largest(reach.move), largest(reach.turn)};
 }
 
-HH_INLINE TriadReach longer(const TriadReach& a, const TriadReach& b) {
+HH_INLINE LargestMove longer(const LargestMove& a, const LargestMove& b) {
     return {a.move_square > b.move_square ? a.move_square : b.move_square,
             a.turn_square > b.turn_square ? a.turn_square : b.turn_square};
 }
@@ -347,17 +348,17 @@ HH_INLINE TriadReach longer(const TriadReach& a, const TriadReach& b) {
 // Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one. What does not turn
 // keeps its bits.
 HH_INLINE void turn_by(const Wide3& turn, Wide4& rotation) {
-    const Four half = zero_four() + 0.5;
-    const Wide4 after = turned(half * turn, zero_four() + 1.0, rotation);
-    const FourBits turns = dot(turn, turn) > 0.0;
+    const Double4 half = zero4() + 0.5;
+    const Wide4 after = turned(half * turn, zero4() + 1.0, rotation);
+    const Mask4 turns = dot(turn, turn) > 0.0;
     rotation.x = turns ? after.x : rotation.x;
     rotation.y = turns ? after.y : rotation.y;
     rotation.z = turns ? after.z : rotation.z;
     rotation.w = turns ? after.w : rotation.w;
 }
 
-HH_INLINE void move_by(double scale, FourBodies& bodies) {
-    const Four by = zero_four() + scale;
+HH_INLINE void move_by(double scale, Bodies4& bodies) {
+    const Double4 by = zero4() + scale;
     assign(bodies.position + by * bodies.move, bodies.position);
     turn_by(by * bodies.turn, bodies.rotation);
 }
@@ -368,7 +369,7 @@ HH_INLINE void apply(const TriadArrays& arrays, double scale) {
 }
 
 HH_INLINE void apply_velocities(const TriadArrays& arrays) {
-    for (FourBodies& bodies : arrays.bodies) {
+    for (Bodies4& bodies : arrays.bodies) {
         assign(bodies.velocity + bodies.move, bodies.velocity);
         assign(bodies.spin + bodies.turn, bodies.spin);
     }

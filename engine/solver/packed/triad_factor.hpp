@@ -28,8 +28,8 @@ inline double inverse_pivot(double pivot, double least) {
 }
 
 // Only what lies on and below the block's diagonal counts.
-inline void decompose(const Rows3& block, const Four& diagonal, Rows3& out) {
-    const Four least = k_smallest_pivot * diagonal;
+inline void decompose(const Rows3& block, const Double4& diagonal, Rows3& out) {
+    const Double4 least = k_smallest_pivot * diagonal;
     const double d10 = block.row[1][0];
     const double d20 = block.row[2][0];
     const double p0 = inverse_pivot(block.row[0][0], least[0]);
@@ -39,27 +39,27 @@ inline void decompose(const Rows3& block, const Four& diagonal, Rows3& out) {
     const double rest = block.row[2][1] - l20 * d10;
     const double l21 = rest * p1;
     const double p2 = inverse_pivot((block.row[2][2] - l20 * d20) - l21 * rest, least[2]);
-    out.row[0] = Four{p0, p1, p2, 1.0};
-    out.row[1] = Four{l10, l20, l21, 0.0};
-    out.row[2] = zero_four();
+    out.row[0] = Double4{p0, p1, p2, 1.0};
+    out.row[1] = Double4{l10, l20, l21, 0.0};
+    out.row[2] = zero4();
 }
 
 // The block's inverse times m, by its pivots.
 inline void divide(const Rows3& pivots, const Rows3& m, Rows3& out) {
-    const Four& p = pivots.row[0];
+    const Double4& p = pivots.row[0];
     const double l10 = pivots.row[1][0];
     const double l20 = pivots.row[1][1];
     const double l21 = pivots.row[1][2];
-    const Four y1 = m.row[1] - m.row[0] * l10;
-    const Four y2 = (m.row[2] - m.row[0] * l20) - y1 * l21;
-    const Four x2 = y2 * p[2];
-    const Four x1 = y1 * p[1] - x2 * l21;
+    const Double4 y1 = m.row[1] - m.row[0] * l10;
+    const Double4 y2 = (m.row[2] - m.row[0] * l20) - y1 * l21;
+    const Double4 x2 = y2 * p[2];
+    const Double4 x1 = y1 * p[1] - x2 * l21;
     out.row[0] = (m.row[0] * p[0] - x2 * l20) - x1 * l10;
     out.row[1] = x1;
     out.row[2] = x2;
 }
-inline void divide(const Rows3& pivots, const Four& v, Four& out) {
-    const Four& p = pivots.row[0];
+inline void divide(const Rows3& pivots, const Double4& v, Double4& out) {
+    const Double4& p = pivots.row[0];
     const double l10 = pivots.row[1][0];
     const double l20 = pivots.row[1][1];
     const double l21 = pivots.row[1][2];
@@ -68,11 +68,11 @@ inline void divide(const Rows3& pivots, const Four& v, Four& out) {
     const double x2 = y2 * p[2];
     const double x1 = y1 * p[1] - x2 * l21;
     const double x0 = (v[0] * p[0] - x2 * l20) - x1 * l10;
-    out = Four{x0, x1, x2, 0.0};
+    out = Double4{x0, x1, x2, 0.0};
 }
 
-HH_INLINE void invert(const Rows3& block, const Four& diagonal, Rows3& out) {
-    const Four x = cross(block.row[1], block.row[2]);
+HH_INLINE void invert(const Rows3& block, const Double4& diagonal, Rows3& out) {
+    const Double4 x = cross(block.row[1], block.row[2]);
     const double determinant = dot3(block.row[0], x);
     if (!(determinant > k_well_conditioned * ((diagonal[0] * diagonal[1]) * diagonal[2]))) {
         decompose(block, diagonal, out);
@@ -92,9 +92,9 @@ HH_INLINE void apply_inverse(const Rows3& inverse, const Rows3& m, Rows3& out) {
     out.row[1] = combine(m, inverse.row[1]);
     out.row[2] = combine(m, inverse.row[2]);
 }
-HH_INLINE Four apply_inverse(const Rows3& inverse, const Four& v) {
+HH_INLINE Double4 apply_inverse(const Rows3& inverse, const Double4& v) {
     if (has_pivots(inverse)) {
-        Four out;
+        Double4 out;
         divide(inverse, v, out);
         return out;
     }
@@ -103,13 +103,13 @@ HH_INLINE Four apply_inverse(const Rows3& inverse, const Four& v) {
 
 // --- The factor --------------------------------------------------------------------------------
 
-HH_INLINE Four diagonal_of(const Rows3& block) {
-    const Four xy = __builtin_shufflevector(block.row[0], block.row[1], 0, 5, 2, 3);
+HH_INLINE Double4 diagonal_of(const Rows3& block) {
+    const Double4 xy = __builtin_shufflevector(block.row[0], block.row[1], 0, 5, 2, 3);
     return __builtin_shufflevector(xy, block.row[2], 0, 1, 6, 3);
 }
 
-HH_INLINE void add_to_diagonal(const Four& diagonal, Rows3& block) {
-    const Four zero = zero_four();
+HH_INLINE void add_to_diagonal(const Double4& diagonal, Rows3& block) {
+    const Double4 zero = zero4();
     block.row[0] += __builtin_shufflevector(diagonal, zero, 0, 5, 6, 7);
     block.row[1] += __builtin_shufflevector(diagonal, zero, 4, 1, 6, 7);
     block.row[2] += __builtin_shufflevector(diagonal, zero, 4, 5, 2, 7);
@@ -141,16 +141,16 @@ HH_INLINE void eliminate(const TriadPlan::Step& step, const Rows3& inverse,
 }
 
 struct Alpha {
-    Four of_hands;
+    Double4 of_drives;
     double of_joints;  // a share of the diagonal
 };
 
 HH_INLINE void invert_step(std::size_t place, const Alpha& alpha, const TriadArrays& arrays) {
     const TriadPlan::Step& step = arrays.plan->steps()[place];
-    const Four diagonal = arrays.unknowns[place].v;
-    Four added = alpha.of_joints * diagonal;
-    if (arrays.hands[step.node] != 0) {
-        added = diagonal > 0.0 ? alpha.of_hands : zero_four();
+    const Double4 diagonal = arrays.unknowns[place].v;
+    Double4 added = alpha.of_joints * diagonal;
+    if (arrays.is_drive[step.node] != 0) {
+        added = diagonal > 0.0 ? alpha.of_drives : zero4();
     }
     const Rows3& own = arrays.blocks[step.own];
     Rows3 block;
@@ -169,9 +169,9 @@ HH_INLINE void note_diagonals(const TriadArrays& arrays) {
     }
 }
 
-HH_INLINE void factorise(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+HH_INLINE void factorise(const TriadArrays& arrays, double drive_alpha, double joint_alpha) {
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
-    const Alpha alpha{zero_four() + hand_alpha, joint_alpha};
+    const Alpha alpha{zero4() + drive_alpha, joint_alpha};
     for (std::size_t i = 0; i < steps.size(); ++i) {
         // An inverse takes long and waits for nothing but its own block: the next one's goes on
         // while this step eliminates, where it does not wait for this one.
@@ -197,7 +197,7 @@ HH_INLINE void substitute(const TriadArrays& arrays) {
     const Rows3* block = arrays.blocks.data();
     const std::uint32_t* later = arrays.plan->later().data();
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Four own = arrays.lambdas[steps[i].node].v;
+        const Double4 own = arrays.lambdas[steps[i].node].v;
         ++block;
         for (std::uint32_t left = steps[i].later_end - steps[i].later_begin; left > 0; --left) {
             arrays.lambdas[*later++].v -= combine(*block++, own);
@@ -205,7 +205,7 @@ HH_INLINE void substitute(const TriadArrays& arrays) {
         arrays.unknowns[i].v = apply_inverse(arrays.inverses[i], own);
     }
     for (std::size_t i = steps.size(); i-- > 0;) {
-        Four own = arrays.unknowns[i].v;
+        Double4 own = arrays.unknowns[i].v;
         for (std::uint32_t left = steps[i].later_end - steps[i].later_begin; left > 0; --left) {
             own -= multiply(*--block, arrays.lambdas[*--later].v);
         }

@@ -29,12 +29,12 @@ HH_INLINE void multiply_out_triads(const TriadArrays& arrays, double joint_alpha
     triads::multiply_out(arrays);
     triads::eliminate_strands(arrays, joint_alpha);
 }
-HH_INLINE void factorise_triads(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
+HH_INLINE void factorise_triads(const TriadArrays& arrays, double drive_alpha, double joint_alpha) {
     triads::note_diagonals(arrays);
-    triads::take_off_strands(arrays);
-    triads::factorise(arrays, hand_alpha, joint_alpha);
+    triads::subtract_strands(arrays);
+    triads::factorise(arrays, drive_alpha, joint_alpha);
 }
-HH_INLINE TriadReach solve_triads(const TriadArrays& arrays) {
+HH_INLINE LargestMove solve_triads(const TriadArrays& arrays) {
     triads::negate_values(arrays);
     triads::substitute_into_strands(arrays);
     triads::substitute(arrays);
@@ -56,10 +56,10 @@ HH_AVX2 void gather_stiffness_avx2(const TriadArrays& arrays) { gather_triad_sti
 HH_AVX2 void multiply_out_avx2(const TriadArrays& arrays, double joint_alpha) {
     multiply_out_triads(arrays, joint_alpha);
 }
-HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
-    factorise_triads(arrays, hand_alpha, joint_alpha);
+HH_AVX2 void factorise_avx2(const TriadArrays& arrays, double drive_alpha, double joint_alpha) {
+    factorise_triads(arrays, drive_alpha, joint_alpha);
 }
-HH_AVX2 TriadReach solve_avx2(const TriadArrays& arrays) { return solve_triads(arrays); }
+HH_AVX2 LargestMove solve_avx2(const TriadArrays& arrays) { return solve_triads(arrays); }
 HH_AVX2 void apply_avx2(const TriadArrays& arrays, double scale) { apply_triads(arrays, scale); }
 HH_AVX2 void apply_velocities_avx2(const TriadArrays& arrays) { triads::apply_velocities(arrays); }
 
@@ -76,10 +76,10 @@ void gather_stiffness_portable(const TriadArrays& arrays) { gather_triad_stiffne
 void multiply_out_portable(const TriadArrays& arrays, double joint_alpha) {
     multiply_out_triads(arrays, joint_alpha);
 }
-void factorise_portable(const TriadArrays& arrays, double hand_alpha, double joint_alpha) {
-    factorise_triads(arrays, hand_alpha, joint_alpha);
+void factorise_portable(const TriadArrays& arrays, double drive_alpha, double joint_alpha) {
+    factorise_triads(arrays, drive_alpha, joint_alpha);
 }
-TriadReach solve_portable(const TriadArrays& arrays) { return solve_triads(arrays); }
+LargestMove solve_portable(const TriadArrays& arrays) { return solve_triads(arrays); }
 void apply_portable(const TriadArrays& arrays, double scale) { apply_triads(arrays, scale); }
 void apply_velocities_portable(const TriadArrays& arrays) { triads::apply_velocities(arrays); }
 

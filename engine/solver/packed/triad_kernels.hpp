@@ -19,7 +19,7 @@ namespace handhold {
 
 // Lane i belongs to the i-th of four bodies that may move; all 0 where there is none, or where
 // nothing moves it.
-struct FourBodies {
+struct Bodies4 {
     Wide3 position;  // of the centre
     Wide4 rotation;  // unit
     Wide3 velocity;
@@ -27,7 +27,7 @@ struct FourBodies {
     WideAxes axes;                  // its own axes in the world
     WideSymmetric inverse_inertia;  // with the stiffness; 0 where it cannot turn
     Wide3 inverse_inertia_bs;       // principal, body axes
-    Four inverse_mass;
+    Double4 inverse_mass;
     Wide3 move;  // W J^T lambda of the last solve
     Wide3 turn;
 };
@@ -35,42 +35,42 @@ struct FourBodies {
 // An end at each of four bodies. Its part in the triad's value is sign * position + arm, or
 // lever * rotation: b's sign and lever are negative, and its arm points from its point to its
 // centre.
-struct FourEnds {
+struct Ends4 {
     Wide3 point_bs;  // times the sign
-    Four sign;       // +-1 where it holds a point, else 0
-    Four lever;      // +-k_angle_m where it holds a rotation, else 0
+    Double4 sign;    // +-1 where it holds a point, else 0
+    Double4 lever;   // +-k_angle_lever_m where it holds a rotation, else 0
     Wide3 arm;
 };
 
 // A 3x3 matrix in each lane, by rows.
-struct WideSquare {
+struct WideMat3 {
     Wide3 x, y, z;
 };
 
 // Of one step of a braid, a link in each lane.
-struct FourLinks {
+struct Links4 {
     Wide3 value;    // as TriadArrays::values
     Wide3 unknown;  // scratch of the solve
     Wide3 impulse;  // sum of lambdas
     // The step's row of the factor.
     WideSymmetric inverse;  // of its own block; or its pivots
-    WideSquare next;        // the inverse times the block with the next link, or with `after`
-    WideSquare before;      // and times that with `before`, up to FourStrands::faded_step
+    WideMat3 next;          // the inverse times the block with the next link, or with `after`
+    WideMat3 before;        // and times that with `before`, up to Strands4::decoupled_step
     bool has_pivots = false;
 };
 
 // What is left of four strands once their links are eliminated.
-struct FourStrands {
+struct Strands4 {
     WideSymmetric before;  // is taken off the block of `before`
     WideSymmetric after;
-    WideSquare between;          // rows of `after`, columns of `before`
-    Four inverse_sum;            // of 9 / the sum of each link's diagonal
-    std::size_t faded_step = 0;  // the first step from which on nothing is tied to `before`
+    WideMat3 between;                // rows of `after`, columns of `before`
+    Double4 inverse_sum;             // of 9 / the sum of each link's diagonal
+    std::size_t decoupled_step = 0;  // the first step from which on nothing is tied to `before`
 };
 
 // In a struct, for a template's argument would forget the alignment.
 struct TriadVector {
-    Four v = {};
+    Double4 v = {};
 };
 
 // The rows of a braid that a step may move, in all four lanes; whatever lies beyond is held where
@@ -83,28 +83,29 @@ struct RowWindow {
 // Where a plan speaks of a spare end or block, there is one: it is written and means nothing.
 // The spare triad's multiplier is 0.
 struct TriadArrays {
-    std::span<FourBodies> bodies;        // by the plan's places
-    std::span<FourEnds> body_ends;       // as the plan's packed ends
+    std::span<Bodies4> bodies;           // by the plan's places
+    std::span<Ends4> body_ends;          // as the plan's packed ends
     std::span<WideSymmetric> stiffness;  // as bodies
-    std::span<FourLinks> links;          // by the plan's braid steps
-    std::span<Wide3> multipliers;        // lambdas of braids: see TriadPlan::Braid::bound
-    std::span<FourStrands> strands;      // by braid
+    std::span<Links4> links;             // by the plan's braid steps
+    std::span<Wide3> multipliers;        // lambdas of braids: see TriadPlan::StrandPack::bound
+    std::span<Strands4> strands;         // by braid
     std::span<TriadVector> ends;         // by end: its part in the triad's value
-    std::span<TriadVector> values;   // by triad: metres, angles at k_angle_m; or metres a second
+    std::span<TriadVector>
+        values;  // by triad: metres, angles at k_angle_lever_m; or metres a second
     std::span<TriadVector> lambdas;  // by triad, of the last solve: on a, b's is the opposite
-    std::span<const std::uint8_t> hands;  // by triad: whether it is a hand's
-    std::span<Rows3> blocks;              // the plan's
-    std::span<Rows3> inverses;            // by step of the plan: of its own block
+    std::span<const std::uint8_t> is_drive;  // by triad: whether it is a hand's
+    std::span<Rows3> blocks;                 // the plan's
+    std::span<Rows3> inverses;               // by step of the plan: of its own block
     // Scratch by step: the diagonals while it is factorised, what is not yet solved for afterwards.
     std::span<TriadVector> unknowns;
     std::span<const RowWindow> windows;  // by braid
     const TriadPlan* plan = nullptr;
-    bool has_turn = false;  // some triad holds a rotation
-    bool is_stiff = false;  // inertia has the stiffness added
+    bool has_turn = false;       // some triad holds a rotation
+    bool has_stiffness = false;  // inertia has the stiffness added
 };
 
 // The largest squares among the bodies, metres and radians.
-struct TriadReach {
+struct LargestMove {
     double move_square = 0.0;
     double turn_square = 0.0;
 };
@@ -125,9 +126,9 @@ struct TriadKernels {
     // have a share of the diagonal as alpha.
     void (*multiply_out)(const TriadArrays& arrays, double joint_alpha);
     // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.
-    void (*factorise)(const TriadArrays& arrays, double hand_alpha, double joint_alpha);
+    void (*factorise)(const TriadArrays& arrays, double drive_alpha, double joint_alpha);
     // lambda of the values, and the bodies' moves and turns.
-    TriadReach (*solve)(const TriadArrays& arrays);
+    LargestMove (*solve)(const TriadArrays& arrays);
     // Moves and turns the bodies by so much of it.
     void (*apply)(const TriadArrays& arrays, double scale);
     // Adds it to their velocities.

@@ -9,39 +9,39 @@ namespace handhold::triads {
 
 // --- Inverses: as triad_factor.hpp's, in each lane ---------------------------------------------
 
-HH_INLINE bool all_of(const FourBits& bits) {
+HH_INLINE bool all_of(const Mask4& bits) {
     return ((bits[0] & bits[1]) & (bits[2] & bits[3])) != 0;
 }
 
-HH_INLINE Four inverse_pivot(const Four& pivot, const Four& least) {
-    const FourBits counts = (pivot > least) | (pivot < -least);
-    return counts ? 1.0 / pivot : zero_four();
+HH_INLINE Double4 inverse_pivot(const Double4& pivot, const Double4& least) {
+    const Mask4 counts = (pivot > least) | (pivot < -least);
+    return counts ? 1.0 / pivot : zero4();
 }
 
 // The inverse pivots on the diagonal, l10, l20 and l21 beside it.
 HH_INLINE void decompose(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
-    const Wide3 least = (zero_four() + k_smallest_pivot) * diagonal;
+    const Wide3 least = (zero4() + k_smallest_pivot) * diagonal;
     out.xx = inverse_pivot(m.xx, least.x);
     out.xy = m.xy * out.xx;
     out.xz = m.xz * out.xx;
     out.yy = inverse_pivot(m.yy - out.xy * m.xy, least.y);
-    const Four rest = m.yz - out.xz * m.xy;
+    const Double4 rest = m.yz - out.xz * m.xy;
     out.yz = rest * out.yy;
     out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, least.z);
 }
 
 // True where it has pivots in the inverse's place: in all lanes, if one of them needs them.
 HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
-    const Four xx = m.yy * m.zz - m.yz * m.yz;
-    const Four xy = m.xz * m.yz - m.xy * m.zz;
-    const Four xz = m.xy * m.yz - m.xz * m.yy;
-    const Four determinant = (m.xx * xx + m.xy * xy) + m.xz * xz;
-    const Four least = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
+    const Double4 xx = m.yy * m.zz - m.yz * m.yz;
+    const Double4 xy = m.xz * m.yz - m.xy * m.zz;
+    const Double4 xz = m.xy * m.yz - m.xz * m.yy;
+    const Double4 determinant = (m.xx * xx + m.xy * xy) + m.xz * xz;
+    const Double4 least = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
     if (!all_of(determinant > least)) {
         decompose(m, diagonal, out);
         return true;
     }
-    const Four factor = 1.0 / determinant;
+    const Double4 factor = 1.0 / determinant;
     out.xx = factor * xx;
     out.xy = factor * xy;
     out.xz = factor * xz;
@@ -52,17 +52,17 @@ HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetr
 }
 
 HH_INLINE Wide3 divide(const WideSymmetric& pivots, const Wide3& v) {
-    const Four y1 = v.y - v.x * pivots.xy;
-    const Four y2 = (v.z - v.x * pivots.xz) - y1 * pivots.yz;
-    const Four x2 = y2 * pivots.zz;
-    const Four x1 = y1 * pivots.yy - x2 * pivots.yz;
+    const Double4 y1 = v.y - v.x * pivots.xy;
+    const Double4 y2 = (v.z - v.x * pivots.xz) - y1 * pivots.yz;
+    const Double4 x2 = y2 * pivots.zz;
+    const Double4 x1 = y1 * pivots.yy - x2 * pivots.yz;
     return {(v.x * pivots.xx - x2 * pivots.xz) - x1 * pivots.xy, x1, x2};
 }
-HH_INLINE Wide3 apply_inverse(const FourLinks& links, const Wide3& v) {
+HH_INLINE Wide3 apply_inverse(const Links4& links, const Wide3& v) {
     return links.has_pivots ? divide(links.inverse, v) : multiply(links.inverse, v);
 }
 
-HH_INLINE void apply_inverse(const FourLinks& links, const WideSquare& m, WideSquare& out) {
+HH_INLINE void apply_inverse(const Links4& links, const WideMat3& m, WideMat3& out) {
     const WideSymmetric& w = links.inverse;
     if (links.has_pivots) {
         const Wide3 y1 = m.y - w.xy * m.x;
@@ -87,22 +87,22 @@ HH_INLINE WideSymmetric operator-(const WideSymmetric& a, const WideSymmetric& b
 HH_INLINE WideSymmetric operator+(const WideSymmetric& a, const WideSymmetric& b) {
     return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
 }
-HH_INLINE Wide3 combine(const WideSquare& m, const Wide3& v) {
+HH_INLINE Wide3 combine(const WideMat3& m, const Wide3& v) {
     return (v.x * m.x + v.y * m.y) + v.z * m.z;
 }
-HH_INLINE Wide3 multiply(const WideSquare& m, const Wide3& v) {
+HH_INLINE Wide3 multiply(const WideMat3& m, const Wide3& v) {
     return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
 }
-HH_INLINE WideSquare transposed(const WideSquare& m) {
+HH_INLINE WideMat3 transposed(const WideMat3& m) {
     return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
 }
 // a^T b
-HH_INLINE WideSquare product(const WideSquare& a, const WideSquare& b) {
+HH_INLINE WideMat3 product(const WideMat3& a, const WideMat3& b) {
     return {(a.x.x * b.x + a.y.x * b.y) + a.z.x * b.z, (a.x.y * b.x + a.y.y * b.y) + a.z.y * b.z,
             (a.x.z * b.x + a.y.z * b.y) + a.z.z * b.z};
 }
 // The same where it is symmetric.
-HH_INLINE WideSymmetric symmetric_product(const WideSquare& a, const WideSquare& b) {
+HH_INLINE WideSymmetric symmetric_product(const WideMat3& a, const WideMat3& b) {
     return {(a.x.x * b.x.x + a.y.x * b.y.x) + a.z.x * b.z.x,
             (a.x.y * b.x.y + a.y.y * b.y.y) + a.z.y * b.z.y,
             (a.x.z * b.x.z + a.y.z * b.y.z) + a.z.z * b.z.z,

@@ -18,20 +18,21 @@ std::uint32_t block_at(const EliminationPlan::Panel& panel, std::uint32_t value)
 
 }  // namespace
 
-bool TriadPlan::fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const {
-    return std::ranges::equal(nodes, nodes_) && std::ranges::equal(turns, turns_);
+bool TriadPlan::fits(std::span<const RowNode> nodes,
+                     std::span<const std::uint8_t> can_rotate) const {
+    return std::ranges::equal(nodes, nodes_) && std::ranges::equal(can_rotate, can_rotate_);
 }
 
-void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
+void TriadPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
     nodes_.assign(nodes.begin(), nodes.end());
-    turns_.assign(turns.begin(), turns.end());
-    strands_.build(nodes, turns);
-    plan_.build(strands_.rest_nodes(), strands_.rest_turns());
+    can_rotate_.assign(can_rotate.begin(), can_rotate.end());
+    strands_.build(nodes, can_rotate);
+    plan_.build(strands_.rest_nodes(), strands_.rest_can_rotate());
     HH_CHECK(plan_.hubs().empty(), "hubs have no triads", plan_.hubs().size());
     take_steps();
     find_places();
     find_groups();
-    find_braids();
+    find_strand_packs();
     find_pairs();
     find_zeros();
     pack_ends();
@@ -41,12 +42,12 @@ void TriadPlan::reserve(const TriadPlan& other) {
     strands_.reserve(other.strands_);
     plan_.reserve(other.plan_);
     reserve_as(other.nodes_, nodes_);
-    reserve_as(other.turns_, turns_);
+    reserve_as(other.can_rotate_, can_rotate_);
     reserve_as(other.steps_, steps_);
     reserve_as(other.later_, later_);
     reserve_as(other.updates_, updates_);
-    reserve_as(other.braids_, braids_);
-    reserve_as(other.holds_, holds_);
+    reserve_as(other.strand_packs_, strand_packs_);
+    reserve_as(other.anchored_ends_, anchored_ends_);
     reserve_as(other.places_, places_);
     reserve_as(other.slots_, slots_);
     reserve_as(other.packed_ends_, packed_ends_);
@@ -93,7 +94,7 @@ void TriadPlan::find_places() {
     }
     const std::span<const std::uint32_t> rest = strands_.rest_slots();
     slots_.insert(slots_.end(), rest.begin(), rest.end());
-    places_.assign(turns_.size(), k_no_slot);
+    places_.assign(can_rotate_.size(), k_no_slot);
     for (std::uint32_t place = 0; place < slots_.size(); ++place) {
         if (slots_[place] != k_no_slot) {
             places_[slots_[place]] = place;
@@ -104,8 +105,8 @@ void TriadPlan::find_places() {
 // Nodes that go first come first: a product's block lies in the panel of the earlier of its two.
 void TriadPlan::find_groups() {
     const std::span<const std::uint32_t> slots = strands_.rest_slots();
-    counts_.assign(strands_.rest_turns().size(), 0);
-    place_in_body_.assign(spare_end(), 0);
+    counts_.assign(strands_.rest_can_rotate().size(), 0);
+    place_in_body_.assign(dummy_end(), 0);
     for (const Step& step : steps_) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             const std::uint32_t slot = slot_of(2 * step.node + side);
@@ -130,12 +131,12 @@ void TriadPlan::find_groups() {
         pairs += width * (width + 1) / 2;
     }
     Lanes spare;
-    spare.fill(spare_end());
+    spare.fill(dummy_end());
     ends_.assign(ends, spare);
-    spare.fill(spare_block());
+    spare.fill(dummy_block());
     pairs_.assign(pairs, {spare});
     const auto first = static_cast<std::uint32_t>(strands_.row_count());
-    for (std::uint32_t end = 0; end < spare_end(); ++end) {
+    for (std::uint32_t end = 0; end < dummy_end(); ++end) {
         const std::uint32_t slot = slot_of(end);
         if (slot < places_.size()) {
             const std::uint32_t place = places_[slot];
@@ -145,23 +146,23 @@ void TriadPlan::find_groups() {
     }
 }
 
-void TriadPlan::find_braids() {
-    braids_.clear();
-    holds_.clear();
+void TriadPlan::find_strand_packs() {
+    strand_packs_.clear();
+    anchored_ends_.clear();
     Lanes spare;
-    spare.fill(spare_block());
+    spare.fill(dummy_block());
     const auto or_spare = [this](Lanes ends) {
-        std::ranges::replace(ends, k_no_slot, spare_end());
+        std::ranges::replace(ends, k_no_slot, dummy_end());
         return ends;
     };
-    for (const StrandPlan::Braid& from : strands_.braids()) {
-        const auto bound = static_cast<std::uint32_t>(from.links + 2 * braids_.size());
-        braids_.push_back({from.length, from.row, from.links, bound, or_spare(from.before),
-                           or_spare(from.after), spare, spare, spare});
+    for (const StrandPlan::StrandPack& from : strands_.strand_packs()) {
+        const auto bound = static_cast<std::uint32_t>(from.links + 2 * strand_packs_.size());
+        strand_packs_.push_back({from.length, from.row, from.links, bound, or_spare(from.before),
+                                 or_spare(from.after), spare, spare, spare});
         for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
             if (strands_.bodies()[from.row][lane] == k_no_slot) {
-                holds_.push_back({strands_.links()[from.links][lane],
-                                  static_cast<std::uint32_t>(k_lanes) * from.row + lane});
+                anchored_ends_.push_back({strands_.links()[from.links][lane],
+                                          static_cast<std::uint32_t>(k_lanes) * from.row + lane});
             }
         }
     }
@@ -187,15 +188,15 @@ void TriadPlan::find_pairs() {
 
 void TriadPlan::find_strand_blocks(const EliminationPlan::Coupling& coupling,
                                    std::uint32_t strand) {
-    Braid& braid = braids_[strand / k_lanes];
+    StrandPack& strand_pack = strand_packs_[strand / k_lanes];
     const std::size_t lane = strand % k_lanes;
     const std::uint32_t block = block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
-    const bool before_first = coupling.panel_end == braid.before[lane];
+    const bool before_first = coupling.panel_end == strand_pack.before[lane];
     if (coupling.panel_end != coupling.later_end) {
-        braid.block_between[lane] = block;
-        braid.before_first[lane] = before_first;
+        strand_pack.block_between[lane] = block;
+        strand_pack.before_first[lane] = before_first;
     } else {
-        (before_first ? braid.block_before : braid.block_after)[lane] = block;
+        (before_first ? strand_pack.block_before : strand_pack.block_after)[lane] = block;
     }
 }
 
@@ -206,15 +207,15 @@ void TriadPlan::find_zeros() {
             ++counts_[block];
         }
     }
-    for (const Braid& braid : braids_) {
+    for (const StrandPack& strand_pack : strand_packs_) {
         for (const Lanes* const blocks :
-             {&braid.block_before, &braid.block_after, &braid.block_between}) {
+             {&strand_pack.block_before, &strand_pack.block_after, &strand_pack.block_between}) {
             for (const std::uint32_t block : *blocks) {
                 counts_[block] += 2;  // never alone
             }
         }
     }
-    counts_[spare_block()] = 1;
+    counts_[dummy_block()] = 1;
     is_written_.assign(block_count_ + 1, 0);
     for (Pair& pair : pairs_) {
         pair.is_alone = std::ranges::all_of(
@@ -225,9 +226,9 @@ void TriadPlan::find_zeros() {
             }
         }
     }
-    is_written_[spare_block()] = 0;
+    is_written_[dummy_block()] = 0;
     zeros_.clear();
-    for (std::uint32_t block = 0; block <= spare_block(); ++block) {
+    for (std::uint32_t block = 0; block <= dummy_block(); ++block) {
         if (is_written_[block] == 0) {
             zeros_.push_back(block);
         }
@@ -239,17 +240,18 @@ void TriadPlan::pack_ends() {
     none.fill(k_no_slot);
     packed_ends_.assign(2 * strands_.row_count() + ends_.size(), none);
     const auto given = [this](std::uint32_t end) {
-        return end == spare_end() ? k_no_slot : 2 * rest()[end / 2] + end % 2;
+        return end == dummy_end() ? k_no_slot : 2 * rest()[end / 2] + end % 2;
     };
-    for (const Braid& braid : braids_) {
-        Lanes* const ends = packed_ends_.data() + std::size_t{2} * braid.row;
-        std::ranges::transform(braid.before, ends[0].begin(), given);
-        for (std::size_t k = 0; k < braid.length; ++k) {
-            ends[2 * k + 1] = links(braid)[k];
+    for (const StrandPack& strand_pack : strand_packs_) {
+        Lanes* const ends = packed_ends_.data() + std::size_t{2} * strand_pack.row;
+        std::ranges::transform(strand_pack.before, ends[0].begin(), given);
+        for (std::size_t k = 0; k < strand_pack.length; ++k) {
+            ends[2 * k + 1] = links(strand_pack)[k];
             std::ranges::transform(ends[2 * k + 1], ends[2 * k + 2].begin(),
                                    [](std::uint32_t end) { return end ^ 1U; });
         }
-        std::ranges::transform(braid.after, ends[std::size_t{2} * braid.length + 1].begin(), given);
+        std::ranges::transform(strand_pack.after,
+                               ends[std::size_t{2} * strand_pack.length + 1].begin(), given);
     }
     Lanes* ends = packed_ends_.data() + 2 * strands_.row_count();
     for (const Lanes& of_rest : ends_) {

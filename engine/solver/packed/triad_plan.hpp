@@ -20,11 +20,11 @@ namespace handhold {
 class TriadPlan {
   public:
     // `nodes` each three rows wide, no body with more than k_hub_nodes of them.
-    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Room for what the other has room for: a build of its structure allocates nothing.
     void reserve(const TriadPlan& other);
     // True where it was built from the same.
-    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const;
+    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) const;
 
     // A node is eliminated: its own block, and the blocks of the later nodes that it meets, which
     // follow it.
@@ -61,38 +61,38 @@ class TriadPlan {
     std::span<const Lanes> packed_ends() const { return packed_ends_; }
 
     // Four strands. A row has four bodies.
-    struct Braid {
+    struct StrandPack {
         std::uint32_t length = 0;  // links of each: one less than rows
         std::uint32_t row = 0;     // the first: of fours of bodies
         std::uint32_t step = 0;    // the first of its length steps, in which four links go
         std::uint32_t bound = 0;   // the first of length + 2 of its fours of multipliers: those
                                    // of `before`, of each step and of `after`
-        Lanes before{};            // the end at the first body, or `spare_end`
+        Lanes before{};            // the end at the first body, or `dummy_end`
         Lanes after{};             // and at the last one
-        // What is left of a strand is added there, or to `spare_block`.
+        // What is left of a strand is added there, or to `dummy_block`.
         Lanes block_before{};
         Lanes block_after{};
         Lanes block_between{};
         std::array<bool, 4> before_first{};  // rows of `block_between` are those of `before`
     };
-    std::span<const Braid> braids() const { return braids_; }
+    std::span<const StrandPack> strand_packs() const { return strand_packs_; }
     // The given nodes of a braid's steps: 2 * node + the side at the row before.
-    std::span<const Lanes> links(const Braid& braid) const {
-        return strands_.links().subspan(braid.step, braid.length);
+    std::span<const Lanes> links(const StrandPack& strand_pack) const {
+        return strands_.links().subspan(strand_pack.step, strand_pack.length);
     }
-    std::size_t braid_steps() const { return strands_.links().size(); }
+    std::size_t strand_pack_steps() const { return strands_.links().size(); }
     // Ends of given nodes that nothing moves at the beginning of a strand, and the place of the
     // body that stands for it there.
-    struct Hold {
+    struct AnchoredEnd {
         std::uint32_t end = 0;
         std::uint32_t place = 0;
     };
-    std::span<const Hold> holds() const { return holds_; }
+    std::span<const AnchoredEnd> anchored_ends() const { return anchored_ends_; }
     // The place of a given node in `rest()`; k_no_slot for a strand's.
     std::span<const std::uint32_t> rest_places() const { return strands_.places(); }
 
     // Four bodies of the rest. Each has up to `width` ends (2 * node + side), those of the nodes
-    // that go first before the others; what a lane lacks is `spare_end`.
+    // that go first before the others; what a lane lacks is `dummy_end`.
     struct Group {
         std::uint32_t width = 0;
         std::uint32_t four = 0;    // which four bodies
@@ -100,7 +100,7 @@ class TriadPlan {
         std::uint32_t ends = 0;    // into `ends`, `width` of them
         std::uint32_t pairs = 0;   // into `pairs`, as Step::updates: products of two of its ends
     };
-    // Where they go, or `spare_block`.
+    // Where they go, or `dummy_block`.
     struct Pair {
         Lanes blocks{};
         bool is_alone = false;  // nothing else is added to any of these
@@ -111,15 +111,15 @@ class TriadPlan {
     // Blocks that are 0 before products are added.
     std::span<const std::uint32_t> zeros() const { return zeros_; }
     // One past those that are.
-    std::uint32_t spare_end() const { return static_cast<std::uint32_t>(2 * steps_.size()); }
-    std::uint32_t spare_block() const { return static_cast<std::uint32_t>(block_count_); }
+    std::uint32_t dummy_end() const { return static_cast<std::uint32_t>(2 * steps_.size()); }
+    std::uint32_t dummy_block() const { return static_cast<std::uint32_t>(block_count_); }
 
   private:
     void take_steps();
     void find_places();
     void find_groups();
     void find_pairs();
-    void find_braids();
+    void find_strand_packs();
     void find_strand_blocks(const EliminationPlan::Coupling& coupling, std::uint32_t strand);
     void find_zeros();
     void pack_ends();
@@ -128,14 +128,14 @@ class TriadPlan {
     }
 
     std::vector<RowNode> nodes_;  // as given
-    std::vector<std::uint8_t> turns_;
+    std::vector<std::uint8_t> can_rotate_;
     StrandPlan strands_;
     EliminationPlan plan_;  // of the rest
     std::vector<Step> steps_;
     std::vector<std::uint32_t> later_;  // nodes
     std::vector<std::uint32_t> updates_;
-    std::vector<Braid> braids_;
-    std::vector<Hold> holds_;
+    std::vector<StrandPack> strand_packs_;
+    std::vector<AnchoredEnd> anchored_ends_;
     std::vector<std::uint32_t> places_;
     std::vector<std::uint32_t> slots_;
     std::vector<Lanes> packed_ends_;

@@ -10,42 +10,45 @@
 namespace handhold::triads {
 
 // A braid's part of the arrays.
-struct BraidArrays {
-    FourBodies* bodies;  // by row
-    FourEnds* ends;      // 2 * row: those of the node before, then those of the node after
-    FourLinks* links;    // by step
+struct StrandPackArrays {
+    Bodies4* bodies;     // by row
+    Ends4* ends;         // 2 * row: those of the node before, then those of the node after
+    Links4* links;       // by step
     Wide3* multipliers;  // of `before`, of each step, of `after`
 };
-HH_INLINE BraidArrays part_of(const TriadPlan::Braid& braid, const TriadArrays& arrays) {
-    return {arrays.bodies.data() + braid.row, arrays.body_ends.data() + std::size_t{2} * braid.row,
-            arrays.links.data() + braid.step, arrays.multipliers.data() + braid.bound};
+HH_INLINE StrandPackArrays part_of(const TriadPlan::StrandPack& strand_pack,
+                                   const TriadArrays& arrays) {
+    return {arrays.bodies.data() + strand_pack.row,
+            arrays.body_ends.data() + std::size_t{2} * strand_pack.row,
+            arrays.links.data() + strand_pack.step, arrays.multipliers.data() + strand_pack.bound};
 }
 
 // The steps whose links meet a row of a window, and the rows themselves.
-struct BraidPart {
+struct StrandPackRange {
     std::size_t begin, end;            // rows
     std::size_t first_step, end_step;  // step k lies between the rows k and k + 1
     bool has_before, has_after;        // whether the braid's first and last row are among them
 };
-HH_INLINE BraidPart part_in(const RowWindow& window, const TriadPlan::Braid& braid) {
+HH_INLINE StrandPackRange part_in(const RowWindow& window,
+                                  const TriadPlan::StrandPack& strand_pack) {
     const bool has_before = window.begin == 0;
-    const bool has_after = window.end > braid.length;
+    const bool has_after = window.end > strand_pack.length;
     return {window.begin,
             window.end,
             has_before ? std::size_t{0} : window.begin - std::size_t{1},
-            has_after ? std::size_t{braid.length} : std::size_t{window.end},
+            has_after ? std::size_t{strand_pack.length} : std::size_t{window.end},
             has_before,
             has_after};
 }
 
 // --- Values ------------------------------------------------------------------------------------
 
-HH_INLINE void evaluate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
-                              const TriadArrays& arrays) {
-    const BraidArrays of = part_of(braid, arrays);
+HH_INLINE void evaluate_strand_pack(const TriadPlan::StrandPack& strand_pack,
+                                    const StrandPackRange& part, const TriadArrays& arrays) {
+    const StrandPackArrays of = part_of(strand_pack, arrays);
     if (part.has_before) {
         write_axes(of.bodies[0]);
-        write_ends(part_of(of.bodies[0], of.ends[0]), braid.before, arrays);
+        write_ends(part_of(of.bodies[0], of.ends[0]), strand_pack.before, arrays);
     }
     Wide3 first = part_of(of.bodies[part.first_step], of.ends[2 * part.first_step + 1]);
     for (std::size_t step = part.first_step; step < part.end_step; ++step) {
@@ -57,28 +60,28 @@ HH_INLINE void evaluate_braid(const TriadPlan::Braid& braid, const BraidPart& pa
         first = part_of(of.bodies[row], of.ends[2 * row + 1]);
     }
     if (part.has_after) {
-        write_ends(first, braid.after, arrays);
+        write_ends(first, strand_pack.after, arrays);
     }
 }
 HH_INLINE void evaluate_strands(const TriadArrays& arrays) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        evaluate_braid(braids[i], part_in(arrays.windows[i], braids[i]), arrays);
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        evaluate_strand_pack(strand_packs[i], part_in(arrays.windows[i], strand_packs[i]), arrays);
     }
 }
 
 template <bool HasTurn>
 HH_INLINE void evaluate_strand_velocities(const TriadArrays& arrays) {
-    for (const TriadPlan::Braid& braid : arrays.plan->braids()) {
-        const BraidArrays of = part_of(braid, arrays);
-        write_ends(speed_of<HasTurn>(of.bodies[0], of.ends[0]), braid.before, arrays);
+    for (const TriadPlan::StrandPack& strand_pack : arrays.plan->strand_packs()) {
+        const StrandPackArrays of = part_of(strand_pack, arrays);
+        write_ends(speed_of<HasTurn>(of.bodies[0], of.ends[0]), strand_pack.before, arrays);
         Wide3 first = speed_of<HasTurn>(of.bodies[0], of.ends[1]);
-        for (std::size_t row = 1; row <= braid.length; ++row) {
+        for (std::size_t row = 1; row <= strand_pack.length; ++row) {
             assign(first + speed_of<HasTurn>(of.bodies[row], of.ends[2 * row]),
                    of.links[row - 1].value);
             first = speed_of<HasTurn>(of.bodies[row], of.ends[2 * row + 1]);
         }
-        write_ends(first, braid.after, arrays);
+        write_ends(first, strand_pack.after, arrays);
     }
 }
 HH_INLINE void evaluate_strand_velocities(const TriadArrays& arrays) {
@@ -87,24 +90,24 @@ HH_INLINE void evaluate_strand_velocities(const TriadArrays& arrays) {
 }
 
 HH_INLINE double worst_strand_square(const TriadArrays& arrays) {
-    Four worst = zero_four();
-    for (const FourLinks& links : arrays.links) {
+    Double4 worst = zero4();
+    for (const Links4& links : arrays.links) {
         worst = larger(worst, dot(links.value, links.value));
     }
     return largest(worst);
 }
 
 HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
-    const Four zero = zero_four();
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const TriadPlan::Braid& braid = braids[i];
-        const BraidArrays of = part_of(braid, arrays);
+    const Double4 zero = zero4();
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const TriadPlan::StrandPack& strand_pack = strand_packs[i];
+        const StrandPackArrays of = part_of(strand_pack, arrays);
         for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             WideSymmetric sum{zero, zero, zero, zero, zero, zero};
             add_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
             add_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
-            assign(sum, arrays.stiffness[braid.row + row]);
+            assign(sum, arrays.stiffness[strand_pack.row + row]);
         }
     }
 }
@@ -114,29 +117,28 @@ HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
 // What a row's bodies add to the blocks of their two nodes.
 struct WideCoupling {
     WideSymmetric before, after;
-    WideSquare between;  // rows of the node before
+    WideMat3 between;  // rows of the node before
 };
 HH_INLINE WideCoupling no_coupling() {
-    const Four zero = zero_four();
+    const Double4 zero = zero4();
     return {{zero, zero, zero, zero, zero, zero},
             {zero, zero, zero, zero, zero, zero},
-            {zero_three(), zero_three(), zero_three()}};
+            {zero_wide3(), zero_wide3(), zero_wide3()}};
 }
 template <bool HasTurn>
-HH_INLINE WideSymmetric own_product(const Wide3* side, const FourEnds& end, const Four& mass) {
+HH_INLINE WideSymmetric own_product(const Wide3* side, const Ends4& end, const Double4& mass) {
     const Wide3 x = times_end<HasTurn>(side[0], end);
     const Wide3 y = times_end<HasTurn>(side[1], end);
     const Wide3 z = times_end<HasTurn>(side[2], end);
-    const Four own = mass * end.sign;
+    const Double4 own = mass * end.sign;
     return {x.x + own, y.y + own, z.z + own, x.y, x.z, y.z};
 }
 template <bool HasTurn>
-HH_INLINE WideCoupling couple(const FourBodies& bodies, const FourEnds& before,
-                              const FourEnds& after) {
+HH_INLINE WideCoupling couple(const Bodies4& bodies, const Ends4& before, const Ends4& after) {
     Wide3 side[3];
     write_side<HasTurn>(bodies.inverse_inertia, before, side);
-    const Four mass = bodies.inverse_mass * before.sign;
-    const Four shared = mass * after.sign;
+    const Double4 mass = bodies.inverse_mass * before.sign;
+    const Double4 shared = mass * after.sign;
     Wide3 x = times_end<HasTurn>(side[0], after);
     Wide3 y = times_end<HasTurn>(side[1], after);
     Wide3 z = times_end<HasTurn>(side[2], after);
@@ -165,18 +167,18 @@ HH_INLINE void add(const WideSymmetric& m, const TriadPlan::Lanes& blocks,
 }
 
 // Where the elimination of a braid stands.
-struct BraidElimination {
-    WideCoupling row;   // of the bodies behind the last link
-    WideSquare before;  // of the link at hand with `before`
+struct StrandElimination {
+    WideCoupling row;  // of the bodies behind the last link
+    WideMat3 before;   // of the link at hand with `before`
     WideSymmetric taken, taken_before;
     Wide3 diagonal;  // of the last link, before anything was taken off
-    Four inverse_sum;
+    Double4 inverse_sum;
 };
 
 // `of_first` is what the link's first bodies add to its block; the row is that of its second ones.
 template <bool Carries>
-HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, FourLinks& links,
-                              BraidElimination& at) {
+HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, Links4& links,
+                              StrandElimination& at) {
     const WideSymmetric own = of_first + at.row.before;
     const Wide3 diagonal{own.xx, own.yy, own.zz};
     at.inverse_sum += 9.0 / ((own.xx + own.yy) + own.zz);
@@ -190,26 +192,26 @@ HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha,
     if (Carries) {
         apply_inverse(links, at.before, links.before);
         at.taken_before = at.taken_before + symmetric_product(at.before, links.before);
-        const WideSquare carried = product(at.row.between, links.before);
-        at.before = {zero_three() - carried.x, zero_three() - carried.y, zero_three() - carried.z};
+        const WideMat3 carried = product(at.row.between, links.before);
+        at.before = {zero_wide3() - carried.x, zero_wide3() - carried.y, zero_wide3() - carried.z};
     }
     assign(diagonal, at.diagonal);
 }
 
 // True where what ties the link at hand to `before` is nothing in all lanes, next to its own block:
 // it fades by a constant factor a link.
-HH_INLINE bool has_faded(const BraidElimination& at) {
+HH_INLINE bool is_coupling_negligible(const StrandElimination& at) {
     constexpr double k_nothing = 1e-30;
-    const Four square = (dot(at.before.x, at.before.x) + dot(at.before.y, at.before.y)) +
-                        dot(at.before.z, at.before.z);
+    const Double4 square = (dot(at.before.x, at.before.x) + dot(at.before.y, at.before.y)) +
+                           dot(at.before.z, at.before.z);
     return all_of(square <= (k_nothing * k_nothing) * dot(at.diagonal, at.diagonal));
 }
 
 // Each link goes as soon as both its bodies have been: in the shadow of its inverse, which takes
 // long, lies the next row's product. Returns the first step that is not tied to `before`.
 template <bool HasTurn>
-HH_INLINE std::size_t eliminate_links(const BraidPart& part, const BraidArrays& of,
-                                      double joint_alpha, BraidElimination& at) {
+HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandPackArrays& of,
+                                      double joint_alpha, StrandElimination& at) {
     constexpr std::size_t k_look = 8;  // how often it is asked whether anything is left
     const std::size_t end = part.has_after ? part.end_step : part.end_step - 1;
     std::size_t k = part.first_step;
@@ -218,11 +220,11 @@ HH_INLINE std::size_t eliminate_links(const BraidPart& part, const BraidArrays& 
         const WideSymmetric of_first = at.row.after;
         at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
         eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
-        carries = k % k_look != 0 || !has_faded(at);
+        carries = k % k_look != 0 || !is_coupling_negligible(at);
     }
-    const std::size_t faded = k;
+    const std::size_t decoupled = k;
     if (!carries) {
-        at.before = {zero_three(), zero_three(), zero_three()};
+        at.before = {zero_wide3(), zero_wide3(), zero_wide3()};
     }
     for (; k < end; ++k) {
         const WideSymmetric of_first = at.row.after;
@@ -234,30 +236,31 @@ HH_INLINE std::size_t eliminate_links(const BraidPart& part, const BraidArrays& 
         at.row = no_coupling();
         eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
     }
-    return carries ? part.end_step : faded;
+    return carries ? part.end_step : decoupled;
 }
 
 template <bool HasTurn>
-HH_INLINE void eliminate_braid(const TriadPlan::Braid& braid, const BraidPart& part,
-                               double joint_alpha, const TriadArrays& arrays, FourStrands& left) {
-    const BraidArrays of = part_of(braid, arrays);
-    const Four zero = zero_four();
+HH_INLINE void eliminate_strand_pack(const TriadPlan::StrandPack& strand_pack,
+                                     const StrandPackRange& part, double joint_alpha,
+                                     const TriadArrays& arrays, Strands4& left) {
+    const StrandPackArrays of = part_of(strand_pack, arrays);
+    const Double4 zero = zero4();
     // Of all first: what one row's takes its time for, others do not wait for.
     for (std::size_t row = part.begin; row < part.end; ++row) {
-        write_inertia(braid.row + row, arrays);
+        write_inertia(strand_pack.row + row, arrays);
     }
-    BraidElimination at;
+    StrandElimination at;
     at.row = no_coupling();
     if (part.has_before) {
         at.row = couple<HasTurn>(of.bodies[0], of.ends[0], of.ends[1]);
-        add(at.row.before, braid.block_before, arrays);
+        add(at.row.before, strand_pack.block_before, arrays);
     }
     at.before = transposed(at.row.between);
     at.taken = {zero, zero, zero, zero, zero, zero};
     at.taken_before = at.taken;
     at.inverse_sum = zero;
-    left.faded_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
-    add(at.row.after, braid.block_after, arrays);
+    left.decoupled_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
+    add(at.row.after, strand_pack.block_after, arrays);
     assign(at.taken_before, left.before);
     assign(at.taken, left.after);
     assign(at.before.x, left.between.x);
@@ -267,51 +270,54 @@ HH_INLINE void eliminate_braid(const TriadPlan::Braid& braid, const BraidPart& p
 }
 
 HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const BraidPart part = part_in(arrays.windows[i], braids[i]);
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const StrandPackRange part = part_in(arrays.windows[i], strand_packs[i]);
         if (arrays.has_turn) {
-            eliminate_braid<true>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
+            eliminate_strand_pack<true>(strand_packs[i], part, joint_alpha, arrays,
+                                        arrays.strands[i]);
         } else {
-            eliminate_braid<false>(braids[i], part, joint_alpha, arrays, arrays.strands[i]);
+            eliminate_strand_pack<false>(strand_packs[i], part, joint_alpha, arrays,
+                                         arrays.strands[i]);
         }
     }
 }
 
 // A block's rows are those of the node that goes first.
-HH_INLINE void add_between(const WideSquare& between, const TriadPlan::Braid& braid,
+HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack& strand_pack,
                            const TriadArrays& arrays) {
-    const WideSquare turned = transposed(between);
+    const WideMat3 turned = transposed(between);
     const Wide3* const rows[3] = {&between.x, &between.y, &between.z};
     const Wide3* const turned_rows[3] = {&turned.x, &turned.y, &turned.z};
     for (int i = 0; i < 3; ++i) {
         const Wide4 of_after = to_rows(*rows[i]);
         const Wide4 of_before = to_rows(*turned_rows[i]);
-        const Four* const lanes[2][4] = {{&of_after.x, &of_after.y, &of_after.z, &of_after.w},
-                                         {&of_before.x, &of_before.y, &of_before.z, &of_before.w}};
+        const Double4* const lanes[2][4] = {
+            {&of_after.x, &of_after.y, &of_after.z, &of_after.w},
+            {&of_before.x, &of_before.y, &of_before.z, &of_before.w}};
         for (std::size_t lane = 0; lane < 4; ++lane) {
-            arrays.blocks[braid.block_between[lane]].row[i] +=
-                *lanes[braid.before_first[lane] ? 1 : 0][lane];
+            arrays.blocks[strand_pack.block_between[lane]].row[i] +=
+                *lanes[strand_pack.before_first[lane] ? 1 : 0][lane];
         }
     }
 }
 
 // From the rest's blocks.
-HH_INLINE void take_off_strands(const TriadArrays& arrays) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    const Four zero = zero_four();
+HH_INLINE void subtract_strands(const TriadArrays& arrays) {
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    const Double4 zero = zero4();
     const WideSymmetric none{zero, zero, zero, zero, zero, zero};
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const FourStrands& left = arrays.strands[i];
-        add(none - left.before, braids[i].block_before, arrays);
-        add(none - left.after, braids[i].block_after, arrays);
-        add_between(left.between, braids[i], arrays);
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const Strands4& left = arrays.strands[i];
+        add(none - left.before, strand_packs[i].block_before, arrays);
+        add(none - left.after, strand_packs[i].block_after, arrays);
+        add_between(left.between, strand_packs[i], arrays);
     }
 }
 
 // --- Substitution ------------------------------------------------------------------------------
 
-HH_INLINE void take_off_lambdas(const Wide3& v, const TriadPlan::Lanes& ends,
+HH_INLINE void subtract_lambdas(const Wide3& v, const TriadPlan::Lanes& ends,
                                 const TriadArrays& arrays) {
     const Wide4 rows = to_rows(v);
     arrays.lambdas[ends[0] / 2].v -= rows.x;
@@ -320,20 +326,20 @@ HH_INLINE void take_off_lambdas(const Wide3& v, const TriadPlan::Lanes& ends,
     arrays.lambdas[ends[3] / 2].v -= rows.w;
 }
 
-HH_INLINE Wide3 substitute_into(FourLinks& links, const Wide3& of_next) {
-    const Wide3 own = (zero_three() - links.value) - of_next;
+HH_INLINE Wide3 substitute_into(Links4& links, const Wide3& of_next) {
+    const Wide3 own = (zero_wide3() - links.value) - of_next;
     assign(apply_inverse(links, own), links.unknown);
     return own;
 }
 HH_INLINE void substitute_into_strands(const TriadArrays& arrays) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const BraidPart part = part_in(arrays.windows[i], braids[i]);
-        FourLinks* const links = arrays.links.data() + braids[i].step;
-        Wide3 of_next = zero_three();
-        Wide3 of_before = zero_three();
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const StrandPackRange part = part_in(arrays.windows[i], strand_packs[i]);
+        Links4* const links = arrays.links.data() + strand_packs[i].step;
+        Wide3 of_next = zero_wide3();
+        Wide3 of_before = zero_wide3();
         std::size_t k = part.first_step;
-        for (; k < arrays.strands[i].faded_step; ++k) {
+        for (; k < arrays.strands[i].decoupled_step; ++k) {
             const Wide3 own = substitute_into(links[k], of_next);
             of_next = combine(links[k].next, own);
             of_before = of_before + combine(links[k].before, own);
@@ -341,43 +347,43 @@ HH_INLINE void substitute_into_strands(const TriadArrays& arrays) {
         for (; k < part.end_step; ++k) {
             of_next = combine(links[k].next, substitute_into(links[k], of_next));
         }
-        take_off_lambdas(of_before, braids[i].before, arrays);
-        take_off_lambdas(of_next, braids[i].after, arrays);
+        subtract_lambdas(of_before, strand_packs[i].before, arrays);
+        subtract_lambdas(of_next, strand_packs[i].after, arrays);
     }
 }
 
 HH_INLINE void substitute_back_into_strands(const TriadArrays& arrays) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const TriadPlan::Braid& braid = braids[i];
-        const BraidPart part = part_in(arrays.windows[i], braid);
-        const BraidArrays of = part_of(braid, arrays);
-        const Wide3 before = lambdas_of(braid.before, arrays);
-        Wide3 own = lambdas_of(braid.after, arrays);
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const TriadPlan::StrandPack& strand_pack = strand_packs[i];
+        const StrandPackRange part = part_in(arrays.windows[i], strand_pack);
+        const StrandPackArrays of = part_of(strand_pack, arrays);
+        const Wide3 before = lambdas_of(strand_pack.before, arrays);
+        Wide3 own = lambdas_of(strand_pack.after, arrays);
         assign(before, of.multipliers[0]);
-        assign(own, of.multipliers[braid.length + 1]);
-        const std::size_t faded = arrays.strands[i].faded_step;
+        assign(own, of.multipliers[strand_pack.length + 1]);
+        const std::size_t decoupled = arrays.strands[i].decoupled_step;
         std::size_t k = part.end_step;
-        for (; k > faded; --k) {
-            const FourLinks& links = of.links[k - 1];
+        for (; k > decoupled; --k) {
+            const Links4& links = of.links[k - 1];
             own = links.unknown - multiply(links.next, own);
             assign(own, of.multipliers[k]);
         }
         for (; k > part.first_step; --k) {
-            const FourLinks& links = of.links[k - 1];
+            const Links4& links = of.links[k - 1];
             own = (links.unknown - multiply(links.before, before)) - multiply(links.next, own);
             assign(own, of.multipliers[k]);
         }
     }
 }
 
-HH_INLINE TriadReach gather_strand_moves(const TriadArrays& arrays) {
-    WideReach reach;
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const BraidArrays of = part_of(braids[i], arrays);
+HH_INLINE LargestMove gather_strand_moves(const TriadArrays& arrays) {
+    WideLargestMove reach;
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const StrandPackArrays of = part_of(strand_packs[i], arrays);
         for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
-            WideWrench wrench{zero_three(), zero_three()};
+            WideWrench wrench{zero_wide3(), zero_wide3()};
             add_end(of.ends[2 * row], of.multipliers[row], arrays.has_turn, wrench);
             add_end(of.ends[2 * row + 1], of.multipliers[row + 1], arrays.has_turn, wrench);
             take_moves(wrench, of.bodies[row], reach);
@@ -387,9 +393,9 @@ HH_INLINE TriadReach gather_strand_moves(const TriadArrays& arrays) {
 }
 
 HH_INLINE void apply_strands(const TriadArrays& arrays, double scale) {
-    const std::span<const TriadPlan::Braid> braids = arrays.plan->braids();
-    for (std::size_t i = 0; i < braids.size(); ++i) {
-        const BraidArrays of = part_of(braids[i], arrays);
+    const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
+    for (std::size_t i = 0; i < strand_packs.size(); ++i) {
+        const StrandPackArrays of = part_of(strand_packs[i], arrays);
         for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             move_by(scale, of.bodies[row]);
         }

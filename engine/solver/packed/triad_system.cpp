@@ -10,9 +10,9 @@ namespace {
 // True where the block's rows hold in every state: none may let go, slide, stop or give way.
 bool always_holds(const RowBlock& block) {
     switch (block.kind) {
-        case RowKind::hand_point:
-        case RowKind::hand_weld:
-        case RowKind::hand_direction:
+        case RowKind::drive_point:
+        case RowKind::drive_weld:
+        case RowKind::drive_direction:
             return true;
         case RowKind::ball:
         case RowKind::fixed:
@@ -22,9 +22,10 @@ bool always_holds(const RowBlock& block) {
     }
 }
 
-bool holds_point(RowKind kind) { return kind != RowKind::hand_direction; }
+bool holds_point(RowKind kind) { return kind != RowKind::drive_direction; }
 bool holds_rotation(RowKind kind) {
-    return kind == RowKind::hand_weld || kind == RowKind::fixed || kind == RowKind::hand_direction;
+    return kind == RowKind::drive_weld || kind == RowKind::fixed ||
+           kind == RowKind::drive_direction;
 }
 
 constexpr std::size_t k_lanes = TriadPlan::k_lanes;
@@ -33,11 +34,11 @@ bool may_turn(const SolverBody& body) {
     return body.inverse_mass > 0.0 && !body.inverse_inertia_bs.isZero(0.0);
 }
 
-void pack_velocity(const SolverBody& from, std::size_t lane, FourBodies& to) {
+void pack_velocity(const SolverBody& from, std::size_t lane, Bodies4& to) {
     set_lane(lane, from.velocity_mps, to.velocity);
     set_lane(lane, from.spin_radps, to.spin);
 }
-void pack(const SolverBody& from, std::size_t lane, FourBodies& to) {
+void pack(const SolverBody& from, std::size_t lane, Bodies4& to) {
     set_lane(lane, from.pose_ws.position, to.position);
     set_lane(lane, from.pose_ws.rotation, to.rotation);
     to.inverse_mass[lane] = from.inverse_mass;
@@ -46,7 +47,7 @@ void pack(const SolverBody& from, std::size_t lane, FourBodies& to) {
     pack_velocity(from, lane, to);
 }
 // True where it has the mass and the pose that it was packed with, or stored with.
-bool is_as_packed(const SolverBody& from, std::size_t lane, const FourBodies& body) {
+bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body) {
     return from.inverse_mass == body.inverse_mass[lane] &&
            is_lane(lane, body.position, from.pose_ws.position) &&
            is_lane(lane, body.rotation, from.pose_ws.rotation) &&
@@ -113,25 +114,26 @@ void TriadSystem::pack_velocities(const IslandView& island) {
 }
 
 // False where more meet in one body than are served.
-bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool turns) {
+bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_angular) {
     const RowBlock& block = island.blocks[index];
-    const bool is_hand = handhold::is_hand(block);
+    const bool is_drive = handhold::is_drive(block);
     const std::size_t triad = triad_count_++;
     if (triad_count_ > triads_.size()) {
         resize(2 * triad_count_);
     }
-    triads_[triad] = {index, turns, is_hand};
-    has_hand_ = has_hand_ || is_hand;
-    has_turn_ = has_turn_ || turns;
+    triads_[triad] = {index, is_angular, is_drive};
+    has_drive_rows_ = has_drive_rows_ || is_drive;
+    has_turn_ = has_turn_ || is_angular;
     RowNode& node = nodes_[triad];
-    node = {{k_no_slot, k_no_slot}, 3, false, !turns && !is_hand};
+    node = {{k_no_slot, k_no_slot}, 3, false, !is_angular && !is_drive};
     bool fits = true;
     for (std::uint32_t side = 0; side < 2; ++side) {
         const std::uint32_t body_index = side == 0 ? block.a : block.b;
         const Vec3& point_bs = side == 0 ? block.point_a_bs : block.point_b_bs;
         const auto end = static_cast<std::uint32_t>(2 * triad + side);
-        const double sign = turns ? 0.0 : sign_of(end);
-        points_[end].v = Four{sign * point_bs.x(), sign * point_bs.y(), sign * point_bs.z(), sign};
+        const double sign = is_angular ? 0.0 : sign_of(end);
+        points_[end].v =
+            Double4{sign * point_bs.x(), sign * point_bs.y(), sign * point_bs.z(), sign};
         const SolverBody& body = island.bodies[body_index];
         if (body.inverse_mass > 0.0) {
             node.slots[side] = body.slot;
@@ -155,7 +157,7 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
     read_bodies(island);
     anchors_.clear();
     triad_count_ = 0;
-    is_evaluated_ = has_hand_ = has_turn_ = is_stiff_ = false;
+    is_evaluated_ = has_drive_rows_ = has_turn_ = has_stiffness_ = false;
     bool has_contact = false;
     for (const std::uint32_t index : island.island_blocks) {
         const RowBlock& block = island.blocks[index];
@@ -177,13 +179,13 @@ bool TriadSystem::load(const IslandView& island, double touch_m) {
     resize(triad_count_);
     plan_nodes();
     pack_bodies(island);
-    if (!has_contact && island.filter != BlockFilter::without_hands) {
+    if (!has_contact && island.filter != BlockFilter::without_drives) {
         revision_ = island.revision;
     }
     return true;
 }
 
-bool TriadSystem::is_as_loaded(const IslandView& island) const {
+bool TriadSystem::matches_loaded_state(const IslandView& island) const {
     if (!std::ranges::equal(body_indices_, island.island_bodies)) {
         return false;
     }
@@ -201,12 +203,12 @@ bool TriadSystem::is_as_loaded(const IslandView& island) const {
 
 bool TriadSystem::resume(const IslandView& island) {
     if (revision_ == 0 || revision_ != island.revision ||
-        island.filter == BlockFilter::without_hands || !is_as_loaded(island)) {
+        island.filter == BlockFilter::without_drives || !matches_loaded_state(island)) {
         return false;
     }
     pack_velocities(island);
-    is_stiff_ = false;
-    widen();
+    has_stiffness_ = false;
+    activate_all_rows();
     clear_impulses();
     return true;
 }
@@ -214,9 +216,9 @@ bool TriadSystem::resume(const IslandView& island) {
 void TriadSystem::plan_nodes() {
     const TriadPlan& plan = plans_.choose(nodes_, may_turn_);
     const std::span<const std::uint32_t> rest = plan.rest();
-    hands_.resize(rest.size());
-    std::ranges::transform(rest, hands_.begin(), [this](std::uint32_t triad) {
-        return static_cast<std::uint8_t>(triads_[triad].is_hand ? 1 : 0);
+    is_drive_.resize(rest.size());
+    std::ranges::transform(rest, is_drive_.begin(), [this](std::uint32_t triad) {
+        return static_cast<std::uint8_t>(triads_[triad].is_drive ? 1 : 0);
     });
     const std::size_t count = rest.size();
     ends_.resize(2 * count + 1);
@@ -227,10 +229,10 @@ void TriadSystem::plan_nodes() {
     blocks_.resize(plan.block_count() + 1);
     inverses_.resize(count);
     unknowns_.resize(count);
-    links_.resize(plan.braid_steps());
-    strands_.resize(plan.braids().size());
-    multipliers_.resize(plan.braid_steps() + 2 * plan.braids().size());
-    widen();
+    links_.resize(plan.strand_pack_steps());
+    strands_.resize(plan.strand_packs().size());
+    multipliers_.resize(plan.strand_pack_steps() + 2 * plan.strand_packs().size());
+    activate_all_rows();
     clear_impulses();
     place_anchors();
     load_ends();
@@ -238,8 +240,8 @@ void TriadSystem::plan_nodes() {
 
 void TriadSystem::clear_impulses() {
     std::ranges::fill(impulses_, TriadVector{});
-    for (FourLinks& links : links_) {
-        assign({zero_four(), zero_four(), zero_four()}, links.impulse);
+    for (Links4& links : links_) {
+        assign({zero4(), zero4(), zero4()}, links.impulse);
     }
 }
 
@@ -251,8 +253,10 @@ void TriadSystem::place_anchors() {
             anchor.rest_end = 2 * rest + anchor.end % 2;
             continue;
         }
-        anchor.place = std::ranges::find(plan.holds(), anchor.end, &TriadPlan::Hold::end)->place;
-        points_[anchor.end].v = Four{0.0, 0.0, 0.0, sign_of(anchor.end)};
+        anchor.place =
+            std::ranges::find(plan.anchored_ends(), anchor.end, &TriadPlan::AnchoredEnd::end)
+                ->place;
+        points_[anchor.end].v = Double4{0.0, 0.0, 0.0, sign_of(anchor.end)};
     }
 }
 
@@ -260,30 +264,30 @@ void TriadSystem::load_ends() {
     const std::span<const TriadPlan::Lanes> ends = plans_.current().packed_ends();
     body_ends_.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        FourEnds& four = body_ends_[i];
+        Ends4& four = body_ends_[i];
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::uint32_t end = ends[i][lane];
-            const Four point = end == k_no_slot ? zero_four() : points_[end].v;
+            const Double4 point = end == k_no_slot ? zero4() : points_[end].v;
             four.point_bs.x[lane] = point[0];
             four.point_bs.y[lane] = point[1];
             four.point_bs.z[lane] = point[2];
             four.sign[lane] = point[3];
-            const bool turns = has_turn_ && end != k_no_slot && triads_[end / 2].turns;
-            four.lever[lane] = turns ? k_angle_m * sign_of(end) : 0.0;
+            const bool is_angular = has_turn_ && end != k_no_slot && triads_[end / 2].is_angular;
+            four.lever[lane] = is_angular ? k_angle_lever_m * sign_of(end) : 0.0;
         }
     }
 }
 
 TriadArrays TriadSystem::arrays() {
-    return {bodies_,   body_ends_, stiffness_,        links_,    multipliers_, strands_,
-            ends_,     values_,    lambdas_,          hands_,    blocks_,      inverses_,
-            unknowns_, windows_,   &plans_.current(), has_turn_, is_stiff_};
+    return {bodies_,   body_ends_, stiffness_,        links_,    multipliers_,  strands_,
+            ends_,     values_,    lambdas_,          is_drive_, blocks_,       inverses_,
+            unknowns_, windows_,   &plans_.current(), has_turn_, has_stiffness_};
 }
 
 void TriadSystem::store_poses(const IslandView& island) const {
     const std::span<const std::uint32_t> slots = plans_.current().slots();
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
-        const FourBodies& bodies = four_of(place);
+        const Bodies4& bodies = four_of(place);
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             Pose& pose_ws = island.bodies[body_indices_[slots[place]]].pose_ws;
@@ -296,7 +300,7 @@ void TriadSystem::store_poses(const IslandView& island) const {
 void TriadSystem::store_velocities(const IslandView& island) const {
     const std::span<const std::uint32_t> slots = plans_.current().slots();
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
-        const FourBodies& bodies = four_of(place);
+        const Bodies4& bodies = four_of(place);
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             SolverBody& body = island.bodies[body_indices_[slots[place]]];
@@ -308,17 +312,18 @@ void TriadSystem::store_velocities(const IslandView& island) const {
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
         const Triad& triad = triads_[plan.rest()[i]];
         RowBlock& block = island.blocks[triad.block];
-        if (triad.turns) {
-            block.couple_ws_nms = k_angle_m * to_vec3(impulses_[i].v);
+        if (triad.is_angular) {
+            block.angular_impulse_ws_nms = k_angle_lever_m * to_vec3(impulses_[i].v);
         } else {
             block.impulse_ws_ns = to_vec3(impulses_[i].v);
         }
     }
-    for (const TriadPlan::Braid& braid : plan.braids()) {
-        for (std::size_t k = 0; k < braid.length; ++k) {
+    for (const TriadPlan::StrandPack& strand_pack : plan.strand_packs()) {
+        for (std::size_t k = 0; k < strand_pack.length; ++k) {
             for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-                RowBlock& block = island.blocks[triads_[plan.links(braid)[k][lane] / 2].block];
-                get_lane(lane, links_[braid.step + k].impulse, block.impulse_ws_ns);
+                RowBlock& block =
+                    island.blocks[triads_[plan.links(strand_pack)[k][lane] / 2].block];
+                get_lane(lane, links_[strand_pack.step + k].impulse, block.impulse_ws_ns);
             }
         }
     }
@@ -341,7 +346,7 @@ void TriadSystem::evaluate(const IslandView& island) {
             continue;
         }
         const Vec3 point_ws = transform_point(island.bodies[anchor.body].pose_ws, anchor.point_bs);
-        ends_[anchor.rest_end].v = to_four(Vec3(sign_of(anchor.end) * point_ws));
+        ends_[anchor.rest_end].v = to_double4(Vec3(sign_of(anchor.end) * point_ws));
     }
     kernels_->evaluate(arrays());
     if (!has_turn_) {
@@ -350,15 +355,16 @@ void TriadSystem::evaluate(const IslandView& island) {
     const std::span<const std::uint32_t> rest = plans_.current().rest();
     for (std::size_t i = 0; i < rest.size(); ++i) {
         const std::uint32_t end = 2 * rest[i];
-        if (triads_[rest[i]].turns) {
-            values_[i].v = to_four(Vec3(
-                k_angle_m * rotation_error(rotation_at(island, end), rotation_at(island, end + 1),
-                                           island.blocks[triads_[rest[i]].block])));
+        if (triads_[rest[i]].is_angular) {
+            values_[i].v = to_double4(
+                Vec3(k_angle_lever_m * rotation_error(rotation_at(island, end),
+                                                      rotation_at(island, end + 1),
+                                                      island.blocks[triads_[rest[i]].block])));
         }
     }
 }
 
-void TriadSystem::evaluate_moved(const IslandView& island) {
+void TriadSystem::evaluate_if_moved(const IslandView& island) {
     if (!is_evaluated_) {
         evaluate(island);
     }
@@ -371,33 +377,34 @@ void TriadSystem::evaluate_velocities(const IslandView& island) {
         }
         const SolverBody& body = island.bodies[anchor.body];
         const Vec3 arm = body.pose_ws.rotation * anchor.point_bs;
-        const Vec3 speed = triads_[anchor.end / 2].turns
-                               ? Vec3(k_angle_m * body.spin_radps)
+        const Vec3 speed = triads_[anchor.end / 2].is_angular
+                               ? Vec3(k_angle_lever_m * body.spin_radps)
                                : Vec3(body.velocity_mps + body.spin_radps.cross(arm));
-        ends_[anchor.rest_end].v = to_four(Vec3(sign_of(anchor.end) * speed));
+        ends_[anchor.rest_end].v = to_double4(Vec3(sign_of(anchor.end) * speed));
     }
     kernels_->evaluate_velocities(arrays());
-    if (!has_hand_) {
+    if (!has_drive_rows_) {
         return;
     }
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-        if (hands_[i] != 0) {
+    for (std::size_t i = 0; i < is_drive_.size(); ++i) {
+        if (is_drive_[i] != 0) {
             const Triad& triad = triads_[plans_.current().rest()[i]];
             const RowBlock& block = island.blocks[triad.block];
-            values_[i].v += triad.turns ? k_angle_m * to_four(block.drive_spin_ws_radps)
-                                        : to_four(block.drive_velocity_ws_mps);
+            values_[i].v += triad.is_angular
+                                ? k_angle_lever_m * to_double4(block.drive_spin_ws_radps)
+                                : to_double4(block.drive_velocity_ws_mps);
         }
     }
 }
 
 void TriadSystem::gather_stiffness() {
-    is_stiff_ = true;
+    has_stiffness_ = true;
     stiffness_.resize(bodies_.size());
     kernels_->gather_stiffness(arrays());
 }
 
 // The harmonic mean of the diagonal, by triads: what one hand holds weighs as much as the other's.
-double TriadSystem::hand_size() const {
+double TriadSystem::drive_scale() const {
     double inverse_sum = 0.0;
     double count = 0.0;
     for (const TriadPlan::Step& step : plans_.current().steps()) {
@@ -408,35 +415,35 @@ double TriadSystem::hand_size() const {
             count += 3.0;
         }
     }
-    for (const TriadPlan::Braid& braid : plans_.current().braids()) {
-        count += 3.0 * k_lanes * braid.length;
+    for (const TriadPlan::StrandPack& strand_pack : plans_.current().strand_packs()) {
+        count += 3.0 * k_lanes * strand_pack.length;
     }
-    for (const FourStrands& strands : strands_) {
-        const Four& sum = strands.inverse_sum;
+    for (const Strands4& strands : strands_) {
+        const Double4& sum = strands.inverse_sum;
         inverse_sum += (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
     return inverse_sum > 0.0 ? count / inverse_sum : 0.0;
 }
 
-void TriadSystem::factorise(const Softness& softness, double factor) {
-    kernels_->multiply_out(arrays(), factor * softness.joint);
-    if (has_hand_ && !is_narrow_) {
-        hand_size_ = hand_size();
+void TriadSystem::factorise(const Regularisation& regularisation, double factor) {
+    kernels_->multiply_out(arrays(), factor * regularisation.joint);
+    if (has_drive_rows_ && !is_restricted_) {
+        drive_scale_ = drive_scale();
     }
-    const double hand_alpha = has_hand_ ? factor * softness.hand * hand_size_ : 0.0;
-    kernels_->factorise(arrays(), hand_alpha, factor * softness.joint);
+    const double drive_alpha = has_drive_rows_ ? factor * regularisation.drive * drive_scale_ : 0.0;
+    kernels_->factorise(arrays(), drive_alpha, factor * regularisation.joint);
 }
 
 void TriadSystem::solve() {
-    const TriadReach reach = kernels_->solve(arrays());
+    const LargestMove reach = kernels_->solve(arrays());
     longest_move_ = std::sqrt(reach.move_square);
-    longest_turn_ = std::sqrt(reach.turn_square);
+    largest_rotation_ = std::sqrt(reach.turn_square);
 }
 
 double TriadSystem::apply_moves(double scale) {
     is_evaluated_ = false;
     kernels_->apply(arrays(), scale);
-    return scale * std::max(longest_move_, k_angle_m * longest_turn_);
+    return scale * std::max(longest_move_, k_angle_lever_m * largest_rotation_);
 }
 
 void TriadSystem::apply_impulses() {
@@ -444,10 +451,10 @@ void TriadSystem::apply_impulses() {
     for (std::size_t i = 0; i < impulses_.size(); ++i) {
         impulses_[i].v += lambdas_[i].v;
     }
-    for (const TriadPlan::Braid& braid : plans_.current().braids()) {
-        for (std::size_t k = 0; k < braid.length; ++k) {
-            Wide3& impulse = links_[braid.step + k].impulse;
-            const Wide3& lambda = multipliers_[braid.bound + k + 1];
+    for (const TriadPlan::StrandPack& strand_pack : plans_.current().strand_packs()) {
+        for (std::size_t k = 0; k < strand_pack.length; ++k) {
+            Wide3& impulse = links_[strand_pack.step + k].impulse;
+            const Wide3& lambda = multipliers_[strand_pack.bound + k + 1];
             impulse.x += lambda.x;
             impulse.y += lambda.y;
             impulse.z += lambda.z;

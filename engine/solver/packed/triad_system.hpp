@@ -34,36 +34,37 @@ class TriadSystem {
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
 
-    // What the triads lack at the present poses: `worst_value` metres. Angles at k_angle_m.
+    // What the triads lack at the present poses: `worst_residual` metres. Angles at
+    // k_angle_lever_m.
     void evaluate(const IslandView& island);
     // Where they have not been evaluated since they moved.
-    void evaluate_moved(const IslandView& island);
+    void evaluate_if_moved(const IslandView& island);
     // The same of the velocities, m/s, against what drives the hands; at the arms of `evaluate`.
     void evaluate_velocities(const IslandView& island);
-    double worst_value();
-    double worst_hand_value() const;  // of the hands' alone
-    JointError worst_joints() const;  // of all others: points and rotations
+    double worst_residual();
+    double worst_drive_residual() const;  // of the hands' alone
+    JointError worst_joints() const;      // of all others: points and rotations
 
     // From here on only what is near to bodies that the last solve moved by this much or more, or
-    // turned by as much at k_angle_m: a long rope is busy where it is pulled, and at rest
+    // turned by as much at k_angle_lever_m: a long rope is busy where it is pulled, and at rest
     // elsewhere. Call where the errors are those of the present poses.
-    void narrow(double still_m);
+    void restrict_to_active(double min_move_m);
     // All of them, as after `load` and `resume`.
-    void widen();
+    void activate_all_rows();
     // Rows of strands, four bodies each, that steps move and that there are.
-    std::size_t busy_rows() const;
+    std::size_t active_rows() const;
     std::size_t strand_rows() const;
 
-    void clear_stiffness() { is_stiff_ = false; }
+    void clear_stiffness() { has_stiffness_ = false; }
     // From the last multipliers and the present arms.
     void gather_stiffness();
     // J W J^T + diag(alpha) at the present arms, and its factor. Alpha as `regularise` has it.
-    void factorise(const Softness& softness, double factor);
+    void factorise(const Regularisation& regularisation, double factor);
     // Multipliers against the values with the last factor, and how they move the bodies.
     void solve();
     // Of the last solve: metres, radians.
     double longest_move() const { return longest_move_; }
-    double longest_turn() const { return longest_turn_; }
+    double largest_rotation() const { return largest_rotation_; }
 
     // Moves the bodies by so much of the last solve. Returns the longest step, metres.
     double apply_moves(double scale);
@@ -73,8 +74,8 @@ class TriadSystem {
   private:
     struct Triad {
         std::uint32_t block = 0;  // into the graph's blocks
-        bool turns = false;       // rotation on rotation
-        bool is_hand = false;
+        bool is_angular = false;  // rotation on rotation
+        bool is_drive = false;
     };
     // An end at a body that nothing moves. Where a strand begins with it, a still body at its point
     // stands for it among the four; else it has no place there.
@@ -89,21 +90,21 @@ class TriadSystem {
     void read_bodies(const IslandView& island);
     void pack_bodies(const IslandView& island);
     void pack_velocities(const IslandView& island);
-    bool add(const IslandView& island, std::uint32_t index, bool turns);
+    bool add(const IslandView& island, std::uint32_t index, bool is_angular);
     void resize(std::size_t triads);
     void plan_nodes();
     void place_anchors();
     void clear_impulses();
     void load_ends();
-    FourBodies& four_of(std::uint32_t place) { return bodies_[place / TriadPlan::k_lanes]; }
-    const FourBodies& four_of(std::uint32_t place) const {
+    Bodies4& four_of(std::uint32_t place) { return bodies_[place / TriadPlan::k_lanes]; }
+    const Bodies4& four_of(std::uint32_t place) const {
         return bodies_[place / TriadPlan::k_lanes];
     }
-    bool is_as_loaded(const IslandView& island) const;
+    bool matches_loaded_state(const IslandView& island) const;
     Quat rotation_at(const IslandView& island, std::uint32_t end) const;
-    double hand_size() const;
-    RowWindow busy_window(const TriadPlan::Braid& braid, const RowWindow& window,
-                          double still_m) const;
+    double drive_scale() const;
+    RowWindow active_window(const TriadPlan::StrandPack& strand_pack, const RowWindow& window,
+                            double min_move_m) const;
 
     // Made for each call: it points into this.
     TriadArrays arrays();
@@ -118,16 +119,16 @@ class TriadSystem {
     std::vector<TriadVector> impulses_;  // by triad of the rest: sums of lambdas
 
     // What `arrays` is made of.
-    std::vector<FourBodies> bodies_;
-    std::vector<FourEnds> body_ends_;
+    std::vector<Bodies4> bodies_;
+    std::vector<Ends4> body_ends_;
     std::vector<WideSymmetric> stiffness_;
-    std::vector<FourLinks> links_;
+    std::vector<Links4> links_;
     std::vector<Wide3> multipliers_;
-    std::vector<FourStrands> strands_;
+    std::vector<Strands4> strands_;
     std::vector<TriadVector> ends_;
     std::vector<TriadVector> values_;
     std::vector<TriadVector> lambdas_;
-    std::vector<std::uint8_t> hands_;
+    std::vector<std::uint8_t> is_drive_;
     std::vector<Rows3> blocks_;
     std::vector<Rows3> inverses_;
     std::vector<TriadVector> unknowns_;
@@ -137,13 +138,13 @@ class TriadSystem {
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // by slot
     std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
-    double hand_size_ = 0.0;              // of the last factor of all rows
+    double drive_scale_ = 0.0;            // of the last factor of all rows
     double longest_move_ = 0.0;
-    double longest_turn_ = 0.0;
+    double largest_rotation_ = 0.0;
     bool is_evaluated_ = false;  // at the present poses
-    bool is_narrow_ = false;
-    bool is_stiff_ = false;
-    bool has_hand_ = false;
+    bool is_restricted_ = false;
+    bool has_stiffness_ = false;
+    bool has_drive_rows_ = false;
     bool has_turn_ = false;
 };
 

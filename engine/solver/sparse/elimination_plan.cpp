@@ -16,13 +16,14 @@ constexpr std::uint32_t k_hub_rows = 16;
 }  // namespace
 
 bool EliminationPlan::fits(std::span<const RowNode> nodes,
-                           std::span<const std::uint8_t> turns) const {
-    return std::ranges::equal(nodes, nodes_) && std::ranges::equal(turns, turns_);
+                           std::span<const std::uint8_t> can_rotate) const {
+    return std::ranges::equal(nodes, nodes_) && std::ranges::equal(can_rotate, can_rotate_);
 }
 
-void EliminationPlan::build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
+void EliminationPlan::build(std::span<const RowNode> nodes,
+                            std::span<const std::uint8_t> can_rotate) {
     nodes_.assign(nodes.begin(), nodes.end());
-    turns_.assign(turns.begin(), turns.end());
+    can_rotate_.assign(can_rotate.begin(), can_rotate.end());
     find_incidence();
     find_neighbours();
     order_nodes();
@@ -39,7 +40,7 @@ void EliminationPlan::reserve(const EliminationPlan& other) {
         reserve_as(other.neighbours_[node], neighbours_[node]);
     }
     reserve_as(other.nodes_, nodes_);
-    reserve_as(other.turns_, turns_);
+    reserve_as(other.can_rotate_, can_rotate_);
     reserve_as(other.panels_, panels_);
     reserve_as(other.blocks_, blocks_);
     reserve_as(other.updates_, updates_);
@@ -61,8 +62,8 @@ void EliminationPlan::reserve(const EliminationPlan& other) {
 
 // The row nodes of each body, and which bodies are hubs.
 void EliminationPlan::find_incidence() {
-    ends_begin_.assign(turns_.size() + 1, 0);
-    rows_of_slot_.assign(turns_.size(), 0);
+    ends_begin_.assign(can_rotate_.size() + 1, 0);
+    rows_of_slot_.assign(can_rotate_.size(), 0);
     for (const RowNode& node : nodes_) {
         for (const std::uint32_t slot : node.slots) {
             if (slot != k_no_slot) {
@@ -72,8 +73,8 @@ void EliminationPlan::find_incidence() {
         }
     }
     hubs_.clear();
-    hub_of_slot_.assign(turns_.size(), k_no_slot);
-    for (std::uint32_t slot = 0; slot < turns_.size(); ++slot) {
+    hub_of_slot_.assign(can_rotate_.size(), k_no_slot);
+    for (std::uint32_t slot = 0; slot < can_rotate_.size(); ++slot) {
         if (ends_begin_[slot + 1] > k_hub_nodes || rows_of_slot_[slot] > k_hub_rows) {
             hub_of_slot_[slot] = static_cast<std::uint32_t>(hubs_.size());
             hubs_.push_back({slot, 0, 0});
@@ -108,7 +109,7 @@ void EliminationPlan::find_neighbours() {
     for (std::size_t node = 0; node < count; ++node) {
         neighbours_[node].clear();
     }
-    for (std::uint32_t slot = 0; slot < turns_.size(); ++slot) {
+    for (std::uint32_t slot = 0; slot < can_rotate_.size(); ++slot) {
         for (std::uint32_t i = ends_begin_[slot]; i < ends_begin_[slot + 1]; ++i) {
             if (hub_of_slot_[slot] != k_no_slot) {
                 const auto hub = static_cast<std::uint32_t>(nodes_.size()) + hub_of_slot_[slot];
@@ -138,8 +139,8 @@ std::uint32_t EliminationPlan::weight_of(std::uint32_t node) const {
 // Rows whose bodies are all hubs, or cannot turn, have next to nothing on their diagonal: they wait
 // until a hub's elimination has put it there. Otherwise the hub's unknowns would be what is left of
 // numbers 1e10 times larger.
-bool EliminationPlan::may_go(std::uint32_t node) const {
-    if (node >= nodes_.size() || nodes_[node].is_soft) {
+bool EliminationPlan::can_eliminate(std::uint32_t node) const {
+    if (node >= nodes_.size() || nodes_[node].is_regularised) {
         return true;
     }
     bool waits = false;
@@ -150,7 +151,7 @@ bool EliminationPlan::may_go(std::uint32_t node) const {
         const std::uint32_t hub = hub_of_slot_[slot];
         if (hub != k_no_slot && eliminated_[nodes_.size() + hub] == 0) {
             waits = true;
-        } else if (turns_[slot] != 0) {
+        } else if (can_rotate_[slot] != 0) {
             return true;
         }
     }
@@ -166,7 +167,7 @@ void EliminationPlan::order_nodes() {
     };
     std::uint32_t turn = 0;
     const auto offer = [&](std::uint32_t node) {
-        if (may_go(node)) {
+        if (can_eliminate(node)) {
             candidates_.push_back({weight_of(node), turn++, node});
             std::ranges::push_heap(candidates_, is_later);
         }
@@ -269,7 +270,7 @@ void EliminationPlan::find_updates() {
 void EliminationPlan::find_couplings() {
     couplings_.clear();
     hub_couplings_.clear();
-    for (std::uint32_t slot = 0; slot < turns_.size(); ++slot) {
+    for (std::uint32_t slot = 0; slot < can_rotate_.size(); ++slot) {
         const std::uint32_t hub = hub_of_slot_[slot];
         for (std::uint32_t i = ends_begin_[slot]; i < ends_begin_[slot + 1]; ++i) {
             const std::uint32_t place = panel_of_node_[ends_[i] / 2];

@@ -25,8 +25,9 @@ void reserve_as(const std::vector<T>& other, std::vector<T>& here) {
 struct RowNode {
     std::uint32_t slots[2] = {k_no_slot, k_no_slot};  // of the bodies that move; a's, b's
     std::uint32_t width = 0;                          // rows
-    bool is_soft = false;  // all of them have so large an alpha that it can serve as their pivot
-    bool is_link = false;  // a point held on a point by nothing soft: may lie in a strand
+    bool is_regularised =
+        false;  // all of them have so large an alpha that it can serve as their pivot
+    bool is_point_link = false;  // a point held on a point by nothing soft: may lie in a strand
     bool operator==(const RowNode&) const = default;
 };
 
@@ -40,11 +41,11 @@ struct RowNode {
 class EliminationPlan {
   public:
     // `turns` by slot: false for what only moves along (players).
-    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns);
+    void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
     // Room for what the other has room for: a build of its structure allocates nothing.
     void reserve(const EliminationPlan& other);
     // True where it was built from the same.
-    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) const;
+    bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) const;
 
     struct Panel {
         std::uint32_t node = 0;
@@ -112,7 +113,7 @@ class EliminationPlan {
     void connect(std::uint32_t x, std::uint32_t y);
     void order_nodes();
     void eliminate(std::uint32_t node);
-    bool may_go(std::uint32_t node) const;
+    bool can_eliminate(std::uint32_t node) const;
     std::uint32_t weight_of(std::uint32_t node) const;
     void lay_out();
     void find_updates();
@@ -124,7 +125,7 @@ class EliminationPlan {
     }
 
     std::vector<RowNode> nodes_;
-    std::vector<std::uint8_t> turns_;
+    std::vector<std::uint8_t> can_rotate_;
     std::vector<Panel> panels_;
     std::vector<Block> blocks_;
     std::vector<std::uint32_t> updates_;

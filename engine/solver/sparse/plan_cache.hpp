@@ -15,17 +15,17 @@ template <typename Plan>
 class PlanCache {
   public:
     // The plan of this structure: a kept one, or a new one in place of the one used longest ago.
-    const Plan& choose(std::span<const RowNode> nodes, std::span<const std::uint8_t> turns) {
+    const Plan& choose(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
         ++uses_;
         std::size_t oldest = current_;
         for (std::size_t i = 0; i < k_plans; ++i) {
             const std::size_t candidate = (current_ + i) % k_plans;
-            if (used_[candidate] != 0 && plans_[candidate].fits(nodes, turns)) {
+            if (used_[candidate] != 0 && plans_[candidate].fits(nodes, can_rotate)) {
                 return use(candidate);
             }
             oldest = used_[candidate] < used_[oldest] ? candidate : oldest;
         }
-        plans_[oldest].build(nodes, turns);
+        plans_[oldest].build(nodes, can_rotate);
         // All grow together: it is the first of its size that allocates, not the first six.
         for (Plan& plan : plans_) {
             plan.reserve(plans_[oldest]);

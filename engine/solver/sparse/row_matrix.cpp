@@ -93,7 +93,7 @@ void RowMatrix::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
     nodes_.clear();
     row_nodes_.clear();
     node_of_row_.resize(rows.size());
-    turns_.assign(slot_count, 0);
+    can_rotate_.assign(slot_count, 0);
     body_of_slot_.assign(slot_count, 0);
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
         const bool joins = i > 0 && rows[i].a == rows[i - 1].a && rows[i].b == rows[i - 1].b &&
@@ -103,7 +103,7 @@ void RowMatrix::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
             for (std::size_t side = 0; side < 2; ++side) {
                 const std::uint32_t body = side == 0 ? rows[i].a : rows[i].b;
                 if (node.slots[side] != k_no_slot) {
-                    turns_[node.slots[side]] =
+                    can_rotate_[node.slots[side]] =
                         bodies[body].inverse_inertia_bs.squaredNorm() == 0.0 ? 0 : 1;
                     body_of_slot_[node.slots[side]] = body;
                 }
@@ -114,9 +114,9 @@ void RowMatrix::group_rows(std::span<const SolverBody> bodies, std::size_t slot_
         node_of_row_[i] = static_cast<std::uint32_t>(nodes_.size() - 1);
     }
     for (Node& node : nodes_) {
-        node.is_point = node.width == 3 && begins_point(rows[node.first_row]);
-        const bool is_soft = has_only_contacts(rows.subspan(node.first_row, node.width));
-        row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width, is_soft});
+        node.is_point = node.width == 3 && starts_point_rows(rows[node.first_row]);
+        const bool is_regularised = has_only_contacts(rows.subspan(node.first_row, node.width));
+        row_nodes_.push_back({{node.slots[0], node.slots[1]}, node.width, is_regularised});
     }
 }
 
@@ -165,8 +165,8 @@ void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
     for (const EliminationPlan::HubCoupling& coupling : plan().hub_couplings()) {
         const double* const jacobian = &jacobians_[end_begin(coupling.end)];
         const std::uint32_t width = nodes_[coupling.end / 2].width;
-        const bool turns = turns_[nodes_[coupling.end / 2].slots[coupling.end % 2]] != 0;
-        for (std::uint32_t c = 0; c < (turns ? 6U : 3U); ++c) {
+        const bool can_rotate = can_rotate_[nodes_[coupling.end / 2].slots[coupling.end % 2]] != 0;
+        for (std::uint32_t c = 0; c < (can_rotate ? 6U : 3U); ++c) {
             for (std::uint32_t j = 0; j < width; ++j) {
                 const std::uint32_t at =
                     coupling.hub_first ? c * coupling.stride + j : j * coupling.stride + c;
@@ -177,7 +177,7 @@ void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
     for (const EliminationPlan::Hub& hub : plan().hubs()) {
         const double mass = 1.0 / bodies[body_of_slot_[hub.slot]].inverse_mass;
         Mat3 inertia = Mat3::Identity();
-        if (turns_[hub.slot] != 0) {
+        if (can_rotate_[hub.slot] != 0) {
             inertia = inverse_inertia_ws[hub.slot].inverse();
         }
         for (std::uint32_t i = 0; i < 3; ++i) {
@@ -192,7 +192,7 @@ void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
 void RowMatrix::assemble(std::span<const SolverBody> bodies,
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows) {
     group_rows(bodies, inverse_inertia_ws.size(), rows);
-    plans_.choose(row_nodes_, turns_);
+    plans_.choose(row_nodes_, can_rotate_);
     write_jacobians(bodies, inverse_inertia_ws, rows);
     multiply_out();
     write_hubs(bodies, inverse_inertia_ws);
@@ -210,7 +210,7 @@ void RowMatrix::assemble(std::span<const SolverBody> bodies,
 }
 
 // As if the row were not there: its multiplier is 0.
-void RowMatrix::leave_out(std::uint32_t node, std::size_t row_in_node) {
+void RowMatrix::exclude_row(std::uint32_t node, std::size_t row_in_node) {
     const std::span<double> values = factor_.values();
     const EliminationPlan::Panel& panel = plan().panel_of(node);
     for (std::size_t i = 0; i < row_in_node; ++i) {
@@ -237,7 +237,7 @@ void RowMatrix::factorise(std::span<const std::uint8_t> chosen) {
             const EliminationPlan::Panel& panel = plan().panel_of(node);
             values[panel.begin + m * panel.stride + m] += alpha_[i];
         } else {
-            leave_out(node, m);
+            exclude_row(node, m);
         }
     }
     factor_.factorise(plan(), smallest_pivots_);

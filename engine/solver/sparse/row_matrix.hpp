@@ -54,7 +54,7 @@ class RowMatrix {
                          std::span<const Mat3> inverse_inertia_ws, std::span<const Row> rows);
     void multiply_out();
     void write_hubs(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws);
-    void leave_out(std::uint32_t node, std::size_t row_in_node);
+    void exclude_row(std::uint32_t node, std::size_t row_in_node);
     const EliminationPlan& plan() const { return plans_.current(); }
     // J of a node's side, six rows of the node's width, and W J^T, a row of six for each of its
     // rows.
@@ -65,7 +65,7 @@ class RowMatrix {
 
     std::vector<Node> nodes_;
     std::vector<RowNode> row_nodes_;  // the same, for the plan
-    std::vector<std::uint8_t> turns_;
+    std::vector<std::uint8_t> can_rotate_;
     std::vector<std::uint32_t> body_of_slot_;
     std::vector<std::uint32_t> node_of_row_;
     std::vector<std::uint32_t> unknown_of_row_;

@@ -12,79 +12,81 @@ namespace {
 
 // Shares of the way from open to closed: of the first hinge, and of the others. Straight first,
 // since most fingers have room there.
-struct Bend {
+struct SamplePose {
     double first;
     double others;
 };
-constexpr std::array<Bend, 8> k_bends = {{{0.0, 0.0},
-                                          {0.25, 0.25},
-                                          {0.0, 0.5},
-                                          {0.5, 0.25},
-                                          {0.5, 0.5},
-                                          {0.25, 0.75},
-                                          {0.75, 0.75},
-                                          {0.75, 0.25}}};
+constexpr std::array<SamplePose, 8> k_pose_samples = {{{0.0, 0.0},
+                                                       {0.25, 0.25},
+                                                       {0.0, 0.5},
+                                                       {0.5, 0.25},
+                                                       {0.5, 0.5},
+                                                       {0.25, 0.75},
+                                                       {0.75, 0.75},
+                                                       {0.75, 0.25}}};
 
-std::uint32_t oppositions_of(const FingerRig& finger) {
+std::uint32_t opposition_count(const FingerRig& finger) {
     return finger.name == FingerName::thumb ? 3 : 1;
 }
 
 double opposition_rad(const FingerRig& finger, std::uint32_t place) {
-    const std::uint32_t count = oppositions_of(finger);
+    const std::uint32_t count = opposition_count(finger);
     const double share = count > 1 ? place / (count - 1.0) : 0.0;
     return finger.lower_opposition_rad +
            share * (finger.upper_opposition_rad - finger.lower_opposition_rad);
 }
 
-ChainAngles bent(const Bend& bend, const ChainAngles& open_rad, const ChainAngles& closed_rad,
-                 std::size_t link_count) {
+ChainAngles sample_curl(const SamplePose& sample, const ChainAngles& open_rad,
+                        const ChainAngles& closed_rad, std::size_t link_count) {
     ChainAngles angle_rad = {};
     for (std::size_t i = 0; i < link_count; ++i) {
         angle_rad[i] =
-            open_rad[i] + (i == 0 ? bend.first : bend.others) * (closed_rad[i] - open_rad[i]);
+            open_rad[i] + (i == 0 ? sample.first : sample.others) * (closed_rad[i] - open_rad[i]);
     }
     return angle_rad;
 }
 
 // No bend turns a hinge farther.
-ChainAngles most_bent(const HingeChain& chain) {
-    constexpr Bend k_most = [] {
-        Bend most = {0.0, 0.0};
-        for (const Bend& bend : k_bends) {
-            most = {std::max(most.first, bend.first), std::max(most.others, bend.others)};
+ChainAngles max_sample_curl(const HingeChain& chain) {
+    constexpr SamplePose k_most = [] {
+        SamplePose most = {0.0, 0.0};
+        for (const SamplePose& sample : k_pose_samples) {
+            most = {std::max(most.first, sample.first), std::max(most.others, sample.others)};
         }
         return most;
     }();
-    return bent(k_most, chain.open_rad, chain.closed_rad, chain.link_count);
+    return sample_curl(k_most, chain.open_rad, chain.closed_rad, chain.link_count);
 }
 
-struct BestBend {
-    double sunk_m = std::numeric_limits<double>::infinity();
-    std::size_t bend = 0;  // of k_bends
+struct BestSample {
+    double penetration_m = std::numeric_limits<double>::infinity();
+    std::size_t sample = 0;  // of k_bends
     std::uint32_t opposition = 0;
 
-    bool has_room() const { return sunk_m <= k_fingers_have_room_m; }
+    bool has_clearance() const { return penetration_m <= k_finger_penetration_tolerance_m; }
 };
 
 // Straight, as most have room, and there is little to gather.
-void try_straight(const HandSurroundings& hand, const HingeChain& chain, std::uint32_t opposition,
-                  ChainPatch& patch, BestBend& best) {
+void evaluate_straight(const HandSurroundings& hand, const HingeChain& chain,
+                       std::uint32_t opposition, ChainPatch& patch, BestSample& best) {
     const double straight_m = posed_depth_m(chain, chain.open_rad, hand.meshes, patch);
-    if (straight_m < best.sunk_m) {
+    if (straight_m < best.penetration_m) {
         best = {straight_m, 0, opposition};
     }
 }
 
 // The other bends, at the opposition of the best; the first with room will do.
-void try_bends(const HandSurroundings& hand, const HingeChain& chain, ChainPatch& patch,
-               BestBend& best) {
-    patch.gather(chain_reach(chain, chain.open_rad, highest(chain.open_rad, most_bent(chain))),
-                 hand.meshes);
+void evaluate_samples(const HandSurroundings& hand, const HingeChain& chain, ChainPatch& patch,
+                      BestSample& best) {
+    patch.gather(
+        chain_reach(chain, chain.open_rad, highest(chain.open_rad, max_sample_curl(chain))),
+        hand.meshes);
     ChainDepths depths(chain, patch);
-    for (std::size_t i = 1; i < k_bends.size() && !best.has_room(); ++i) {
+    for (std::size_t i = 1; i < k_pose_samples.size() && !best.has_clearance(); ++i) {
         const double depth_m = depths.depth_m(
-            bent(k_bends[i], chain.open_rad, chain.closed_rad, chain.link_count), best.sunk_m);
-        if (depth_m < best.sunk_m) {
+            sample_curl(k_pose_samples[i], chain.open_rad, chain.closed_rad, chain.link_count),
+            best.penetration_m);
+        if (depth_m < best.penetration_m) {
             best = {depth_m, i, best.opposition};
         }
     }
@@ -92,35 +94,36 @@ void try_bends(const HandSurroundings& hand, const HingeChain& chain, ChainPatch
 
 }  // namespace
 
-FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch) {
-    FingerRoom room;
+FingerClearance find_finger_clearance(const HandSurroundings& hand, const Pose& wrist_bs,
+                                      ChainPatch& patch) {
+    FingerClearance clearance;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
         const auto chain_at = [&](std::uint32_t opposition) {
             return finger_chain(finger, opposition_rad(finger, opposition), wrist_bs);
         };
-        BestBend best;
-        for (std::uint32_t i = 0; i < oppositions_of(finger) && !best.has_room(); ++i) {
-            try_straight(hand, chain_at(i), i, patch, best);
+        BestSample best;
+        for (std::uint32_t i = 0; i < opposition_count(finger) && !best.has_clearance(); ++i) {
+            evaluate_straight(hand, chain_at(i), i, patch, best);
         }
-        if (!best.has_room()) {
-            try_bends(hand, chain_at(best.opposition), patch, best);
+        if (!best.has_clearance()) {
+            evaluate_samples(hand, chain_at(best.opposition), patch, best);
         }
-        if (!best.has_room()) {
-            room.bends[f] =
-                static_cast<std::uint8_t>(1 + best.bend + k_bends.size() * best.opposition);
+        if (!best.has_clearance()) {
+            clearance.finger_samples[f] = static_cast<std::uint8_t>(
+                1 + best.sample + k_pose_samples.size() * best.opposition);
         }
-        room.sunk_m = std::max(room.sunk_m, best.sunk_m);
+        clearance.penetration_m = std::max(clearance.penetration_m, best.penetration_m);
     }
-    return room;
+    return clearance;
 }
 
-double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, const Pose& wrist_bs,
-                    ChainPatch& patch) {
+double sample_pose_depth_m(const HandSurroundings& hand, const FingerSamplePoses& finger_samples,
+                           const Pose& wrist_bs, ChainPatch& patch) {
     double depth_m = 0.0;
     for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
         const FingerRig& finger = hand.rig->fingers[f];
-        const auto angles = bent_as(finger, bends[f]);
+        const auto angles = sample_pose_angles(finger, finger_samples[f]);
         if (angles) {
             const HingeChain chain = finger_chain(finger, angles->opposition_rad, wrist_bs);
             depth_m = std::max(depth_m, posed_depth_m(chain, angles->curl_rad, hand.meshes, patch));
@@ -129,16 +132,16 @@ double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, cons
     return depth_m;
 }
 
-std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend) {
-    if (bend == 0 || bend > k_bends.size() * oppositions_of(finger)) {
+std::optional<FingerAngles> sample_pose_angles(const FingerRig& finger, std::uint8_t sample) {
+    if (sample == 0 || sample > k_pose_samples.size() * opposition_count(finger)) {
         return std::nullopt;
     }
-    const std::size_t place = bend - std::size_t{1};
+    const std::size_t place = sample - std::size_t{1};
     FingerAngles angles;
-    angles.curl_rad = bent(k_bends[place % k_bends.size()], finger.lower_rad, finger.upper_rad,
-                           finger.link_count);
+    angles.curl_rad = sample_curl(k_pose_samples[place % k_pose_samples.size()], finger.lower_rad,
+                                  finger.upper_rad, finger.link_count);
     angles.opposition_rad =
-        opposition_rad(finger, static_cast<std::uint32_t>(place / k_bends.size()));
+        opposition_rad(finger, static_cast<std::uint32_t>(place / k_pose_samples.size()));
     return angles;
 }
 

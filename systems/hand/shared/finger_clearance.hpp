@@ -11,23 +11,25 @@
 namespace handhold {
 
 // Fingers sunk no deeper than this when they bend as is best have room: lifts do the rest.
-inline constexpr double k_fingers_have_room_m = 1.5e-3;
+inline constexpr double k_finger_penetration_tolerance_m = 1.5e-3;
 
-struct FingerRoom {
-    double sunk_m = 0.0;     // of the deepest finger or thumb, at least 0
-    FingerBends bends = {};  // of those without room, the ones they are sunk least by
+struct FingerClearance {
+    double penetration_m = 0.0;  // of the deepest finger or thumb, at least 0
+    FingerSamplePoses finger_samples =
+        {};  // of those without room, the ones they are sunk least by
 };
 
 // How deep fingers and thumb are sunk with the wrist there (in the frame of
 // HandSurroundings::meshes), each as a few bends suit it best. A bound for choosing, not a fit:
 // sweep_fingers finds bends between these. `patch` is only worked in.
-FingerRoom find_finger_room(const HandSurroundings& hand, const Pose& wrist_bs, ChainPatch& patch);
+FingerClearance find_finger_clearance(const HandSurroundings& hand, const Pose& wrist_bs,
+                                      ChainPatch& patch);
 
 // How deep the deepest of those fingers is that have a bend, bent so; 0 where none has one.
-double bent_depth_m(const HandSurroundings& hand, const FingerBends& bends, const Pose& wrist_bs,
-                    ChainPatch& patch);
+double sample_pose_depth_m(const HandSurroundings& hand, const FingerSamplePoses& finger_samples,
+                           const Pose& wrist_bs, ChainPatch& patch);
 
 // None for 0, and for what is no bend of the finger.
-std::optional<FingerAngles> bent_as(const FingerRig& finger, std::uint8_t bend);
+std::optional<FingerAngles> sample_pose_angles(const FingerRig& finger, std::uint8_t sample);
 
 }  // namespace handhold

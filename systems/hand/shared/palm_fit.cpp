@@ -14,15 +14,15 @@
 namespace handhold {
 namespace {
 
-constexpr int k_fair_pushes = 2;        // then it may be given up
-constexpr double k_least_arm_m = 1e-3;  // turning is never quite free
-constexpr double k_any_step_m = 1.0;
-constexpr double k_sunk_m = 5e-5;        // what is sunk less is not pushed out
-constexpr double k_near_m = 0.003;       // gaps as wide are seen
-constexpr double k_far_inside_m = 0.03;  // deeper than this inside of something is not seen
+constexpr int k_min_iterations = 2;   // then it may be given up
+constexpr double k_min_arm_m = 1e-3;  // turning is never quite free
+constexpr double k_first_step_m = 1.0;
+constexpr double k_penetration_slop_m = 5e-5;  // what is sunk less is not pushed out
+constexpr double k_query_margin_m = 0.003;     // gaps as wide are seen
+constexpr double k_max_inside_m = 0.03;        // deeper than this inside of something is not seen
 
 // How far beside the found triangle the palm is: along the triangle's plane, zero over it.
-Vec3 slide_onto(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
+Vec3 offset_onto_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
     const SurfaceGraph& graph = placed.mesh->search;
     const Corners corners = corners_of(graph, triangle);
     const Vec3 center = inverse_transform_point(placed.pose, center_bs);
@@ -33,23 +33,23 @@ Vec3 slide_onto(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& ce
 
 // Turned back, by the shortest way, to where the palm is tilted against the normal as far as it
 // may.
-Quat within_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, double most_rad) {
+Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, double max_rad) {
     const Vec3 up = rotation * -rig.palm_normal_hs;
     const Vec3 across = up.cross(normal);
     const double angle_rad = arc_tangent2(across.norm(), up.dot(normal));
-    if (angle_rad <= most_rad || across.norm() <= 1e-9) {
+    if (angle_rad <= max_rad || across.norm() <= 1e-9) {
         return rotation;
     }
-    return (rotation_about(across.normalized(), angle_rad - most_rad) * rotation).normalized();
+    return (rotation_about(across.normalized(), angle_rad - max_rad) * rotation).normalized();
 }
 
 // Height first, tilt second: tilting about the palm's centre keeps its height.
-Pose hold_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
-                    const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
+Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
+                     const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
     const HandRig& rig = *hand.rig;
     const Vec3& normal = surface.normal_bs;
     Vec3 center = transform_point(tracked_bs, rig.palm_center_hs);
-    center += slide_onto(hand.meshes.front(), surface.triangle, center);
+    center += offset_onto_triangle(hand.meshes.front(), surface.triangle, center);
     const double height_m = (center - surface.point_bs).dot(normal);
     const double wanted_m = std::clamp(height_m, tuning.min_height_m,
                                        std::max(tuning.min_height_m, tuning.max_height_m)) +
@@ -57,7 +57,7 @@ Pose hold_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
     center += (wanted_m - height_m) * normal;
 
     Pose wrist = tracked_bs;
-    wrist.rotation = within_tilt(wrist.rotation, rig, normal, tuning.max_angle_rad);
+    wrist.rotation = clamp_tilt(wrist.rotation, rig, normal, tuning.max_angle_rad);
     wrist.position = center - wrist.rotation * rig.palm_center_hs;
     return wrist;
 }
@@ -114,37 +114,38 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
 class PalmSpheres {
   public:
     // `is_clear`: nothing was sunk a moment ago, so that nothing is deep inside of something.
-    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool is_clear)
-        : hand_(hand), is_clear_(is_clear) {
+    PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool was_clear)
+        : hand_(hand), was_clear_(was_clear) {
         const PlacedMesh& placed = hand.meshes.front();
         const Vec3 wound = placed.pose.rotation * placed.mesh->search.normals[surface.triangle];
         side_ = wound.dot(surface.normal_bs) < 0.0 ? -1.0 : 1.0;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            add_finger(hand.rig->fingers[f], surface.bends[f]);
+            add_finger(hand.rig->fingers[f], surface.finger_samples[f]);
         }
     }
 
     // The gaps between the spheres of a hand at `wrist` and what is nearest to each, where that is
     // near; returns how deep the deepest is sunk.
-    double look(const Pose& wrist, PalmGaps& gaps) {
+    double query(const Pose& wrist, PalmGaps& gaps) {
         std::size_t place = 0;
         double deepest_m = 0.0;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
-            deepest_m = std::max(deepest_m, look_at(wrist, capsule, 0, place, gaps));
+            deepest_m = std::max(deepest_m, query_capsule(wrist, capsule, 0, place, gaps));
         }
-        fingers_sunk_m_ = 0.0;
+        finger_penetration_m_ = 0.0;
         for (std::size_t i = 0; i < link_count_; ++i) {
-            fingers_sunk_m_ = std::max(
-                fingers_sunk_m_, look_at(wrist, links_[i], is_first_[i] ? 0 : 1, place, gaps));
+            finger_penetration_m_ =
+                std::max(finger_penetration_m_,
+                         query_capsule(wrist, links_[i], is_first_[i] ? 0 : 1, place, gaps));
         }
         return deepest_m;
     }
     // Then: of the fingers that are held clear with the palm.
-    double fingers_sunk_m() const { return fingers_sunk_m_; }
+    double finger_penetration_m() const { return finger_penetration_m_; }
 
   private:
-    void add_finger(const FingerRig& finger, std::uint8_t bend) {
-        const auto angles = bent_as(finger, bend);
+    void add_finger(const FingerRig& finger, std::uint8_t sample) {
+        const auto angles = sample_pose_angles(finger, sample);
         if (!angles) {
             return;
         }
@@ -156,8 +157,8 @@ class PalmSpheres {
     }
 
     // From sphere `first` on: at a hinge the link before it is as thick.
-    double look_at(const Pose& wrist, const PalmCapsule& capsule, int first, std::size_t& place,
-                   PalmGaps& gaps) {
+    double query_capsule(const Pose& wrist, const PalmCapsule& capsule, int first,
+                         std::size_t& place, PalmGaps& gaps) {
         constexpr int k_spheres = 3;
         double deepest_m = 0.0;
         const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
@@ -184,10 +185,10 @@ class PalmSpheres {
     };
     // What a sphere found when it was last looked at: until it has moved so far that it may be sunk
     // it need not be looked at again, and the nearest point is no farther than the last one.
-    struct Seen {
+    struct CachedQuery {
         Vec3 center = Vec3::Zero();
         Vec3 point = Vec3::Zero();
-        double clear_m = 0.0;
+        double clearance_m = 0.0;
         bool has_point = false;
     };
 
@@ -196,26 +197,28 @@ class PalmSpheres {
                                      std::size_t place) {
         const Sphere sphere = {inverse_transform_point(placed.pose, sphere_bs.center),
                                sphere_bs.radius_m};
-        Seen overflow;
-        Seen& seen = place < seen_.size() ? seen_[place] : overflow;
-        if ((sphere.center - seen.center).squaredNorm() < seen.clear_m * seen.clear_m) {
-            return seen.has_point ? std::optional(gap_over(placed, sphere, seen.point))
-                                  : std::nullopt;
+        CachedQuery overflow;
+        CachedQuery& cached = place < query_cache_.size() ? query_cache_[place] : overflow;
+        if ((sphere.center - cached.center).squaredNorm() <
+            cached.clearance_m * cached.clearance_m) {
+            return cached.has_point ? std::optional(gap_over(placed, sphere, cached.point))
+                                    : std::nullopt;
         }
-        double look_m =
-            is_clear_ ? sphere.radius_m + k_near_m : std::max(sphere.radius_m, k_far_inside_m);
-        if (seen.has_point) {
+        double query_radius_m = was_clear_ ? sphere.radius_m + k_query_margin_m
+                                           : std::max(sphere.radius_m, k_max_inside_m);
+        if (cached.has_point) {
             constexpr double k_noise_m = 1e-9;
-            look_m = std::min(look_m, (sphere.center - seen.point).norm() + k_noise_m);
+            query_radius_m =
+                std::min(query_radius_m, (sphere.center - cached.point).norm() + k_noise_m);
         }
-        const auto near = placed.mesh->contact_bvh.closest_point(sphere.center, look_m);
-        seen = {sphere.center, near ? near->point : Vec3::Zero(), look_m - sphere.radius_m,
-                near.has_value()};
+        const auto near = placed.mesh->contact_bvh.closest_point(sphere.center, query_radius_m);
+        cached = {sphere.center, near ? near->point : Vec3::Zero(),
+                  query_radius_m - sphere.radius_m, near.has_value()};
         if (!near) {
             return std::nullopt;
         }
         const PalmGap gap = gap_at(placed, side, *near, sphere);
-        seen.clear_m = std::max(0.0, gap.gap_m);
+        cached.clearance_m = std::max(0.0, gap.gap_m);
         return gap;
     }
 
@@ -244,29 +247,29 @@ class PalmSpheres {
                 (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
-    static constexpr std::size_t k_most_seen = 96;  // the others are looked at every time
+    static constexpr std::size_t k_max_cached_queries = 96;  // the others are looked at every time
 
     const HandSurroundings& hand_;
-    bool is_clear_;
+    bool was_clear_;
     double side_ = 1.0;
-    std::array<PalmCapsule, k_finger_count * k_most_links> links_;  // of bent fingers
-    std::array<bool, k_finger_count* k_most_links> is_first_ = {};  // of its finger
+    std::array<PalmCapsule, k_finger_count * k_max_links> links_;  // of bent fingers
+    std::array<bool, k_finger_count* k_max_links> is_first_ = {};  // of its finger
     std::size_t link_count_ = 0;
-    double fingers_sunk_m_ = 0.0;
-    std::array<Seen, k_most_seen> seen_;
+    double finger_penetration_m_ = 0.0;
+    std::array<CachedQuery, k_max_cached_queries> query_cache_;
 };
 
 struct PalmMove {
-    Vec3 way_m = Vec3::Zero();
+    Vec3 translation_m = Vec3::Zero();
     Vec3 turn_rad = Vec3::Zero();  // rotation vector, about the palm's centre
 };
 
 // The least move, from where the palm was first, that opens all gaps, which were seen with the palm
 // moved by `moved`, as far as they are straight. Least is the square of its way and of its turn, a
 // radian counted as arm_m. By projected Gauss-Seidel; where no move opens all, a compromise.
-PalmMove least_move(std::span<const PalmGap> gaps, const PalmMove& moved, double arm_m) {
+PalmMove smallest_correction(std::span<const PalmGap> gaps, const PalmMove& moved, double arm_m) {
     constexpr int k_rounds = 24;
-    constexpr double k_settled_m = 1e-8;
+    constexpr double k_converged_m = 1e-8;
     struct Push {
         double wanted_m;  // that a move is to open the gap by, from where the palm was first
         double share;     // of what it lacks, that is pushed
@@ -276,21 +279,21 @@ PalmMove least_move(std::span<const PalmGap> gaps, const PalmMove& moved, double
     std::array<Push, PalmGaps::k_most> pushes;  // NOLINT(*-member-init): filled as far as used
     for (std::size_t i = 0; i < gaps.size(); ++i) {
         const auto& [along, turn, gap_m] = gaps[i];
-        pushes[i] = {along.dot(moved.way_m) + turn.dot(moved.turn_rad) - gap_m,
+        pushes[i] = {along.dot(moved.translation_m) + turn.dot(moved.turn_rad) - gap_m,
                      1.0 / (along.squaredNorm() + turning * turn.squaredNorm())};
     }
     PalmMove move;
     double change_m = 1.0;
-    for (int round = 0; round < k_rounds && change_m > k_settled_m; ++round) {
+    for (int round = 0; round < k_rounds && change_m > k_converged_m; ++round) {
         change_m = 0.0;
         for (std::size_t i = 0; i < gaps.size(); ++i) {
             const PalmGap& gap = gaps[i];
             Push& push = pushes[i];
-            const double lacks_m =
-                push.wanted_m - gap.along.dot(move.way_m) - gap.turn.dot(move.turn_rad);
-            const double size = std::max(0.0, push.size + push.share * lacks_m);
+            const double violation_m =
+                push.wanted_m - gap.along.dot(move.translation_m) - gap.turn.dot(move.turn_rad);
+            const double size = std::max(0.0, push.size + push.share * violation_m);
             const double more_m = size - push.size;
-            move.way_m += more_m * gap.along;
+            move.translation_m += more_m * gap.along;
             move.turn_rad += more_m * turning * gap.turn;
             push.size = size;
             change_m = std::max(change_m, std::abs(more_m));
@@ -300,14 +303,15 @@ PalmMove least_move(std::span<const PalmGap> gaps, const PalmMove& moved, double
 }
 
 double size_of(const PalmMove& move, double arm_m) {
-    return move.way_m.norm() + arm_m * move.turn_rad.norm();
+    return move.translation_m.norm() + arm_m * move.turn_rad.norm();
 }
 
 // Pushing on does not help any more.
-bool is_settled(double deepest_m, double step_m, bool is_pushed) {
+bool is_converged(double deepest_m, double step_m, bool is_corrected) {
     constexpr double k_stuck_m = 2e-5;
-    constexpr double k_settled_m = 2e-4;
-    return deepest_m > k_sunk_m ? step_m <= k_stuck_m : !is_pushed || step_m <= k_settled_m;
+    constexpr double k_converged_m = 2e-4;
+    return deepest_m > k_penetration_slop_m ? step_m <= k_stuck_m
+                                            : !is_corrected || step_m <= k_converged_m;
 }
 
 PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
@@ -318,69 +322,75 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
 // Nothing was sunk a moment ago, and nothing can have come deep into it since: it and its fingers
 // had room where it was judged, farther than it went and is lifted, nothing around it moved, and no
 // other fingers are to be held clear.
-bool is_clear_still(const HandSurroundings& hand, const GripSurface& surface,
+bool is_still_clear(const HandSurroundings& hand, const GripSurface& surface,
                     const GripSurface& last, double lift_m) {
-    return last.has_room_m > hand_way_m(last.wrist_bs, hand.wrist_bs) + lift_m &&
-           last.surroundings == hand.signature && last.bends == surface.bends;
+    return last.clearance_recheck_in_m > hand_travel_m(last.wrist_bs, hand.wrist_bs) + lift_m &&
+           last.surroundings_signature == hand.signature &&
+           last.finger_samples == surface.finger_samples;
 }
 
 Pose moved_by(const PalmMove& move, const Pose& wrist, const Vec3& center_hs) {
     Pose moved;
     moved.rotation = (rotation_from_vector(move.turn_rad) * wrist.rotation).normalized();
-    moved.position = transform_point(wrist, center_hs) + move.way_m - moved.rotation * center_hs;
+    moved.position =
+        transform_point(wrist, center_hs) + move.translation_m - moved.rotation * center_hs;
     return moved;
 }
 
 }  // namespace
 
 PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, double lift_m,
-                 const PalmTuning& tuning, const PalmEffort& effort) {
+                 const PalmTuning& tuning, const PalmFitSettings& settings) {
     const Vec3& center_hs = hand.rig->palm_center_hs;
-    const double arm_m = std::max(k_least_arm_m, tuning.turn_arm_m);
-    const Pose held = hold_to_limits(hand, hand.wrist_bs, surface, lift_m, tuning);
+    const double arm_m = std::max(k_min_arm_m, tuning.rotation_arm_m);
+    const Pose held = clamp_to_limits(hand, hand.wrist_bs, surface, lift_m, tuning);
     PalmMove moved;
-    const bool goes_on = effort.last != nullptr && effort.last->is_held;
-    if (goes_on) {
-        const GripSurface& last = *effort.last;
-        moved = move_between(hold_to_limits(hand, last.wrist_bs, last, 0.0, tuning), last.held_bs,
-                             center_hs);
+    const bool is_warm_started = settings.last != nullptr && settings.last->has_fitted_wrist;
+    if (is_warm_started) {
+        const GripSurface& last = *settings.last;
+        moved = move_between(clamp_to_limits(hand, last.wrist_bs, last, 0.0, tuning),
+                             last.fitted_wrist_bs, center_hs);
     }
-    PalmSpheres palm(hand, surface, goes_on && is_clear_still(hand, surface, *effort.last, lift_m));
+    PalmSpheres palm(hand, surface,
+                     is_warm_started && is_still_clear(hand, surface, *settings.last, lift_m));
     PalmGaps gaps;
     Pose wrist = moved_by(moved, held, center_hs);
-    PalmFit best = {wrist, palm.look(wrist, gaps), palm.fingers_sunk_m()};
-    double deepest_m = std::max(best.sunk_m, best.fingers_sunk_m);
-    double least_m = deepest_m;
-    double step_m = k_any_step_m;
-    const bool is_pushed = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
-    for (int i = 0; i < effort.most_pushes && !is_settled(deepest_m, step_m, is_pushed); ++i) {
-        if (i >= k_fair_pushes && least_m > effort.most_sunk_m) {
+    PalmFit best = {wrist, palm.query(wrist, gaps), palm.finger_penetration_m()};
+    double deepest_m = std::max(best.penetration_m, best.finger_penetration_m);
+    double smallest_m = deepest_m;
+    double step_m = k_first_step_m;
+    const bool is_corrected = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
+    for (int i = 0; i < settings.max_iterations && !is_converged(deepest_m, step_m, is_corrected);
+         ++i) {
+        if (i >= k_min_iterations && smallest_m > settings.max_penetration_m) {
             break;
         }
         add_limits(hand, surface, wrist, lift_m, tuning, arm_m, gaps);  // last, so that they hold
         const PalmMove before = moved;
-        moved = least_move(gaps.all(), moved, arm_m);
+        moved = smallest_correction(gaps.all(), moved, arm_m);
         wrist = moved_by(moved, held, center_hs);
         // Of large turns the limit on tilt is not straight.
         wrist.rotation =
-            within_tilt(wrist.rotation, *hand.rig, surface.normal_bs, tuning.max_angle_rad);
+            clamp_tilt(wrist.rotation, *hand.rig, surface.normal_bs, tuning.max_angle_rad);
         wrist.position =
-            transform_point(held, center_hs) + moved.way_m - wrist.rotation * center_hs;
+            transform_point(held, center_hs) + moved.translation_m - wrist.rotation * center_hs;
         moved = move_between(held, wrist, center_hs);
-        step_m = size_of({moved.way_m - before.way_m, moved.turn_rad - before.turn_rad}, arm_m);
+        step_m = size_of(
+            {moved.translation_m - before.translation_m, moved.turn_rad - before.turn_rad}, arm_m);
         // No farther than what was seen around it.
-        if (!effort.looks_at_end && i + 1 == effort.most_pushes && step_m <= k_near_m) {
-            return {wrist, best.sunk_m, best.fingers_sunk_m, false};
+        if (!settings.verifies_last_step && i + 1 == settings.max_iterations &&
+            step_m <= k_query_margin_m) {
+            return {wrist, best.penetration_m, best.finger_penetration_m, false};
         }
         gaps.clear();
-        const double sunk_m = palm.look(wrist, gaps);
-        deepest_m = std::max(sunk_m, palm.fingers_sunk_m());
-        if (deepest_m < least_m || deepest_m <= k_sunk_m) {
-            least_m = deepest_m;
-            best = {wrist, sunk_m, palm.fingers_sunk_m()};
+        const double penetration_m = palm.query(wrist, gaps);
+        deepest_m = std::max(penetration_m, palm.finger_penetration_m());
+        if (deepest_m < smallest_m || deepest_m <= k_penetration_slop_m) {
+            smallest_m = deepest_m;
+            best = {wrist, penetration_m, palm.finger_penetration_m()};
         }
     }
-    best.is_settled = is_settled(deepest_m, step_m, is_pushed);
+    best.is_converged = is_converged(deepest_m, step_m, is_corrected);
     return best;
 }
 

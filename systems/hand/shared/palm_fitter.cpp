@@ -10,10 +10,10 @@
 namespace handhold {
 namespace {
 
-constexpr int k_most_pushes_on = 1;    // of a palm that goes on: it settles from frame to frame
-constexpr double k_crossing_m = 1e-6;  // surfaces as near to each other are crossed together
+constexpr int k_refine_iterations = 1;  // of a palm that goes on: it settles from frame to frame
+constexpr double k_crossing_m = 1e-6;   // surfaces as near to each other are crossed together
 
-PalmPlace palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
+PalmFrame palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
     const Pose wrist = inverse(frame) * wrist_bs;
     return {transform_point(wrist, rig.palm_center_hs), wrist.rotation * -rig.palm_normal_hs};
 }
@@ -23,19 +23,19 @@ PalmPlace palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
 Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
                  const Vec3& outward, double radius_m) {
     // A triangle that reaches far out counts no more than the sphere's cut can.
-    const double most_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
-    const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, most_m2);
+    const double max_area_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
+    const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, max_area_m2);
     const double length = sum.norm();
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
 
 // What a way does at a place on a surface: 1 where it goes in, -1 where it comes out, 0 where it
 // does both: between two bodies that touch, through a sheet with two sides, along an edge.
-int crossing(const GripMesh& mesh, const Vec3& place, const Vec3& way) {
+int crossing_sign(const GripMesh& mesh, const Vec3& place, const Vec3& direction) {
     bool goes_in = false;
     bool comes_out = false;
     mesh.contact_bvh.visit_in_sphere(place, k_crossing_m, [&](std::uint32_t triangle) {
-        const double along = mesh.contact.normals[triangle].dot(way);
+        const double along = mesh.contact.normals[triangle].dot(direction);
         goes_in = goes_in || along < 0.0;
         comes_out = comes_out || along > 0.0;
     });
@@ -44,7 +44,7 @@ int crossing(const GripMesh& mesh, const Vec3& place, const Vec3& way) {
 
 }  // namespace
 
-PalmHolder::PalmHolder(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
+PalmFitter::PalmFitter(const HandSurroundings& hand, const Pose& wrist_bs, double dt_s,
                        const PalmTuning& tuning)
     : hand_(hand),
       placed_(hand.meshes.front()),
@@ -52,9 +52,9 @@ PalmHolder::PalmHolder(const HandSurroundings& hand, const Pose& wrist_bs, doubl
       dt_s_(dt_s),
       tuning_(tuning) {}
 
-bool PalmHolder::is_at_once() const { return std::isinf(dt_s_); }
+bool PalmFitter::is_unbudgeted() const { return std::isinf(dt_s_); }
 
-GripSurface PalmHolder::surface_at(const Found& found) const {
+GripSurface PalmFitter::surface_at(const Candidate& found) const {
     const GripMesh& mesh = *placed_.mesh;
     const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.reach_m);
     const Vec3 point = on_contact ? on_contact->point : found.point;
@@ -64,13 +64,13 @@ GripSurface PalmHolder::surface_at(const Found& found) const {
     GripSurface surface;
     surface.body = hand_.body;
     surface.wrist_bs = hand_.wrist_bs;
-    surface.surroundings = hand_.signature;
+    surface.surroundings_signature = hand_.signature;
     surface.triangle = found.triangle;
     surface.point_bs = transform_point(placed_.pose, point);
     const Vec3 own_bs = placed_.pose.rotation * Vec3(side * wound);
     constexpr double k_alike = 0.7;
-    if (kept_normal_bs_ && kept_normal_bs_->dot(own_bs) > k_alike) {
-        surface.normal_bs = *kept_normal_bs_;
+    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_alike) {
+        surface.normal_bs = *reused_normal_bs_;
     } else {
         surface.normal_bs =
             placed_.pose.rotation *
@@ -79,103 +79,103 @@ GripSurface PalmHolder::surface_at(const Found& found) const {
     return surface;
 }
 
-PalmHolder::Found PalmHolder::found_at(std::uint32_t triangle) const {
+PalmFitter::Candidate PalmFitter::candidate_at(std::uint32_t triangle) const {
     const SurfaceGraph& graph = placed_.mesh->search;
     const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
     triangle = static_cast<std::uint32_t>(known);
-    const SurfaceCandidate candidate = cost_of(graph, triangle, palm_, tuning_);
+    const PalmCost candidate = cost_of(graph, triangle, palm_, tuning_);
     return {triangle, candidate.point, candidate.cost_m};
 }
 
-HeldPalm PalmHolder::keep_at(const Found& found, const GripSurface& last) {
-    PalmEffort effort{.last = &last};
-    if (!is_at_once()) {
-        effort.most_pushes = k_most_pushes_on;
+FittedPalm PalmFitter::refine_at(const Candidate& found, const GripSurface& last) {
+    PalmFitSettings settings{.last = &last};
+    if (!is_unbudgeted()) {
+        settings.max_iterations = k_refine_iterations;
     }
-    return hold_at(found, last.bends, effort);
+    return fit_at(found, last.finger_samples, settings);
 }
 
-GripSurface PalmHolder::carry_on(const Found& found, const GripSurface& last) const {
-    PalmEffort effort{.last = &last};
-    if (!is_at_once()) {
-        effort.most_pushes = k_most_pushes_on;
-        effort.looks_at_end = false;
+GripSurface PalmFitter::refine_unchecked(const Candidate& found, const GripSurface& last) const {
+    PalmFitSettings settings{.last = &last};
+    if (!is_unbudgeted()) {
+        settings.max_iterations = k_refine_iterations;
+        settings.verifies_last_step = false;
     }
-    return hold_anew(found, last.bends, effort).surface;
+    return fit_uncached(found, last.finger_samples, settings).surface;
 }
 
-HeldPalm PalmHolder::hold_at(const Found& found, const FingerBends& bends,
-                             const PalmEffort& effort) {
-    for (std::size_t i = 0; i < known_count_; ++i) {
-        const GripSurface& known = known_[i].surface;
-        if (known.triangle == found.triangle && known.bends == bends &&
-            known_[i].is_kept == (effort.last != nullptr)) {
-            return known_[i];
+FittedPalm PalmFitter::fit_at(const Candidate& found, const FingerSamplePoses& finger_samples,
+                              const PalmFitSettings& settings) {
+    for (std::size_t i = 0; i < cache_count_; ++i) {
+        const GripSurface& known = cache_[i].surface;
+        if (known.triangle == found.triangle && known.finger_samples == finger_samples &&
+            cache_[i].is_warm_started == (settings.last != nullptr)) {
+            return cache_[i];
         }
     }
-    HeldPalm held = hold_anew(found, bends, effort);
-    if (known_count_ < known_.size()) {
-        known_[known_count_++] = held;
+    FittedPalm held = fit_uncached(found, finger_samples, settings);
+    if (cache_count_ < cache_.size()) {
+        cache_[cache_count_++] = held;
     }
     return held;
 }
 
-HeldPalm PalmHolder::hold_anew(const Found& found, const FingerBends& bends,
-                               const PalmEffort& effort) const {
-    HeldPalm held;
-    held.is_kept = effort.last != nullptr;
+FittedPalm PalmFitter::fit_uncached(const Candidate& found, const FingerSamplePoses& finger_samples,
+                                    const PalmFitSettings& settings) const {
+    FittedPalm held;
+    held.is_warm_started = settings.last != nullptr;
     held.surface = surface_at(found);
-    held.surface.bends = bends;
-    const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, effort);
-    held.surface.held_bs = fit.wrist_bs;
-    held.surface.is_held = true;
-    held.surface.is_settled = fit.is_settled;
-    held.sunk_m = fit.sunk_m;
-    held.fingers_sunk_m = fit.fingers_sunk_m;
+    held.surface.finger_samples = finger_samples;
+    const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, settings);
+    held.surface.fitted_wrist_bs = fit.wrist_bs;
+    held.surface.has_fitted_wrist = true;
+    held.surface.is_converged = fit.is_converged;
+    held.penetration_m = fit.penetration_m;
+    held.finger_penetration_m = fit.finger_penetration_m;
     const GripSync sync = grip_sync(hand_.wrist_bs, fit.wrist_bs, hand_.rig->palm_center_hs);
     held.sync_m = sync.palm_m + tuning_.tilt_cost_m_per_rad * sync.turn_rad;
     return held;
 }
 
-bool PalmHolder::is_back(const Found& found) const {
+bool PalmFitter::is_backface(const Candidate& found) const {
     return placed_.mesh->search.normals[found.triangle].dot(palm_.up) < 0.0;
 }
 
-bool PalmHolder::is_inside(const Found& found) const {
-    constexpr double k_off_m = 1e-3;
+bool PalmFitter::is_inside(const Candidate& found) const {
+    constexpr double k_ray_start_m = 1e-3;
     constexpr double k_ray_m = 1.0;
     const GripMesh& mesh = *placed_.mesh;
     const Vec3 out = -mesh.search.normals[found.triangle];
     const auto hit =
-        mesh.search_bvh.cast_ray(found.point + k_off_m * out, found.point + k_ray_m * out);
+        mesh.search_bvh.cast_ray(found.point + k_ray_start_m * out, found.point + k_ray_m * out);
     return hit && mesh.search.normals[hit->triangle].dot(out) > 0.0;
 }
 
-bool PalmHolder::is_entering(const HeldPalm& held) const {
-    constexpr int k_most_crossed = 32;  // what goes through more is as good as inside
-    const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.held_bs).center;
-    const Vec3 way = (to - palm_.center).normalized();
+bool PalmFitter::enters_solid(const FittedPalm& held) const {
+    constexpr int k_max_crossed = 32;  // what goes through more is as good as inside
+    const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.fitted_wrist_bs).center;
+    const Vec3 direction = (to - palm_.center).normalized();
     Vec3 from = palm_.center;
     int entered = 0;
-    for (int i = 0; (to - from).dot(way) > k_crossing_m; ++i) {
+    for (int i = 0; (to - from).dot(direction) > k_crossing_m; ++i) {
         const auto hit = placed_.mesh->contact_bvh.cast_ray(from, to);
         if (!hit) {
             break;
         }
-        if (i == k_most_crossed) {
+        if (i == k_max_crossed) {
             return true;
         }
-        entered += crossing(*placed_.mesh, hit->point, way);
-        from = hit->point + 2.0 * k_crossing_m * way;
+        entered += crossing_sign(*placed_.mesh, hit->point, direction);
+        from = hit->point + 2.0 * k_crossing_m * direction;
     }
     return entered > 0;
 }
 
-double PalmHolder::crossed_m(const HeldPalm& held) const {
+double PalmFitter::crossing_depth_m(const FittedPalm& held) const {
     double deepest_m = 0.0;
     for (const PlacedMesh& placed : hand_.meshes) {
         const TriangleBvh& bvh = placed.mesh->contact_bvh;
-        const Pose wrist = inverse(placed.pose) * held.surface.held_bs;
+        const Pose wrist = inverse(placed.pose) * held.surface.fitted_wrist_bs;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
             const Vec3 a = transform_point(wrist, capsule.a_hs);
             const Vec3 b = transform_point(wrist, capsule.b_hs);
@@ -192,15 +192,15 @@ double PalmHolder::crossed_m(const HeldPalm& held) const {
     return deepest_m;
 }
 
-bool PalmHolder::is_near_last(const Found& found, const GripSurface& last) const {
+bool PalmFitter::is_near_last(const Candidate& found, const GripSurface& last) const {
     const SurfaceGraph& graph = placed_.mesh->search;
-    return is_beside(found.point, graph.normals[found.triangle],
-                     inverse_transform_point(placed_.pose, last.point_bs),
-                     graph.normals[last.triangle]);
+    return is_duplicate_place(found.point, graph.normals[found.triangle],
+                              inverse_transform_point(placed_.pose, last.point_bs),
+                              graph.normals[last.triangle]);
 }
 
-std::optional<PalmHolder::Found> PalmHolder::near_last(const SurfaceSearch& searcher,
-                                                       const GripSurface& last) const {
+std::optional<PalmFitter::Candidate> PalmFitter::candidate_near_last(
+    const SurfaceSearch& searcher, const GripSurface& last) const {
     return last.triangle == GripSurface::k_none
                ? std::nullopt
                : searcher.cheapest_near(inverse_transform_point(placed_.pose, last.point_bs),

@@ -13,7 +13,7 @@
 namespace handhold {
 
 // A hand goes so far before it looks again for room, or for another surface.
-inline constexpr double k_way_between_looks_m = 0.016;
+inline constexpr double k_recheck_interval_m = 0.016;
 
 // Tries surfaces for one palm, a few in each frame: search_grip's choice among what it found.
 //
@@ -21,10 +21,10 @@ inline constexpr double k_way_between_looks_m = 0.016;
 // is sunk in included; where palm or fingers have no room, so is what stays sunk. They are tried in
 // the order of their costs in closed form, which are rarely more, until those are. Refers to all
 // that it is made of; the patch is only worked in.
-class SurfaceTries {
+class SurfaceCandidates {
   public:
-    SurfaceTries(PalmHolder& holder, SurfaceSearch& searcher, const PalmTuning& tuning,
-                 ChainPatch& patch);
+    SurfaceCandidates(PalmFitter& fitter, SurfaceSearch& searcher, const PalmTuning& tuning,
+                      ChainPatch& patch);
 
     // Once. Goes on from where `last` came to, or begins with where that is; the state of the
     // search is in what it returns. No triangle: nothing was found. Precondition: a `last` that has
@@ -32,52 +32,55 @@ class SurfaceTries {
     GripSurface run(const GripSurface& last);
 
   private:
-    using Found = SurfaceSearch::Found;
-    struct Judged {
+    using Candidate = SurfaceSearch::Candidate;
+    struct Evaluated {
         GripSurface surface;
-        bool has_room = false;
+        bool has_clearance = false;
     };
 
-    std::size_t most_turns() const;
-    void recall(const Found& near, const GripSurface& last);
-    void judge_first(const Found& near, const GripSurface& last);
-    bool try_others(const GripSurface& last);
-    bool take_turn();
-    std::optional<Found> pass_to_next();
-    bool may_try(const Found& way) const;
-    void list_others();
-    void look_around();
-    void judge(const Found& way, HeldPalm held);
-    void judge_cleared(const GripSurface& last);
-    void look_for_crossed(double there_m, HeldPalm& held) const;
-    double place_cost_m(const Found& found, const HeldPalm& held) const;
-    static Judged judged(const HeldPalm& held, double place_cost_m, double fingers_m);
-    void take_better(const Judged& judged);
-    PalmEffort effort() const;
-    void note(GripSurface& surface) const;
+    std::size_t frame_budget() const;
+    void restore_progress(const Candidate& near, const GripSurface& last);
+    void evaluate_last_surface(const Candidate& near, const GripSurface& last);
+    bool evaluate_others(const GripSurface& last);
+    bool spend_budget();
+    std::optional<Candidate> next_candidate();
+    bool is_eligible(const Candidate& candidate) const;
+    void list_candidates();
+    void seed_from_surroundings();
+    void evaluate(const Candidate& candidate, FittedPalm held);
+    void evaluate_with_pending_fingers(const GripSurface& last);
+    void add_crossing_depth(double placement_m, FittedPalm& held) const;
+    double placement_cost_m(const Candidate& found, const FittedPalm& held) const;
+    static Evaluated scored(const FittedPalm& held, double placement_cost_m, double fingers_m);
+    void keep_better(const Evaluated& scored);
+    PalmFitSettings fit_settings() const;
+    void save_progress(GripSurface& surface) const;
 
-    bool is_to_be_cleared() const { return to_clear_ != FingerBends{}; }
-    bool is_full() const { return count_ == tried_.size(); }
-    bool is_listed() const { return listed_ > 0; }
-    std::span<const Found> so_far() const { return {tried_.data(), count_}; }
+    bool has_pending_fingers() const { return pending_finger_samples_ != FingerSamplePoses{}; }
+    bool is_full() const { return evaluated_count_ == candidates_.size(); }
+    bool is_listed() const { return candidate_count_ > 0; }
+    std::span<const Candidate> evaluated_so_far() const {
+        return {candidates_.data(), evaluated_count_};
+    }
     bool is_cheaper(double cost_m) const { return !has_best_ || cost_m < best_.surface.cost_m; }
 
-    PalmHolder& holder_;
+    PalmFitter& fitter_;
     SurfaceSearch& searcher_;
     const PalmTuning& tuning_;
     ChainPatch& patch_;
 
     // Those that were tried or passed over, then those that are to be tried, the cheapest first,
     // once they are listed.
-    std::array<Found, GripSurface::k_most_tries> tried_;
-    std::size_t count_ = 0;
-    std::size_t listed_ = 0;  // with those to be tried; 0: not listed
-    Judged best_;
+    std::array<Candidate, GripSurface::k_max_candidates> candidates_;
+    std::size_t evaluated_count_ = 0;
+    std::size_t candidate_count_ = 0;  // with those to be tried; 0: not listed
+    Evaluated best_;
     bool has_best_ = false;
-    bool was_judged_ = false;     // in this frame
-    FingerBends to_clear_ = {};   // at the last of those tried, which is to be judged so as well
-    bool goes_through_ = false;   // GripSurface::goes_through
-    std::size_t turns_left_ = 0;  // in this frame
+    bool evaluated_this_frame_ = false;  // in this frame
+    FingerSamplePoses pending_finger_samples_ =
+        {};                          // at the last of those tried, which is to be judged so as well
+    bool allows_backfaces_ = false;  // GripSurface::goes_through
+    std::size_t budget_left_ = 0;    // in this frame
 };
 
 }  // namespace handhold

@@ -34,16 +34,16 @@ Pose hand_within_frame(const HandTracking& hand, const HandHistory& history, dou
 
 // Where the hands want a free body; `first` leads it, alone or with the other hand.
 Pose wanted_body(const GrabInstant& now, const HandPair& first) {
-    const Pose origin_ws = now.led_origin_ws(first.player);
+    const Pose origin_ws = now.hand_driven_origin_ws(first.player);
     const Pose hand_ps = now.hand_ps(first.hand);
     const Pose& anchor_bs = first.grab.anchor_bs;
     if (!first.grab.two_handed) {
         return origin_ws * (hand_ps * inverse(anchor_bs));
     }
-    const TwoHands hands{hand_ps, now.hand_ps(*first.other_hand), anchor_bs,
-                         first.other->anchor_bs};
+    const DrivePair hands{hand_ps, now.hand_ps(*first.other_hand), anchor_bs,
+                          first.other->anchor_bs};
     const Quat near = origin_ws.rotation.conjugate() * now.body_ws(first.grab.body).rotation;
-    const Quat rotation = rotation_by_two_hands(hands, near);
+    const Quat rotation = rotation_from_drive_pair(hands, near);
     return origin_ws * Pose{hand_ps.position - rotation * anchor_bs.position, rotation};
 }
 
@@ -54,7 +54,7 @@ Pose GrabInstant::body_ws(Entity body) const {
         return interpolate(start->pose_ws, io.body_pose.at(body).pose_ws, t);
     }
     const HeadTracking& head = io.head.at(body);
-    return led_origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
+    return hand_driven_origin_ws(body) * interpolate(head.start_ps, head.pose_ps, t);
 }
 
 Pose GrabInstant::origin_ws(Entity player) const {
@@ -71,9 +71,9 @@ Vec3 GrabInstant::held_origin_ws(Entity player, const Grab& grab, const HandTrac
            origin_ws(player).rotation * hand_ps(hand).position;
 }
 
-Pose GrabInstant::led_origin_ws(Entity player) const {
+Pose GrabInstant::hand_driven_origin_ws(Entity player) const {
     const GrabInstant start{io, 0.0};
-    Pose led_ws = origin_ws(player);
+    Pose hand_driven_ws = origin_ws(player);
     Vec3 way = Vec3::Zero();
     int hands = 0;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -87,9 +87,9 @@ Pose GrabInstant::led_origin_ws(Entity player) const {
         }
     }
     if (hands > 0) {
-        led_ws.position = io.player_start.at(player).pose_ws.position + way / hands;
+        hand_driven_ws.position = io.player_start.at(player).pose_ws.position + way / hands;
     }
-    return led_ws;
+    return hand_driven_ws;
 }
 
 double fraction_of(const GrabFrame& io, double t_s) {
@@ -111,12 +111,12 @@ HandPair swapped(const HandPair& pair) {
     return {*pair.other, *pair.other_hand, &pair.grab, &pair.hand, pair.player};
 }
 
-bool leads_all_along(const Grab& grab, const HandTracking& hand) {
+bool drives_whole_frame(const Grab& grab, const HandTracking& hand) {
     return grab.phase != GrabPhase::none && grab.phase != GrabPhase::fresh &&
            hand.edge != GrabEdge::onset && !hand.resumed;
 }
 
-Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning) {
+Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning) {
     const GrabFrame& io = now.io;
     const std::optional<JointRail> rail =
         find_rail({io.body, io.joint, io.joint_state}, body, tuning);
@@ -134,38 +134,38 @@ Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning)
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const Entity entity = io.grab.owners()[row];
         const HandTracking& hand = io.hand.at(entity);
-        if (io.grab.rows()[row].body != body || !leads_all_along(io.grab.rows()[row], hand)) {
+        if (io.grab.rows()[row].body != body || !drives_whole_frame(io.grab.rows()[row], hand)) {
             continue;
         }
         const Entity player = io.owner.at(entity).player;
         const auto hand_hs = [&](const GrabInstant& at, const Pose& at_holder_ws) {
             const Vec3 hand_ws =
-                transform_point(at.led_origin_ws(player), at.hand_ps(hand).position);
+                transform_point(at.hand_driven_origin_ws(player), at.hand_ps(hand).position);
             return inverse_transform_point(at_holder_ws, hand_ws);
         };
         const Vec3 from_hs = hand_hs(start, holder_start_ws);
         const double weight = weight_along(*rail, from_hs);
-        way += weight * way_along(*rail, from_hs, hand_hs(now, holder_now_ws));
+        way += weight * travel_along(*rail, from_hs, hand_hs(now, holder_now_ws));
         weights += weight;
     }
-    constexpr double k_least_weight = 1e-8;  // a tenth of a millimetre off the axle: leads nothing
-    if (weights < k_least_weight) {
+    constexpr double k_min_weight = 1e-8;  // a tenth of a millimetre off the axle: leads nothing
+    if (weights < k_min_weight) {
         return now.body_ws(body);
     }
     return holder_now_ws *
            moved_along(*rail, inverse(holder_start_ws) * start.body_ws(body), way / weights);
 }
 
-Pose origin_by_jointed(const GrabInstant& now, Entity player, const Pose& body_ws, const Grab& grab,
-                       const HandTracking& hand) {
+Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose& body_ws,
+                              const Grab& grab, const HandTracking& hand) {
     const GrabInstant start{now.io, 0.0};
     const Vec3 body_way = transform_point(body_ws, grab.anchor_bs.position) -
                           transform_point(start.body_ws(grab.body), grab.anchor_bs.position);
-    Pose origin_ws = now.led_origin_ws(player);
-    const Vec3 hand_way =
+    Pose origin_ws = now.hand_driven_origin_ws(player);
+    const Vec3 hand_pose_at =
         transform_point(origin_ws, now.hand_ps(hand).position) -
-        transform_point(start.led_origin_ws(player), start.hand_ps(hand).position);
-    origin_ws.position += body_way - hand_way;
+        transform_point(start.hand_driven_origin_ws(player), start.hand_ps(hand).position);
+    origin_ws.position += body_way - hand_pose_at;
     return origin_ws;
 }
 
@@ -180,9 +180,9 @@ Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,
         const Vec3 anchor_ws =
             transform_point(now.body_ws(holding->body), holding->anchor_bs.position);
         origin_ws.position = anchor_ws - origin_ws.rotation * now.hand_ps(*holding_hand).position;
-    } else if (holding->jointed && leads_all_along(*holding, *holding_hand)) {
-        return origin_by_jointed(now, player, led_body_ws(now, holding->body, tuning), *holding,
-                                 *holding_hand);
+    } else if (holding->jointed && drives_whole_frame(*holding, *holding_hand)) {
+        return origin_from_jointed_grab(
+            now, player, hand_driven_body_ws(now, holding->body, tuning), *holding, *holding_hand);
     }
     return origin_ws;
 }

@@ -10,11 +10,11 @@
 #include "engine/ecs/column.hpp"
 
 // Where hands, players and what they hold were at an instant within the frame, as hands led them:
-// what settle_grabs takes anchors from. All poses are in the world, but for the hands' in their
+// what anchor_grabs takes anchors from. All poses are in the world, but for the hands' in their
 // players' play spaces (_ps).
 namespace handhold {
 
-// All that a frame's grabs are settled by: SettleGrabsIo. What is asked here reads it; settle_grabs
+// All that a frame's grabs are settled by: AnchorGrabsIo. What is asked here reads it; anchor_grabs
 // alone writes, and only `grab`.
 struct GrabFrame {
     double start_s = 0.0;  // in: the frame
@@ -48,7 +48,7 @@ struct GrabInstant {
     Vec3 held_origin_ws(Entity player, const Grab& grab, const HandTracking& hand) const;
     // Whom hands have held on to something fixed since before the frame goes the mean of their
     // ways, and lacks all the while what he lacked at the frame's start; others go as predicted.
-    Pose led_origin_ws(Entity player) const;
+    Pose hand_driven_origin_ws(Entity player) const;
 };
 
 // 0 to 1, of a time within the frame.
@@ -67,12 +67,12 @@ HandPair pair_of(const GrabFrame& io, std::size_t row);
 HandPair swapped(const HandPair& pair);
 
 // True where it has had what it holds since before the frame, and knows where it is.
-bool leads_all_along(const Grab& grab, const HandTracking& hand);
+bool drives_whole_frame(const Grab& grab, const HandTracking& hand);
 
 // Where a body on a joint is that hands lead: as far along the joint as they went, on average, each
 // counted as the solver counts it, and off it by what it lacked at the frame's start. Any other
 // body: as predicted.
-Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
+Pose hand_driven_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning);
 
 // Where a free body that is held is: it follows its hands, not its velocity, and lacks all the
 // while what it lacked at the frame's start. What began to hold it in this frame lacks nothing.
@@ -80,8 +80,8 @@ Pose led_body_ws(const GrabInstant& now, Entity body, const PhaseTuning& tuning)
 Pose held_body_ws(const GrabInstant& now, const HandPair& first);
 
 // The player's origin, who goes by a hand of his all that its body, on a joint, cannot go with it.
-Pose origin_by_jointed(const GrabInstant& now, Entity player, const Pose& body_ws, const Grab& grab,
-                       const HandTracking& hand);
+Pose origin_from_jointed_grab(const GrabInstant& now, Entity player, const Pose& body_ws,
+                              const Grab& grab, const HandTracking& hand);
 // The player's origin: from a hand that already holds on to something fixed, exact, or to something
 // on a joint; else, and where `holding` is null, on the predicted way.
 Pose origin_at(const GrabInstant& now, Entity player, const Grab* holding,

@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-bool is_led_by_hands(const JointRailIo& io, Entity entity, const PhaseTuning& tuning) {
+bool is_hand_driven(const JointRailIo& io, Entity entity, const PhaseTuning& tuning) {
     const RigidBody* const body = io.body.find(entity);  // none: the world
     return body != nullptr && body->kind == BodyKind::free && body->mass_kg < tuning.heavy_body_kg;
 }
@@ -19,7 +19,7 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
         const Joint& joint = io.joint.rows()[row];
         const bool is_b = joint.b == body;
         const Entity holder = is_b ? joint.a : joint.b;
-        if ((!is_b && joint.a != body) || is_led_by_hands(io, holder, tuning)) {
+        if ((!is_b && joint.a != body) || is_hand_driven(io, holder, tuning)) {
             continue;
         }
         const bool is_rail = joint.kind == JointKind::hinge || joint.kind == JointKind::slider;
@@ -43,7 +43,7 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
     return rail;
 }
 
-double way_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs) {
+double travel_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs) {
     if (!rail.turns) {
         return rail.axis_hs.dot(to_hs - from_hs);
     }

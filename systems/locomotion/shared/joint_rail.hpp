@@ -32,7 +32,7 @@ std::optional<JointRail> find_rail(const JointRailIo& io, Entity body, const Pha
 
 // How far along its rail the body goes when a hand takes a point of it from one place as near to
 // another as it can: rad in [-pi, pi] or m, whatever the rail's ends. 0 for a point on the axle.
-double way_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs);
+double travel_along(const JointRail& rail, const Vec3& from_hs, const Vec3& to_hs);
 
 // How much the way of a hand there counts among those of several, as the solver counts it: on a
 // hinge by the square of its arm, m^2, since an angle is the less certain the nearer it is to the

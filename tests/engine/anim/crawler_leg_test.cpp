@@ -34,7 +34,8 @@ CrawlerLeg leg() {
 
 TEST(TwoBonesBend, KeepTheirLengthsAndReachTheTarget) {
     for (const Vec3& target : {Vec3(1.0, 0.2, -0.4), Vec3(0.0, -1.2, 0.1), Vec3(-0.3, 0.2, 0.1)}) {
-        const TwoBones bones = bend_two_bones(Vec3(0.1, 0.2, 0.3), target, 0.8, 0.9, Vec3(1, 2, 3));
+        const TwoBones bones =
+            place_two_bones(Vec3(0.1, 0.2, 0.3), target, 0.8, 0.9, Vec3(1, 2, 3));
         EXPECT_LT((bones.end - target).norm(), 1e-14);
         EXPECT_NEAR((bones.middle - bones.root).norm(), 0.8, 1e-14);
         EXPECT_NEAR((bones.end - bones.middle).norm(), 0.9, 1e-14);
@@ -44,19 +45,19 @@ TEST(TwoBonesBend, KeepTheirLengthsAndReachTheTarget) {
 
 TEST(TwoBonesBend, OfThreeFourFiveMeetAtARightAngle) {
     const TwoBones bones =
-        bend_two_bones(Vec3::Zero(), Vec3(5.0, 0.0, 0.0), 3.0, 4.0, Vec3::UnitY());
+        place_two_bones(Vec3::Zero(), Vec3(5.0, 0.0, 0.0), 3.0, 4.0, Vec3::UnitY());
     EXPECT_LT((bones.middle - Vec3(1.8, 2.4, 0.0)).norm(), 1e-14);
 }
 
 TEST(TwoBonesBend, OutOfReachEndOnTheLineToTheTargetJustShort) {
     const Vec3 far(0.0, -9.0, 0.0);
-    const TwoBones bones = bend_two_bones(Vec3::Zero(), far, 0.8, 0.9, Vec3::UnitX());
+    const TwoBones bones = place_two_bones(Vec3::Zero(), far, 0.8, 0.9, Vec3::UnitX());
     EXPECT_LT((bones.end - Vec3(0.0, -1.7 * 0.999, 0.0)).norm(), 1e-12);
     EXPECT_NEAR(bones.middle.norm(), 0.8, 1e-12);
     const TwoBones folded =
-        bend_two_bones(Vec3::Zero(), Vec3(0.0, -0.01, 0.0), 0.8, 0.9, Vec3::UnitX());
+        place_two_bones(Vec3::Zero(), Vec3(0.0, -0.01, 0.0), 0.8, 0.9, Vec3::UnitX());
     EXPECT_NEAR(folded.end.norm(), 0.1 + 1.7e-3, 1e-12);
-    EXPECT_TRUE(is_finite(bend_two_bones(far, far, 0.8, 0.9, Vec3::UnitX()).middle));
+    EXPECT_TRUE(is_finite(place_two_bones(far, far, 0.8, 0.9, Vec3::UnitX()).middle));
 }
 
 TEST(CrawlerFoot, StandsStillThenSwingsToTheNextFoothold) {

@@ -32,7 +32,7 @@ Contacts found_by(CollisionWorld& world, const std::vector<ColliderProxy>& proxi
     return contacts;
 }
 
-TEST(PairMemory, GivesBackWhatANewWorldFinds) {
+TEST(PairCache, GivesBackWhatANewWorldFinds) {
     Random random(11);
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.12);
@@ -79,7 +79,7 @@ TEST(PairMemory, GivesBackWhatANewWorldFinds) {
 
 // A floor and a ceiling, turned as a station's modules are, and what drifts and tumbles between
 // them: for many rounds nothing is near, then the ceiling comes down on all of it.
-TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
+TEST(PairCache, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
     Random random(12);
     ShapeLibrary shapes;
     const ShapeId box = shapes.add_box(Vec3(0.15, 0.1, 0.2));
@@ -125,7 +125,7 @@ TEST(PairMemory, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
 
 // More that move than are compared one by one, and all that can happen to what is noted: kinds and
 // shapes change, poses become invalid and valid again, things come and go.
-TEST(PairMemory, HoldsAmongManyThatChangeInEveryWay) {
+TEST(PairCache, HoldsAmongManyThatChangeInEveryWay) {
     Random random(13);
     ShapeLibrary shapes;
     const std::array shape = {shapes.add_sphere(0.1), shapes.add_box(Vec3(0.15, 0.1, 0.2))};

@@ -366,7 +366,7 @@ TEST(Shapes, RefuseWhatTheyCannotBe) {
     EXPECT_THROW(shapes.add_compound(of_mesh), PreconditionError);
     const std::vector<CompoundChild> mixed = {{ball, {}, 1.0}, {ball, {}, 0.0}};
     EXPECT_THROW(shapes.add_compound(mixed), PreconditionError);
-    const std::vector<CompoundChild> many(k_most_parts + 1, CompoundChild{ball, {}, 0.0});
+    const std::vector<CompoundChild> many(k_max_parts + 1, CompoundChild{ball, {}, 0.0});
     EXPECT_THROW(shapes.add_compound(many), PreconditionError);
     const auto floor = test::make_floor(1.0, 1);
     EXPECT_THROW(shapes.add_mesh(floor, Vec3(1.0, 0.0, 1.0)), PreconditionError);

@@ -24,7 +24,7 @@ HingeChain finger_at(const Pose& base) {
     chain.length_m = {0.045, 0.026, 0.022};
     chain.radius_m = {0.009, 0.008, 0.007};
     chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
-    chain.relaxed_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
+    chain.rest_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
     return chain;
 }
 
@@ -95,8 +95,8 @@ HingeChain clear_finger(const Scene& scene, double tilt_rad, double roll_rad, Ra
     }
 }
 
-// Every fit that says it touches: not off by more than 0.1 mm, not sunk by more than sunk_m.
-void expect_touching(const Scene& scene, double tilt_rad, double roll_rad, double sunk_m,
+// Every fit that says it touches: not off by more than 0.1 mm, not sunk by more than penetration_m.
+void expect_touching(const Scene& scene, double tilt_rad, double roll_rad, double penetration_m,
                      std::uint64_t seed) {
     Random random(seed);
     int touching = 0;
@@ -105,7 +105,7 @@ void expect_touching(const Scene& scene, double tilt_rad, double roll_rad, doubl
         const ChainFit fitted = fit(chain, scene.placed);
         const double gap = chain_gap_m(chain, fitted, scene.placed);
         EXPECT_NEAR(fitted.depth_m, std::max(0.0, -gap), 1e-7) << "case " << i;
-        EXPECT_GT(gap, -sunk_m) << "case " << i;
+        EXPECT_GT(gap, -penetration_m) << "case " << i;
         if (fitted.contact_link != DiscClosure::k_none &&
             (fitted.fallback == ChainFallback::none ||
              fitted.fallback == ChainFallback::all_cuts)) {
@@ -204,9 +204,9 @@ TEST(FitChain, WithNothingToTouchIsRelaxed) {
     for (const auto meshes :
          {std::span<const PlacedMesh>(scene.placed), std::span<const PlacedMesh>()}) {
         const ChainFit fitted = fit(chain, meshes);
-        EXPECT_EQ(fitted.fallback, ChainFallback::relaxed);
+        EXPECT_EQ(fitted.fallback, ChainFallback::rest_pose);
         EXPECT_EQ(fitted.contact_link, DiscClosure::k_none);
-        EXPECT_EQ(fitted.angle_rad, chain.relaxed_rad);
+        EXPECT_EQ(fitted.angle_rad, chain.rest_rad);
         EXPECT_EQ(fitted.depth_m, 0.0);
     }
 }
@@ -223,7 +223,7 @@ TEST(FitChain, SunkWhenStraightIsBentUntilItIsClear) {
         ChainFitSettings settings;
         settings.searches = searches;
         const ChainFit fitted = fit(chain, scene.placed, settings);
-        EXPECT_EQ(fitted.fallback, ChainFallback::bent);
+        EXPECT_EQ(fitted.fallback, ChainFallback::sample_pose);
         const double gap_m = chain_gap_m(chain, fitted, scene.placed);
         EXPECT_GT(gap_m, -8e-4);
         EXPECT_LT(gap_m, 1e-3);
@@ -264,8 +264,8 @@ Mended check_mended(const Scene& scene, const std::function<HingeChain(Random&)>
     for (int i = 0; i < 400; ++i) {
         const HingeChain chain = finger(random);
         const ChainFit fitted = fit(chain, scene.placed, settings);
-        const bool is_mended =
-            fitted.fallback == ChainFallback::bent || fitted.fallback == ChainFallback::opened;
+        const bool is_mended = fitted.fallback == ChainFallback::sample_pose ||
+                               fitted.fallback == ChainFallback::opened;
         if (!is_mended || fitted.depth_m > settings.open_depth_m) {
             continue;
         }
@@ -280,9 +280,9 @@ Mended check_mended(const Scene& scene, const std::function<HingeChain(Random&)>
         ++mended.away;
         EXPECT_GE(gap_m, -k_oracle_m) << "case " << i;
         ChainFit relaxed;
-        relaxed.angle_rad = chain.relaxed_rad;
+        relaxed.angle_rad = chain.rest_rad;
         if (chain_gap_m(chain, relaxed, scene.placed) > 0.0) {
-            EXPECT_EQ(fitted.angle_rad, chain.relaxed_rad) << "case " << i;
+            EXPECT_EQ(fitted.angle_rad, chain.rest_rad) << "case " << i;
         }
     }
     return mended;
@@ -299,14 +299,14 @@ TEST(FitChain, BentClearComesBackUntilItTouches) {
     EXPECT_EQ(about.touching, about.count);
 }
 
-// As in_a_slide has it (systems/hand/shared/finger_chain.hpp). The counts are floors below what any
-// compiler comes to: each kind has to be there.
+// As sliding_refit_settings has it (systems/hand/shared/finger_chain.hpp). The counts are floors
+// below what any compiler comes to: each kind has to be there.
 TEST(FitChain, BentClearInASlideTouchesOrIsAtEase) {
     const Scene box(lowered(*test::make_box_mesh({0.03, 0.02, 0.1}), 0.03));
     const Scene tube(lowered(test::make_tube(0.0175, 0.4, 48, 40), 0.0175));
     ChainFitSettings settings;
     settings.searches = false;
-    settings.comes_back = false;
+    settings.recloses_to_touch = false;
     const Mended beside = check_mended(box, finger_beside_a_box, settings, 1721);
     const Mended about = check_mended(tube, finger_about_a_tube, settings, 1722);
     EXPECT_GE(beside.touching, 85);
@@ -315,12 +315,13 @@ TEST(FitChain, BentClearInASlideTouchesOrIsAtEase) {
 }
 
 // Of those that came to touch by bending, how far they are from where they were to be near to.
-double off_near_rad(const Scene& scene, const ChainAngles& near_rad, const ChainFitSettings& how) {
+double distance_to_near_rad(const Scene& scene, const ChainAngles& near_rad,
+                            const ChainFitSettings& how) {
     Random random(1723);
     double off_rad = 0.0;
     for (int i = 0; i < 400; ++i) {
         const ChainFit fitted = fit(finger_about_a_tube(random), scene.placed, how);
-        if (fitted.fallback == ChainFallback::bent && fitted.depth_m <= how.open_depth_m) {
+        if (fitted.fallback == ChainFallback::sample_pose && fitted.depth_m <= how.open_depth_m) {
             for (std::size_t link = 0; link < near_rad.size(); ++link) {
                 off_rad += std::abs(fitted.angle_rad[link] - near_rad[link]);
             }
@@ -335,8 +336,8 @@ TEST(FitChain, BentClearIsNearToWhereItIsToBe) {
     for (const double curl_rad : {0.0, 1.2}) {
         ChainFitSettings near = at_ease;
         near.near_rad.emplace().fill(curl_rad);
-        EXPECT_LT(off_near_rad(tube, *near.near_rad, near),
-                  0.95 * off_near_rad(tube, *near.near_rad, at_ease))
+        EXPECT_LT(distance_to_near_rad(tube, *near.near_rad, near),
+                  0.95 * distance_to_near_rad(tube, *near.near_rad, at_ease))
             << curl_rad;
     }
 }
@@ -349,13 +350,13 @@ TEST(FitChain, WhatIsMendedIsLessSunkOrSaysThatItStayed) {
     settings.search_depth_m = 1e-4;
     settings.open_depth_m = 2e-3;
     ChainFitSettings as_closed = settings;
-    as_closed.mends = false;
+    as_closed.depenetrates = false;
     Random random(1724);
     int bent = 0;
     for (int i = 0; i < 1000; ++i) {
         const HingeChain chain = finger_about_a_tube(random);
         const ChainFit mended = fit(chain, tube.placed, settings);
-        if (mended.fallback == ChainFallback::bent) {
+        if (mended.fallback == ChainFallback::sample_pose) {
             ++bent;
             EXPECT_LT(mended.depth_m, fit(chain, tube.placed, as_closed).depth_m) << "case " << i;
         }
@@ -430,7 +431,7 @@ TEST(FindSunk, IsTheDeepestOfAllTrianglesInAnyFrame) {
         capsule.ends = {transform_point(frame, random.vector(0.1)),
                         transform_point(frame, random.vector(0.1))};
         capsule.radius_m = random.between(0.004, 0.012);
-        const SunkCapsule sunk = find_sunk(capsule, meshes);
+        const CapsulePenetration sunk = find_penetration(capsule, meshes);
         EXPECT_NEAR(sunk.depth_m, std::max(0.0, -test::gap_m(capsule, meshes)), 1e-8) << i;
         // The first of the surfaces on the way along the middle.
         std::optional<double> first;

@@ -5,7 +5,7 @@
 #include "engine/geometry/chain_fit.hpp"
 #include "surface_cuts.hpp"
 
-// The oracle is find_sunk, which gathers afresh and has an oracle of its own (FindSunk).
+// The oracle is find_penetration, which gathers afresh and has an oracle of its own (FindSunk).
 namespace handhold::chain_follow_test {
 namespace {
 
@@ -17,7 +17,7 @@ HingeChain finger_at(const Vec3& position) {
     chain.length_m = {0.045, 0.026, 0.022};
     chain.radius_m = {0.009, 0.008, 0.007};
     chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
-    chain.relaxed_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
+    chain.rest_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
     return chain;
 }
 
@@ -30,18 +30,19 @@ struct FollowChain : testing::Test {
 
     std::optional<FollowedChain> follow(const HingeChain& chain, const ChainAngles& from_rad) {
         ChainReach reach =
-            chain_reach(chain, chain.open_rad, chain.closed_rad, settings.look_gap_m);
+            chain_reach(chain, chain.open_rad, chain.closed_rad, settings.query_gap_m);
         reach.half_width_m = half_width_m(chain, ChainFitSettings{}.plane_offset);
         scratch.patch.gather(reach, meshes);
         const ChainDepth depth =
-            chain_depth(chain, from_rad, scratch.patch, {.more_m = settings.look_gap_m});
+            chain_depth(chain, from_rad, scratch.patch, {.extra_radius_m = settings.query_gap_m});
         return follow_chain(chain, from_rad, depth, scratch.patch, settings);
     }
-    double depth_m(const HingeChain& chain, const ChainAngles& angle_rad, double more_m) const {
+    double depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
+                   double extra_radius_m) const {
         double deepest_m = 0.0;
         for (Capsule capsule : chain_capsules(chain, angle_rad)) {
-            capsule.radius_m += more_m;
-            deepest_m = std::max(deepest_m, find_sunk(capsule, meshes).depth_m);
+            capsule.radius_m += extra_radius_m;
+            deepest_m = std::max(deepest_m, find_penetration(capsule, meshes).depth_m);
         }
         return deepest_m;
     }
@@ -63,9 +64,9 @@ TEST_F(FollowChain, KeepsTheTouchOfASurfaceThatMovesByMillimetres) {
         ++followed;
         moves += found->angle_rad != from_rad ? 1 : 0;
         const double depth = depth_m(moved, found->angle_rad, 0.0);
-        EXPECT_LE(depth, settings.still_depth_m + 1e-9) << i;
+        EXPECT_LE(depth, settings.touch_depth_m + 1e-9) << i;
         EXPECT_NEAR(depth, found->depth_m, 1e-9) << i;
-        EXPECT_GT(depth_m(moved, found->angle_rad, settings.still_gap_m), 0.0) << i;
+        EXPECT_GT(depth_m(moved, found->angle_rad, settings.touch_gap_m), 0.0) << i;
         for (std::size_t hinge = 0; hinge < chain.link_count; ++hinge) {
             EXPECT_GE(found->angle_rad[hinge], chain.open_rad[hinge]);
             EXPECT_LE(found->angle_rad[hinge], chain.closed_rad[hinge]);
@@ -98,7 +99,7 @@ TEST_F(FollowChain, TurnsNoFartherThanItMay) {
     const ChainAngles from_rad = fit_chain(chain, meshes, {}, {}, scratch).angle_rad;
     const HingeChain moved = finger_at({0.0, 0.0155, 0.0});
     ASSERT_TRUE(follow(moved, from_rad));
-    settings.most_opened = 1e-3;
+    settings.max_opening = 1e-3;
     EXPECT_FALSE(follow(moved, from_rad));
 }
 

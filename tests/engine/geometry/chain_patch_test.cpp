@@ -89,7 +89,7 @@ double nearest_height_m(const SurfaceGraph& graph, std::uint32_t triangle, const
 
 struct Comparison {
     int cuts = 0;
-    int undecided = 0;  // of a corner in the plane, or at the disc's edge
+    int friction_unconverged = 0;  // of a corner in the plane, or at the disc's edge
 };
 
 // Expected: every triangle, in doubles; floats are off as if the plane were by `rounding_m`.
@@ -112,7 +112,7 @@ void compare_cuts(const SurfaceGraph& graph, const Disc& disc, double rounding_m
         }
         if (found == segments.end() || found->triangle != cut.triangle) {
             ASSERT_FALSE(is_decided(cut)) << "left out: " << cut.triangle;
-            ++comparison.undecided;
+            ++comparison.friction_unconverged;
             continue;
         }
         if (nearest_height_m(graph, cut.triangle, disc) > rounding_m) {
@@ -152,7 +152,7 @@ TEST(ChainPatch, CutsEveryTriangleThatAPlaneMeets) {
         }
     }
     EXPECT_GT(comparison.cuts, 2000);
-    EXPECT_LT(comparison.undecided, comparison.cuts / 1000);
+    EXPECT_LT(comparison.friction_unconverged, comparison.cuts / 1000);
 }
 
 TEST(ChainPatch, CutsOfTheFirstMeshComeFirstAndAreCounted) {
@@ -200,20 +200,20 @@ TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
         all.gather(reach, placed);
         const double radius_m = reach.half_width_m;
         std::array<std::array<Vec2, 2>, 2> middles;
-        for (std::array<Vec2, 2>& middle : middles) {
-            middle[0] = random.vector(0.5 * reach.radius_m).head<2>();
-            middle[1] = middle[0] + random.vector(0.3 * reach.radius_m).head<2>();
+        for (std::array<Vec2, 2>& centre : middles) {
+            centre[0] = random.vector(0.5 * reach.radius_m).head<2>();
+            centre[1] = centre[0] + random.vector(0.3 * reach.radius_m).head<2>();
             ReachBox& box = reach.boxes[reach.box_count++];
-            box.low = middle[0].cwiseMin(middle[1]).array() - radius_m;
-            box.high = middle[0].cwiseMax(middle[1]).array() + radius_m;
+            box.low = centre[0].cwiseMin(centre[1]).array() - radius_m;
+            box.high = centre[0].cwiseMax(centre[1]).array() + radius_m;
         }
         ChainPatch boxed;
         boxed.gather(reach, placed);
         of_all += all.size();
         of_boxes += boxed.size();
         for (std::size_t box = 0; box < middles.size(); ++box) {
-            const SunkCapsule expected = all.find_sunk(middles[box], radius_m, box);
-            const SunkCapsule found = boxed.find_sunk(middles[box], radius_m, box);
+            const CapsulePenetration expected = all.find_penetration(middles[box], radius_m, box);
+            const CapsulePenetration found = boxed.find_penetration(middles[box], radius_m, box);
             EXPECT_EQ(found.depth_m, expected.depth_m);
             EXPECT_EQ(found.crossed_at, expected.crossed_at);
         }
@@ -251,7 +251,7 @@ TEST(ChainPatch, FindsTheDeepestFarFromTheMeshsMiddleToo) {
             reach.base.position += at;
             ChainPatch patch;
             patch.gather(reach, placed);
-            const std::array<Vec2, 2> middle = {random.vector(0.4 * reach.radius_m).head<2>(),
+            const std::array<Vec2, 2> centre = {random.vector(0.4 * reach.radius_m).head<2>(),
                                                 random.vector(0.4 * reach.radius_m).head<2>()};
             const auto to_mesh = [&](const Vec2& point) {
                 return transform_point(reach.base, {0.0, -point.y(), -point.x()});
@@ -262,9 +262,9 @@ TEST(ChainPatch, FindsTheDeepestFarFromTheMeshsMiddleToo) {
                                          mesh.contact.positions[c]};
                 nearest_m = std::min(
                     nearest_m,
-                    nearest_between({to_mesh(middle[0]), to_mesh(middle[1])}, corners).distance_m);
+                    nearest_between({to_mesh(centre[0]), to_mesh(centre[1])}, corners).distance_m);
             }
-            const SunkCapsule found = patch.find_sunk(middle, reach.half_width_m, 0);
+            const CapsulePenetration found = patch.find_penetration(centre, reach.half_width_m, 0);
             ASSERT_NEAR(found.nearest_m, nearest_m, 1e-9) << half_m << ", " << i;
             sunk += found.depth_m > 0.0 ? 1 : 0;
         }
@@ -296,12 +296,12 @@ TEST(ChainPatch, CutsFarFromTheMeshsMiddleToo) {
             }
         }
         EXPECT_GT(comparison.cuts, 1000) << half_m;
-        EXPECT_LT(comparison.undecided, comparison.cuts / 50) << half_m;
+        EXPECT_LT(comparison.friction_unconverged, comparison.cuts / 50) << half_m;
     }
 }
 
 // Lanes of floats that hold the boxes: a mesh's tree rounds its own outwards too.
-void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, FourBoxes& boxes) {
+void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, Boxes4& boxes) {
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<Eigen::Index>(axis);
@@ -312,7 +312,7 @@ void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, FourBoxes&
 
 // A corner of the upright box lies on a face of the turned one, and all the rest of it beyond: the
 // least rounding the wrong way would take them for apart. 4 cm further they are.
-TEST(TurnedBoxTest, NeverTellsBoxesApartThatTouch) {
+TEST(OrientedBoxTest, NeverTellsBoxesApartThatTouch) {
     Random random(1508);
     int apart = 0;
     constexpr int k_boxes = 20000;
@@ -320,27 +320,27 @@ TEST(TurnedBoxTest, NeverTellsBoxesApartThatTouch) {
         const Mat3 turn = random.rotation().toRotationMatrix();
         const Vec3 touch = random.vector(10.0);
         const int face = i % 3;
-        TurnedBox box;
-        box.half = random.vector(0.1).cwiseAbs();
+        OrientedBox box;
+        box.half_extents = random.vector(0.1).cwiseAbs();
         for (int axis = 0; axis < 3; ++axis) {
             const double off = axis == face ? -1.0 : random.between(-1.0, 1.0);
             box.axis[static_cast<std::size_t>(axis)] = turn.row(axis).transpose();
-            box.middle[axis] = turn.row(axis).dot(touch) + off * box.half[axis];
+            box.centre[axis] = turn.row(axis).dot(touch) + off * box.half_extents[axis];
         }
         const Vec3 outwards = turn.row(face).transpose();
         const Vec3 size = random.vector(0.1).cwiseAbs();
         const Vec3 low = touch - (outwards.array() < 0.0).select(size, Vec3::Zero());
         const Vec3 high = low + size;
         const double reach_m = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-        const TurnedBoxTest test(box, reach_m + 0.1);
+        const OrientedBoxTest test(box, reach_m + 0.1);
         const Vec3 away = 0.04 * outwards;
-        FourBoxes boxes;
+        Boxes4 boxes;
         const auto touching = static_cast<std::size_t>(i % 4);
         for (std::size_t lane = 0; lane < 4; ++lane) {
             const Vec3 off = lane == touching ? Vec3(Vec3::Zero()) : away;
             put_rounded(low + off, high + off, lane, boxes);
         }
-        const FourInts is_met = test.may_meet(boxes);
+        const Int4 is_met = test.may_meet(boxes);
         ASSERT_NE(is_met[touching], 0) << i;
         for (std::size_t lane = 0; lane < 4; ++lane) {
             apart += is_met[lane] == 0 ? 1 : 0;
@@ -366,12 +366,12 @@ TEST(ChainDepth, OfAThickerChainHoldsThatOfTheChain) {
         patch.gather({chain.base, reach_m(chain) + 1e-3, 0.01}, placed);
         const ChainDepth asked = chain_depth(chain, angle_rad, patch);
         const ChainDepth derived =
-            own_depth(chain, chain_depth(chain, angle_rad, patch, {.more_m = 5e-4}), 3);
+            own_depth(chain, chain_depth(chain, angle_rad, patch, {.extra_radius_m = 5e-4}), 3);
         EXPECT_NEAR(derived.depth_m, asked.depth_m, 1e-15);
         EXPECT_EQ(derived.link, asked.link);
         // Where as much is enough, no less than that is said.
         const ChainDepth enough =
-            chain_depth(chain, angle_rad, patch, {.enough_m = 0.5 * asked.depth_m});
+            chain_depth(chain, angle_rad, patch, {.sufficient_depth_m = 0.5 * asked.depth_m});
         EXPECT_GE(enough.depth_m, 0.5 * asked.depth_m);
         EXPECT_LE(enough.depth_m, asked.depth_m);
         sunk += asked.depth_m > 0.0 ? 1 : 0;
@@ -399,13 +399,13 @@ TEST(ChainDepths, AreThoseOfEachPoseAlone) {
             const ChainAngles angle_rad = {first_rad, random.between(0.0, 1.0),
                                            random.between(0.0, 1.0)};
             const ChainDepth expected = chain_depth(chain, angle_rad, patch);
-            const double enough_m =
+            const double sufficient_depth_m =
                 pose % 4 == 0 ? std::numeric_limits<double>::infinity() : random.between(0.0, 0.01);
-            const double found_m = depths.depth_m(angle_rad, enough_m);
-            if (expected.depth_m < enough_m) {
+            const double found_m = depths.depth_m(angle_rad, sufficient_depth_m);
+            if (expected.depth_m < sufficient_depth_m) {
                 ASSERT_EQ(found_m, expected.depth_m) << i << ", " << pose;
             } else {
-                ASSERT_GE(found_m, enough_m) << i << ", " << pose;
+                ASSERT_GE(found_m, sufficient_depth_m) << i << ", " << pose;
                 ASSERT_LE(found_m, expected.depth_m) << i << ", " << pose;
             }
             sunk += expected.depth_m > 0.0 ? 1 : 0;

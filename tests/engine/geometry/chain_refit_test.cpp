@@ -18,16 +18,16 @@ HingeChain finger_at(const Vec3& position) {
     chain.length_m = {0.045, 0.026, 0.022};
     chain.radius_m = {0.009, 0.008, 0.007};
     chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
-    chain.relaxed_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
+    chain.rest_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
     return chain;
 }
 
 double most_turned_rad(const ChainAngles& from, const ChainAngles& to) {
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-        most_rad = std::max(most_rad, std::abs(to[i] - from[i]));
+        max_rad = std::max(max_rad, std::abs(to[i] - from[i]));
     }
-    return most_rad;
+    return max_rad;
 }
 
 // A bar along x, 35 mm thick, its top at the height 0.
@@ -38,16 +38,16 @@ struct RefitChain : testing::Test {
 
     ChainFit fit(const HingeChain& chain) { return fit_chain(chain, meshes, {}, {}, scratch); }
     ChainFit refit(const HingeChain& chain, const ChainAngles& last_rad,
-                   double most_turn_rad = k_turn_rad) {
+                   double max_turn_rad = k_turn_rad) {
         ChainRefitSettings settings;
-        settings.most_turn_rad = most_turn_rad;
+        settings.max_turn_rad = max_turn_rad;
         return refit_chain(chain, last_rad, meshes, {}, settings, scratch);
     }
     // By the code that has an oracle of its own (FindSunk).
     double depth_m(const HingeChain& chain, const ChainAngles& angle_rad) const {
         double deepest_m = 0.0;
         for (const Capsule& capsule : chain_capsules(chain, angle_rad)) {
-            deepest_m = std::max(deepest_m, find_sunk(capsule, meshes).depth_m);
+            deepest_m = std::max(deepest_m, find_penetration(capsule, meshes).depth_m);
         }
         return deepest_m;
     }
@@ -101,18 +101,18 @@ TEST_F(RefitChain, ClosesStepByStepOnWhatIsFarAndIsRelaxedStepByStepWhereNothing
     const ChainFit first = fit(chain);
     ChainAngles angle_rad = chain.open_rad;
     int steps = 0;
-    for (bool is_on_its_way = true; is_on_its_way && steps < 100; ++steps) {
+    for (bool is_turn_limited = true; is_turn_limited && steps < 100; ++steps) {
         const ChainFit kept = refit(chain, angle_rad);
         EXPECT_LE(most_turned_rad(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
-        is_on_its_way = kept.is_on_its_way;
+        is_turn_limited = kept.is_turn_limited;
         angle_rad = kept.angle_rad;
     }
     EXPECT_GT(steps, 3);
     EXPECT_LT(most_turned_rad(angle_rad, first.angle_rad), 0.05);  // as if closed at once
     meshes.front().pose.position.y() -= 1.0;
-    for (steps = 0; angle_rad != chain.relaxed_rad && steps < 100; ++steps) {
+    for (steps = 0; angle_rad != chain.rest_rad && steps < 100; ++steps) {
         const ChainFit kept = refit(chain, angle_rad);
-        EXPECT_EQ(kept.fallback, ChainFallback::relaxed);
+        EXPECT_EQ(kept.fallback, ChainFallback::rest_pose);
         EXPECT_LE(most_turned_rad(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
         angle_rad = kept.angle_rad;
     }

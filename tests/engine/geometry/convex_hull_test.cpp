@@ -29,12 +29,12 @@ double outside_m(const ConvexHull& hull, const Vec3& point) {
 
 void expect_hull(const ConvexHull& hull, const std::vector<Vec3>& points) {
     const double size = 2.0 * points[0].norm() + 1.0;
-    ASSERT_LE(hull.corners.size(), k_most_hull_corners);
+    ASSERT_LE(hull.corners.size(), k_max_hull_corners);
     for (const Vec3& corner : hull.corners) {
         ASSERT_NE(std::find(points.begin(), points.end(), corner), points.end());
     }
     for (const Vec3& point : points) {
-        ASSERT_LE(outside_m(hull, point), hull.left_out_m + 1e-9 * size);
+        ASSERT_LE(outside_m(hull, point), hull.omitted_m + 1e-9 * size);
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const HullFace& face : hull.faces) {
@@ -128,13 +128,13 @@ TEST(ConvexHull, OfTooManyPointsSaysWhatItLeavesOut) {
     }
     const auto hull = make_convex_hull(points);
     ASSERT_TRUE(hull.has_value());
-    EXPECT_EQ(hull->corners.size(), k_most_hull_corners);
+    EXPECT_EQ(hull->corners.size(), k_max_hull_corners);
     expect_hull(*hull, points);
     double most = 0.0;
     for (const Vec3& point : points) {
         most = std::max(most, outside_m(*hull, point));
     }
-    EXPECT_NEAR(hull->left_out_m, most, 1e-5);
+    EXPECT_NEAR(hull->omitted_m, most, 1e-5);
     // Caps between 64 well spread points of a unit sphere: each takes 4 pi / 124 of its area or so.
     EXPECT_LT(most, 0.1);
 }
@@ -166,9 +166,9 @@ TEST(ConvexHull, SurvivesPointsThatAreNearlyInOnePlaneOrLine) {
         }
         if (const auto hull = make_convex_hull(points)) {
             for (const Vec3& point : points) {
-                ASSERT_LE(outside_m(*hull, point), hull->left_out_m + 1e-8) << round;
+                ASSERT_LE(outside_m(*hull, point), hull->omitted_m + 1e-8) << round;
             }
-            ASSERT_LT(hull->left_out_m, 2e-5) << round;
+            ASSERT_LT(hull->omitted_m, 2e-5) << round;
         } else {
             ASSERT_LT(flatness, 1e-5);
         }
@@ -199,7 +199,7 @@ TEST(ConvexHull, OfRealObjectsHoldsThem) {
         for (const Vec3& point : points) {
             reach = std::max(reach, (point - points[0]).norm());
         }
-        EXPECT_LT(hull->left_out_m, 0.02 * reach);
+        EXPECT_LT(hull->omitted_m, 0.02 * reach);
         ++objects;
     }
     EXPECT_GT(objects, 10);

@@ -135,13 +135,13 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
             const DiscClosure& closure, Tally& tally) {
     ClosingOracle oracle{chain};
     double from = 0.0;
-    while (oracle.first_free < chain.link_count) {
-        std::size_t stopped = oracle.first_free;
+    while (oracle.first_free_hinge < chain.link_count) {
+        std::size_t stopped = oracle.first_free_hinge;
         while (stopped < chain.link_count && (closure.touching >> stopped & 1U) == 0) {
             ++stopped;
         }
         const bool touches = stopped < chain.link_count;
-        const std::size_t hinge = oracle.first_free;
+        const std::size_t hinge = oracle.first_free_hinge;
         const double at = touches ? (closure.angle_rad[hinge] - chain.open_rad[hinge]) /
                                         (chain.closed_rad[hinge] - chain.open_rad[hinge])
                                   : 1.0;
@@ -165,12 +165,12 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
             }
         }
         const std::size_t last = touches ? stopped : chain.link_count - 1;
-        for (std::size_t i = oracle.first_free; i <= last; ++i) {
+        for (std::size_t i = oracle.first_free_hinge; i <= last; ++i) {
             oracle.kept_rad[i] = closure.angle_rad[i];
             EXPECT_NEAR(closure.angle_rad[i],
                         chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]), 1e-12);
         }
-        oracle.first_free = last + 1;
+        oracle.first_free_hinge = last + 1;
         from = at;
     }
 }

@@ -32,18 +32,18 @@ inline double exact_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, con
                      point_to_segment(b0, a0, a1), point_to_segment(b1, a0, a1)});
 }
 
-// A chain on its way: hinges before first_free stay, the others go on together.
+// A chain on its way: hinges before first_free_hinge stay, the others go on together.
 struct ClosingOracle {
     const DiscChain& chain;
-    std::array<double, k_most_disc_links> kept_rad = {};
-    std::size_t first_free = 0;
+    std::array<double, k_max_disc_links> kept_rad = {};
+    std::size_t first_free_hinge = 0;
 
-    std::array<Vec2, k_most_disc_links + 1> points_at(double at) const {
-        std::array<Vec2, k_most_disc_links + 1> points;
+    std::array<Vec2, k_max_disc_links + 1> points_at(double at) const {
+        std::array<Vec2, k_max_disc_links + 1> points;
         points[0] = Vec2::Zero();
         double angle = 0.0;
         for (std::size_t i = 0; i < chain.link_count; ++i) {
-            angle += i < first_free
+            angle += i < first_free_hinge
                          ? kept_rad[i]
                          : chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]);
             points[i + 1] = points[i] + chain.length_m[i] * Vec2(std::cos(angle), std::sin(angle));
@@ -64,7 +64,7 @@ struct ClosingOracle {
 
     double least_separation_m(std::span<const DiscSegment> segments, double at) const {
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t link = first_free; link < chain.link_count; ++link) {
+        for (std::size_t link = first_free_hinge; link < chain.link_count; ++link) {
             for (const DiscSegment& segment : segments) {
                 least = std::min(least, separation_m(link, segment, at));
             }
@@ -76,7 +76,7 @@ struct ClosingOracle {
 inline DiscChain random_chain(Random& random) {
     DiscChain chain;
     chain.link_count = 1 + static_cast<std::uint32_t>(random.between(0.0, 2.999));
-    for (std::size_t i = 0; i < k_most_disc_links; ++i) {
+    for (std::size_t i = 0; i < k_max_disc_links; ++i) {
         chain.length_m[i] = random.between(0.012, 0.06);
         chain.open_rad[i] = random.between(-0.4, 0.1);
         chain.closed_rad[i] = chain.open_rad[i] + random.between(0.4, 2.3);

@@ -192,7 +192,7 @@ Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& n
     const CrossingSearch breadth = search(SearchOrder::breadth_first);
     for (const CrossingSearch& found : {best, breadth}) {
         EXPECT_EQ(found.triangle == k_no_triangle || cut.contains(found.triangle), true);
-        EXPECT_LE(found.pops, k_most_pops);
+        EXPECT_LE(found.pops, k_max_pops);
         if (found.triangle != k_no_triangle) {
             EXPECT_NEAR(disc.normal.dot(found.point - disc.center), 0.0, 1e-12);
         }
@@ -317,7 +317,7 @@ TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
             EXPECT_EQ(search(upper, upper).pops, there.pops);
             EXPECT_EQ(search({}, upper).point, there.point);
             EXPECT_EQ(search({}).pops, 0U);
-            if (alone.pops + there.pops <= k_most_pops) {  // which both share
+            if (alone.pops + there.pops <= k_max_pops) {  // which both share
                 ++compared;
                 EXPECT_EQ(search(lower, upper).point, there.point);
                 EXPECT_EQ(search(upper, lower).point, there.point);

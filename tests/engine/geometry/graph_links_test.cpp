@@ -26,7 +26,7 @@ TEST(WindAlike, TurnsTheLesserShareOfEachSheet) {
         const Mesh ball = test::with_holes(test::make_clean_ball(0.2, 20, 30), 0.05, random);
         SurfaceGraph graph = build_surface_graph(test::with_flips(ball, share, random));
         const std::size_t before = outward(graph);
-        const std::uint32_t turned = wind_alike(graph);
+        const std::uint32_t turned = orient_consistently(graph);
         test::expect_sound_graph(graph, ball);
         EXPECT_EQ(graph.report.flipped_links, 0U);
         const std::size_t all = graph.triangles.size();
@@ -36,7 +36,7 @@ TEST(WindAlike, TurnsTheLesserShareOfEachSheet) {
         } else {
             EXPECT_LT(outward(graph), all / 100);
         }
-        EXPECT_EQ(wind_alike(graph), 0U);
+        EXPECT_EQ(orient_consistently(graph), 0U);
     }
 }
 
@@ -60,7 +60,7 @@ TEST(WindAlike, LeavesWhatHasOneSideOnlyLinked) {
         strip.triangles.push_back({low, high, 2 * i + 1});
     }
     SurfaceGraph graph = build_surface_graph(strip);
-    wind_alike(graph);
+    orient_consistently(graph);
     test::expect_sound_graph(graph, strip);
     EXPECT_EQ(graph.report.flipped_links, 1U);
     EXPECT_EQ(graph.report.border_edges, 2 * k_squares);
@@ -70,13 +70,13 @@ TEST(WindAlike, LeavesWhatHasOneSideOnlyLinked) {
 TEST(TurnOutsideOut, TurnsAMeshThatIsInsideOutAndNoHollow) {
     const Mesh ball = test::make_clean_ball(0.2, 12, 20);
     SurfaceGraph right = build_surface_graph(ball);
-    EXPECT_EQ(turn_outside_out(right), 0U);
+    EXPECT_EQ(orient_outward(right), 0U);
     Mesh inside_out = ball;
     for (auto& triangle : inside_out.triangles) {
         std::swap(triangle[1], triangle[2]);
     }
     SurfaceGraph wrong = build_surface_graph(inside_out);
-    EXPECT_EQ(turn_outside_out(wrong), ball.triangles.size());
+    EXPECT_EQ(orient_outward(wrong), ball.triangles.size());
     EXPECT_EQ(outward(wrong), ball.triangles.size());
     test::expect_sound_graph(wrong, inside_out);
     Mesh hollow = ball;
@@ -88,7 +88,7 @@ TEST(TurnOutsideOut, TurnsAMeshThatIsInsideOutAndNoHollow) {
         hollow.triangles.push_back({first + a, first + b, first + c});
     }
     SurfaceGraph shell = build_surface_graph(hollow);
-    EXPECT_EQ(turn_outside_out(shell), 0U);
+    EXPECT_EQ(orient_outward(shell), 0U);
     EXPECT_EQ(outward(shell), ball.triangles.size());
 }
 
@@ -99,7 +99,7 @@ TEST(WindAlike, OfRealMeshesLeavesLinksAndBordersSound) {
         const Mesh mesh = test::load_whole(path);
         SurfaceGraph graph = build_surface_graph(mesh);
         const std::uint32_t flipped = graph.report.flipped_links;
-        wind_alike(graph);
+        orient_consistently(graph);
         test::expect_sound_graph(graph, mesh);
         EXPECT_LE(graph.report.flipped_links, flipped);
         ++meshes;

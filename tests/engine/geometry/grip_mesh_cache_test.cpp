@@ -107,7 +107,7 @@ TEST(GripMeshCache, KeysDifferByMeshAndEverySetting) {
                                   &settings.shape_tolerance_m,  &settings.search.deviation_m,
                                   &settings.search.edge_m,      &settings.contact.deviation_m,
                                   &settings.contact.edge_m,     &settings.contact_share,
-                                  &settings.turned_below_m};
+                                  &settings.flip_below_m};
         *fields[i] += 1e-6;
         keys.push_back(grip_mesh_key(mesh, settings));
     }

@@ -33,8 +33,8 @@ Corners random_triangle(Random& random) {
     return corners;
 }
 
-FourCorners side_by_side(const std::array<Corners, 4>& triangles) {
-    FourCorners four;
+Corners4 side_by_side(const std::array<Corners, 4>& triangles) {
+    Corners4 four;
     for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -47,7 +47,7 @@ FourCorners side_by_side(const std::array<Corners, 4>& triangles) {
 }
 
 // Expected: nearest_between, in doubles. What is told far must be far; what is told near is mostly.
-TEST(FourDistances, AreNeverMoreThanTheDistances) {
+TEST(SegmentDistances4, AreNeverMoreThanTheDistances) {
     Random random(1620);
     int compared = 0;
     int less = 0;
@@ -57,9 +57,9 @@ TEST(FourDistances, AreNeverMoreThanTheDistances) {
             triangle = random_triangle(random);
         }
         const double length_m = i % 50 == 0 ? 0.0 : random.between(0.001, 0.08);
-        const FourFloats length = four_times(length_m);
-        const FourCorners corner = side_by_side(triangles);
-        const FourFloats squared = FourDistances(corner, length).squared();
+        const Float4 length = splat4(length_m);
+        const Corners4 corner = side_by_side(triangles);
+        const Float4 squared = SegmentDistances4(corner, length).squared();
         for (std::size_t lane = 0; lane < 4; ++lane) {
             double largest_m = length_m;
             for (const Vec3& point : triangles[lane]) {

@@ -39,7 +39,7 @@ double farthest_sample_m(const SurfaceGraph& from, const SurfaceGraph& to, Rando
 }
 
 void expect_coarser_within(const SurfaceGraph& fine, const DetailLimits& limits, Random& random) {
-    const SurfaceGraph coarse = coarser(fine, limits);
+    const SurfaceGraph coarse = simplify_surface(fine, limits);
     ASSERT_FALSE(coarse.triangles.empty());
     EXPECT_LE(coarse.triangles.size(), fine.triangles.size());
     EXPECT_LE(farthest_sample_m(fine, coarse, random), limits.deviation_m);
@@ -96,20 +96,20 @@ TEST(Coarser, StaysWithinItsDeviationOnRealMeshes) {
 
 TEST(Coarser, LeavesFewTrianglesOfWhatIsFlatAndLargeOnesAsTheyAre) {
     const SurfaceGraph fine = build_surface_graph(*test::make_floor(1.0, 100));
-    EXPECT_LE(coarser(fine, {5e-4, 0.0}).triangles.size(), 10U);
+    EXPECT_LE(simplify_surface(fine, {5e-4, 0.0}).triangles.size(), 10U);
     // About as many as equilateral ones of 20 mm would be.
     const double full = 1.0 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
-    EXPECT_NEAR(static_cast<double>(coarser(fine, {2.5e-3, 0.02}).triangles.size()), full,
+    EXPECT_NEAR(static_cast<double>(simplify_surface(fine, {2.5e-3, 0.02}).triangles.size()), full,
                 0.05 * full);
     const SurfaceGraph large = build_surface_graph(*test::make_floor(1.0, 10));
-    EXPECT_EQ(coarser(large, {2.5e-3, 0.02}).triangles, large.triangles);
+    EXPECT_EQ(simplify_surface(large, {2.5e-3, 0.02}).triangles, large.triangles);
 }
 
 TEST(Coarser, MakesSearchTrianglesOfAnEdgesLengthOnABall) {
     // A sphere of radius r and triangles of edge a deviate by a^2 / 6 r: 2.5 mm at 150 mm is 47 mm,
     // so the edge's length decides; its count follows from the area.
     const SurfaceGraph fine = build_surface_graph(test::make_clean_ball(0.15, 100, 200));
-    const SurfaceGraph coarse = coarser(fine, {2.5e-3, 0.02});
+    const SurfaceGraph coarse = simplify_surface(fine, {2.5e-3, 0.02});
     const double full = 4.0 * 3.14159 * 0.15 * 0.15 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
     EXPECT_NEAR(static_cast<double>(coarse.triangles.size()), full, 0.1 * full);
 }

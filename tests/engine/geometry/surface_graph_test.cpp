@@ -257,8 +257,8 @@ RC_GTEST_PROP(SurfaceGraph, OfAnyBrokenMeshIsSound, (std::uint64_t seed)) {
     }
     SurfaceGraph graph = build_surface_graph(mesh);
     expect_sound_graph(graph, mesh);
-    wind_alike(graph);
-    turn_outside_out(graph);
+    orient_consistently(graph);
+    orient_outward(graph);
     expect_sound_graph(graph, mesh);
     RC_ASSERT(!::testing::Test::HasFailure());
 }

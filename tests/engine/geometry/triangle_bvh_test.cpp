@@ -27,7 +27,7 @@ Mesh make_soup(Random& random, std::size_t count) {
     Mesh mesh;
     for (std::size_t t = 0; t < count; ++t) {
         const double size = std::pow(10.0, random.between(-3.0, 0.0));
-        const Vec3 middle = random.vector(1.0);
+        const Vec3 centre = random.vector(1.0);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         Vec3 a = random.vector(size);
         Vec3 b = random.vector(size);
@@ -40,7 +40,7 @@ Mesh make_soup(Random& random, std::size_t count) {
             b = c = a;
         }
         for (const Vec3& corner : {a, b, c}) {
-            mesh.positions.push_back(middle + corner);
+            mesh.positions.push_back(centre + corner);
         }
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
@@ -348,45 +348,45 @@ TEST(TriangleBvh, SumsNoAreasBeyondTheSphere) {
 
 // Of all triangles of a soup, slivers, lines and points among them, four by four, from points near
 // and far: neither bound is more than the distance, and the close one is hardly less.
-TEST(LeastDistance, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
+TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
     Random random(806);
     const Mesh mesh = make_soup(random, 400);
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
-    TurnedBox everything;
-    everything.half = Vec3::Constant(10.0);
+    OrientedBox everything;
+    everything.half_extents = Vec3::Constant(10.0);
     constexpr double k_room = 1e-5;  // ten times what is left for rounding
     for (int i = 0; i < 200; ++i) {
         const Vec3 local = random.vector(std::pow(10.0, random.between(-2.0, 1.0)));
-        const LeastDistance least(local, bvh.reach_m());
-        const double room_m = k_room * (bvh.reach_m() + local.norm());
+        const DistanceLowerBound least(local, bvh.reach_m());
+        const double clearance_m = k_room * (bvh.reach_m() + local.norm());
         std::size_t seen = 0;
-        bvh.visit_near_box(everything, [&](std::uint32_t first_slot, std::uint32_t count,
-                                           const FourTriangles& four) {
-            const FourFloats roughly = least.squared(four);
-            const FourFloats closely = least.squared_closely(four);
-            for (std::uint32_t lane = 0; lane < count; ++lane) {
-                const Corners corners = bvh.corners_at(first_slot + lane);
-                const Vec3 point = local + bvh.origin();
-                const double distance_m = (closest_on_triangle(point, corners) - point).norm();
-                const double roughly_m = std::sqrt(static_cast<double>(roughly[lane]));
-                const double closely_m = std::sqrt(static_cast<double>(closely[lane]));
-                ASSERT_LE(roughly_m, distance_m * (1.0 + 1e-6)) << i;
-                ASSERT_LE(closely_m, distance_m * (1.0 + 1e-6)) << i;
-                ASSERT_GE(closely_m, distance_m - room_m) << i;
-            }
-            seen += count;
-        });
+        bvh.visit_near_box(
+            everything, [&](std::uint32_t first_slot, std::uint32_t count, const Triangles4& four) {
+                const Float4 roughly = least.squared(four);
+                const Float4 closely = least.squared_tight(four);
+                for (std::uint32_t lane = 0; lane < count; ++lane) {
+                    const Corners corners = bvh.corners_at(first_slot + lane);
+                    const Vec3 point = local + bvh.origin();
+                    const double distance_m = (closest_on_triangle(point, corners) - point).norm();
+                    const double roughly_m = std::sqrt(static_cast<double>(roughly[lane]));
+                    const double closely_m = std::sqrt(static_cast<double>(closely[lane]));
+                    ASSERT_LE(roughly_m, distance_m * (1.0 + 1e-6)) << i;
+                    ASSERT_LE(closely_m, distance_m * (1.0 + 1e-6)) << i;
+                    ASSERT_GE(closely_m, distance_m - clearance_m) << i;
+                }
+                seen += count;
+            });
         ASSERT_EQ(seen, mesh.triangles.size());
     }
 }
 
 // So are distances of boxes: of random ones, some of them flat, and some around the point.
-TEST(LeastDistance, IsNeverMoreThanTheDistanceOfABox) {
+TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceOfABox) {
     Random random(807);
     for (int i = 0; i < 5000; ++i) {
         const double scale = std::pow(10.0, random.between(-2.0, 2.0));
         const Vec3 point = random.vector(scale);
-        FourBoxes boxes;
+        Boxes4 boxes;
         std::array<double, 4> distance_m = {};
         double reach_m = 0.0;
         for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -405,8 +405,8 @@ TEST(LeastDistance, IsNeverMoreThanTheDistanceOfABox) {
             }
             distance_m[lane] = (low - point).cwiseMax(point - high).cwiseMax(0.0).norm();
         }
-        const LeastDistance least(point, reach_m);
-        const FourFloats squared = least.squared(boxes);
+        const DistanceLowerBound least(point, reach_m);
+        const Float4 squared = least.squared(boxes);
         for (std::size_t lane = 0; lane < 4; ++lane) {
             const double least_m = std::sqrt(static_cast<double>(squared[lane]));
             ASSERT_LE(least_m, distance_m[lane] * (1.0 + 1e-6)) << i;

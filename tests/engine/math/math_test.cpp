@@ -308,7 +308,7 @@ RC_GTEST_PROP(TurnNormal, StaysSquareToTheSurfaceAndOutside, ()) {
     Mat3 linear = rotation_about(any_direction(), 1.0).toRotationMatrix();
     linear.col(0) *= *number_between(-3.0, 3.0);
     linear.col(1) *= *number_between(0.1, 3.0);
-    const Vec3 normal = turn_normal(linear, a.cross(b));
+    const Vec3 normal = transform_normal(linear, a.cross(b));
     RC_ASSERT(std::abs(normal.dot(linear * a)) < 1e-12);
     RC_ASSERT(std::abs(normal.dot(linear * b)) < 1e-12);
     const double side = linear.determinant() < 0.0 ? -1.0 : 1.0;
@@ -452,7 +452,7 @@ TEST(AnySquareTo, IsUnitAndSquare) {
     test::Random random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 axis = i < 3 ? Vec3(Vec3::Unit(i)) : random.direction();
-        const Vec3 square = any_square_to(axis);
+        const Vec3 square = any_perpendicular(axis);
         ASSERT_NEAR(square.norm(), 1.0, 1e-12);
         ASSERT_NEAR(square.dot(axis), 0.0, 1e-12);
     }

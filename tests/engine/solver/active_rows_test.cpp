@@ -62,15 +62,15 @@ Outcome pull(SolverScene& scene, bool narrows, TriadSystem& system) {
     Outcome outcome{0, 0.0, system.strand_rows()};
     for (;;) {
         system.evaluate(island);
-        outcome.worst_m = system.worst_value();
+        outcome.worst_m = system.worst_residual();
         if (outcome.worst_m < 1e-9 || outcome.steps == 20) {
             system.store_poses(island);
             return outcome;
         }
         if (narrows && outcome.steps > 0) {
-            system.narrow(k_still_m);
+            system.restrict_to_active(k_still_m);
         }
-        outcome.least_rows = std::min(outcome.least_rows, system.busy_rows());
+        outcome.least_rows = std::min(outcome.least_rows, system.active_rows());
         system.factorise({}, 1.0);
         system.solve();
         system.apply_moves(1.0);
@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(OfARopePulledAt, BusyRows, testing::Values(End::first, 
 
 TEST_P(BusyRows, AreFewAndEndWhereAllEnd) {
     SolverScene whole = pulled_rope(GetParam());
-    SolverScene narrow = whole;
+    SolverScene restrict_to_active = whole;
     TriadSystem system;
     const Outcome of_whole = pull(whole, false, system);
-    const Outcome of_narrow = pull(narrow, true, system);
+    const Outcome of_narrow = pull(restrict_to_active, true, system);
     EXPECT_GT(of_whole.steps, 2);
     EXPECT_EQ(of_narrow.steps, of_whole.steps);
     EXPECT_LT(of_narrow.worst_m, 1e-9);
@@ -97,7 +97,7 @@ TEST_P(BusyRows, AreFewAndEndWhereAllEnd) {
     EXPECT_LT(of_narrow.least_rows, system.strand_rows() * 2 / 3);
     for (std::size_t i = 0; i < whole.graph.bodies.size(); ++i) {
         const Pose& expected = whole.graph.bodies[i].pose_ws;
-        const Pose& actual = narrow.graph.bodies[i].pose_ws;
+        const Pose& actual = restrict_to_active.graph.bodies[i].pose_ws;
         ASSERT_LT((actual.position - expected.position).norm(), 1e-9) << i;
         ASSERT_LT(actual.rotation.angularDistance(expected.rotation), 1e-7) << i;
     }
@@ -126,9 +126,9 @@ TEST_P(BusyRows, AreAllAgainOnceWidened) {
     SolverScene scene = pulled_rope(GetParam());
     TriadSystem system;
     pull(scene, true, system);
-    ASSERT_LT(system.busy_rows(), system.strand_rows());
-    system.widen();
-    EXPECT_EQ(system.busy_rows(), system.strand_rows());
+    ASSERT_LT(system.active_rows(), system.strand_rows());
+    system.activate_all_rows();
+    EXPECT_EQ(system.active_rows(), system.strand_rows());
 }
 
 // The velocity solve goes on from the last step on positions, which was a narrow one.
@@ -136,9 +136,9 @@ TEST_P(BusyRows, AreAllAgainOnceResumed) {
     SolverScene scene = pulled_rope(GetParam());
     TriadSystem system;
     pull(scene, true, system);
-    ASSERT_LT(system.busy_rows(), system.strand_rows());
+    ASSERT_LT(system.active_rows(), system.strand_rows());
     ASSERT_TRUE(system.resume(scene.view(scene.graph.islands.front())));
-    EXPECT_EQ(system.busy_rows(), system.strand_rows());
+    EXPECT_EQ(system.active_rows(), system.strand_rows());
 }
 
 // Pulled out by 20 cm the rope straightens over a hundred links, of which the first steps hardly
@@ -158,7 +158,7 @@ TEST(WorstJoints, OfASolveAreThoseOfTheBlocks) {
     SolverScene scene = pulled_rope(End::last);
     scene.graph.blocks[100].kind = RowKind::fixed;
     scene.graph.blocks[100].rotation_a_bs = rotation_from_vector(Vec3(0.02, 0.01, -0.03));
-    scene.graph.blocks[300].kind = RowKind::hand_point;
+    scene.graph.blocks[300].kind = RowKind::drive_point;
     scene.graph.blocks[300].point_a_bs += Vec3(0.3, 0.0, 0.0);  // hands do not count
     NewtonSettings settings;
     settings.max_iterations = 1;

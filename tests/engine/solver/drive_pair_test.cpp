@@ -20,8 +20,8 @@ double turn_between(const Quat& a, const Quat& b) {
 }
 
 // The hands' distance and the anchors' differ as they like.
-TwoHands random_hands(Random& random) {
-    TwoHands hands;
+DrivePair random_hands(Random& random) {
+    DrivePair hands;
     for (Pose* const pose : {&hands.first, &hands.first_anchor_bs}) {
         *pose = test::random_pose(random, 0.5);
     }
@@ -33,15 +33,15 @@ TwoHands random_hands(Random& random) {
     return hands;
 }
 
-Vec3 line_of(const TwoHands& hands) {
+Vec3 line_of(const DrivePair& hands) {
     return (hands.second.position - hands.first.position).normalized();
 }
-Vec3 line_bs(const TwoHands& hands) {
+Vec3 line_bs(const DrivePair& hands) {
     return (hands.second_anchor_bs.position - hands.first_anchor_bs.position).normalized();
 }
 
 // Hands turned about the line, and out of it by `swing` at most, from where `body` has the anchors.
-void turn_hands(TwoHands& hands, const Quat& body, const Vec3& twists_rad, double swing_rad,
+void turn_hands(DrivePair& hands, const Quat& body, const Vec3& twists_rad, double swing_rad,
                 Random& random) {
     const Vec3 line = line_of(hands);
     const auto turned = [&](const Quat& anchor_bs, double twist_rad) {
@@ -55,8 +55,8 @@ void turn_hands(TwoHands& hands, const Quat& body, const Vec3& twists_rad, doubl
 
 RC_GTEST_PROP(RotationByTwoHands, LaysTheAnchorsLineAlongTheHands, (std::uint64_t seed)) {
     Random random(seed);
-    const TwoHands hands = random_hands(random);
-    const Quat rotation = rotation_by_two_hands(hands, random.rotation());
+    const DrivePair hands = random_hands(random);
+    const Quat rotation = rotation_from_drive_pair(hands, random.rotation());
     RC_ASSERT((rotation * line_bs(hands) - line_of(hands)).norm() < 1e-12);
     RC_ASSERT(std::abs(rotation.norm() - 1.0) < 1e-14);
 }
@@ -64,70 +64,70 @@ RC_GTEST_PROP(RotationByTwoHands, LaysTheAnchorsLineAlongTheHands, (std::uint64_
 // No swing: twists add as angles, up to nearly a whole turn between the hands.
 RC_GTEST_PROP(RotationByTwoHands, TwistsByTheMeanOfBoth, (std::uint64_t seed)) {
     Random random(seed);
-    TwoHands hands = random_hands(random);
-    const Quat body = rotation_by_two_hands(hands, random.rotation());
+    DrivePair hands = random_hands(random);
+    const Quat body = rotation_from_drive_pair(hands, random.rotation());
     const Vec3 twists(random.between(-3.0, 3.0), random.between(-3.0, 3.0), 0.0);
     turn_hands(hands, body, twists, 0.0, random);
     const Quat expected = rotation_about(line_of(hands), 0.5 * (twists.x() + twists.y())) * body;
-    RC_ASSERT(turn_between(rotation_by_two_hands(hands, body), expected) < 1e-7);
+    RC_ASSERT(turn_between(rotation_from_drive_pair(hands, body), expected) < 1e-7);
 }
 
 RC_GTEST_PROP(RotationByTwoHands, DoesNotDependOnWhatItIsNearTo, (std::uint64_t seed)) {
     Random random(seed);
-    TwoHands hands = random_hands(random);
-    const Quat body = rotation_by_two_hands(hands, random.rotation());
+    DrivePair hands = random_hands(random);
+    const Quat body = rotation_from_drive_pair(hands, random.rotation());
     turn_hands(hands, body, random.vector(0.8), 0.8, random);
-    const Quat expected = rotation_by_two_hands(hands, body);
+    const Quat expected = rotation_from_drive_pair(hands, body);
     const Quat near = rotation_from_vector(random.vector(0.4)) * body;
-    RC_ASSERT(turn_between(rotation_by_two_hands(hands, near), expected) < 1e-7);
+    RC_ASSERT(turn_between(rotation_from_drive_pair(hands, near), expected) < 1e-7);
 }
 
 RC_GTEST_PROP(RotationByTwoHands, DoesNotDependOnWhichHandIsFirst, (std::uint64_t seed)) {
     Random random(seed);
-    TwoHands hands = random_hands(random);
-    const Quat body = rotation_by_two_hands(hands, random.rotation());
+    DrivePair hands = random_hands(random);
+    const Quat body = rotation_from_drive_pair(hands, random.rotation());
     turn_hands(hands, body, random.vector(0.8), 0.8, random);
-    const TwoHands swapped{hands.second, hands.first, hands.second_anchor_bs,
-                           hands.first_anchor_bs};
-    RC_ASSERT(turn_between(rotation_by_two_hands(hands, body),
-                           rotation_by_two_hands(swapped, body)) < 1e-7);
+    const DrivePair swapped{hands.second, hands.first, hands.second_anchor_bs,
+                            hands.first_anchor_bs};
+    RC_ASSERT(turn_between(rotation_from_drive_pair(hands, body),
+                           rotation_from_drive_pair(swapped, body)) < 1e-7);
 }
 
 RC_GTEST_PROP(RotationByTwoHands, ChangesNothingWhereHandsAreOnTheirAnchors, (std::uint64_t seed)) {
     Random random(seed);
-    TwoHands hands = random_hands(random);
+    DrivePair hands = random_hands(random);
     const Pose body = test::random_pose(random);
     hands.first = body * hands.first_anchor_bs;
     hands.second = body * hands.second_anchor_bs;
-    RC_ASSERT(turn_between(rotation_by_two_hands(hands, body.rotation), body.rotation) < 1e-7);
+    RC_ASSERT(turn_between(rotation_from_drive_pair(hands, body.rotation), body.rotation) < 1e-7);
 }
 
 TEST(RotationByTwoHands, KeepsTheRotationWhereThereIsNoLine) {
     Random random(1);
-    TwoHands hands = random_hands(random);
+    DrivePair hands = random_hands(random);
     const Quat near = random.rotation();
     hands.second.position = hands.first.position;
-    EXPECT_EQ(rotation_by_two_hands(hands, near).coeffs(), near.coeffs());
+    EXPECT_EQ(rotation_from_drive_pair(hands, near).coeffs(), near.coeffs());
     hands = random_hands(random);
     hands.second_anchor_bs.position = hands.first_anchor_bs.position;
-    EXPECT_EQ(rotation_by_two_hands(hands, near).coeffs(), near.coeffs());
+    EXPECT_EQ(rotation_from_drive_pair(hands, near).coeffs(), near.coeffs());
 }
 
 // --- As rows -------------------------------------------------------------------------------------
 
 // A player (body 0) with both hands on body 1.
-SolverScene held_by_both(const TwoHands& hands, Random& random) {
+SolverScene held_by_both(const DrivePair& hands, Random& random) {
     SolverScene scene;
     scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
-    RowBlock point = test::row_block(RowKind::hand_point, 0, 1, hands.first.position,
+    RowBlock point = test::row_block(RowKind::drive_point, 0, 1, hands.first.position,
                                      hands.first_anchor_bs.position);
-    RowBlock direction = test::row_block(RowKind::hand_direction, 0, 1, hands.second.position,
+    RowBlock direction = test::row_block(RowKind::drive_direction, 0, 1, hands.second.position,
                                          hands.second_anchor_bs.position);
     point.key = 1;
     direction.key = 2;
     const Quat near = scene.body(0).pose_ws.rotation.conjugate() * scene.body(1).pose_ws.rotation;
-    direction.rotation_a_bs = rotation_by_two_hands(hands, near);
+    direction.rotation_a_bs = rotation_from_drive_pair(hands, near);
     scene.graph.blocks = {point, direction};
     return scene;
 }
@@ -135,7 +135,7 @@ SolverScene held_by_both(const TwoHands& hands, Random& random) {
 RC_GTEST_PROP(TwoHandRows, AreMetFromAnywhereWhateverTheHandsDistanceAndMoveNoPlayer,
               (std::uint64_t seed)) {
     Random random(seed);
-    const TwoHands hands = random_hands(random);
+    const DrivePair hands = random_hands(random);
     SolverScene scene = held_by_both(hands, random);
     scene.body(0).inverse_mass = 0.0;  // as in the first phases
     NewtonSettings settings;
@@ -159,7 +159,7 @@ RC_GTEST_PROP(TwoHandRows, AreMetFromAnywhereWhateverTheHandsDistanceAndMoveNoPl
 // ledger books. The player cannot turn; what would have turned him is booked apart.
 RC_GTEST_PROP(TwoHandRows, GiveTheBodyExactlyWhatTheyTakeFromThePlayer, (std::uint64_t seed)) {
     Random random(seed);
-    const TwoHands hands = random_hands(random);
+    const DrivePair hands = random_hands(random);
     SolverScene scene = held_by_both(hands, random);
     scene.solve_positions();
     for (RowBlock& block : scene.graph.blocks) {
@@ -177,7 +177,7 @@ RC_GTEST_PROP(TwoHandRows, GiveTheBodyExactlyWhatTheyTakeFromThePlayer, (std::ui
     Vec3 angular = Vec3::Zero();  // about the body's centre
     for (const RowBlock& block : scene.graph.blocks) {
         impulse += block.impulse_ws_ns;
-        angular += block.couple_ws_nms +
+        angular += block.angular_impulse_ws_nms +
                    (body.pose_ws.rotation * block.point_b_bs).cross(block.impulse_ws_ns);
     }
     const Vec3 player_gain = player.mass_kg * (scene.body(0).velocity_mps - player.velocity_mps);

@@ -108,9 +108,9 @@ TEST(SinCos, OfFourAnglesHaveTheBitsOfOne) {
         angles.push_back(random.between(-10.0, 10.0) * (i % 4 == 0 ? 1e4 : 1.0));
     }
     for (std::size_t i = 0; i < angles.size(); i += 4) {
-        Four sines;
-        Four cosines;
-        sin_cos(Four{angles[i], angles[i + 1], angles[i + 2], angles[i + 3]}, sines, cosines);
+        Double4 sines;
+        Double4 cosines;
+        sin_cos(Double4{angles[i], angles[i + 1], angles[i + 2], angles[i + 3]}, sines, cosines);
         for (std::size_t lane = 0; lane < 4; ++lane) {
             double sine = 0.0;
             double cosine = 0.0;

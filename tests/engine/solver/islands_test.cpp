@@ -35,7 +35,7 @@ ConstraintGraph random_graph(Random& random) {
     const std::uint32_t blocks = below(40, random);
     for (std::uint32_t i = 0; i < blocks; ++i) {
         RowBlock block =
-            test::row_block(below(2, random) == 0 ? RowKind::hand_point : RowKind::contact,
+            test::row_block(below(2, random) == 0 ? RowKind::drive_point : RowKind::contact,
                             below(bodies, random), below(bodies, random));
         block.key = i;
         const bool moves = graph.bodies[block.a].role != BodyRole::fixed ||
@@ -233,7 +233,7 @@ TEST(Islands, PlayersAndHeavyBodiesJoinThem) {
                     test::ball(3, 1.0, 0.1)};
     graph.bodies[1].role = BodyRole::heavy;
     graph.bodies[1].inverse_mass = 0.0;
-    graph.blocks = {test::row_block(RowKind::hand_point, 0, 1),
+    graph.blocks = {test::row_block(RowKind::drive_point, 0, 1),
                     test::row_block(RowKind::contact, 2, 1)};
     build_islands(graph);
     EXPECT_EQ(islands_of(graph), (std::set<Members>{{0, 1, 2}}));
@@ -267,7 +267,7 @@ ConstraintGraph player_before_a_wall() {
     graph.bodies[0].restitution = 0.6;
     graph.bodies[1].restitution = 0.2;
     graph.bodies[1].collider_offset_bs = Vec3(0.1, 1.6, 0.0);
-    graph.blocks = {test::row_block(RowKind::hand_point, 1, 0),
+    graph.blocks = {test::row_block(RowKind::drive_point, 1, 0),
                     test::row_block(RowKind::contact, 1, 0)};
     return graph;
 }
@@ -284,7 +284,7 @@ TEST(ReplaceContactRows, KeepHandsAndTakeTheColliderOffsetAndTheLargerRestitutio
     replace_contact_rows(std::span(&contact, 1), graph);
     ASSERT_EQ(graph.blocks.size(), 2U);
     const RowBlock& block = graph.blocks[1];
-    EXPECT_TRUE(is_hand(graph.blocks[0]));
+    EXPECT_TRUE(is_drive(graph.blocks[0]));
     EXPECT_EQ(block.kind, RowKind::contact);
     EXPECT_EQ(block.a, 1U);
     EXPECT_EQ(block.b, 0U);
@@ -300,7 +300,7 @@ TEST(ReplaceContactRows, NoContactsLeaveOnlyHands) {
     ConstraintGraph graph = player_before_a_wall();
     replace_contact_rows({}, graph);
     ASSERT_EQ(graph.blocks.size(), 1U);
-    EXPECT_TRUE(is_hand(graph.blocks[0]));
+    EXPECT_TRUE(is_drive(graph.blocks[0]));
 }
 
 TEST(ReplaceContactRows, ContactOfAnUnknownBodyIsRefused) {

@@ -70,7 +70,7 @@ RC_GTEST_PROP(JointRows, JacobianIsTheSlopeWhereTheJointIsMet, (std::uint64_t se
         append_rows(nudged(bodies, moved, -k_step * move, -k_step * turn), block, 0, behind);
         RC_ASSERT(rows.size() == ahead.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const double slope = (ahead[i].value_m - behind[i].value_m) / (2.0 * k_step);
+            const double slope = (ahead[i].residual - behind[i].residual) / (2.0 * k_step);
             const Row& row = rows[i];
             const double claimed = moved == 0 ? row.linear_a.dot(move) + row.angular_a.dot(turn)
                                               : row.angular_b.dot(turn) - row.linear_a.dot(move);
@@ -253,9 +253,9 @@ TEST(Friction, DriveReachesItsSpeedWithinItsImpulse) {
         test::SolverScene scene;
         scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 4.0, Vec3::Constant(0.4))};
         RowBlock slider = test::row_block(RowKind::slider, 0, 1);
-        slider.joint.drive_to = 0.05;
-        slider.joint.drive_s = 0.1;
-        slider.joint.drive_impulse = impulse;
+        slider.joint.motor_target = 0.05;
+        slider.joint.motor_time_s = 0.1;
+        slider.joint.motor_max_impulse = impulse;
         scene.graph.blocks.push_back(slider);
         scene.solve_velocities();
         EXPECT_NEAR(scene.body(1).velocity_mps.x(), std::min(0.5, impulse / 4.0), 1e-7);

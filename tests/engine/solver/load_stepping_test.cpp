@@ -21,14 +21,14 @@ bool is_same(const RowBlock& a, const RowBlock& b) {
            a.point_b_bs == b.point_b_bs && a.rotation_b_bs.coeffs() == b.rotation_b_bs.coeffs();
 }
 
-RC_GTEST_PROP(LedHands, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
+RC_GTEST_PROP(LoadSteppedDrives, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
     scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
     const bool is_weld = random.between(0.0, 1.0) < 0.5;
     scene.graph.blocks = {
-        test::random_block(is_weld ? RowKind::hand_weld : RowKind::hand_point, 0, 1, random)};
+        test::random_block(is_weld ? RowKind::drive_weld : RowKind::drive_point, 0, 1, random)};
     build_islands(scene.graph);
     const IslandView island = scene.view(scene.graph.islands.front());
     const RowBlock taken = scene.block(0);
@@ -42,14 +42,14 @@ RC_GTEST_PROP(LedHands, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
     };
     const double far_m = point_lack_m();
     const double turned_rad = turn_lack_rad();
-    LedHands led;
-    led.take(island);
+    LoadSteppedDrives load_stepped;
+    load_stepped.take(island);
     for (const double share : {1.0, 0.75, 0.25}) {
-        led.hold_back(island, share);
+        load_stepped.withhold_load(island, share);
         RC_ASSERT(std::abs(point_lack_m() - (1.0 - share) * far_m) < 1e-12);
         RC_ASSERT(!is_weld || std::abs(turn_lack_rad() - (1.0 - share) * turned_rad) < 1e-9);
     }
-    led.hold_back(island, 0.0);
+    load_stepped.withhold_load(island, 0.0);
     RC_ASSERT(is_same(scene.block(0), taken));
 }
 
@@ -74,7 +74,7 @@ SolverScene chain_to(double reach) {
     scene.body(k_links + 1).inverse_mass = 0.0;
     const Vec3 hand = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
     scene.graph.blocks.push_back(
-        test::row_block(RowKind::hand_point, k_links + 1, k_links, hand, end));
+        test::row_block(RowKind::drive_point, k_links + 1, k_links, hand, end));
     return scene;
 }
 
@@ -94,15 +94,15 @@ TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
     NewtonSettings settings;
     settings.max_iterations = 12;
     const NewtonResult result = scene.solve_positions(settings);
-    EXPECT_EQ(result.leading, Leading::arrived);
+    EXPECT_EQ(result.load_stepping, LoadStepping::converged);
     EXPECT_TRUE(result.converged);
     EXPECT_GT(result.iterations, settings.max_iterations);
     EXPECT_LT(worst_error_m(scene), 2.0 * settings.tolerance_m);
     EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), scene.graph.blocks.begin(), &is_same));
-    SolverScene at_once = chain_to(0.8);
+    SolverScene full_load = chain_to(0.8);
     settings.max_iterations = 200;
-    const NewtonResult with_more = at_once.solve_positions(settings);
-    EXPECT_EQ(with_more.leading, Leading::none);
+    const NewtonResult with_more = full_load.solve_positions(settings);
+    EXPECT_EQ(with_more.load_stepping, LoadStepping::none);
     EXPECT_TRUE(with_more.converged);
 }
 
@@ -113,7 +113,7 @@ TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
     NewtonSettings settings;
     settings.max_iterations = 8;
     const NewtonResult result = scene.solve_positions(settings);
-    EXPECT_EQ(result.leading, Leading::in_vain);
+    EXPECT_EQ(result.load_stepping, LoadStepping::failed);
     EXPECT_FALSE(result.converged);
     EXPECT_GT(result.iterations, settings.max_iterations);
     EXPECT_LE(result.iterations, 5 * settings.max_iterations);
@@ -129,14 +129,14 @@ TEST(SolvePositions, HandsOnTautRopesAreNotLed) {
         build_islands(scene.graph);
         NewtonSettings settings;
         settings.max_iterations = 300;
-        settings.lead_from_m = std::numeric_limits<double>::infinity();
+        settings.load_stepping_from_m = std::numeric_limits<double>::infinity();
         scene.solve_positions(settings);  // as earlier frames have left it
         settings = NewtonSettings{};
         for (int frame = 1; frame <= 5; ++frame) {
             scene.graph.blocks.back().point_a_bs *= 1.001;
             const NewtonResult result = scene.solve_positions(settings);
             EXPECT_FALSE(result.converged) << beyond_m;
-            EXPECT_EQ(result.leading, Leading::none) << beyond_m;
+            EXPECT_EQ(result.load_stepping, LoadStepping::none) << beyond_m;
             EXPECT_LE(result.iterations, settings.max_iterations) << beyond_m;
         }
     }

@@ -113,7 +113,7 @@ TEST(Nets, HoldTogetherAfterHandsThatContradictEachOther) {
         scene.body(count).inverse_mass = 0.0;
         for (std::uint64_t hand = 0; hand < 2; ++hand) {
             const std::uint32_t held = 1 + random_index(count - 1, random);
-            RowBlock block = test::row_block(RowKind::hand_point, held, count, random.vector(0.2));
+            RowBlock block = test::row_block(RowKind::drive_point, held, count, random.vector(0.2));
             block.point_b_bs =
                 transform_point(scene.body(held).pose_ws, block.point_a_bs) + random.vector(0.2);
             block.key = hand;
@@ -121,7 +121,7 @@ TEST(Nets, HoldTogetherAfterHandsThatContradictEachOther) {
         }
         sort_blocks(scene.graph);
         scene.solve_positions();
-        scene.solve_positions({}, BlockFilter::without_hands);
+        scene.solve_positions({}, BlockFilter::without_drives);
         EXPECT_LE(worst_joint_m(scene), 2e-5);
         for (const SolverBody& body : scene.graph.bodies) {
             ASSERT_TRUE(body.pose_ws.position.allFinite());

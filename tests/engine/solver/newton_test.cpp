@@ -26,7 +26,7 @@ double angle_between(const Quat& a, const Quat& b) {
 SolverScene hand_on_ball(double player_kg, double ball_kg, const Vec3& hand_ps) {
     SolverScene scene;
     scene.graph.bodies = {test::player_body(1, player_kg), test::ball(2, ball_kg, 0.1)};
-    scene.graph.blocks = {test::row_block(RowKind::hand_point, 0, 1, hand_ps)};
+    scene.graph.blocks = {test::row_block(RowKind::drive_point, 0, 1, hand_ps)};
     return scene;
 }
 
@@ -73,7 +73,7 @@ RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::
                           test::random_free_body(2, random)};
     scene.body(0).inverse_mass = 0.0;
     scene.body(1).pose_ws = test::random_pose(random, 0.5);
-    scene.graph.blocks = {test::random_block(RowKind::hand_weld, 0, 1, random)};
+    scene.graph.blocks = {test::random_block(RowKind::drive_weld, 0, 1, random)};
     const RowBlock& weld = scene.block(0);
     const NewtonResult result = scene.solve_positions();
     RC_ASSERT(result.converged);
@@ -81,7 +81,7 @@ RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::
     const Pose anchor_ws = scene.body(1).pose_ws * Pose{weld.point_b_bs, weld.rotation_b_bs};
     RC_ASSERT((hand_ws.position - anchor_ws.position).norm() < 2.0 * k_tolerance_m);
     RC_ASSERT(angle_between(hand_ws.rotation, anchor_ws.rotation) <
-              2.0 * k_tolerance_m / k_angle_m);
+              2.0 * k_tolerance_m / k_angle_lever_m);
     RC_ASSERT(scene.error_m(0) < 2.0 * k_tolerance_m);
 }
 
@@ -91,7 +91,7 @@ SolverScene ball_between_hand_and_plane(double hand_y) {
     scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0),
                           test::ball(3, 2.0, 0.1, {Vec3(0.0, 0.15, 0.0), Quat::Identity()})};
     scene.body(1).inverse_mass = 0.0;
-    scene.graph.blocks = {test::row_block(RowKind::hand_point, 1, 2, Vec3(0.0, hand_y, 0.0)),
+    scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 2, Vec3(0.0, hand_y, 0.0)),
                           test::row_block(RowKind::contact, 2, 0, Vec3(0.0, -0.1, 0.0))};
     return scene;
 }
@@ -102,13 +102,13 @@ TEST(SolvePositions, BallInReachGoesToTheHandWithoutTouchingThePlane) {
     EXPECT_NEAR(scene.body(2).pose_ws.position.y(), 0.13, k_tolerance_m);
 }
 
-// Balance of two springs: overlap / contact softness = hand error / hand softness; 1e-7 against its
-// cap of 1e-2.
+// Balance of two springs: overlap / contact regularisation = hand error / hand regularisation; 1e-7
+// against its cap of 1e-2.
 TEST(SolvePositions, ContactOutweighsAHandByAHundredThousand) {
     for (const double first_softness : {1e-6, 1e-3}) {
         SolverScene scene = ball_between_hand_and_plane(0.0);
         NewtonSettings settings;
-        settings.softness.hand = first_softness;
+        settings.regularisation.drive = first_softness;
         const NewtonResult result = scene.solve_positions(settings);
         EXPECT_FALSE(result.converged);
         EXPECT_NEAR(scene.error_m(1) / scene.error_m(0), 1e-5, 1e-7);
@@ -125,7 +125,7 @@ TEST(SolvePositions, FiltersSolveOnlyTheirOwnBlocksButReportEveryError) {
 
     SolverScene contacts = ball_between_hand_and_plane(0.0);
     contacts.body(2).pose_ws.position.y() = 0.04;
-    EXPECT_TRUE(contacts.solve_positions({}, BlockFilter::without_hands).converged);
+    EXPECT_TRUE(contacts.solve_positions({}, BlockFilter::without_drives).converged);
     EXPECT_NEAR(contacts.body(2).pose_ws.position.y(), 0.1, k_tolerance_m);
     EXPECT_NEAR(contacts.error_m(0), 0.1, k_tolerance_m);
 }
@@ -136,8 +136,8 @@ RC_GTEST_PROP(SolvePositions, TwoHandsThatCannotBothBeMetEndAtTheMean, (std::uin
     Random random(seed);
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1), test::player_body(2, random.between(1.0, 200.0))};
-    RowBlock left = test::random_block(RowKind::hand_point, 1, 0, random);
-    RowBlock right = test::random_block(RowKind::hand_point, 1, 0, random);
+    RowBlock left = test::random_block(RowKind::drive_point, 1, 0, random);
+    RowBlock right = test::random_block(RowKind::drive_point, 1, 0, random);
     right.key = 1;
     scene.graph.blocks = {left, right};
     scene.solve_positions();
@@ -153,8 +153,8 @@ TEST(SolvePositions, HubOfHandsSharesBetweenPlayersByMass) {
     SolverScene scene;
     scene.graph.bodies = {test::ball(1, 4.0, 0.1), test::player_body(2, 60.0),
                           test::player_body(3, 90.0)};
-    scene.graph.blocks = {test::row_block(RowKind::hand_point, 1, 0, Vec3(0.4, 0.0, 0.0)),
-                          test::row_block(RowKind::hand_point, 2, 0, Vec3(-0.1, 0.3, 0.0))};
+    scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 0, Vec3(0.4, 0.0, 0.0)),
+                          test::row_block(RowKind::drive_point, 2, 0, Vec3(-0.1, 0.3, 0.0))};
     EXPECT_TRUE(scene.solve_positions().converged);
     Vec3 moment = Vec3::Zero();
     for (const SolverBody& body : scene.graph.bodies) {
@@ -176,8 +176,8 @@ TEST(SolvePositions, RodBetweenTwoHandsIsFoundFromAnyTurn) {
             test::free_body(2, 1.0, Vec3(1e-4, 1.0 / 12.0, 1.0 / 12.0), {Vec3::Zero(), turned})};
         scene.body(0).inverse_mass = 0.0;
         const Vec3 end(0.5, 0.0, 0.0);
-        scene.graph.blocks = {test::row_block(RowKind::hand_point, 0, 1, end, end),
-                              test::row_block(RowKind::hand_point, 0, 1, -end, -end)};
+        scene.graph.blocks = {test::row_block(RowKind::drive_point, 0, 1, end, end),
+                              test::row_block(RowKind::drive_point, 0, 1, -end, -end)};
         const NewtonResult result = scene.solve_positions();
         EXPECT_TRUE(result.converged) << "turned by " << angle << ", left " << result.residual_m;
     }
@@ -198,7 +198,7 @@ SolverScene uneven_chain_with_a_far_hand() {
         scene.graph.bodies.push_back(test::free_body(i + 2, mass_kg,
                                                      Vec3(0.3 * across, across, across),
                                                      {(2.0 * i + 1.0) * end, Quat::Identity()}));
-        scene.graph.blocks.push_back(test::row_block(RowKind::hand_point, i, i + 1,
+        scene.graph.blocks.push_back(test::row_block(RowKind::drive_point, i, i + 1,
                                                      i == 0 ? Vec3(Vec3::Zero()) : end, -end));
     }
     scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
@@ -206,7 +206,7 @@ SolverScene uneven_chain_with_a_far_hand() {
     const double length_m = 2.0 * k_half_m * k_links;
     const Vec3 hand = 0.9 * length_m * Vec3(1.0, 2.0, 0.0).normalized();
     scene.graph.blocks.push_back(
-        test::row_block(RowKind::hand_point, k_links + 1, k_links, hand, end));
+        test::row_block(RowKind::drive_point, k_links + 1, k_links, hand, end));
     return scene;
 }
 
@@ -218,14 +218,14 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
 
 TEST(SolvePositions, HandsHardenAsFastAsTheScheduleSays) {
     NewtonSettings settings;
-    settings.lead_from_m = std::numeric_limits<double>::infinity();
-    settings.softness.hand = 1e-3;
+    settings.load_stepping_from_m = std::numeric_limits<double>::infinity();
+    settings.regularisation.drive = 1e-3;
     const int usual = uneven_chain_with_a_far_hand().solve_positions(settings).iterations;
-    settings.schedule.hardening = 0.5;
+    settings.schedule.regularisation_decrease = 0.5;
     EXPECT_GT(uneven_chain_with_a_far_hand().solve_positions(settings).iterations, usual);
     // Hands that stay as soft as they may be are drawn off by the links' weight on the way.
-    settings.schedule.hardening = 1.0;
-    settings.schedule.softest_hand = settings.softness.hand = 1e-2;
+    settings.schedule.regularisation_decrease = 1.0;
+    settings.schedule.max_drive_regularisation = settings.regularisation.drive = 1e-2;
     EXPECT_FALSE(uneven_chain_with_a_far_hand().solve_positions(settings).converged);
 }
 
@@ -234,16 +234,17 @@ RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyFartherThanTheScheduleSays, (std::
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1, test::random_pose(random)),
                           test::random_free_body(2, random)};
-    const RowKind kind = random.between(0.0, 1.0) < 0.5 ? RowKind::hand_point : RowKind::hand_weld;
+    const RowKind kind =
+        random.between(0.0, 1.0) < 0.5 ? RowKind::drive_point : RowKind::drive_weld;
     scene.graph.blocks = {test::random_block(kind, 0, 1, random)};
     NewtonSettings settings;
     settings.max_iterations = 1;
-    settings.schedule.largest_turn_rad = random.between(0.05, 1.0);
+    settings.schedule.max_step_rotation_rad = random.between(0.05, 1.0);
     for (int i = 0; i < 5; ++i) {
         const Quat before = scene.body(1).pose_ws.rotation;
         scene.solve_positions(settings);
         RC_ASSERT(angle_between(scene.body(1).pose_ws.rotation, before) <
-                  settings.schedule.largest_turn_rad + 1e-7);
+                  settings.schedule.max_step_rotation_rad + 1e-7);
     }
 }
 
@@ -263,8 +264,8 @@ RC_GTEST_PROP(SolvePositions, MovedAndRotatedIslandIsSolvedAlike, (std::uint64_t
     SolverScene here;
     here.graph.bodies = {test::random_free_body(1, random), test::random_free_body(2, random),
                          test::fixed_body(3)};
-    here.graph.blocks = {test::random_block(RowKind::hand_point, 0, 1, random),
-                         test::random_block(RowKind::hand_point, 1, 2, random)};
+    here.graph.blocks = {test::random_block(RowKind::drive_point, 0, 1, random),
+                         test::random_block(RowKind::drive_point, 1, 2, random)};
     for (RowBlock& block : here.graph.blocks) {
         test::meet(here.graph.bodies, block);
         block.point_b_bs += random.vector(0.05);

@@ -14,8 +14,8 @@ namespace {
 
 using test::Random;
 
-constexpr std::array k_all_kinds = {RowKind::hand_point, RowKind::hand_weld,
-                                    RowKind::hand_direction, RowKind::contact};
+constexpr std::array k_all_kinds = {RowKind::drive_point, RowKind::drive_weld,
+                                    RowKind::drive_direction, RowKind::contact};
 
 std::vector<SolverBody> two_random_bodies(Random& random) {
     return {test::random_free_body(1, random), test::random_free_body(2, random)};
@@ -50,7 +50,7 @@ std::vector<double> measured_slopes(const std::vector<SolverBody>& bodies, const
     const std::vector<Row> behind = rows_of(nudged(bodies, nudge, -k_step), block);
     std::vector<double> slopes;
     for (std::size_t i = 0; i < ahead.size(); ++i) {
-        slopes.push_back((ahead[i].value_m - behind[i].value_m) / (2.0 * k_step));
+        slopes.push_back((ahead[i].residual - behind[i].residual) / (2.0 * k_step));
     }
     return slopes;
 }
@@ -81,7 +81,7 @@ Nudge random_nudge(Random& random) {
 RC_GTEST_PROP(Rows, JacobianOfAPointIsItsSlopeAtAnyPoses, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
-    const RowBlock block = test::random_block(RowKind::hand_point, 0, 1, random);
+    const RowBlock block = test::random_block(RowKind::drive_point, 0, 1, random);
     RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
 }
 
@@ -93,7 +93,7 @@ RC_GTEST_PROP(Rows, JacobianOfAContactIsItsSlopeAtAnyPosesHoweverFarApart, (std:
 }
 
 RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed)) {
-    for (const RowKind kind : {RowKind::hand_weld, RowKind::hand_direction}) {
+    for (const RowKind kind : {RowKind::drive_weld, RowKind::drive_direction}) {
         Random random(seed);
         const auto bodies = two_random_bodies(random);
         RowBlock block = test::random_block(kind, 0, 1, random);
@@ -106,7 +106,7 @@ RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed))
 RC_GTEST_PROP(Rows, DirectionIsAllRotation, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
-    const RowBlock block = test::random_block(RowKind::hand_direction, 0, 1, random);
+    const RowBlock block = test::random_block(RowKind::drive_direction, 0, 1, random);
     for (const Row& row : rows_of(bodies, block)) {
         RC_ASSERT(row.linear_a == Vec3(Vec3::Zero()));
         RC_ASSERT(row.angular_a ==
@@ -119,7 +119,7 @@ RC_GTEST_PROP(Rows, DirectionIsAllRotation, (std::uint64_t seed)) {
 RC_GTEST_PROP(Rows, JacobianOfAWeldIsExactAlongItsErrorAtAnyAngle, (std::uint64_t seed)) {
     Random random(seed);
     auto bodies = two_random_bodies(random);
-    RowBlock block = test::random_block(RowKind::hand_weld, 0, 1, random);
+    RowBlock block = test::random_block(RowKind::drive_weld, 0, 1, random);
     test::meet(bodies, block);
     const Vec3 axis = random.direction();
     bodies[0] = nudged(bodies, {0, Vec3::Zero(), axis}, random.between(0.1, 3.0))[0];
@@ -156,7 +156,7 @@ TEST(Rows, ContactNormalTurnsWithB) {
     block.normal_b_bs = Vec3::UnitY();  // a quarter turn about z: -x in the world
     const Row row = rows_of(bodies, block)[0];
     EXPECT_LT((row.linear_a - -Vec3::UnitX()).norm(), 1e-15);
-    EXPECT_NEAR(row.value_m, 0.3, 1e-15);
+    EXPECT_NEAR(row.residual, 0.3, 1e-15);
     // Turning b on by an angle turns the normal away from a: cos(angle) 0.3 + sin(angle) * -0.05 to
     // first order.
     EXPECT_NEAR(row.angular_b.z(), -0.05, 1e-15);
@@ -167,25 +167,25 @@ TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
         test::player_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
         test::fixed_body(2, {Vec3(0.5, 0.0, 0.0), Quat::Identity()})};
     const RowBlock block =
-        test::row_block(RowKind::hand_point, 0, 1, Vec3(0.0, 0.25, 0.0), Vec3(0.25, 0.0, -1.0));
+        test::row_block(RowKind::drive_point, 0, 1, Vec3(0.0, 0.25, 0.0), Vec3(0.25, 0.0, -1.0));
     const std::vector<Row> rows = rows_of(bodies, block);
     ASSERT_EQ(rows.size(), 3U);
-    EXPECT_DOUBLE_EQ(rows[0].value_m, 0.25);
-    EXPECT_DOUBLE_EQ(rows[1].value_m, 2.25);
-    EXPECT_DOUBLE_EQ(rows[2].value_m, 4.0);
+    EXPECT_DOUBLE_EQ(rows[0].residual, 0.25);
+    EXPECT_DOUBLE_EQ(rows[1].residual, 2.25);
+    EXPECT_DOUBLE_EQ(rows[2].residual, 4.0);
     EXPECT_DOUBLE_EQ(block_error_m(bodies, block), Vec3(0.25, 2.25, 4.0).norm());
 }
 
 TEST(Rows, AnglesOfAWeldCountAsLengthsAtItsLever) {
     std::vector<SolverBody> bodies = {test::player_body(1, 80.0), test::ball(2, 1.0, 0.1)};
     bodies[0].pose_ws.rotation = rotation_about(Vec3::UnitY(), 0.5);
-    const RowBlock block = test::row_block(RowKind::hand_weld, 0, 1);
+    const RowBlock block = test::row_block(RowKind::drive_weld, 0, 1);
     const std::vector<Row> rows = rows_of(bodies, block);
     ASSERT_EQ(rows.size(), 6U);
-    EXPECT_NEAR(rows[4].value_m, 0.5 * k_angle_m, 1e-15);
-    EXPECT_NEAR(rows[3].value_m, 0.0, 1e-15);
-    EXPECT_NEAR(rows[5].value_m, 0.0, 1e-15);
-    EXPECT_NEAR(block_error_m(bodies, block), 0.5 * k_angle_m, 1e-15);
+    EXPECT_NEAR(rows[4].residual, 0.5 * k_angle_lever_m, 1e-15);
+    EXPECT_NEAR(rows[3].residual, 0.0, 1e-15);
+    EXPECT_NEAR(rows[5].residual, 0.0, 1e-15);
+    EXPECT_NEAR(block_error_m(bodies, block), 0.5 * k_angle_lever_m, 1e-15);
 }
 
 TEST(Rows, ErrorOfAContactIsItsOverlapAndNothingApart) {
@@ -206,17 +206,17 @@ RC_GTEST_PROP(Rows, SeparationAndErrorsAreThoseOfTheRows, (std::uint64_t seed)) 
         const RowBlock block = test::random_block(kind, 0, 1, random);
         const std::vector<Row> rows = rows_of(bodies, block);
         if (kind == RowKind::contact) {
-            RC_ASSERT(std::abs(contact_separation_m(bodies, block) - rows[0].value_m) < 1e-14);
+            RC_ASSERT(std::abs(contact_separation_m(bodies, block) - rows[0].residual) < 1e-14);
             continue;
         }
-        if (kind == RowKind::hand_direction) {
-            const Vec3 turned(rows[0].value_m, rows[1].value_m, rows[2].value_m);
+        if (kind == RowKind::drive_direction) {
+            const Vec3 turned(rows[0].residual, rows[1].residual, rows[2].residual);
             RC_ASSERT(std::abs(block_error_m(bodies, block) - turned.norm()) < 1e-14);
             continue;
         }
-        const double point = Vec3(rows[0].value_m, rows[1].value_m, rows[2].value_m).norm();
-        const double angle = kind == RowKind::hand_weld
-                                 ? Vec3(rows[3].value_m, rows[4].value_m, rows[5].value_m).norm()
+        const double point = Vec3(rows[0].residual, rows[1].residual, rows[2].residual).norm();
+        const double angle = kind == RowKind::drive_weld
+                                 ? Vec3(rows[3].residual, rows[4].residual, rows[5].residual).norm()
                                  : 0.0;
         RC_ASSERT(std::abs(block_error_m(bodies, block) - std::max(point, angle)) < 1e-14);
     }
@@ -228,13 +228,13 @@ TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
     for (const RowKind kind : k_all_kinds) {
         std::vector<Row> rows;
         append_rows(bodies, test::random_block(kind, 1, 0, random), 7, rows);
-        const std::size_t expected = kind == RowKind::contact     ? 1
-                                     : kind == RowKind::hand_weld ? 6
-                                                                  : 3;
+        const std::size_t expected = kind == RowKind::contact      ? 1
+                                     : kind == RowKind::drive_weld ? 6
+                                                                   : 3;
         EXPECT_EQ(rows.size(), expected);
         for (const Row& row : rows) {
             EXPECT_EQ(row.unilateral, kind == RowKind::contact);
-            EXPECT_EQ(row.group, kind == RowKind::contact ? RowGroup::contact : RowGroup::hand);
+            EXPECT_EQ(row.group, kind == RowKind::contact ? RowGroup::contact : RowGroup::drive);
             EXPECT_EQ(row.block, 7U);
             EXPECT_EQ(row.a, 1U);
             EXPECT_EQ(row.b, 0U);

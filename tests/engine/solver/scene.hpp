@@ -39,7 +39,7 @@ inline SolverBody ball(std::uint64_t id, double mass_kg, double radius_m,
 
 inline SolverBody player_body(std::uint64_t id, double mass_kg, const Pose& pose_ws = {}) {
     SolverBody body = fixed_body(id, pose_ws);
-    body.role = BodyRole::player;
+    body.role = BodyRole::translating;
     body.mass_kg = mass_kg;
     body.inverse_mass = 1.0 / mass_kg;
     return body;

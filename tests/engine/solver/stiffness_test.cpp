@@ -74,11 +74,11 @@ Mat3 expected_inverse(const Pair& pair, std::size_t side) {
 }
 
 // The pair's bodies in lanes 0 and 1.
-FourBodies inverses_of(const TriadKernels& kernels, const Pair& pair) {
+Bodies4 inverses_of(const TriadKernels& kernels, const Pair& pair) {
     TriadPlan plan;
     plan.build(std::vector<RowNode>{{{0, 1}, 3}}, std::vector<std::uint8_t>{1, 1});
-    std::vector<FourBodies> bodies(1);
-    std::vector<FourEnds> ends(1);
+    std::vector<Bodies4> bodies(1);
+    std::vector<Ends4> ends(1);
     for (std::size_t side = 0; side < 2; ++side) {
         const SolverBody& body = pair.bodies[side];
         const Mat3 axes = body.pose_ws.rotation.toRotationMatrix();
@@ -88,7 +88,7 @@ FourBodies inverses_of(const TriadKernels& kernels, const Pair& pair) {
         set_lane(side, Vec3(axes.col(2)), bodies[0].axes.z);
         set_lane(side, Vec3((side == 0 ? 1.0 : -1.0) * pair.arms_ws[side]), ends[0].arm);
     }
-    std::vector<TriadVector> lambdas = {{to_four(pair.force_ws)}, {}};
+    std::vector<TriadVector> lambdas = {{to_double4(pair.force_ws)}, {}};
     std::vector<WideSymmetric> stiffness(1);
     std::vector<Rows3> blocks(plan.block_count() + 1);
     TriadArrays arrays;
@@ -98,7 +98,7 @@ FourBodies inverses_of(const TriadKernels& kernels, const Pair& pair) {
     arrays.lambdas = lambdas;
     arrays.blocks = blocks;
     arrays.plan = &plan;
-    arrays.is_stiff = true;
+    arrays.has_stiffness = true;
     kernels.gather_stiffness(arrays);
     kernels.multiply_out(arrays, 0.0);
     return bodies[0];
@@ -109,7 +109,7 @@ TEST(GeometricStiffness, OfTheKernelsIsThatOfRowsOneByOne) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Pair pair(i, random);
         for (const TriadKernels* kernels : {&triad_kernels(), &portable_triad_kernels()}) {
-            const FourBodies bodies = inverses_of(*kernels, pair);
+            const Bodies4 bodies = inverses_of(*kernels, pair);
             for (std::size_t side = 0; side < 2; ++side) {
                 const WideSymmetric& w = bodies.inverse_inertia;
                 Mat3 inverse;

@@ -49,16 +49,17 @@ void expect_strands_apart(const StrandPlan& plan, const std::vector<RowNode>& no
     for (const std::uint32_t node : plan.rest()) {
         ++uses[node];
     }
-    for (const StrandPlan::Braid& braid : plan.braids()) {
+    for (const StrandPlan::StrandPack& strand_pack : plan.strand_packs()) {
         for (std::size_t lane = 0; lane < 4; ++lane) {
-            for (std::uint32_t k = 0; k < braid.length; ++k) {
-                const std::uint32_t end = plan.links()[braid.links + k][lane];
+            for (std::uint32_t k = 0; k < strand_pack.length; ++k) {
+                const std::uint32_t end = plan.links()[strand_pack.links + k][lane];
                 ++uses[end / 2];
-                EXPECT_EQ(nodes[end / 2].slots[end % 2], plan.bodies()[braid.row + k][lane]);
-                EXPECT_EQ(far_slot(nodes[end / 2], end), plan.bodies()[braid.row + k + 1][lane]);
+                EXPECT_EQ(nodes[end / 2].slots[end % 2], plan.bodies()[strand_pack.row + k][lane]);
+                EXPECT_EQ(far_slot(nodes[end / 2], end),
+                          plan.bodies()[strand_pack.row + k + 1][lane]);
             }
-            for (std::uint32_t k = 0; k <= braid.length; ++k) {
-                const std::uint32_t slot = plan.bodies()[braid.row + k][lane];
+            for (std::uint32_t k = 0; k <= strand_pack.length; ++k) {
+                const std::uint32_t slot = plan.bodies()[strand_pack.row + k][lane];
                 if (slot != k_no_slot) {
                     ++rows[slot];
                 }
@@ -74,13 +75,13 @@ void expect_strands_apart(const StrandPlan& plan, const std::vector<RowNode>& no
 
 // The rest meets a strand as one body.
 void expect_rest_holds_strands(const StrandPlan& plan, const std::vector<RowNode>& nodes) {
-    for (std::size_t i = 0; i < plan.braids().size(); ++i) {
-        const StrandPlan::Braid& braid = plan.braids()[i];
+    for (std::size_t i = 0; i < plan.strand_packs().size(); ++i) {
+        const StrandPlan::StrandPack& strand_pack = plan.strand_packs()[i];
         for (std::uint32_t lane = 0; lane < 4; ++lane) {
             const auto strand = static_cast<std::uint32_t>(plan.slot_count() + 4 * i) + lane;
             for (const auto& [end, row] :
-                 {std::pair(braid.before[lane], braid.row),
-                  std::pair(braid.after[lane], braid.row + braid.length)}) {
+                 {std::pair(strand_pack.before[lane], strand_pack.row),
+                  std::pair(strand_pack.after[lane], strand_pack.row + strand_pack.length)}) {
                 if (end != k_no_slot) {
                     EXPECT_EQ(plan.rest_nodes()[end / 2].slots[end % 2], strand);
                     EXPECT_EQ(nodes[plan.rest()[end / 2]].slots[end % 2], plan.bodies()[row][lane]);
@@ -96,9 +97,9 @@ TEST(Strands, OfARopeAreFourAlikeWithSeparatorsBetween) {
         SCOPED_TRACE(bodies);
         const std::vector<RowNode> nodes = rope(bodies, bodies % 2 == 0, random);
         const StrandPlan plan = plan_of(nodes, bodies);
-        ASSERT_EQ(plan.braids().size(), 1U);
-        EXPECT_EQ(plan.braids()[0].length, (nodes.size() - 3) / 4);
-        EXPECT_EQ(plan.rest().size(), nodes.size() - 4 * plan.braids()[0].length);
+        ASSERT_EQ(plan.strand_packs().size(), 1U);
+        EXPECT_EQ(plan.strand_packs()[0].length, (nodes.size() - 3) / 4);
+        EXPECT_EQ(plan.rest().size(), nodes.size() - 4 * plan.strand_packs()[0].length);
         expect_strands_apart(plan, nodes, bodies);
         expect_rest_holds_strands(plan, nodes);
     }
@@ -109,11 +110,11 @@ TEST(Strands, OfARingAreCutOnceMore) {
     std::vector<RowNode> nodes = rope(44, false, random);
     nodes.push_back(link_between(43, 0));
     const StrandPlan plan = plan_of(nodes, 44);
-    ASSERT_EQ(plan.braids().size(), 1U);
-    EXPECT_EQ(plan.braids()[0].length, 10U);
+    ASSERT_EQ(plan.strand_packs().size(), 1U);
+    EXPECT_EQ(plan.strand_packs()[0].length, 10U);
     expect_strands_apart(plan, nodes, 44);
     expect_rest_holds_strands(plan, nodes);
-    EXPECT_TRUE(std::ranges::none_of(plan.braids()[0].before,
+    EXPECT_TRUE(std::ranges::none_of(plan.strand_packs()[0].before,
                                      [](std::uint32_t end) { return end == k_no_slot; }));
 }
 
@@ -123,7 +124,7 @@ TEST(Strands, EndWhereThreeNodesMeet) {
     std::vector<RowNode> nodes = rope(100, true, random);
     nodes.push_back(link_between(50, 100));
     const StrandPlan plan = plan_of(nodes, 101);
-    ASSERT_EQ(plan.braids().size(), 2U);
+    ASSERT_EQ(plan.strand_packs().size(), 2U);
     expect_strands_apart(plan, nodes, 101);
     expect_rest_holds_strands(plan, nodes);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -135,14 +136,14 @@ TEST(Strands, EndWhereThreeNodesMeet) {
 
 TEST(Strands, AreNotMadeOfShortRunsNorOfWhatIsNoLink) {
     Random random(4);
-    EXPECT_TRUE(plan_of(rope(18, true, random), 18).braids().empty());
-    EXPECT_EQ(plan_of(rope(19, true, random), 19).braids().size(), 1U);
+    EXPECT_TRUE(plan_of(rope(18, true, random), 18).strand_packs().empty());
+    EXPECT_EQ(plan_of(rope(19, true, random), 19).strand_packs().size(), 1U);
     std::vector<RowNode> hands = rope(60, true, random);
     for (RowNode& node : hands) {
-        node.is_link = false;
+        node.is_point_link = false;
     }
     const StrandPlan plan = plan_of(hands, 60);
-    EXPECT_TRUE(plan.braids().empty());
+    EXPECT_TRUE(plan.strand_packs().empty());
     EXPECT_TRUE(std::ranges::equal(plan.rest_nodes(), hands));
 }
 

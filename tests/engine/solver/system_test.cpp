@@ -58,7 +58,7 @@ struct Problem {
     VectorXd values() const {
         VectorXd all(static_cast<Eigen::Index>(rows.size()));
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            all[static_cast<Eigen::Index>(i)] = rows[i].value_m;
+            all[static_cast<Eigen::Index>(i)] = rows[i].residual;
         }
         return all;
     }
@@ -105,10 +105,10 @@ Problem random_problem(std::size_t body_count, int hands, int contacts, Random& 
         const std::uint32_t a = random_index(body_count, random);
         const std::uint32_t b =
             (a + 1 + random_index(body_count - 1, random)) % static_cast<std::uint32_t>(body_count);
-        const RowKind hand = i % 2 == 0 ? RowKind::hand_point : RowKind::hand_weld;
+        const RowKind hand = i % 2 == 0 ? RowKind::drive_point : RowKind::drive_weld;
         problem.add_block(test::random_block(i < hands ? hand : RowKind::contact, a, b, random));
         if (i >= hands) {
-            problem.rows.back().value_m = random.between(-0.2, 0.1);
+            problem.rows.back().residual = random.between(-0.2, 0.1);
         }
     }
     return problem;
@@ -280,28 +280,28 @@ Problem crowded_contacts(Random& random) {
                 block.point_a_bs = random.vector(0.3);
             }
             problem.add_block(block);
-            problem.rows.back().value_m = depth_m + random.between(-0.05, 0.05);
+            problem.rows.back().residual = depth_m + random.between(-0.05, 0.05);
         }
     }
     return problem;
 }
 
 TEST(RowSystem, CrowdedContactsSettle) {
-    int unsettled = 0;
+    int active_set_unconverged = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         Random random(seed);
         const Problem problem = crowded_contacts(random);
         RowSystem system = assembled(problem, 1e-7);
         const std::span<const double> lambda = system.solve(problem.rows);
-        unsettled += system.is_unsettled() ? 1 : 0;
+        active_set_unconverged += system.is_active_set_unconverged() ? 1 : 0;
         for (std::size_t i = 0; i < problem.rows.size(); ++i) {
             ASSERT_GE(lambda[i], 0.0) << seed;
-            if (!system.is_active(i) && !system.is_unsettled()) {
-                ASSERT_GE(system.remainder(i, problem.rows[i].value_m), -1e-8) << seed;
+            if (!system.is_active(i) && !system.is_active_set_unconverged()) {
+                ASSERT_GE(system.remaining_residual(i, problem.rows[i].residual), -1e-8) << seed;
             }
         }
     }
-    EXPECT_EQ(unsettled, 0);
+    EXPECT_EQ(active_set_unconverged, 0);
 }
 
 RC_GTEST_PROP(RowSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint64_t seed)) {
@@ -328,7 +328,7 @@ RC_GTEST_PROP(RowSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint64_
         }
     }
     const VectorXd expected = reduced.ldlt().solve(right);
-    RC_ASSERT((as_vector(system.solve_again(others)) - expected).norm() <
+    RC_ASSERT((as_vector(system.solve_with_last_factor(others)) - expected).norm() <
               1e-9 * (1.0 + expected.norm()));
 }
 
@@ -366,8 +366,8 @@ TEST(RowSystem, RowsThatNothingCanMoveGetNothing) {
     Problem problem;
     problem.place_bodies({test::fixed_body(1), test::fixed_body(2), test::ball(3, 2.0, 0.1)});
     problem.add_block(test::row_block(RowKind::contact, 0, 1, Vec3(0.0, -0.1, 0.0)));
-    problem.add_block(test::row_block(RowKind::hand_weld, 0, 1, Vec3(0.0, -0.1, 0.0)));
-    problem.add_block(test::row_block(RowKind::hand_point, 0, 2, Vec3(0.5, 0.0, 0.0)));
+    problem.add_block(test::row_block(RowKind::drive_weld, 0, 1, Vec3(0.0, -0.1, 0.0)));
+    problem.add_block(test::row_block(RowKind::drive_point, 0, 2, Vec3(0.5, 0.0, 0.0)));
     RowSystem system = assembled(problem, 1e-6);
     const VectorXd lambda = as_vector(system.solve(problem.rows));
     ASSERT_EQ(lambda.size(), 10);

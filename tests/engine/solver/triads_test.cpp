@@ -48,9 +48,10 @@ SolverScene random_tree(Random& random) {
     if (random_index(2, random) == 0 && count > 4) {
         tie(RowKind::ball, 1, count - 1);
     }
-    tie(random_index(2, random) == 0 ? RowKind::hand_point : RowKind::hand_weld, count, count - 1);
+    tie(random_index(2, random) == 0 ? RowKind::drive_point : RowKind::drive_weld, count,
+        count - 1);
     if (random_index(3, random) == 0) {
-        tie(RowKind::hand_direction, count, count - 1);
+        tie(RowKind::drive_direction, count, count - 1);
     }
     for (SolverBody& body : scene.graph.bodies) {
         if (random_index(8, random) == 0) {  // a phase holds it still
@@ -72,7 +73,7 @@ bool loads(SolverScene& scene, double touch_m = k_touch_m) {
 void move_freely(SolverBody& body) {
     if (body.role != BodyRole::fixed) {
         body.inverse_mass = 1.0 / body.mass_kg;
-        body.inverse_inertia_bs = body.role == BodyRole::player
+        body.inverse_inertia_bs = body.role == BodyRole::translating
                                       ? Vec3(Vec3::Zero())
                                       : Vec3(body.inertia_kgm2.cwiseInverse());
     }
@@ -127,7 +128,8 @@ SolverScene random_rope(Random& random) {
     const auto player = static_cast<std::uint32_t>(scene.graph.bodies.size());
     scene.graph.bodies.push_back(test::player_body(player + 1, 80.0, test::random_pose(random)));
     if (random_index(3, random) > 0) {
-        tie(random_index(3, random) > 0 ? RowKind::hand_point : RowKind::hand_weld, player, links);
+        tie(random_index(3, random) > 0 ? RowKind::drive_point : RowKind::drive_weld, player,
+            links);
     }
     if (random_index(4, random) == 0) {
         SolverBody& still = scene.body(1 + random_index(links, random));
@@ -266,7 +268,7 @@ void expect_velocities_as_rows_have_them(SolverScene (*make)(Random&), std::uint
         SolverScene scene = make(random);
         disturb(scene, 0.0, random);
         for (RowBlock& block : scene.graph.blocks) {
-            if (is_hand(block)) {
+            if (is_drive(block)) {
                 block.drive_velocity_ws_mps = random.vector(1.0);
                 block.drive_spin_ws_radps = random.vector(1.0);
             }
@@ -277,7 +279,8 @@ void expect_velocities_as_rows_have_them(SolverScene (*make)(Random&), std::uint
         double largest =
             1.0;  // where a hand contradicts what is held still they grow, and the rest
         for (const RowBlock& block : rows.graph.blocks) {
-            largest = std::max({largest, block.impulse_ws_ns.norm(), block.couple_ws_nms.norm()});
+            largest = std::max(
+                {largest, block.impulse_ws_ns.norm(), block.angular_impulse_ws_nms.norm()});
         }
         for (std::size_t i = 0; i < scene.graph.bodies.size(); ++i) {
             const double tolerance = 1e-7 * largest;
@@ -285,12 +288,13 @@ void expect_velocities_as_rows_have_them(SolverScene (*make)(Random&), std::uint
             EXPECT_LT((scene.body(i).spin_radps - rows.body(i).spin_radps).norm(),
                       10.0 * tolerance);
         }
-        // Who of two that tie the same bodies takes how much is a matter of softness.
+        // Who of two that tie the same bodies takes how much is a matter of regularisation.
         for (std::size_t i = 0; i < scene.graph.blocks.size(); ++i) {
             const double tolerance = 1e-3 * largest;
             EXPECT_LT((scene.block(i).impulse_ws_ns - rows.block(i).impulse_ws_ns).norm(),
                       tolerance);
-            EXPECT_LT((scene.block(i).couple_ws_nms - rows.block(i).couple_ws_nms).norm(),
+            EXPECT_LT((scene.block(i).angular_impulse_ws_nms - rows.block(i).angular_impulse_ws_nms)
+                          .norm(),
                       tolerance);
         }
     }
@@ -322,7 +326,7 @@ std::vector<std::uint64_t> bits_of(const SolverScene& scene) {
     }
     for (const RowBlock& block : scene.graph.blocks) {
         add(block.impulse_ws_ns);
-        add(block.couple_ws_nms);
+        add(block.angular_impulse_ws_nms);
     }
     return bits;
 }

@@ -55,7 +55,7 @@ SolverScene random_tree(std::uint32_t count, Random& random) {
     for (std::uint32_t i = 1; i < count; ++i) {
         const auto other = static_cast<std::uint32_t>(random.engine()() % i);
         const RowKind kind =
-            random.between(0.0, 1.0) < 0.5 ? RowKind::hand_point : RowKind::hand_weld;
+            random.between(0.0, 1.0) < 0.5 ? RowKind::drive_point : RowKind::drive_weld;
         RowBlock block = test::random_block(kind, i, other, random);
         test::meet(scene.graph.bodies, block);
         scene.graph.blocks.push_back(block);
@@ -113,7 +113,7 @@ RC_GTEST_PROP(SolveVelocities, ImpulsesOutAreWhatTheBodiesReceived, (std::uint64
 TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0)};
-    scene.graph.blocks = {test::row_block(RowKind::hand_point, 1, 0)};
+    scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 0)};
     scene.block(0).drive_velocity_ws_mps = Vec3(0.5, -1.0, 0.25);
     scene.solve_velocities();
     EXPECT_LT((scene.body(1).velocity_mps + Vec3(0.5, -1.0, 0.25)).norm(), 1e-9);
@@ -128,7 +128,7 @@ RC_GTEST_PROP(SolveVelocities, WeldedBodyMovesAndTurnsWithTheHand, (std::uint64_
                           test::random_free_body(2, random)};
     scene.body(0).inverse_mass = 0.0;
     scene.body(0).velocity_mps = random.vector(2.0);
-    RowBlock block = test::random_block(RowKind::hand_weld, 0, 1, random);
+    RowBlock block = test::random_block(RowKind::drive_weld, 0, 1, random);
     test::meet(scene.graph.bodies, block);
     block.drive_velocity_ws_mps = random.vector(3.0);
     block.drive_spin_ws_radps = random.vector(8.0);
@@ -243,7 +243,7 @@ TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
     scene.body(1).velocity_mps = Vec3(0.3, 0.0, 0.0);
     RowBlock contact = test::row_block(RowKind::contact, 1, 0);
     contact.friction = 0.4;
-    RowBlock hand = test::row_block(RowKind::hand_point, 2, 1);
+    RowBlock hand = test::row_block(RowKind::drive_point, 2, 1);
     hand.drive_velocity_ws_mps = Vec3(-0.2, -0.02, 0.0);
     scene.graph.blocks = {contact, hand};
     sort_blocks(scene.graph);

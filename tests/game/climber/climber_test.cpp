@@ -79,14 +79,14 @@ TEST(Climber, GoesByItsWaypointsAndStaysAtTheLast) {
                       {k_no_entity, Vec3(-0.35, 0.2, -2.0)}};
     Solo solo(scene, Vec3(-0.35, 0.2, 4.0), 1, task);
     std::vector<bool> passed(task.waypoints.size());
-    while (solo.now_s() < 60.0 && !has_arrived(solo.task, solo.state)) {
+    while (solo.now_s() < 60.0 && !is_at_target(solo.task, solo.state)) {
         solo.step();
         for (std::size_t i = 0; i < passed.size(); ++i) {
             const bool near = (solo.head_ws() - task.waypoints[i].point_bs).norm() < 0.35;
             passed[i] = passed[i] || (near && (i == 0 || passed[i - 1]));
         }
     }
-    ASSERT_TRUE(has_arrived(solo.task, solo.state));
+    ASSERT_TRUE(is_at_target(solo.task, solo.state));
     EXPECT_TRUE(std::ranges::all_of(passed, [](bool done) { return done; }));
     for (int frame = 0; frame < 450; ++frame) {
         solo.step();

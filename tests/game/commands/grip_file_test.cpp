@@ -154,7 +154,7 @@ TEST(SceneGripFile, WrittenAndReadAgainIsTheSame) {
             EXPECT_LT((after.wrist_bs.rotation.coeffs() - before.wrist_bs.rotation.coeffs()).norm(),
                       1e-15);
             for (std::size_t f = 0; f < k_finger_count; ++f) {
-                for (std::size_t link = 0; link < k_most_links; ++link) {
+                for (std::size_t link = 0; link < k_max_links; ++link) {
                     EXPECT_NEAR(after.fingers[f].curl_rad[link], before.fingers[f].curl_rad[link],
                                 1e-14);
                 }
@@ -310,7 +310,7 @@ TEST_F(GunGrips, PosedFingersOfEitherHandAreNotSunkInTheGun) {
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             ASSERT_TRUE(in_body().grips[i].hands[index_of(side)].is_there);
             const FittedGrip fit = fitted(i, side);
-            EXPECT_EQ(fit.sunk_fingers, 0U) << gun.grips[i].name;
+            EXPECT_EQ(fit.penetrating_fingers, 0U) << gun.grips[i].name;
             EXPECT_TRUE(fit.is_gripping);
         }
     }

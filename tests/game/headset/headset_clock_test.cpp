@@ -54,7 +54,7 @@ TEST(HeadsetClock, TimeGoesSlowerWhereThereIsTooMuchToCatchUpWith) {
     HeadsetClock clock;
     clock.advance(k_begin_ns, k_period_ns);
     EXPECT_EQ(clock.advance(k_begin_ns + 900 * k_period_ns, k_period_ns),
-              HeadsetClock::k_most_frames);
+              HeadsetClock::k_max_frames);
     // What was left out is not asked for again, and poses are asked for as of now.
     EXPECT_NEAR(static_cast<double>(clock.frame_ns(0) - k_begin_ns),
                 static_cast<double>(900 * k_period_ns), 2e4);

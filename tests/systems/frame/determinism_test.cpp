@@ -29,8 +29,7 @@ TEST(Crowd, GripsWithOneHandAndTwoThrowsPushesAndTouches) {
     crowd.run(Crowd::k_frames, [&](int) {
         contacts += crowd.stats.contacts;
         pushed += crowd.stats.islands_pushed;
-        two_hands +=
-            crowd.stats.fallbacks[static_cast<std::size_t>(Fallback::hand_left_two_hand_grip)];
+        two_hands += crowd.stats.fallbacks[static_cast<std::size_t>(Fallback::two_hand_grip_ended)];
         grips += crowd.stats.grabs_gripped;
         islands = std::max(islands, crowd.stats.islands);
     });

@@ -124,7 +124,7 @@ TEST(WarmFrame, AllocatesNothing) {
     ASSERT_GT(allocations.load(), at_start);
     delete probe;
     const std::uint64_t before_aligned = allocations.load();
-    const std::vector<FourBodies> aligned(1);
+    const std::vector<Bodies4> aligned(1);
     ASSERT_GT(allocations.load(), before_aligned);
 
     Scenario s;

@@ -20,7 +20,7 @@ struct ClutterResult {
     double worst_overlap_m = 0.0;  // as the frame says
     double worst_seen_m = 0.0;     // as the tool lies at its end
     int frames_held = 0;
-    std::uint64_t put_back = 0;
+    std::uint64_t restored_last_valid_pose = 0;
 };
 
 enum class Clutter : std::uint8_t { boxes, one_mesh };
@@ -116,20 +116,20 @@ ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
             result.worst_seen_m = std::max(result.worst_seen_m, overlap_where_it_is(s, tool));
         }
         result.frames_held += s.grab(HandSide::right).body == tool ? 1 : 0;
-        result.put_back += s.fallbacks(Fallback::put_back);
+        result.restored_last_valid_pose += s.fallbacks(Fallback::restored_last_valid_pose);
     });
     return result;
 }
 
 TEST(Clutter, ToolOfAJumpingHandIsSunkIntoNothing) {
-    std::uint64_t put_back = 0;
+    std::uint64_t restored_last_valid_pose = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const ClutterResult result = drag_through_clutter(seed, Clutter::boxes);
         EXPECT_LT(result.worst_overlap_m, 2e-4) << seed;
         EXPECT_GT(result.frames_held, 20) << seed;
-        put_back += result.put_back;
+        restored_last_valid_pose += result.restored_last_valid_pose;
     }
-    EXPECT_GT(put_back, 0U);  // in 1 frame of 300
+    EXPECT_GT(restored_last_valid_pose, 0U);  // in 1 frame of 300
 }
 
 // A thing is met where the tool's way first touches it: what else of the same mesh the tool ends in

@@ -27,7 +27,7 @@ struct Contraption {
     test::JointErrors worst;
     double highest = 0.0;  // coordinate
 
-    void add_thing(const Vec3& half_m, const Vec3& center, double mass_kg) {
+    void add_free_body(const Vec3& half_m, const Vec3& center, double mass_kg) {
         thing = scene.add_crate("thing", mass_kg, center, half_m);
     }
     void add_joint_at(Joint settings, const Vec3& point, const Vec3& axis) {
@@ -59,7 +59,7 @@ struct Contraption {
 
 // A lever of 40 cm on a wall at the origin, hinged about z at its lower end; its handle on top.
 Contraption& make_lever(Contraption& c, bool limited = true) {
-    c.add_thing(Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0), 2.0);
+    c.add_free_body(Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0), 2.0);
     Joint settings;
     settings.kind = JointKind::hinge;
     settings.limited = limited;
@@ -140,7 +140,7 @@ TEST(Lever, AtItsLimitIsPulledLikeAWall) {
 
 TEST(Drawer, SlidesWithTheHandAndStopsAtItsEnd) {
     Contraption c;
-    c.add_thing(Vec3(0.2, 0.1, 0.2), Vec3(0.0, 0.0, -0.2), 5.0);
+    c.add_free_body(Vec3(0.2, 0.1, 0.2), Vec3(0.0, 0.0, -0.2), 5.0);
     Joint settings;
     settings.kind = JointKind::slider;
     settings.limited = true;
@@ -213,7 +213,7 @@ struct Door : Contraption {
     Entity handle_joint;
 
     Door() {
-        add_thing(Vec3(0.4, 0.9, 0.02), Vec3(0.4, 0.0, 0.0), 20.0);
+        add_free_body(Vec3(0.4, 0.9, 0.02), Vec3(0.4, 0.0, 0.0), 20.0);
         handle_body = scene.add_crate("handle", 0.5, Vec3(0.75, 0.0, 0.08), Vec3(0.06, 0.01, 0.01));
         Joint turn;
         turn.kind = JointKind::hinge;
@@ -306,7 +306,7 @@ TEST(Door, StrongEnoughAForceTearsTheLatchOpen) {
 
 TEST(Joints, ALooseRopeHoldsAtItsLengthOnly) {
     Contraption c;
-    c.add_thing(Vec3(0.1, 0.1, 0.1), Vec3(0.5, 0.0, 0.0), 3.0);
+    c.add_free_body(Vec3(0.1, 0.1, 0.1), Vec3(0.5, 0.0, 0.0), 3.0);
     Joint settings;
     settings.kind = JointKind::distance;
     settings.upper = 1.0;
@@ -326,7 +326,7 @@ TEST(Joints, ALooseRopeHoldsAtItsLengthOnly) {
 
 TEST(Joints, FixedCarryTheirMomentumTogether) {
     Contraption c;
-    c.add_thing(Vec3(0.1, 0.1, 0.1), Vec3(0.0, 0.0, 0.0), 1.0);
+    c.add_free_body(Vec3(0.1, 0.1, 0.1), Vec3(0.0, 0.0, 0.0), 1.0);
     const Entity other = c.scene.add_crate("other", 3.0, Vec3(0.4, 0.0, 0.0), Vec3(0.1, 0.1, 0.1));
     Joint settings;
     settings.kind = JointKind::fixed;

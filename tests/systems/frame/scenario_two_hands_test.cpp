@@ -91,9 +91,9 @@ Pose lively_carry(double t) {
             rotation_from_vector(w * Vec3(0.3 * std::sin(3 * t), 0.5 * std::sin(4 * t), 0.2))};
 }
 
-class TwoHands : public testing::TestWithParam<HandSide> {};
+class DrivePair : public testing::TestWithParam<HandSide> {};
 
-TEST_P(TwoHands, FirstHandKeepsItsPointAndTheSecondItsLineWhileTheirDistanceVaries) {
+TEST_P(DrivePair, FirstHandKeepsItsPointAndTheSecondItsLineWhileTheirDistanceVaries) {
     Bar b(GetParam());
     b.carried = lively_carry;
     b.along[b.second_index()] = [](double t) {
@@ -116,7 +116,7 @@ TEST_P(TwoHands, FirstHandKeepsItsPointAndTheSecondItsLineWhileTheirDistanceVari
     EXPECT_LE(worst_m, 1e-6);
 }
 
-TEST_P(TwoHands, TwistOfTheBarIsTheMeanOfTheHandsWhateverItIs) {
+TEST_P(DrivePair, TwistOfTheBarIsTheMeanOfTheHandsWhateverItIs) {
     Bar b(GetParam());
     b.carried = lively_carry;
     b.twist[0] = [](double t) { return 2.0 * ease(t, 0.3, 1.2); };
@@ -131,7 +131,7 @@ TEST_P(TwoHands, TwistOfTheBarIsTheMeanOfTheHandsWhateverItIs) {
     EXPECT_TRUE(b.leads_both());
 }
 
-TEST_P(TwoHands, JoiningMovesNothing) {
+TEST_P(DrivePair, JoiningMovesNothing) {
     Bar b(GetParam());
     b.hold(0.05, 0.5047);  // within a frame
     b.carried = slow_carry;
@@ -147,7 +147,7 @@ TEST_P(TwoHands, JoiningMovesNothing) {
 }
 
 // After the hands strayed along and about the bar, either lets go while all moves on as one.
-TEST_P(TwoHands, LeavingMovesNothing) {
+TEST_P(DrivePair, LeavingMovesNothing) {
     for (const bool first_leaves : {true, false}) {
         Bar b(GetParam());
         b.hold(0.05, 0.2, first_leaves ? 1.2047 : 1e9, first_leaves ? 1e9 : 1.2047);
@@ -171,7 +171,7 @@ TEST_P(TwoHands, LeavingMovesNothing) {
 
 // From one hand to the other and back: one after the other, in one frame, and in one frame with the
 // first hand open before the second is closed.
-TEST_P(TwoHands, PassingFromHandToHandMovesNothing) {
+TEST_P(DrivePair, PassingFromHandToHandMovesNothing) {
     for (const double late_s : {0.03, 0.002, -0.002}) {
         Bar b(GetParam());
         const double pass_s = 0.5 + 4.0 / 900.0;
@@ -194,7 +194,7 @@ TEST_P(TwoHands, PassingFromHandToHandMovesNothing) {
 }
 
 // While hands press past each other there is no line: the bar neither spins nor jumps.
-TEST_P(TwoHands, HandsThatMeetLeaveTheBarToTheFirst) {
+TEST_P(DrivePair, HandsThatMeetLeaveTheBarToTheFirst) {
     Bar b(GetParam());
     const double inward = b.second_index() == 1 ? -1.0 : 1.0;
     b.along[b.second_index()] = [=](double t) {
@@ -214,7 +214,7 @@ TEST_P(TwoHands, HandsThatMeetLeaveTheBarToTheFirst) {
     EXPECT_TRUE(b.leads_both());
 }
 
-TEST_P(TwoHands, SecondHandLetsGoWhereItSlidTooFarAndTheBarStays) {
+TEST_P(DrivePair, SecondHandLetsGoWhereItSlidTooFarAndTheBarStays) {
     Bar b(GetParam());
     const double outward = b.second_index() == 1 ? 1.0 : -1.0;
     b.along[b.second_index()] = [=](double t) { return outward * 0.35 * ease(t, 0.4, 1.0); };
@@ -232,7 +232,7 @@ TEST_P(TwoHands, SecondHandLetsGoWhereItSlidTooFarAndTheBarStays) {
 }
 
 // Decision 6's worry: with nothing left to share, hands that stray push nobody off what they touch.
-TEST_P(TwoHands, StrayingOnABarThatTouchesAWallPushesNobody) {
+TEST_P(DrivePair, StrayingOnABarThatTouchesAWallPushesNobody) {
     Bar b(GetParam(), 2.0, -0.02 - 5e-6);
     b.along[b.second_index()] = [](double t) { return 0.03 * ease(t, 0.3, 0.4) * std::sin(9 * t); };
     const Vec3 before = b.s.origin_ws();
@@ -246,7 +246,7 @@ TEST_P(TwoHands, StrayingOnABarThatTouchesAWallPushesNobody) {
 }
 
 // A throw by both, who twist about the line: v_com = v_first + w x (com - first).
-TEST_P(TwoHands, ThrownByBothLeavesWithTheirMotionAtItsCentre) {
+TEST_P(DrivePair, ThrownByBothLeavesWithTheirMotionAtItsCentre) {
     Bar b(GetParam());
     const double until_s = 0.505;
     b.hold(0.05, 0.2, until_s, until_s);
@@ -269,7 +269,7 @@ TEST_P(TwoHands, ThrownByBothLeavesWithTheirMotionAtItsCentre) {
 }
 
 // Hands that move straight against each other turn the line by atan(0.5 t), at t since they began.
-TEST_P(TwoHands, BarSpinsAsTheLineBetweenThemTurns) {
+TEST_P(DrivePair, BarSpinsAsTheLineBetweenThemTurns) {
     Bar b(GetParam());
     const auto turned_rad = [](double t) { return std::atan(0.5 * std::max(0.0, t - 0.3)); };
     for (const std::size_t side : {0U, 1U}) {
@@ -290,7 +290,7 @@ TEST_P(TwoHands, BarSpinsAsTheLineBetweenThemTurns) {
     });
 }
 
-TEST_P(TwoHands, MomentumIsExchangedExactlyWhereKappaIsOne) {
+TEST_P(DrivePair, MomentumIsExchangedExactlyWhereKappaIsOne) {
     Bar b(GetParam(), 30.0);
     b.s.tuning.locomotion.drift_drag_per_s = 0.0;
     b.s.tuning.locomotion.release_speed_max_mps = 1e6;
@@ -325,7 +325,7 @@ TEST_P(TwoHands, MomentumIsExchangedExactlyWhereKappaIsOne) {
     EXPECT_GT(led, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(FirstHand, TwoHands, testing::Values(HandSide::left, HandSide::right),
+INSTANTIATE_TEST_SUITE_P(FirstHand, DrivePair, testing::Values(HandSide::left, HandSide::right),
                          [](const auto& of) {
                              return of.param == HandSide::left ? "left" : "right";
                          });

@@ -204,25 +204,31 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
         w.arm_memory.rows()[0].look_ps = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
-    break_world("].behind_rad", [](World& w) { w.finger_pose.rows()[1].behind_rad[2][1] = 1e9; });
-    break_world("].behind_rad", [](World& w) { w.finger_pose.rows()[0].behind_rad[0][0] = -0.1; });
-    break_world("].retry", [](World& w) { w.finger_pose.rows()[1].retry[2].wait_m = 1e9; });
-    break_world("].outlook", [](World& w) { w.finger_pose.rows()[1].outlook[2].since_m = -1.0; });
-    break_world("].look_in_m", [](World& w) { w.grip_surface.rows()[0].look_in_m = 1e9; });
-    break_world("].has_room_m", [](World& w) { w.grip_surface.rows()[0].has_room_m = -1.0; });
-    break_world("].search_in_m", [](World& w) { w.grip_surface.rows()[0].search_in_m = 1e9; });
-    break_world("].tried_count", [](World& w) {
-        w.grip_surface.rows()[0].tried_count = GripSurface::k_most_tries + 1;
+    break_world("].opening_lag_rad",
+                [](World& w) { w.finger_pose.rows()[1].opening_lag_rad[2][1] = 1e9; });
+    break_world("].opening_lag_rad",
+                [](World& w) { w.finger_pose.rows()[0].opening_lag_rad[0][0] = -0.1; });
+    break_world("].backoff", [](World& w) { w.finger_pose.rows()[1].backoff[2].retry_in_m = 1e9; });
+    break_world("].lookahead",
+                [](World& w) { w.finger_pose.rows()[1].lookahead[2].travel_since_m = -1.0; });
+    break_world("].candidate_recheck_in_m",
+                [](World& w) { w.grip_surface.rows()[0].candidate_recheck_in_m = 1e9; });
+    break_world("].clearance_recheck_in_m",
+                [](World& w) { w.grip_surface.rows()[0].clearance_recheck_in_m = -1.0; });
+    break_world("].full_search_in_m",
+                [](World& w) { w.grip_surface.rows()[0].full_search_in_m = 1e9; });
+    break_world("].evaluated_count", [](World& w) {
+        w.grip_surface.rows()[0].evaluated_count = GripSurface::k_max_candidates + 1;
     });
-    break_world("].listed_count", [](World& w) {
-        w.grip_surface.rows()[0].listed_count = GripSurface::k_most_tries + 1;
+    break_world("].candidate_count", [](World& w) {
+        w.grip_surface.rows()[0].candidate_count = GripSurface::k_max_candidates + 1;
     });
-    break_world("].listed_count", [](World& w) {
-        w.grip_surface.rows()[0].tried_count = 3;
-        w.grip_surface.rows()[0].listed_count = 2;
+    break_world("].candidate_count", [](World& w) {
+        w.grip_surface.rows()[0].evaluated_count = 3;
+        w.grip_surface.rows()[0].candidate_count = 2;
     });
     break_world("].thumb_search",
-                [](World& w) { w.finger_pose.rows()[0].thumb_search.tried = ~0U; });
+                [](World& w) { w.finger_pose.rows()[0].thumb_search.evaluated_count = ~0U; });
     break_world("].push_off_weight",
                 [](World& w) { w.body_clip_state.rows()[0].push_off_weight = 2.0; });
     break_world(".mass_kg", [](World& w) { w.player.rows()[0].mass_kg = -1.0; });

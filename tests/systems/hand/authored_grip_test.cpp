@@ -80,7 +80,7 @@ TEST(AuthoredGrip, AnglesOfLinksAreThoseThatTheLinksWerePosedAt) {
                     random.between(finger.lower_opposition_rad, finger.upper_opposition_rad);
             }
             const auto frames = finger_link_frames(finger, angles);
-            std::array<Quat, k_most_links> links;
+            std::array<Quat, k_max_links> links;
             for (std::size_t i = 0; i < finger.link_count; ++i) {
                 links[i] = frames[i].rotation;
             }
@@ -145,19 +145,19 @@ TEST_F(OnFloor, FingersStandAsPosedAtTheirUsualRate) {
     hand.frame(k_at_once_s);
     EXPECT_EQ(hand.pose().shown[0].opposition_rad, -1.0);
     EXPECT_EQ(hand.pose().shown[2].curl_rad, grip.fingers[2].curl_rad);
-    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 0U);
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
 }
 
-// Expected: by find_sunk, which has tests of its own.
+// Expected: by find_penetration, which has tests of its own.
 TEST_F(OnFloor, PosedFingerThatWouldBeSunkIsFittedAndCounted) {
     grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
     hand.frame(k_at_once_s);
-    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 1U);
+    EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 1U);
     const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
     for (const Capsule& capsule : chain_capsules(chain, hand.pose().target[1].curl_rad)) {
-        EXPECT_LT(find_sunk(capsule, hand.hands.front().meshes).depth_m, 1.5e-3);
+        EXPECT_LT(find_penetration(capsule, hand.hands.front().meshes).depth_m, 1.5e-3);
     }
     EXPECT_EQ(hand.pose().target[2].curl_rad, grip.fingers[2].curl_rad);
 }
@@ -186,16 +186,16 @@ struct OnTheWayUp : OnFloor {
         const std::vector<PlacedMesh> meshes = {{&floor, {}}};
         double deepest_m = 0.0;
         for (const Capsule& capsule : chain_capsules(chain, grip.fingers[f].curl_rad)) {
-            deepest_m = std::max(deepest_m, find_sunk(capsule, meshes).depth_m);
+            deepest_m = std::max(deepest_m, find_penetration(capsule, meshes).depth_m);
         }
         return deepest_m;
     }
 };
 
 TEST_F(OnTheWayUp, FingersAreTakenAsPosedWhereTheyClearAtTheEnd) {
-    for (const double stroll_m : {1e-6, 0.01}) {
+    for (const double reuse_travel_m : {1e-6, 0.01}) {
         FittedHand hand(floor, low);
-        hand.tuning.finger.stroll_m = stroll_m;
+        hand.tuning.finger.reuse_travel_m = reuse_travel_m;
         hand.hands.front().authored = &grip;
         hand.frame(dt_s);
         for (const std::size_t f : {0U, 1U}) {
@@ -208,9 +208,9 @@ TEST_F(OnTheWayUp, FingersAreTakenAsPosedWhereTheyClearAtTheEnd) {
         EXPECT_LT(distance(hand.shown_bs(), grip.wrist_bs), 1e-9);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad)
-                << "finger " << f << " stroll " << stroll_m;
+                << "finger " << f << " stroll " << reuse_travel_m;
         }
-        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 0U);
+        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
     }
 }
 
@@ -218,15 +218,15 @@ TEST_F(OnTheWayUp, FingersThatAreSunkInTheGripAreCountedOnce) {
     for (const std::size_t f : {0U, 1U}) {
         turn_rad(f) += 0.3;
     }
-    for (const double stroll_m : {1e-6, 0.01}) {
+    for (const double reuse_travel_m : {1e-6, 0.01}) {
         FittedHand hand(floor, low);
-        hand.tuning.finger.stroll_m = stroll_m;
+        hand.tuning.finger.reuse_travel_m = reuse_travel_m;
         hand.tuning.finger.close_radps = 0.5;  // long on their way
         hand.hands.front().authored = &grip;
         for (int frame = 0; frame < 90; ++frame) {
             hand.frame(dt_s);
         }
-        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_fitted), 2U);
+        EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 2U);
     }
 }
 
@@ -383,7 +383,7 @@ TEST(AuthoredGripScene, OneHandHasAGripForItself) {
                Pose{Vec3(-0.03, 0.0, 0.0), Quat::Identity()};
     };
     std::uint64_t taken = 0;
-    scene.s.run(0.8, [&] { taken += count_of(scene.s.stats, Fallback::authored_grip_taken); });
+    scene.s.run(0.8, [&] { taken += count_of(scene.s.stats, Fallback::authored_grip_occupied); });
     EXPECT_EQ(taken, 1U);
     EXPECT_NE(scene.hold(), nullptr);
     EXPECT_FALSE(scene.s.world.authored_hold.contains(scene.s.player.hands[0]));
@@ -411,7 +411,7 @@ TEST(AuthoredGripScene, HandThatTurnsFarAwayOnAFixedThingLeavesTheGrip) {
         turned.rotation = turned.rotation * rotation_about(Vec3::UnitX(), 2.6 * ease(t, 0.5, 1.5));
         return turned;
     };
-    scene.s.run(2.0, [&] { left += count_of(scene.s.stats, Fallback::authored_grip_left); });
+    scene.s.run(2.0, [&] { left += count_of(scene.s.stats, Fallback::authored_grip_abandoned); });
     EXPECT_EQ(left, 1U);
     EXPECT_EQ(scene.shown().grip, GripKind::surface);
 }

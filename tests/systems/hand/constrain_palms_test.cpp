@@ -113,7 +113,7 @@ TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
         EXPECT_GE((center_bs - surface.point_bs).dot(surface.normal_bs),
                   tuning.min_height_m + k_lift_m - 1e-6)
             << i;
-        worse += lifted.sunk_m > held.sunk_m + 1e-4 ? 1 : 0;
+        worse += lifted.penetration_m > held.penetration_m + 1e-4 ? 1 : 0;
     }
     EXPECT_GT(worse, 5);
 }
@@ -132,9 +132,9 @@ TEST_F(ConstrainPalms, LiftedPalmsGoNoFartherThanTheirLift) {
         const PalmFit lifted =
             fit_palm(hand.hands.front(), surface, k_lift_m, hand.tuning.palm, {.last = &surface});
         const Vec3 way = transform_point(lifted.wrist_bs, rig.palm_center_hs) -
-                         transform_point(surface.held_bs, rig.palm_center_hs);
+                         transform_point(surface.fitted_wrist_bs, rig.palm_center_hs);
         EXPECT_LT((way - k_lift_m * surface.normal_bs).norm(), k_pushed_less_m) << i;
-        EXPECT_LE(lifted.sunk_m, 1e-4) << i;
+        EXPECT_LE(lifted.penetration_m, 1e-4) << i;
     }
 }
 

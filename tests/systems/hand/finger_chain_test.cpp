@@ -75,7 +75,7 @@ TEST_F(FingerChain, FingersOverAnotherPartThanThePalmFindIt) {
     for (std::size_t f = k_index; f < rig.fingers.size(); ++f) {
         EXPECT_GE(hand.traces[0][f].contact_link, 0) << f;
     }
-    EXPECT_EQ(hand.stats.fallbacks[static_cast<std::size_t>(Fallback::finger_searched_all)], 0U);
+    EXPECT_EQ(hand.stats.fallbacks[static_cast<std::size_t>(Fallback::finger_full_search)], 0U);
 }
 
 TEST(IsClearlyBetter, WhatIsClearOrHalfAsDeepIs) {
@@ -96,20 +96,20 @@ TEST(IsClearlyBetter, WhatIsClearOrHalfAsDeepIs) {
 TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {
     constexpr double k_dt_s = 1.0 / 90.0;
     FingerTuning tuning;
-    tuning.change_radps = 9.0;  // 0.1 a frame
-    tuning.close_radps = 4.5;   // 0.05 a frame
+    tuning.transition_radps = 9.0;  // 0.1 a frame
+    tuning.close_radps = 4.5;       // 0.05 a frame
     FingerPose pose;
     pose.shown[k_index].curl_rad = {1.0, 0.5, 0.0};
-    begin_change({0.65, 0.3, 0.2}, k_index, pose);
+    begin_transition({0.65, 0.3, 0.2}, k_index, pose);
     pose.target[k_index].curl_rad = {0.65, 0.3, 0.2};
-    const std::array<std::array<double, k_most_links>, 4> expected = {
+    const std::array<std::array<double, k_max_links>, 4> expected = {
         {{0.9, 0.4, 0.05}, {0.8, 0.3, 0.1}, {0.6, 0.2, 0.15}, {0.55, 0.2, 0.2}}};
     for (std::size_t frame = 0; frame < expected.size(); ++frame) {
         if (frame == 2) {  // the surface comes nearer
             pose.target[k_index].curl_rad = {0.55, 0.2, 0.2};
         }
         follow_target(k_index, k_dt_s, tuning, pose);
-        for (std::size_t i = 0; i < k_most_links; ++i) {
+        for (std::size_t i = 0; i < k_max_links; ++i) {
             EXPECT_NEAR(pose.shown[k_index].curl_rad[i], expected[frame][i], 1e-12)
                 << "frame " << frame << ", link " << i;
         }
@@ -118,7 +118,7 @@ TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {
 
     // The hand lets go and becomes a fist: what was left to open is not to be closed beyond it.
     pose.shown[k_index].curl_rad = {1.6, 1.6, 1.6};
-    begin_change({0.2, 0.2, 0.2}, k_index, pose);
+    begin_transition({0.2, 0.2, 0.2}, k_index, pose);
     pose.target[k_index].curl_rad = {1.36, 1.36, 1.36};
     double last_rad = 1.6;
     for (int frame = 0; frame < 20; ++frame) {
@@ -128,7 +128,7 @@ TEST(FollowTarget, OpensAtARateOnlyOnTheWayToAnotherFit) {
     }
     EXPECT_EQ(last_rad, 1.36);
 
-    begin_change({0.0, 0.0, 0.0}, k_index, pose);
+    begin_transition({0.0, 0.0, 0.0}, k_index, pose);
     pose.target[k_index].curl_rad = {0.0, 0.0, 0.0};
     follow_target(k_index, k_at_once_s, tuning, pose);
     EXPECT_EQ(pose.shown[k_index].curl_rad, pose.target[k_index].curl_rad);

@@ -38,12 +38,12 @@ void expect_counted(FittedHand& hand) {
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const bool is_thumb = hand.rig.fingers[f].name == FingerName::thumb;
         const ChainFallback fallback = hand.traces[0][f].fallback;
-        relaxed += fallback == ChainFallback::relaxed ? 1 : 0;
-        bent += fallback == ChainFallback::bent && !is_thumb ? 1 : 0;
+        relaxed += fallback == ChainFallback::rest_pose ? 1 : 0;
+        bent += fallback == ChainFallback::sample_pose && !is_thumb ? 1 : 0;
         opened += fallback == ChainFallback::opened && !is_thumb ? 1 : 0;
     }
-    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_touches_nothing), relaxed);
-    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_bent), bent);
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_no_contact), relaxed);
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_depenetrated), bent);
     EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_opened), opened);
 }
 

@@ -22,9 +22,9 @@ struct Dear {
 // A digit that was tried anew waits longer than before: its way makes the wait shorter.
 Dear dear_in(FittedHand& hand, const FingerPose& before) {
     Dear dear;
-    dear.surfaces = hand.surface.at(k_right).was_judged ? 1 : 0;
+    dear.surfaces = hand.surface.at(k_right).evaluated_this_frame ? 1 : 0;
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
-        const bool is_anew = hand.pose().retry[f].wait_m > before.retry[f].wait_m;
+        const bool is_anew = hand.pose().backoff[f].retry_in_m > before.backoff[f].retry_in_m;
         const bool is_thumb = hand.rig.fingers[f].name == FingerName::thumb;
         dear.fingers += is_anew && !is_thumb ? 1 : 0;
         dear.thumbs += is_anew && is_thumb ? 1 : 0;
@@ -44,20 +44,20 @@ TEST(HandTurns, SlidingHandDoesOneDearThingAFrame) {
     for (const double z : {-0.03, 0.0, 0.03}) {
         const Pose from = test::wrist_with_palm_at(rig, {0.0, 0.02, z}, Vec3::UnitY());
         FittedHand hand(ring, from);
-        bool was_judged = false;
+        bool evaluated_this_frame = false;
         for (int frame = 0; frame < k_frames; ++frame) {
             const int slid = std::max(0, frame - k_settling) % 40;
             hand.wrist_bs().position.x() = from.position.x() + k_step_m * std::min(slid, 40 - slid);
             const FingerPose before = hand.pose();
             hand.frame(k_dt_s);
             const Dear dear = dear_in(hand, before);
-            EXPECT_FALSE(was_judged && dear.surfaces > 0 && frame > 0) << frame;
-            was_judged = dear.surfaces > 0;
+            EXPECT_FALSE(evaluated_this_frame && dear.surfaces > 0 && frame > 0) << frame;
+            evaluated_this_frame = dear.surfaces > 0;
             const FingerPose& pose = hand.pose();
             const bool is_closing =
-                pose.thumb_search.runs ||
-                std::any_of(pose.retry.begin(), pose.retry.end(),
-                            [](const FingerRetry& retry) { return retry.queued > 0; });
+                pose.thumb_search.is_running ||
+                std::any_of(pose.backoff.begin(), pose.backoff.end(),
+                            [](const FingerBackoff& backoff) { return backoff.queued_frames > 0; });
             if (frame < k_settling || is_closing) {
                 continue;
             }
@@ -78,7 +78,8 @@ double depth_with_m(FittedHand& hand, const HingeChain& chain, std::size_t f, do
     for (Capsule capsule : chain_capsules(chain, hand.pose().target[f].curl_rad)) {
         if (capsule.radius_m > 0.0) {
             capsule.radius_m += thicker_m;
-            deepest_m = std::max(deepest_m, find_sunk(capsule, hand.hands.front().meshes).depth_m);
+            deepest_m =
+                std::max(deepest_m, find_penetration(capsule, hand.hands.front().meshes).depth_m);
         }
     }
     return deepest_m;
@@ -100,13 +101,13 @@ int count_hanging(FittedHand& hand) {
     int hanging = 0;
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const FingerRig& finger = hand.rig.fingers[f];
-        if (finger.name == FingerName::thumb || hand.pose().retry[f].tries == 0) {
+        if (finger.name == FingerName::thumb || hand.pose().backoff[f].failures == 0) {
             continue;
         }
         const HingeChain chain = finger_chain(finger, 0.0, hand.shown_bs());
         const ChainFit anew =
             fit_chain(chain, hand.hands.front().meshes, {}, settings, hand.fit_scratch);
-        const bool could = anew.fallback == ChainFallback::bent && touches(anew) &&
+        const bool could = anew.fallback == ChainFallback::sample_pose && touches(anew) &&
                            anew.depth_m <= settings.open_depth_m;
         hanging += could && depth_with_m(hand, chain, f, k_touches_m) <= 0.0 ? 1 : 0;
     }
@@ -158,7 +159,7 @@ void slide_and_stop(const GripMesh& mesh, const Pose& from, std::uint32_t seed, 
         }
         stops.hanging_at_rest += count_hanging(hand);
         stops.thumbs_amiss += is_thumb_amiss(hand) ? 1 : 0;
-        stops.restless += hand.pose().arrived && hand.pose().thumb_arrived ? 0 : 1;
+        stops.restless += hand.pose().converged && hand.pose().thumb_converged ? 0 : 1;
     }
 }
 
@@ -184,12 +185,12 @@ TEST(HandTurns, HandsThatStopTouchAgainAndRest) {
 }
 
 // How often a digit of a hand that slides fast to and fro is tried anew.
-int count_tries(const GripMesh& mesh, double slide_depth_m) {
+int count_tries(const GripMesh& mesh, double fast_refit_depth_m) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Pose from = test::wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
     FittedHand hand(mesh, from);
-    hand.tuning.finger.slide_depth_m = slide_depth_m;
+    hand.tuning.finger.fast_refit_depth_m = fast_refit_depth_m;
     hand.frame(test::k_at_once_s);
     int tries = 0;
     for (int frame = 0; frame < 400; ++frame) {
@@ -204,7 +205,7 @@ int count_tries(const GripMesh& mesh, double slide_depth_m) {
 
 TEST(HandTurns, FingersOfAFastHandAreTriedAnewWhereTheyAreSunkSoDeep) {
     const GripMesh ring = build_grip_mesh(test::make_torus(0.035, 0.008, 40, 16));
-    const int usual = count_tries(ring, FingerTuning{}.slide_depth_m);
+    const int usual = count_tries(ring, FingerTuning{}.fast_refit_depth_m);
     EXPECT_GT(usual, 10);
     EXPECT_GT(count_tries(ring, 1e-4), usual + usual / 10);
     EXPECT_LT(count_tries(ring, 0.1), usual / 2);

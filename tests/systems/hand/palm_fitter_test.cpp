@@ -35,13 +35,13 @@ bool goes_in(const Mesh& mesh, const Vec3& tracked, const Vec3& held) {
     const Tuning tuning;
     FittedHand hand(grip, wrist_with_palm_at(rig, tracked, Vec3::UnitY()));
     const HandSurroundings& surroundings = hand.hands.front();
-    const PalmHolder holder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm);
-    HeldPalm palm;
-    palm.surface.held_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
-    return holder.is_entering(palm);
+    const PalmFitter holder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm);
+    FittedPalm palm;
+    palm.surface.fitted_wrist_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
+    return holder.enters_solid(palm);
 }
 
-TEST(PalmHolder, TellsWhatAPalmGoesInto) {
+TEST(PalmFitter, TellsWhatAPalmGoesInto) {
     const Vec3 above(0.011, 0.2, 0.017);
     const auto below = [&](double down_m) -> Vec3 { return above - Vec3(0.003, down_m, 0.001); };
     const Vec3 half(0.1, 0.05, 0.1);
@@ -75,24 +75,24 @@ TEST(PalmHolder, TellsWhatAPalmGoesInto) {
 }
 
 // How deep surfaces go through a palm that is held there, of the meshes under the hand.
-double crossed_m(std::vector<PlacedMesh> meshes, const Vec3& held) {
+double crossing_depth_m(std::vector<PlacedMesh> meshes, const Vec3& held) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Tuning tuning;
-    HeldPalm palm;
-    palm.surface.held_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
-    FittedHand hand(*meshes.front().mesh, palm.surface.held_bs);
+    FittedPalm palm;
+    palm.surface.fitted_wrist_bs = wrist_with_palm_at(rig, held, Vec3::UnitY());
+    FittedHand hand(*meshes.front().mesh, palm.surface.fitted_wrist_bs);
     HandSurroundings& surroundings = hand.hands.front();
     surroundings.meshes = std::move(meshes);
-    return PalmHolder(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm)
-        .crossed_m(palm);
+    return PalmFitter(surroundings, surroundings.wrist_bs, test::k_at_once_s, tuning.palm)
+        .crossing_depth_m(palm);
 }
 
-TEST(PalmHolder, TellsWhatGoesThroughAPalm) {
+TEST(PalmFitter, TellsWhatGoesThroughAPalm) {
     Mesh floor;
     add_box(Vec3(0.0, -0.05, 0.0), Vec3(0.3, 0.05, 0.3), floor);
     const GripMesh floor_grip = build_grip_mesh(floor);
-    EXPECT_EQ(crossed_m({{&floor_grip, {}}}, {0.0, 0.05, 0.0}), 0.0);
-    EXPECT_EQ(crossed_m({{&floor_grip, {}}}, {0.0, 0.012, 0.0}), 0.0);  // only sunk
+    EXPECT_EQ(crossing_depth_m({{&floor_grip, {}}}, {0.0, 0.05, 0.0}), 0.0);
+    EXPECT_EQ(crossing_depth_m({{&floor_grip, {}}}, {0.0, 0.012, 0.0}), 0.0);  // only sunk
 
     // Across the longest capsule's middle, in a frame of its own.
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -112,12 +112,14 @@ TEST(PalmHolder, TellsWhatGoesThroughAPalm) {
     add_box(Vec3::Zero(), Vec3(k_half_thick_m, 0.2, 0.2), wall);
     const GripMesh wall_grip = build_grip_mesh(wall);
     const double expected_m = longest.radius_m + 0.5 * length_m(longest) - k_half_thick_m;
-    EXPECT_NEAR(crossed_m({{&floor_grip, {}}, {&wall_grip, placed}}, held), expected_m, 1e-4);
-    EXPECT_NEAR(crossed_m({{&wall_grip, placed}, {&floor_grip, {}}}, held), expected_m, 1e-4);
+    EXPECT_NEAR(crossing_depth_m({{&floor_grip, {}}, {&wall_grip, placed}}, held), expected_m,
+                1e-4);
+    EXPECT_NEAR(crossing_depth_m({{&wall_grip, placed}, {&floor_grip, {}}}, held), expected_m,
+                1e-4);
 }
 
 // Over a floor a palm comes by its push to where a look finds it clear.
-TEST(PalmHolder, CarriesAPalmOnToWhereItIsKept) {
+TEST(PalmFitter, CarriesAPalmOnToWhereItIsKept) {
     const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
     test::Random random(2109);
@@ -131,13 +133,13 @@ TEST(PalmHolder, CarriesAPalmOnToWhereItIsKept) {
         hand.wrist_bs() =
             hand.wrist_bs() * Pose{random.vector(0.002), rotation_from_vector(random.vector(0.02))};
         const HandSurroundings& surroundings = hand.hands.front();
-        PalmHolder holder(surroundings, surroundings.wrist_bs, 1.0 / 90.0, hand.tuning.palm);
-        const auto found = holder.found_at(last.triangle);
-        const Pose kept = holder.keep_at(found, last).surface.held_bs;
-        const Pose carried = holder.carry_on(found, last).held_bs;
+        PalmFitter holder(surroundings, surroundings.wrist_bs, 1.0 / 90.0, hand.tuning.palm);
+        const auto found = holder.candidate_at(last.triangle);
+        const Pose kept = holder.refine_at(found, last).surface.fitted_wrist_bs;
+        const Pose carried = holder.refine_unchecked(found, last).fitted_wrist_bs;
         EXPECT_LT((kept.position - carried.position).norm(), 2e-3) << i;
         EXPECT_LT(kept.rotation.angularDistance(carried.rotation), 0.02) << i;
-        moved += (kept.position - last.held_bs.position).norm() > 1e-3 ? 1 : 0;
+        moved += (kept.position - last.fitted_wrist_bs.position).norm() > 1e-3 ? 1 : 0;
     }
     EXPECT_GT(moved, 50);
 }

@@ -20,15 +20,16 @@ using test::k_right;
 using test::Random;
 using test::wrist_with_palm_at;
 
-// How deep the palm is that search_grip holds, by find_sunk, which has its own tests.
+// How deep the palm is that search_grip holds, by find_penetration, which has its own tests.
 double palm_sunk_m(FittedHand& hand) {
-    const Pose& wrist_bs = hand.surface.at(k_right).held_bs;
+    const Pose& wrist_bs = hand.surface.at(k_right).fitted_wrist_bs;
     double deepest_m = 0.0;
     for (const PalmCapsule& palm : hand.rig.palm) {
         const Capsule capsule = {
             {transform_point(wrist_bs, palm.a_hs), transform_point(wrist_bs, palm.b_hs)},
             palm.radius_m};
-        deepest_m = std::max(deepest_m, find_sunk(capsule, hand.hands.front().meshes).depth_m);
+        deepest_m =
+            std::max(deepest_m, find_penetration(capsule, hand.hands.front().meshes).depth_m);
     }
     return deepest_m;
 }
@@ -38,14 +39,15 @@ bool is_finger_crossed(FittedHand& hand) {
     const GripSurface& surface = hand.surface.at(k_right);
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const FingerRig& finger = hand.rig.fingers[f];
-        const auto bent = bent_as(finger, surface.bends[f]);
+        const auto bent = sample_pose_angles(finger, surface.finger_samples[f]);
         if (!bent) {
             continue;
         }
-        const HingeChain chain = finger_chain(finger, bent->opposition_rad, surface.held_bs);
+        const HingeChain chain =
+            finger_chain(finger, bent->opposition_rad, surface.fitted_wrist_bs);
         const auto links = chain_capsules(chain, bent->curl_rad);
         for (std::size_t i = 0; i < chain.link_count; ++i) {
-            if (find_sunk(links[i], hand.hands.front().meshes).crossed_at) {
+            if (find_penetration(links[i], hand.hands.front().meshes).crossed_at) {
                 return true;
             }
         }
@@ -219,19 +221,21 @@ GripMesh make_floor_and_block() {
     return build_grip_mesh(mesh);
 }
 
-struct FingerRoom {
+struct FingerClearance {
     const GripMesh mesh = make_floor_and_block();
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Pose before_block = wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
     ChainPatch patch;
 
-    double sunk_m(FittedHand& hand) {
-        return find_finger_room(hand.hands.front(), hand.surface.at(k_right).held_bs, patch).sunk_m;
+    double penetration_m(FittedHand& hand) {
+        return find_finger_clearance(hand.hands.front(), hand.surface.at(k_right).fitted_wrist_bs,
+                                     patch)
+            .penetration_m;
     }
 };
 
 TEST(SearchGrip, LeavesFingersRoom) {
-    FingerRoom room;
+    FingerClearance room;
     FittedHand hand(room.mesh, room.before_block);
     // Under the palm there is none.
     GripSurface under;
@@ -239,10 +243,12 @@ TEST(SearchGrip, LeavesFingersRoom) {
     const auto near = room.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
-    const Pose held_bs = fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_room(hand.hands.front(), held_bs, room.patch).sunk_m, 0.005);
+    const Pose fitted_wrist_bs =
+        fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
+    ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, room.patch).penetration_m,
+              0.005);
     hand.search();
-    EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
+    EXPECT_LE(room.penetration_m(hand), k_finger_penetration_tolerance_m);
 }
 
 // A gripping hand that is thrown farther than its room was known to reach, in the frame after its
@@ -251,15 +257,15 @@ TEST(SearchGrip, LeavesFingersRoom) {
 TEST(SearchGrip, SeesWhatItIsThrownIntoInTheSameFrame) {
     constexpr double k_dt_s = 1.0 / 90.0;
     constexpr double k_beside_x_m = -0.27;
-    FingerRoom room;
+    FingerClearance room;
     for (const double thrown_m : {0.03, 0.04, 0.05, 0.06}) {
         const auto beside_block = [&](double x_m) {
             return wrist_with_palm_at(room.rig, {x_m, 0.02, -0.15}, Vec3::UnitY());
         };
         FittedHand hand(room.mesh, beside_block(k_beside_x_m));
         hand.search(k_dt_s);
-        ASSERT_TRUE(hand.surface.at(k_right).was_judged) << thrown_m;
-        ASSERT_GT(hand.surface.at(k_right).has_room_m, 0.0) << thrown_m;
+        ASSERT_TRUE(hand.surface.at(k_right).evaluated_this_frame) << thrown_m;
+        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << thrown_m;
         ASSERT_LE(palm_sunk_m(hand), 1e-4) << thrown_m;
         hand.wrist_bs() = beside_block(k_beside_x_m + thrown_m);
         hand.search(k_dt_s);
@@ -278,7 +284,7 @@ TEST(SearchGrip, SeesWhatIsMovedIntoIt) {
         HandSurroundings& around = hand.hands.front();
         around.meshes.push_back({&block, {Vec3(-0.16, 0.06, 0.0), Quat::Identity()}});
         hand.search(k_dt_s);
-        ASSERT_GT(hand.surface.at(k_right).has_room_m, 0.0);
+        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0);
         ASSERT_LE(palm_sunk_m(hand), 1e-4);
         around.meshes.back().pose.position.x() += way_m;
         ++around.signature;
@@ -299,27 +305,30 @@ TEST(SearchGrip, HoldsFingersClearWithThePalm) {
     const Vec3 up = rotation_about(Vec3::UnitX(), -0.4) * Vec3::UnitY();
     const Pose wrist_bs = wrist_with_palm_at(rig, {0.013, 0.012, 0.007}, up);
     ChainPatch patch;
-    const auto fingers_sunk_m = [&](const FittedHand& hand) {
-        return find_finger_room(hand.hands.front(), hand.surface.at(k_right).held_bs, patch).sunk_m;
+    const auto finger_penetration_m = [&](const FittedHand& hand) {
+        return find_finger_clearance(hand.hands.front(), hand.surface.at(k_right).fitted_wrist_bs,
+                                     patch)
+            .penetration_m;
     };
     FittedHand at_once(floor, wrist_bs);
     GripSurface palm_alone;
     palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
     const Pose alone_bs =
         fit_palm(at_once.hands.front(), palm_alone, 0.0, at_once.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_room(at_once.hands.front(), alone_bs, patch).sunk_m, 0.003);
+    ASSERT_GT(find_finger_clearance(at_once.hands.front(), alone_bs, patch).penetration_m, 0.003);
     at_once.search();
-    EXPECT_LE(fingers_sunk_m(at_once), k_fingers_have_room_m);
+    EXPECT_LE(finger_penetration_m(at_once), k_finger_penetration_tolerance_m);
     // In frames the palm alone is judged first, then with its fingers.
     FittedHand hand(floor, wrist_bs);
     hand.search(k_dt_s);
-    EXPECT_TRUE(hand.surface.at(k_right).to_clear != FingerBends{});
+    EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples != FingerSamplePoses{});
     constexpr int k_soon = 2;
     for (int frame = 1; frame < 60; ++frame) {
         hand.search(k_dt_s);
         if (frame >= k_soon) {
-            EXPECT_LE(fingers_sunk_m(hand), k_fingers_have_room_m) << frame;
-            EXPECT_TRUE(hand.surface.at(k_right).to_clear == FingerBends{}) << frame;
+            EXPECT_LE(finger_penetration_m(hand), k_finger_penetration_tolerance_m) << frame;
+            EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples == FingerSamplePoses{})
+                << frame;
         }
     }
 }
@@ -333,38 +342,42 @@ TEST(SearchGrip, IsOverAtOnceOnAPlainFloor) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.01, 0.007}, Vec3::UnitY()));
     for (int frame = 0; frame < 3; ++frame) {
         hand.search(k_dt_s);
-        EXPECT_EQ(hand.surface.at(k_right).tried_count, 0U) << frame;
-        EXPECT_EQ(hand.surface.at(k_right).look_in_m, 0.0) << frame;
-        EXPECT_GT(hand.surface.at(k_right).has_room_m, 0.0) << frame;
+        EXPECT_EQ(hand.surface.at(k_right).evaluated_count, 0U) << frame;
+        EXPECT_EQ(hand.surface.at(k_right).candidate_recheck_in_m, 0.0) << frame;
+        EXPECT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << frame;
     }
 }
 
 // In frames, a surface or two in each, a hand at rest comes to what it finds at once, and rests.
 TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FingerRoom room;
+    FingerClearance room;
     FittedHand at_once(room.mesh, room.before_block);
     at_once.search();
     // The first surface, it with its fingers, the list of the others, the second.
     constexpr std::int32_t k_enough = 4;
     for (const std::int32_t tries : {1, 2, 3, k_enough}) {
         FittedHand hand(room.mesh, room.before_block);
-        hand.tuning.palm.tries_per_frame = tries;
+        hand.tuning.palm.evaluations_per_frame = tries;
         hand.search(k_dt_s);
-        EXPECT_EQ(room.sunk_m(hand) <= k_fingers_have_room_m, tries >= k_enough) << tries;
+        EXPECT_EQ(room.penetration_m(hand) <= k_finger_penetration_tolerance_m, tries >= k_enough)
+            << tries;
         for (int frame = 0; frame < 60; ++frame) {
             hand.constrain(test::k_at_once_s);
             hand.search(k_dt_s);
         }
         const GripSurface found = hand.surface.at(k_right);
         hand.constrain(test::k_at_once_s);
-        EXPECT_LT((hand.shown_bs().position - found.held_bs.position).norm(), 1e-9);
-        EXPECT_EQ(found.tried_count, 0U);
-        EXPECT_LE(room.sunk_m(hand), k_fingers_have_room_m);
-        EXPECT_LT((found.held_bs.position - at_once.surface.at(k_right).held_bs.position).norm(),
-                  5e-3);
+        EXPECT_LT((hand.shown_bs().position - found.fitted_wrist_bs.position).norm(), 1e-9);
+        EXPECT_EQ(found.evaluated_count, 0U);
+        EXPECT_LE(room.penetration_m(hand), k_finger_penetration_tolerance_m);
+        EXPECT_LT(
+            (found.fitted_wrist_bs.position - at_once.surface.at(k_right).fitted_wrist_bs.position)
+                .norm(),
+            5e-3);
         hand.search(k_dt_s);
-        EXPECT_EQ(hand.surface.at(k_right).held_bs.position, found.held_bs.position);
+        EXPECT_EQ(hand.surface.at(k_right).fitted_wrist_bs.position,
+                  found.fitted_wrist_bs.position);
     }
 }
 
@@ -372,28 +385,28 @@ TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
 // meanwhile; the list is gone through once.
 TEST(SearchGrip, ListsWhatItIsToTryOnce) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FingerRoom room;
+    FingerClearance room;
     FittedHand hand(room.mesh, room.before_block);
     const GripSurface& surface = hand.surface.at(k_right);
     std::vector<std::uint32_t> listed;
     std::uint32_t tried = 0;
     int frames = 0;
-    for (int frame = 0; frame < 60 && (frame < 2 || surface.tried_count > 0); ++frame) {
+    for (int frame = 0; frame < 60 && (frame < 2 || surface.evaluated_count > 0); ++frame) {
         hand.wrist_bs().position.x() += 2e-4;
         hand.search(k_dt_s);
-        if (surface.tried_count > 0 && surface.listed_count > 0) {
-            const std::vector<std::uint32_t> now(surface.tried.begin(),
-                                                 surface.tried.begin() + surface.listed_count);
+        if (surface.evaluated_count > 0 && surface.candidate_count > 0) {
+            const std::vector<std::uint32_t> now(
+                surface.candidates.begin(), surface.candidates.begin() + surface.candidate_count);
             listed = listed.empty() ? now : listed;
             EXPECT_EQ(now, listed) << frame;
-            EXPECT_GE(surface.tried_count, tried) << frame;
-            EXPECT_LE(surface.tried_count, surface.listed_count) << frame;
-            tried = surface.tried_count;
+            EXPECT_GE(surface.evaluated_count, tried) << frame;
+            EXPECT_LE(surface.evaluated_count, surface.candidate_count) << frame;
+            tried = surface.evaluated_count;
             ++frames;
         }
     }
-    EXPECT_EQ(surface.tried_count, 0U);
-    EXPECT_EQ(surface.listed_count, 0U);
+    EXPECT_EQ(surface.evaluated_count, 0U);
+    EXPECT_EQ(surface.candidate_count, 0U);
     EXPECT_GT(listed.size(), 1U);
     EXPECT_GT(frames, 1);
 }
@@ -413,15 +426,15 @@ TEST(SearchGrip, FollowsASurfaceAsWellAsItSearchesForOne) {
     int followed = 0;
     for (int frame = 0; frame < 150; ++frame) {
         hand.wrist_bs() = on_ring(0.018 * frame);
-        const double search_in_m = hand.surface.at(k_right).search_in_m;
+        const double full_search_in_m = hand.surface.at(k_right).full_search_in_m;
         hand.search(k_dt_s);
         const GripSurface& surface = hand.surface.at(k_right);
         ASSERT_NE(surface.triangle, GripSurface::k_none) << frame;
-        followed += surface.search_in_m < search_in_m ? 1 : 0;
+        followed += surface.full_search_in_m < full_search_in_m ? 1 : 0;
         FittedHand afresh(ring, hand.wrist_bs());
         afresh.search();
         const auto sync_m = [&](const GripSurface& found) {
-            return grip_sync(hand.wrist_bs(), found.held_bs, rig.palm_center_hs).palm_m;
+            return grip_sync(hand.wrist_bs(), found.fitted_wrist_bs, rig.palm_center_hs).palm_m;
         };
         EXPECT_LE(sync_m(surface), sync_m(afresh.surface.at(k_right)) + 3e-3) << frame;
     }
@@ -430,7 +443,7 @@ TEST(SearchGrip, FollowsASurfaceAsWellAsItSearchesForOne) {
 }
 
 // A palm that goes on from where it was is pushed once a frame; at rest it is pushed on until it is
-// as clear as one that is held afresh, and then it rests. Depths are find_sunk's.
+// as clear as one that is held afresh, and then it rests. Depths are find_penetration's.
 TEST(SearchGrip, PalmThatComesToRestSettles) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
@@ -458,9 +471,9 @@ TEST(SearchGrip, PalmThatComesToRestSettles) {
         }
         ++compared;
         EXPECT_LE(palm_sunk_m(hand), 2e-4) << i;
-        const Vec3 held = hand.surface.at(k_right).held_bs.position;
+        const Vec3 held = hand.surface.at(k_right).fitted_wrist_bs.position;
         hand.search(k_dt_s);
-        EXPECT_EQ(hand.surface.at(k_right).held_bs.position, held) << i;
+        EXPECT_EQ(hand.surface.at(k_right).fitted_wrist_bs.position, held) << i;
     }
     EXPECT_GT(compared, 30);
 }

@@ -30,8 +30,8 @@ double sync_cost_m(const SurfaceGraph& graph, std::uint32_t triangle, const Vec3
     const auto& [a, b, c] = graph.triangles[triangle];
     const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
     const Vec3 wound = area_vector(corners).normalized();
-    const bool is_back = wound.dot(up) < 0.0;
-    const Vec3 normal = is_back ? Vec3(-wound) : wound;
+    const bool is_backface = wound.dot(up) < 0.0;
+    const Vec3 normal = is_backface ? Vec3(-wound) : wound;
     // Of all places of the prism over the triangle the nearest: in the plane and along the normal
     // apart, since they are at right angles.
     const double height_m = (center - corners[0]).dot(normal);
@@ -42,11 +42,11 @@ double sync_cost_m(const SurfaceGraph& graph, std::uint32_t triangle, const Vec3
     const double angle_rad = std::acos(std::clamp(up.dot(normal), -1.0, 1.0));
     return std::hypot(beside_m, lift_m) +
            tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
-           (is_back ? tuning.back_cost_m : 0.0);
+           (is_backface ? tuning.backface_cost_m : 0.0);
 }
 
 // From the nearest triangle on.
-SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const PalmTuning& tuning) {
+PalmCost searched(const GripMesh& mesh, const PalmFrame& palm, const PalmTuning& tuning) {
     GripSearchScratch scratch;
     SurfaceSearch search(mesh.search, palm, tuning, scratch);
     constexpr std::uint32_t k_patience = 24;
@@ -54,8 +54,8 @@ SurfaceCandidate searched(const GripMesh& mesh, const PalmPlace& palm, const Pal
         search.add_seed(near->triangle);
     }
     search.run(k_patience);
-    const auto found = search.cheapest_beside({});
-    return found ? SurfaceCandidate{found->cost_m, found->point} : SurfaceCandidate{};
+    const auto found = search.cheapest_excluding({});
+    return found ? PalmCost{found->cost_m, found->point} : PalmCost{};
 }
 
 TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
@@ -82,7 +82,7 @@ TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
     EXPECT_LE(missed, compared / 100);
 }
 
-// As cheapest_beside would, asked again and again.
+// As cheapest_excluding would, asked again and again.
 TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
     const PalmTuning tuning;
     Random random(2211);
@@ -91,27 +91,27 @@ TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
         const GripMesh mesh = build_grip_mesh(make_dunes(random));
         const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
         const Vec3 beside = random.vector(0.05);
-        const PalmPlace palm = {beside + random.between(0.0, 0.06) * Vec3::UnitY(), up};
+        const PalmFrame palm = {beside + random.between(0.0, 0.06) * Vec3::UnitY(), up};
         GripSearchScratch scratch;
         SurfaceSearch search(mesh.search, palm, tuning, scratch);
         search.add_seed(mesh.search_bvh.closest_point(palm.center, tuning.reach_m)->triangle);
-        search.run(SurfaceSearch::k_most_pops);
-        std::array<SurfaceSearch::Found, 5> tried = {*search.cheapest_beside({})};
-        const double most_m = 1e-6 + random.between(1.0, 4.0) * tried[0].cost_m;
-        std::vector<SurfaceSearch::Found> expected = {tried[0]};
-        while (expected.size() < tried.size()) {
-            const auto next = search.cheapest_beside(expected);
+        search.run(SurfaceSearch::k_max_pops);
+        std::array<SurfaceSearch::Candidate, 5> excluded = {*search.cheapest_excluding({})};
+        const double most_m = 1e-6 + random.between(1.0, 4.0) * excluded[0].cost_m;
+        std::vector<SurfaceSearch::Candidate> expected = {excluded[0]};
+        while (expected.size() < excluded.size()) {
+            const auto next = search.cheapest_excluding(expected);
             if (!next || next->cost_m >= most_m) {
                 break;
             }
             expected.push_back(*next);
         }
-        std::array<SurfaceSearch::Found, 5> from_none = {};
-        EXPECT_EQ(search.add_cheapest_beside(from_none, 0, most_m), expected.size()) << i;
-        const std::size_t count = search.add_cheapest_beside(tried, 1, most_m);
+        std::array<SurfaceSearch::Candidate, 5> from_none = {};
+        EXPECT_EQ(search.append_cheapest_excluding(from_none, 0, most_m), expected.size()) << i;
+        const std::size_t count = search.append_cheapest_excluding(excluded, 1, most_m);
         ASSERT_EQ(count, expected.size()) << i;
         for (std::size_t k = 0; k < count; ++k) {
-            EXPECT_EQ(tried[k].triangle, expected[k].triangle) << i;
+            EXPECT_EQ(excluded[k].triangle, expected[k].triangle) << i;
         }
         listed += count - 1;
     }

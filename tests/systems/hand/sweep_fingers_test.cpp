@@ -51,7 +51,7 @@ struct SweepFingers : testing::Test {
     // The palm just behind the beam's top, the fingers over it.
     const Pose on_beam = wrist_with_palm_at(rig, {0.003, 0.012, 0.004}, Vec3::UnitY());
 
-    // How deep a posed hand's links are, by find_sunk, which has its own tests.
+    // How deep a posed hand's links are, by find_penetration, which has its own tests.
     static double deepest_m(FittedHand& hand) {
         double deepest = 0.0;
         for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
@@ -60,8 +60,8 @@ struct SweepFingers : testing::Test {
                 finger_chain(hand.rig.fingers[f], angles.opposition_rad, hand.shown_bs());
             const auto capsules = chain_capsules(chain, angles.curl_rad);
             for (std::size_t i = 0; i < chain.link_count; ++i) {
-                deepest =
-                    std::max(deepest, find_sunk(capsules[i], hand.hands.front().meshes).depth_m);
+                deepest = std::max(
+                    deepest, find_penetration(capsules[i], hand.hands.front().meshes).depth_m);
             }
         }
         return deepest;
@@ -105,7 +105,7 @@ TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
     hand.frame(k_dt_s);
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
-            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].relaxed_rad[i] + 1e-12);
+            EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].rest_rad[i] + 1e-12);
         }
     }
 }
@@ -122,9 +122,9 @@ TEST_F(SweepFingers, ChangesFromFitToFitAreNotShownInOneFrame) {
         }
     }
     const double followed_rad = refit.open_share * refit.open_steps * range_rad;
-    const auto most_opened_rad = [&](double change_radps) {
+    const auto most_opened_rad = [&](double transition_radps) {
         FittedHand hand(beam, on_beam);
-        hand.tuning.finger.change_radps = change_radps;
+        hand.tuning.finger.transition_radps = transition_radps;
         hand.frame(k_at_once_s);
         double most_rad = 0.0;
         for (int frame = 0; frame < 540; ++frame) {
@@ -143,16 +143,17 @@ TEST_F(SweepFingers, ChangesFromFitToFitAreNotShownInOneFrame) {
         }
         return most_rad;
     };
-    const double change_radps = FingerTuning{}.change_radps;
-    EXPECT_LE(most_opened_rad(change_radps), change_radps * k_dt_s + followed_rad);
-    EXPECT_GT(most_opened_rad(1e6), 2.0 * (change_radps * k_dt_s + followed_rad));
+    const double transition_radps = FingerTuning{}.transition_radps;
+    EXPECT_LE(most_opened_rad(transition_radps), transition_radps * k_dt_s + followed_rad);
+    EXPECT_GT(most_opened_rad(1e6), 2.0 * (transition_radps * k_dt_s + followed_rad));
 }
 
 // A hand that grips pays for a few fingers in each frame; the thumb comes when they are closed.
 TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
     FittedHand hand(beam, on_beam);
-    const auto most = static_cast<std::size_t>(hand.tuning.finger.closings_per_frame);
-    const auto most_tries = static_cast<std::uint32_t>(hand.tuning.thumb.tries_per_frame);
+    const auto most = static_cast<std::size_t>(hand.tuning.finger.refits_per_frame);
+    const auto max_evaluations =
+        static_cast<std::uint32_t>(hand.tuning.thumb.evaluations_per_frame);
     std::size_t closed_in_all = 0;
     std::uint32_t thumb_frames = 0;
     for (int frame = 0; frame < 60; ++frame) {
@@ -163,14 +164,14 @@ TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
             closed += hand.traces[0][f].discs > 0 ? 1U : 0U;
         }
         EXPECT_LE(closed, most) << frame;
-        EXPECT_LE(hand.traces[0][0].discs, most_tries * k_disc_planes) << frame;
+        EXPECT_LE(hand.traces[0][0].discs, max_evaluations * k_disc_planes) << frame;
         if (hand.traces[0][0].discs > 0) {
             EXPECT_GE(closed_in_all + closed, rig.fingers.size() - 1) << frame;
             ++thumb_frames;
         }
         closed_in_all += closed;
     }
-    EXPECT_GE(thumb_frames * most_tries,
+    EXPECT_GE(thumb_frames * max_evaluations,
               static_cast<std::uint32_t>(hand.tuning.thumb.opposition_steps));
     EXPECT_LT(deepest_m(hand), 1.5e-3);
     EXPECT_EQ(hand.pose().shown[2].curl_rad, hand.pose().target[2].curl_rad);
@@ -180,15 +181,15 @@ TEST_F(SweepFingers, ClosesAFewFingersInAFrameAndThenTheThumb) {
 // grips next.
 TEST_F(SweepFingers, ThumbsSearchEndsWithTheGrip) {
     FittedHand hand(beam, on_beam);
-    for (int frame = 0; frame < 8 && hand.pose().thumb_search.tried == 0; ++frame) {
+    for (int frame = 0; frame < 8 && hand.pose().thumb_search.evaluated_count == 0; ++frame) {
         hand.frame(k_dt_s);
     }
-    ASSERT_TRUE(hand.pose().thumb_search.runs);
+    ASSERT_TRUE(hand.pose().thumb_search.is_running);
     const auto meshes = hand.hands.front().meshes;
     hand.hands.front().meshes.clear();
     hand.frame(k_dt_s);
-    EXPECT_FALSE(hand.pose().thumb_search.runs);
-    EXPECT_EQ(hand.pose().thumb_search.tried, 0U);
+    EXPECT_FALSE(hand.pose().thumb_search.is_running);
+    EXPECT_EQ(hand.pose().thumb_search.evaluated_count, 0U);
     hand.hands.front().meshes = meshes;
     for (int frame = 0; frame < 60; ++frame) {
         hand.frame(k_dt_s);
@@ -222,7 +223,7 @@ TEST_F(SweepFingers, KeepsTheFingersOfAHandThatStands) {
     const FingerPose before = hand.pose();
     const std::uint64_t counted = test::count_of_all(hand.stats);
     hand.traces[0] = {};
-    hand.wrist_bs().position.x() += 0.5 * hand.tuning.finger.stroll_m;
+    hand.wrist_bs().position.x() += 0.5 * hand.tuning.finger.reuse_travel_m;
     hand.frame(k_at_once_s);
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         EXPECT_EQ(hand.pose().target[f].curl_rad, before.target[f].curl_rad);
@@ -240,7 +241,7 @@ TEST_F(SweepFingers, FingersWithNothingToTouchLookAheadNowAndThen) {
     Pose at_end = on_beam;
     at_end.position.x() += 0.18;
     FittedHand hand(beam, at_end);
-    const auto waits_m = [&](std::size_t f) { return hand.pose().outlook[f].wait_m; };
+    const auto waits_m = [&](std::size_t f) { return hand.pose().lookahead[f].retry_in_m; };
     for (int frame = 0; frame < 30; ++frame) {
         hand.frame(k_dt_s);
     }
@@ -252,10 +253,12 @@ TEST_F(SweepFingers, FingersWithNothingToTouchLookAheadNowAndThen) {
         hand.frame(k_dt_s);
         for (std::size_t f = 0; f < rig.fingers.size() && open == k_finger_count; ++f) {
             const bool is_finger = rig.fingers[f].name != FingerName::thumb;
-            open = is_finger && waits_m(f) > 0.0 && !hand.pose().outlook[f].is_ahead ? f : open;
+            open = is_finger && waits_m(f) > 0.0 && !hand.pose().lookahead[f].has_surface_ahead
+                       ? f
+                       : open;
         }
         if (open != k_finger_count) {
-            looks += waits_m(open) > before.outlook[open].wait_m ? 1 : 0;
+            looks += waits_m(open) > before.lookahead[open].retry_in_m ? 1 : 0;
         }
     }
     ASSERT_NE(open, k_finger_count);
@@ -264,8 +267,8 @@ TEST_F(SweepFingers, FingersWithNothingToTouchLookAheadNowAndThen) {
     for (int frame = 0; frame < 120; ++frame) {
         hand.frame(k_dt_s);
     }
-    EXPECT_TRUE(hand.pose().arrived);
-    EXPECT_EQ(hand.pose().outlook[open].since_m, 0.0);  // it looked where it stands
+    EXPECT_TRUE(hand.pose().converged);
+    EXPECT_EQ(hand.pose().lookahead[open].travel_since_m, 0.0);  // it looked where it stands
 }
 
 // Looking ahead is dear: of the fingers that have looked before, one looks again in a frame, and
@@ -289,11 +292,12 @@ TEST_F(SweepFingers, OneFingerInAFrameLooksAheadAgain) {
         hand.frame(k_dt_s);
         int looked = 0;
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-            const FingerOutlook& outlook = hand.pose().outlook[f];
+            const FingerLookahead& lookahead = hand.pose().lookahead[f];
             const bool is_finger = rig.fingers[f].name != FingerName::thumb;
-            looked += is_finger && before.outlook[f].is_known && outlook.since_m == 0.0 &&
-                      before.outlook[f].since_m > 0.0 && outlook.is_known;
-            longest_m = is_finger ? std::max(longest_m, outlook.since_m) : longest_m;
+            looked += is_finger && before.lookahead[f].is_known &&
+                      lookahead.travel_since_m == 0.0 && before.lookahead[f].travel_since_m > 0.0 &&
+                      lookahead.is_known;
+            longest_m = is_finger ? std::max(longest_m, lookahead.travel_since_m) : longest_m;
         }
         EXPECT_LE(looked, 1) << frame;
         looks += looked;
@@ -303,7 +307,7 @@ TEST_F(SweepFingers, OneFingerInAFrameLooksAheadAgain) {
     EXPECT_GE(looks, k_frames * k_step_m / k_longest_m);
 }
 
-// What comes near does so without the hand. Expected: by find_sunk.
+// What comes near does so without the hand. Expected: by find_penetration.
 TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
     FittedHand hand(beam, on_beam);
     for (int frame = 0; frame < 20; ++frame) {
@@ -318,7 +322,8 @@ TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
     const auto depth_m = [&] {
         double deepest_m = 0.0;
         for (const Capsule& capsule : thumb_capsules()) {
-            deepest_m = std::max(deepest_m, find_sunk(capsule, hand.hands.front().meshes).depth_m);
+            deepest_m =
+                std::max(deepest_m, find_penetration(capsule, hand.hands.front().meshes).depth_m);
         }
         return deepest_m;
     };
@@ -350,7 +355,7 @@ TEST_F(SweepFingers, EmptyHandsAreAtEaseOrAFist) {
     hand.tracking.at(k_right).pressed = true;
     hand.frame(k_at_once_s);
     for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
-        EXPECT_EQ(at_ease.shown[f].curl_rad, rig.fingers[f].relaxed_rad);
+        EXPECT_EQ(at_ease.shown[f].curl_rad, rig.fingers[f].rest_rad);
         for (std::size_t i = 0; i < rig.fingers[f].link_count; ++i) {
             EXPECT_GT(hand.pose().shown[f].curl_rad[i], at_ease.shown[f].curl_rad[i]);
             EXPECT_LE(hand.pose().shown[f].curl_rad[i], rig.fingers[f].upper_rad[i]);
@@ -369,7 +374,7 @@ TEST_F(SweepFingers, HandOnAMovingBodyIsPosedAsOnAStandingOne) {
         EXPECT_LT((moving.shown_bs().position - standing.shown_bs().position).norm(), 1e-9);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             // 0.25 mm of a finger's end: which corners a walk leaves out, a rounding error decides.
-            for (std::size_t k = 0; k < k_most_links; ++k) {
+            for (std::size_t k = 0; k < k_max_links; ++k) {
                 EXPECT_NEAR(moving.pose().target[f].curl_rad[k],
                             standing.pose().target[f].curl_rad[k], 0.01)
                     << "finger " << f;
@@ -387,7 +392,7 @@ TEST_F(SweepFingers, LeftHandIsTheMirrorOfTheRightOne) {
     left.frame(k_at_once_s);
     EXPECT_LT((test::mirrored(left.shown_bs()).position - right.shown_bs().position).norm(), 1e-6);
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
-        for (std::size_t k = 0; k < k_most_links; ++k) {
+        for (std::size_t k = 0; k < k_max_links; ++k) {
             EXPECT_NEAR(left.pose().target[f].curl_rad[k], right.pose().target[f].curl_rad[k], 0.01)
                 << "finger " << f;
         }
@@ -453,7 +458,7 @@ TEST_F(SweepFingers, ThumbOfAnEmptyHandRests) {
     hand.hands.front().body = k_no_entity;
     hand.hands.front().meshes.clear();
     hand.frame(k_at_once_s);
-    EXPECT_EQ(hand.pose().shown[0].curl_rad, rig.fingers[0].relaxed_rad);
+    EXPECT_EQ(hand.pose().shown[0].curl_rad, rig.fingers[0].rest_rad);
     EXPECT_EQ(hand.pose().shown[0].opposition_rad, hand.tuning.thumb.rest_opposition_rad);
 }
 

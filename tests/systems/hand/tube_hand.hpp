@@ -17,7 +17,7 @@ inline SkinnedMesh make_tube_hand(const HandRig& rig,
                                   const Pose& hand_ms) {
     SkinnedMesh skin;
     skin.file = "tubes";
-    std::vector<std::array<Pose, k_most_links>> frames;
+    std::vector<std::array<Pose, k_max_links>> frames;
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         frames.push_back(finger_link_frames(rig.fingers[i], angles[i]));
     }

@@ -110,18 +110,18 @@ TEST(JointRail, TakesAPointAsNearToTheHandAsTheJointLetsIt) {
     const Vec3 from(1.3, 0.4, 0.0);
     const Quat turn = rotation_about(Vec3::UnitY(), 0.7);
     const Vec3 on_arc = hinge.point_hs + turn * (from - hinge.point_hs);
-    EXPECT_NEAR(way_along(hinge, from, on_arc), 0.7, 1e-15);
+    EXPECT_NEAR(travel_along(hinge, from, on_arc), 0.7, 1e-15);
     // Along the axle and away from it the thing cannot go.
     const Vec3 beside = on_arc + Vec3(0.0, 0.3, 0.0) + 0.5 * (turn * Vec3::UnitX());
-    EXPECT_NEAR(way_along(hinge, from, beside), 0.7, 1e-15);
-    EXPECT_EQ(way_along(hinge, hinge.point_hs, on_arc), 0.0);
+    EXPECT_NEAR(travel_along(hinge, from, beside), 0.7, 1e-15);
+    EXPECT_EQ(travel_along(hinge, hinge.point_hs, on_arc), 0.0);
     const Pose moved = moved_along(hinge, {from, Quat::Identity()}, 0.7);
     EXPECT_LE((moved.position - on_arc).norm(), 1e-15);
     EXPECT_LE(test::angle_between(moved.rotation, turn), 1e-7);
 
     JointRail slider = hinge;
     slider.turns = false;
-    EXPECT_NEAR(way_along(slider, from, from + Vec3(3.0, -0.2, 1.0)), -0.2, 1e-15);
+    EXPECT_NEAR(travel_along(slider, from, from + Vec3(3.0, -0.2, 1.0)), -0.2, 1e-15);
     const Vec3 slid = moved_along(slider, {from, turn}, -0.2).position;
     EXPECT_LE((slid - (from - Vec3(0.0, 0.2, 0.0))).norm(), 1e-15);
 }
@@ -140,7 +140,7 @@ TEST(JointRail, HandsNearTheAxleHardlyCount) {
     for (const double arm_m : {0.002, 0.005, 0.01, 0.05}) {
         const Vec3 near_hs = hinge.point_hs + arm_m * along;
         const double near = weight_along(hinge, near_hs);
-        const double way_rad = near * way_along(hinge, near_hs, near_hs + k_tremble_m * across) /
+        const double way_rad = near * travel_along(hinge, near_hs, near_hs + k_tremble_m * across) /
                                (near + weight_along(hinge, end_hs));
         EXPECT_LE(k_end_m * way_rad, k_tremble_m * arm_m / k_end_m) << arm_m;
         EXPECT_GT(way_rad, 0.0) << arm_m;

@@ -112,7 +112,7 @@ TEST(BuildConstraints, PlayerIsAMassThatNeverTurnsWithHisHeadAsCollider) {
     scene.head.at(k_player).pose_ps = random.pose(1.0);
     scene.run();
     const SolverBody& player = scene.solver_body(k_player);
-    EXPECT_EQ(player.role, BodyRole::player);
+    EXPECT_EQ(player.role, BodyRole::translating);
     EXPECT_EQ(player.mass_kg, 70.0);
     EXPECT_EQ(player.inertia_kgm2, Vec3(Vec3::Zero()));
     EXPECT_EQ(player.velocity_mps, Vec3(1.0, 2.0, 3.0));
@@ -166,7 +166,7 @@ TEST(BuildConstraints, HandsBecomeRowsFromTargetToAnchorDrivenInTheWorld) {
         scene.run();
         ASSERT_EQ(scene.frame.graph.blocks.size(), 1U);
         const RowBlock& block = scene.frame.graph.blocks[0];
-        EXPECT_EQ(block.kind, kind == GripKind::held ? RowKind::hand_weld : RowKind::hand_point);
+        EXPECT_EQ(block.kind, kind == GripKind::held ? RowKind::drive_weld : RowKind::drive_point);
         EXPECT_EQ(block.a, scene.index_of_body(k_player));
         EXPECT_EQ(block.b, scene.index_of_body(k_rock));
         EXPECT_EQ(block.key, id_of(k_right));
@@ -198,10 +198,10 @@ TEST(BuildConstraints, OfTwoHandsTheOneThatHoldsLongerHoldsThePointAndTheOtherTu
             scene.run();
             const std::vector<RowBlock>& blocks = scene.frame.graph.blocks;
             ASSERT_EQ(blocks.size(), two_handed ? 2U : 1U);  // too close: the first alone
-            EXPECT_EQ(blocks[0].kind, two_handed ? RowKind::hand_point : RowKind::hand_weld);
+            EXPECT_EQ(blocks[0].kind, two_handed ? RowKind::drive_point : RowKind::drive_weld);
             EXPECT_EQ(blocks[0].key, id_of(first));
             if (two_handed) {
-                EXPECT_EQ(blocks[1].kind, RowKind::hand_direction);
+                EXPECT_EQ(blocks[1].kind, RowKind::drive_direction);
             }
         }
     }
@@ -217,7 +217,7 @@ TEST(BuildConstraints, HandsOnWhatHangsOnJointsHoldAPointEach) {
     scene.run();
     ASSERT_EQ(scene.frame.graph.blocks.size(), 2U);
     for (const RowBlock& block : scene.frame.graph.blocks) {
-        EXPECT_EQ(block.kind, RowKind::hand_point);
+        EXPECT_EQ(block.kind, RowKind::drive_point);
     }
 }
 
@@ -305,9 +305,9 @@ void expect_same(const JointRows& rows, const JointRows& expected) {
     EXPECT_EQ(rows.upper, expected.upper);
     EXPECT_EQ(rows.previous, expected.previous);
     EXPECT_EQ(rows.friction_impulse, expected.friction_impulse);
-    EXPECT_EQ(rows.drive_to, expected.drive_to);
-    EXPECT_EQ(rows.drive_s, expected.drive_s);
-    EXPECT_EQ(rows.drive_impulse, expected.drive_impulse);
+    EXPECT_EQ(rows.motor_target, expected.motor_target);
+    EXPECT_EQ(rows.motor_time_s, expected.motor_time_s);
+    EXPECT_EQ(rows.motor_max_impulse, expected.motor_max_impulse);
     EXPECT_EQ(rows.lock_limit_impulse, expected.lock_limit_impulse);
     EXPECT_EQ(rows.lock_impulse, expected.lock_impulse);
 }
@@ -336,7 +336,7 @@ void expect_as_built_anew(Building& scene) {
         EXPECT_EQ(blocks[i].drive_spin_ws_radps, expected.drive_spin_ws_radps);
         expect_same(blocks[i].joint, expected.joint);
         EXPECT_EQ(blocks[i].impulse_ws_ns, Vec3(Vec3::Zero()));
-        EXPECT_EQ(blocks[i].couple_ws_nms, Vec3(Vec3::Zero()));
+        EXPECT_EQ(blocks[i].angular_impulse_ws_nms, Vec3(Vec3::Zero()));
     }
 }
 
@@ -361,7 +361,7 @@ TEST(BuildConstraints, JointsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
     ASSERT_EQ(scene.frame.graph.blocks.size(), 3U);
     for (RowBlock& block : scene.frame.graph.blocks) {
         block.impulse_ws_ns = Vec3(1.0, 2.0, 3.0);
-        block.couple_ws_nms = Vec3(4.0, 5.0, 6.0);
+        block.angular_impulse_ws_nms = Vec3(4.0, 5.0, 6.0);
         block.joint.lock_impulse = 7.0;
     }
     Joint& changed = scene.joint.at(entity(11));
@@ -410,7 +410,7 @@ TEST(BuildConstraints, HandsOverThoseOfTheFrameBeforeAreAsBuiltAnew) {
     const auto spoil = [&] {
         for (RowBlock& block : scene.frame.graph.blocks) {
             block.impulse_ws_ns = Vec3(1.0, 2.0, 3.0);
-            block.couple_ws_nms = Vec3(4.0, 5.0, 6.0);
+            block.angular_impulse_ws_nms = Vec3(4.0, 5.0, 6.0);
         }
     };
     const auto expect_rows = [&](std::size_t count) {

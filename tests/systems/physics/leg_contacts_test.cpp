@@ -83,7 +83,7 @@ TEST(TurnOut, IsTheLeastTurnToThePlane) {
         const Vec3 towards = random.direction();
         const Vec3 normal = random.direction();
         const double least = random.between(-0.99, 0.99);
-        const Vec3 turned = turn_out(towards, normal, least, 2.0);
+        const Vec3 turned = deflect_outward(towards, normal, least, 2.0);
         EXPECT_NEAR(turned.norm(), 1.0, 1e-12);
         if (towards.dot(normal) >= least) {
             EXPECT_EQ(turned, towards);
@@ -92,7 +92,7 @@ TEST(TurnOut, IsTheLeastTurnToThePlane) {
             EXPECT_NEAR(turned.dot(normal), least, 1e-12);
             EXPECT_NEAR(towards.cross(normal).dot(turned), 0.0, 1e-12);
         }
-        EXPECT_LE(turn_out(towards, normal, least, 0.01).dot(normal),
+        EXPECT_LE(deflect_outward(towards, normal, least, 0.01).dot(normal),
                   std::max(towards.dot(normal), towards.dot(normal) + 0.01) + 1e-12);
     }
 }

@@ -52,33 +52,33 @@ struct Phases {
 };
 
 TEST(SolvePhases, CountsHandsThatWereLedByHowItEnded) {
-    const auto counted = [](Leading leading) {
+    const auto counted = [](LoadStepping load_stepping) {
         g_answer = {};
         g_answer.converged = true;
-        g_answer.leading = leading;
+        g_answer.load_stepping = load_stepping;
         Phases phases;
         phases.solve();
-        return std::array{test::count_of(phases.stats, Fallback::hands_led),
-                          test::count_of(phases.stats, Fallback::hands_led_in_vain)};
+        return std::array{test::count_of(phases.stats, Fallback::hands_load_stepped),
+                          test::count_of(phases.stats, Fallback::load_stepping_failed)};
     };
-    EXPECT_EQ(counted(Leading::none), (std::array<std::uint64_t, 2>{0, 0}));
-    EXPECT_EQ(counted(Leading::arrived), (std::array<std::uint64_t, 2>{1, 0}));
-    EXPECT_EQ(counted(Leading::in_vain), (std::array<std::uint64_t, 2>{0, 1}));
+    EXPECT_EQ(counted(LoadStepping::none), (std::array<std::uint64_t, 2>{0, 0}));
+    EXPECT_EQ(counted(LoadStepping::converged), (std::array<std::uint64_t, 2>{1, 0}));
+    EXPECT_EQ(counted(LoadStepping::failed), (std::array<std::uint64_t, 2>{0, 1}));
 }
 
 TEST(SolvePhases, SoftestIsNeverHarderThanHardest) {
     g_answer = {};
     g_answer.converged = true;
     Phases phases;
-    phases.tuning.solver.softest_hand = 1e-9;
-    phases.tuning.solver.hardest_hand = 1e-4;
-    phases.tuning.solver.softest_contact = 1e-9;
-    phases.tuning.solver.contact_softness = 1e-5;
+    phases.tuning.solver.max_drive_regularisation = 1e-9;
+    phases.tuning.solver.min_drive_regularisation = 1e-4;
+    phases.tuning.solver.max_contact_regularisation = 1e-9;
+    phases.tuning.solver.contact_regularisation = 1e-5;
     phases.solve();
-    EXPECT_EQ(g_asked.schedule.softest_hand, 1e-4);
-    EXPECT_EQ(g_asked.schedule.hardest_hand, 1e-4);
-    EXPECT_EQ(g_asked.schedule.softest_contact, 1e-5);
-    EXPECT_EQ(g_asked.softness.contact, 1e-5);
+    EXPECT_EQ(g_asked.schedule.max_drive_regularisation, 1e-4);
+    EXPECT_EQ(g_asked.schedule.min_drive_regularisation, 1e-4);
+    EXPECT_EQ(g_asked.schedule.max_contact_regularisation, 1e-5);
+    EXPECT_EQ(g_asked.regularisation.contact, 1e-5);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(BuiltinHandRig, HasTheSizeOfAnAdultsHand) {
             EXPECT_LE(finger.radius_m[link], 0.010) << finger_text(finger.name);
             EXPECT_GT(finger.length_m[link], finger.radius_m[link]);
             EXPECT_LE(finger.lower_rad[link], 0.0);
-            EXPECT_GT(finger.upper_rad[link], finger.relaxed_rad[link]);
+            EXPECT_GT(finger.upper_rad[link], finger.rest_rad[link]);
         }
     }
 }

@@ -56,13 +56,13 @@ PEOPLE_HEAD = ("", "mean person", "deviation among people", "worst person", "", 
 
 
 def people_html(spreads):
-    keys = ("mean", "deviation", "worst", "worst_value", "least_without_one", "most_without_one", "error")
+    keys = ("mean", "deviation", "worst", "worst_residual", "least_without_one", "most_without_one", "error")
     return table_html(PEOPLE_HEAD, [[NAMES[name]] + [each[key] if key == "worst" else exact(each[key]) for key in keys] for name, each in spreads.items()])
 
 
 def people_text(spreads):
     """A line for each figure, for a terminal."""
-    return [f"{NAMES[name]:18} mean person {exact(each['mean']):>5} +- {exact(each['deviation']):<5} worst {each['worst_value']:.3g} ({each['worst']}); "
+    return [f"{NAMES[name]:18} mean person {exact(each['mean']):>5} +- {exact(each['deviation']):<5} worst {each['worst_residual']:.3g} ({each['worst']}); "
             f"all but one: {exact(each['least_without_one'])} to {exact(each['most_without_one'])}" for name, each in spreads.items()]
 
 

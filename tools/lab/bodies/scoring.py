@@ -135,7 +135,7 @@ def over_people(errors, people):
         left = [value_of(each, name, part) for each in without.values()]
         worst = max(own, key=own.get, default="-")
         result[name] = {"mean": mean(np.array(list(own.values()))), "deviation": float(np.std(list(own.values()), ddof=1)) if len(own) > 1 else math.nan,
-                        "worst": worst, "worst_value": own.get(worst, math.nan),
+                        "worst": worst, "worst_residual": own.get(worst, math.nan),
                         "least_without_one": min(left, default=math.nan), "most_without_one": max(left, default=math.nan),
                         "error": float(np.std(left) * math.sqrt(len(left) - 1.0)) if len(left) > 1 else math.nan}
     return alone, result

@@ -1,4 +1,4 @@
-#include "systems/locomotion/settle_grabs.hpp"
+#include "systems/locomotion/anchor_grabs.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -18,20 +18,20 @@ void take_anchor(const Pose& body_ws, const Pose& origin_ws, const Pose& hand_ps
 
 // As at the frame's start, where everything is known exactly. A hand found again is where it is
 // now.
-Pose anchor_at_start_bs(const SettleGrabsIo& io, Entity player, const HandTracking& hand,
+Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                         const Grab& grab) {
     const GrabInstant start{io, 0.0};
     return anchor_bs(start.body_ws(grab.body), start.origin_ws(player),
                      hand.resumed ? hand.pose_ps : hand.start_ps);
 }
-void take_anchor_at_start(const SettleGrabsIo& io, Entity player, const HandTracking& hand,
+void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
                           Grab& grab) {
     grab.anchor_bs = anchor_at_start_bs(io, player, hand, grab);
 }
 
 // Hands that led a body together and do not any more, for whatever reason: what stays starts
 // afresh.
-void end_broken_pairs(const SettleGrabsIo& io, StageStats& stats) {
+void end_broken_two_hand_grips(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         const bool whole = pair.other != nullptr && pair.other->two_handed &&
@@ -52,26 +52,28 @@ double line_length_m(const HandPair& pair) {
 
 // Says whether the two lead together. The second of hands that are too close holds on wherever it
 // is; once they part, the line between them begins as it lies then. Nothing jumps either way.
-void pair_hands(const SettleGrabsIo& io, const HandPair& first, StageStats& stats) {
-    constexpr double k_begin_m = 0.05;
-    constexpr double k_end_m = 0.04;
+void pair_hands(const AnchorGrabsIo& io, const HandPair& first, StageStats& stats) {
+    constexpr double k_begin_two_handed_m = 0.05;
+    constexpr double k_end_two_handed_m = 0.04;
     const bool together = first.grab.two_handed;
     if (!together && first.other_hand->edge != GrabEdge::onset) {
         take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
     }
-    const bool lead_both = line_length_m(first) >= (together ? k_end_m : k_begin_m);
-    if (together && !lead_both) {
+    const bool are_two_handed =
+        line_length_m(first) >= (together ? k_end_two_handed_m : k_begin_two_handed_m);
+    if (together && !are_two_handed) {
         take_anchor_at_start(io, first.player, first.hand, first.grab);
         take_anchor_at_start(io, first.player, *first.other_hand, *first.other);
     }
-    if (!lead_both) {
+    if (!are_two_handed) {
         stats.count(Fallback::hands_too_close);
     }
-    first.grab.two_handed = lead_both;
-    first.other->two_handed = lead_both;
+    first.grab.two_handed = are_two_handed;
+    first.other->two_handed = are_two_handed;
 }
 
-void aim_at(const SettleGrabsIo& io, const Pose& target_ps, const HandTracking& hand, Grab& grab) {
+void set_target_pose(const AnchorGrabsIo& io, const Pose& target_ps, const HandTracking& hand,
+                     Grab& grab) {
     const double dt_s = io.end_s - io.start_s;
     grab.target_ps = target_ps;
     grab.target_velocity_ps_mps = (target_ps.position - hand.start_ps.position) / dt_s;
@@ -79,7 +81,7 @@ void aim_at(const SettleGrabsIo& io, const Pose& target_ps, const HandTracking& 
         rotation_to_vector(target_ps.rotation * hand.start_ps.rotation.conjugate()) / dt_s;
 }
 
-void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
+void set_target(const AnchorGrabsIo& io, const HandTracking& hand, Grab& grab) {
     if (grab.phase == GrabPhase::releasing) {
         const double rest_s = std::max(0.0, io.end_s - hand.edge_t_s);
         grab.target_velocity_ps_mps = hand.release_velocity_ps_mps;
@@ -90,12 +92,12 @@ void aim(const SettleGrabsIo& io, const HandTracking& hand, Grab& grab) {
                 .normalized();
         return;
     }
-    aim_at(io, hand.pose_ps, hand, grab);
+    set_target_pose(io, hand.pose_ps, hand, grab);
 }
 
 // Where the hand that stays holds on when the other one leaves: from where the pair had put the
 // player (or the body).
-Pose staying_anchor_bs(const SettleGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
+Pose staying_anchor_bs(const AnchorGrabsIo& io, const HandPair& leaving, bool leaving_is_first,
                        const PhaseTuning& tuning) {
     const Grab& staying = *leaving.other;
     const HandTracking& staying_hand = *leaving.other_hand;
@@ -110,13 +112,13 @@ Pose staying_anchor_bs(const SettleGrabsIo& io, const HandPair& leaving, bool le
         const Vec3 from_staying = held_origin(staying, now.hand_ps(staying_hand).position);
         const Vec3 from_leaving = held_origin(leaving.grab, leaving.hand.edge_ps.position);
         origin_ws.position = 0.5 * (from_staying + from_leaving);
-    } else if (staying.jointed && leads_all_along(staying, staying_hand) &&
-               leads_all_along(leaving.grab, leaving.hand)) {
-        body_ws = led_body_ws(now, staying.body, tuning);
+    } else if (staying.jointed && drives_whole_frame(staying, staying_hand) &&
+               drives_whole_frame(leaving.grab, leaving.hand)) {
+        body_ws = hand_driven_body_ws(now, staying.body, tuning);
         const Pose by_staying =
-            origin_by_jointed(now, leaving.player, body_ws, staying, staying_hand);
+            origin_from_jointed_grab(now, leaving.player, body_ws, staying, staying_hand);
         const Pose by_leaving =
-            origin_by_jointed(now, leaving.player, body_ws, leaving.grab, leaving.hand);
+            origin_from_jointed_grab(now, leaving.player, body_ws, leaving.grab, leaving.hand);
         origin_ws.position = 0.5 * (by_staying.position + by_leaving.position);
     } else if (share_free_body(leaving.grab, staying)) {
         body_ws = held_body_ws(now, leaving_is_first ? leaving : swapped(leaving));
@@ -127,17 +129,17 @@ Pose staying_anchor_bs(const SettleGrabsIo& io, const HandPair& leaving, bool le
     return anchor_bs(body_ws, origin_ws, now.hand_ps(staying_hand));
 }
 
-bool leaves_shared_hold(const HandPair& pair) {
+bool leaves_shared_grip(const HandPair& pair) {
     return pair.grab.phase == GrabPhase::releasing && pair.other != nullptr &&
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
 // Hands that leave what their players' others stay on drop their rows now; those start afresh. All
 // anchors are found before any hand is gone: hands of several players may lead one thing.
-void leave_shared_holds(const SettleGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
+void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
-        if (leaves_shared_hold(pair)) {
+        if (leaves_shared_grip(pair)) {
             const std::size_t other = find_other_hand(io.owner, io.grab, row);
             // Kept with the leaving hand till then: nobody asks any more where that held on.
             pair.grab.anchor_bs =
@@ -146,17 +148,17 @@ void leave_shared_holds(const SettleGrabsIo& io, const PhaseTuning& tuning, Stag
     }
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
-        if (leaves_shared_hold(pair)) {
+        if (leaves_shared_grip(pair)) {
             pair.other->anchor_bs = pair.grab.anchor_bs;
             pair.other->two_handed = false;
             pair.grab = {};
-            stats.count(Fallback::hand_left_two_hand_grip);
+            stats.count(Fallback::two_hand_grip_ended);
         }
     }
 }
 
 // Hands that opened while nobody saw them: where they are now says nothing of how they let go.
-void drop_lost(const SettleGrabsIo& io, StageStats& stats) {
+void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.grab.phase != GrabPhase::releasing || !pair.hand.resumed) {
@@ -173,8 +175,8 @@ void drop_lost(const SettleGrabsIo& io, StageStats& stats) {
 // A free thing that a hand has by an authored grip comes into the hand: it was authored against
 // hand and controller, and a gun points where the controller does. As fast as shown palms move; in
 // two hands it stays as they have it, for they say together how it lies.
-void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tuning,
-                    const HandPair& pair) {
+void move_into_authored_grip(const AnchorGrabsIo& io, Entity entity, const PalmTuning& tuning,
+                             const HandPair& pair) {
     Grab& grab = pair.grab;
     const AuthoredHold* const hold = io.authored_hold.find(entity);
     const bool is_free = grab.kind == GripKind::held && !grab.jointed &&
@@ -191,7 +193,7 @@ void draw_into_hand(const SettleGrabsIo& io, Entity entity, const PalmTuning& tu
 // Whose hand leads the free body that another player's closes on, or opens from; none where
 // nobody's does, or those of several do: they share it by their masses, which only the solver
 // knows.
-std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joining) {
+std::optional<HandPair> leader_of(const AnchorGrabsIo& io, const HandPair& joining) {
     std::optional<HandPair> leader;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -217,21 +219,21 @@ std::optional<HandPair> leader_of(const SettleGrabsIo& io, const HandPair& joini
 
 // What another player still has is not thrown: the hand that leaves it goes on as the body does,
 // from its edge to the frame's end, and pulls at nobody. False where nobody else has it.
-bool aim_along(const SettleGrabsIo& io, const HandPair& leaving) {
+bool follow_leader(const AnchorGrabsIo& io, const HandPair& leaving) {
     const std::optional<HandPair> leader = leader_of(io, leaving);
     if (!leader || leader->grab.phase == GrabPhase::releasing) {
         return false;
     }
     const GrabInstant edge{io, fraction_of(io, leaving.hand.edge_t_s)};
     const GrabInstant end{io, 1.0};
-    const Pose hand_ws = edge.led_origin_ws(leaving.player) * leaving.hand.edge_ps;
+    const Pose hand_ws = edge.hand_driven_origin_ws(leaving.player) * leaving.hand.edge_ps;
     const Pose way_ws = held_body_ws(end, *leader) * inverse(held_body_ws(edge, *leader));
-    aim_at(io, inverse(end.led_origin_ws(leaving.player)) * (way_ws * hand_ws), leaving.hand,
-           leaving.grab);
+    set_target_pose(io, inverse(end.hand_driven_origin_ws(leaving.player)) * (way_ws * hand_ws),
+                    leaving.hand, leaving.grab);
     return true;
 }
 
-void settle_fresh(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
+void anchor_new_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning) {
     if (pair.hand.edge != GrabEdge::onset) {  // it has pulled something near, and has it now
         take_anchor_at_start(io, pair.player, pair.hand, pair.grab);
         pair.grab.phase = GrabPhase::holding;
@@ -246,7 +248,7 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuni
                        share_free_body(pair.grab, *leading);
     Pose body_ws = now.body_ws(pair.grab.body);
     if (pair.grab.jointed) {
-        body_ws = led_body_ws(now, pair.grab.body, tuning);
+        body_ws = hand_driven_body_ws(now, pair.grab.body, tuning);
     } else if (joins) {
         body_ws = held_body_ws(now, swapped(pair));
     } else if (const std::optional<HandPair> leader = leader_of(io, pair)) {
@@ -259,7 +261,7 @@ void settle_fresh(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuni
 
 // The row of the new grip with the earliest edge, or the column's size: who holds first leads who
 // joins, whichever is listed first.
-std::size_t earliest_fresh(const SettleGrabsIo& io) {
+std::size_t earliest_new_grab(const AnchorGrabsIo& io) {
     std::size_t earliest = io.grab.size();
     double edge_t_s = 0.0;
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -274,8 +276,8 @@ std::size_t earliest_fresh(const SettleGrabsIo& io) {
 }
 
 // The hand was lost and is somewhere now: it holds on there, and so does the one it led with.
-void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning,
-                    StageStats& stats) {
+void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const PhaseTuning& tuning,
+                           StageStats& stats) {
     const GrabInstant now{io, 0.0};
     if (pair.grab.two_handed) {
         take_anchor_at_start(io, pair.player, *pair.other_hand, *pair.other);
@@ -288,42 +290,43 @@ void settle_resumed(const SettleGrabsIo& io, const HandPair& pair, const PhaseTu
     stats.count(Fallback::grip_reanchored);
 }
 
-void settle_found(const SettleGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
+void reanchor_resumed_grabs(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.grab.phase == GrabPhase::holding && pair.hand.resumed &&
             pair.hand.edge != GrabEdge::onset) {
-            settle_resumed(io, pair, tuning, stats);
+            reanchor_resumed_grab(io, pair, tuning, stats);
         }
     }
 }
 
-void aim_all(const SettleGrabsIo& io) {
+void set_targets(const AnchorGrabsIo& io) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.grab.kind != GripKind::none &&
-            (pair.grab.phase != GrabPhase::releasing || !aim_along(io, pair))) {
-            aim(io, pair.hand, pair.grab);
+            (pair.grab.phase != GrabPhase::releasing || !follow_leader(io, pair))) {
+            set_target(io, pair.hand, pair.grab);
         }
     }
 }
 
 }  // namespace
 
-void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& stats) {
-    end_broken_pairs(io, stats);
+void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    end_broken_two_hand_grips(io, stats);
     // New grips before anything leaves.
-    for (std::size_t row = earliest_fresh(io); row < io.grab.size(); row = earliest_fresh(io)) {
-        settle_fresh(io, pair_of(io, row), tuning.phases);
+    for (std::size_t row = earliest_new_grab(io); row < io.grab.size();
+         row = earliest_new_grab(io)) {
+        anchor_new_grab(io, pair_of(io, row), tuning.phases);
     }
-    drop_lost(io, stats);
-    leave_shared_holds(io, tuning.phases, stats);
-    settle_found(io, tuning.phases, stats);
-    aim_all(io);
+    drop_lost_grabs(io, stats);
+    leave_shared_grips(io, tuning.phases, stats);
+    reanchor_resumed_grabs(io, tuning.phases, stats);
+    set_targets(io);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        draw_into_hand(io, io.grab.owners()[row], tuning.palm, pair_of(io, row));
+        move_into_authored_grip(io, io.grab.owners()[row], tuning.palm, pair_of(io, row));
     }
-    end_broken_pairs(io, stats);
+    end_broken_two_hand_grips(io, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
         if (pair.other != nullptr && share_free_body(pair.grab, *pair.other) &&

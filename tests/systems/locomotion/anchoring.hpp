@@ -3,7 +3,7 @@
 #include <initializer_list>
 
 #include "column_scene.hpp"
-#include "systems/locomotion/settle_grabs.hpp"
+#include "systems/locomotion/anchor_grabs.hpp"
 
 namespace handhold::settle_grabs_test {
 
@@ -84,7 +84,7 @@ struct Settling {
     }
     void run() {
         stats = {};
-        settle_grabs({k_start_s, k_end_s, owner, hand, hand_history, player_start, origin, head,
+        anchor_grabs({k_start_s, k_end_s, owner, hand, hand_history, player_start, origin, head,
                       body_start, body_pose, authored_hold, rigid_body, joint, joint_state, grab},
                      tuning, stats);
     }

@@ -1,4 +1,4 @@
-#include "systems/locomotion/settle_grabs.hpp"
+#include "systems/locomotion/anchor_grabs.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -156,7 +156,7 @@ TEST(SettleGrabs, HandThatLeavesTwoOnWallsIsGoneAtOnceAndTheOtherStaysWhereItIs)
         scene.run();
         EXPECT_EQ(scene.grab.at(leaving).kind, GripKind::none);
         EXPECT_EQ(scene.grab.at(leaving).phase, GrabPhase::none);
-        EXPECT_EQ(count_of(scene.stats, Fallback::hand_left_two_hand_grip), 1U);
+        EXPECT_EQ(count_of(scene.stats, Fallback::two_hand_grip_ended), 1U);
         EXPECT_EQ(scene.grab.at(staying).phase, GrabPhase::holding);
         EXPECT_LT((scene.grab.at(staying).anchor_bs.position - Vec3(-0.29, 1.0, 0.0)).norm(),
                   1e-12);
@@ -193,7 +193,7 @@ TEST(SettleGrabs, HandThatLeavesABodyHeldByBothIsGoneAtOnce) {
     scene.set_edge(k_right, GrabEdge::release, 0.5);
     scene.run();
     EXPECT_EQ(scene.grab.at(k_right).kind, GripKind::none);
-    EXPECT_EQ(count_of(scene.stats, Fallback::hand_left_two_hand_grip), 1U);
+    EXPECT_EQ(count_of(scene.stats, Fallback::two_hand_grip_ended), 1U);
     EXPECT_LT((scene.grab.at(k_left).anchor_bs.position - Vec3(-0.2, 1.0, 0.0)).norm(), 1e-12);
 }
 

@@ -6,7 +6,7 @@
 
 namespace handhold {
 
-using SettleGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
+using AnchorGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
 
 // Stage 3, after prediction. Buttons go down and up between frames; poses of that instant are
 // interpolated, so that a path does not depend on the frame rate:
@@ -23,6 +23,6 @@ using SettleGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
 //    where the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
 // Also sets what the hand's constraint aims at in this frame. Each step is taken for all hands
 // before the next one: whose hand is listed first never shows.
-void settle_grabs(const SettleGrabsIo& io, const Tuning& tuning, StageStats& stats);
+void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold
