@@ -17,7 +17,7 @@ inline bool is_jump(double distance_m, double dt_s) {
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Fitted on motion capture (docs/decisions.md says on whom, and what each is worth).
+// Fitted on motion capture. Subjects and scores: docs/decisions/0034-chest-and-elbow-estimate.md.
 struct ArmTuning {
     double head_lag_s = 0.3;
     double hand_share = 0.15;

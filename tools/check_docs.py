@@ -3,6 +3,8 @@
 
 - Relative links and pictures of every *.md file resolve, their #anchors too.
 - docs/talk_map.md and docs/frame.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
+- docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both.
+  A status names later pages that exist.
 
 usage: tools/check_docs.py [ROOT]      exit status 0: none, 1: some
 """
@@ -14,12 +16,18 @@ from typing import Iterator
 CODE_FOLDERS = ("engine", "components", "systems", "game", "tests", "tools", "docs")
 MAPS = ("docs/talk_map.md", "docs/frame.md")
 NOT_OURS = {"build", "out", ".git"}
+DECISIONS = "docs/decisions"
+DECISION_LINES = 15
+DECISION_COLUMNS = 100
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 INLINE_CODE = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 HEADING = re.compile(r"^#+\s+(.*?)\s*$", re.MULTILINE)
 REPOSITORY_PATH = re.compile(rf"(?:{'|'.join(CODE_FOLDERS)})/[\w./-]+")
+DECISION_FILE = re.compile(r"(\d{4})-[a-z0-9-]+\.md")
+DECISION_TITLE = re.compile(r"# (\d+)\. (.+)")
+DECISION_STATUS = re.compile(r"Status: (accepted|(?:superseded|amended) by (\d+(?:, \d+)*))")
 TEST_NAME = re.compile(r"[A-Z]\w*\.[A-Z]\w*")
 TEST_DEFINITION = re.compile(r"\b(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\(\s*(\w+),\s*(\w+)")
 
@@ -57,6 +65,49 @@ def name_breaches(root: Path, tests: set[str], line: str) -> Iterator[str]:
             yield f"no test is called {name}"
 
 
+def decision_page_breaches(page: Path, numbers: set[int], index_rows: set[str]) -> Iterator[tuple[int, str]]:
+    """Pairs of line number and breach."""
+    number = int(page.name[:4])
+    lines = page.read_text(encoding="utf-8").splitlines()
+    if len(lines) > DECISION_LINES:
+        yield DECISION_LINES + 1, f"more than {DECISION_LINES} lines"
+    for at, line in enumerate(lines, start=1):
+        if len(line) > DECISION_COLUMNS:
+            yield at, f"more than {DECISION_COLUMNS} characters"
+    title = DECISION_TITLE.fullmatch(lines[0]) if lines else None
+    status = DECISION_STATUS.fullmatch(lines[1]) if len(lines) > 1 else None
+    if title is None or int(title[1]) != number:
+        yield 1, f"the first line is not `# {number}. title`"
+        return
+    if status is None:
+        yield 2, "no line `Status: accepted`, `Status: superseded by N` or `Status: amended by N`"
+        return
+    for named in map(int, re.findall(r"\d+", status[2] or "")):
+        if named not in numbers:
+            yield 2, f"decision {named} does not exist"
+        elif named <= number:
+            yield 2, f"decision {named} is not later than this one"
+    row = f"| [{number}]({page.name}) | {title[2]} | {status[1]} |"
+    if row not in index_rows:
+        yield 1, f"{DECISIONS}/README.md has no row {row}"
+
+
+def decision_breaches(root: Path) -> list[str]:
+    folder = root / DECISIONS
+    index = folder / "README.md"
+    index_rows = set(index.read_text(encoding="utf-8").splitlines()) if index.is_file() else set()
+    documents = sorted(file for file in folder.glob("*.md") if file != index)
+    pages = [file for file in documents if DECISION_FILE.fullmatch(file.name)]
+    numbers = [int(page.name[:4]) for page in pages]
+    breaches = [f"{DECISIONS}/{file.name}:1: not called NNNN-short-title.md" for file in documents if file not in pages]
+    for page, number in zip(pages, numbers):
+        if numbers.count(number) > 1:
+            breaches.append(f"{DECISIONS}/{page.name}:1: another page has number {number}")
+        found = decision_page_breaches(page, set(numbers), index_rows)
+        breaches.extend(f"{DECISIONS}/{page.name}:{at}: {what}" for at, what in found)
+    return breaches
+
+
 def tests_of(root: Path) -> set[str]:
     tests = set()
     for file in (root / "tests").rglob("*.cpp"):
@@ -77,7 +128,7 @@ def check_tree(root: Path) -> list[str]:
             if file.as_posix() in MAPS:
                 found.extend(name_breaches(root, tests, line))
             breaches.extend(f"{file.as_posix()}:{number}: {what}" for what in found)
-    return breaches
+    return breaches + decision_breaches(root)
 
 
 def main(arguments: list[str]) -> int:

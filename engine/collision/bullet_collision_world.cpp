@@ -1,6 +1,6 @@
 // Bullet finds the candidates (btDbvt over moving bounds, a quantised tree over each mesh's
 // triangles), tests rays against triangles and, in bullet_separation and bullet_manifold, measures
-// distances and clips faces. What is ours, and why: docs/decisions.md, 10.
+// distances and clips faces. What is ours, and why: docs/decisions/, 10.
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Shares of people: the shoulders' of the span, the span's of the eye height (docs/decisions.md).
+// Body proportions: shoulder width / arm span, and arm span / eye height (docs/decisions/, 40).
 constexpr double k_shoulder_share = 0.25;
 constexpr double k_span_share = 0.95;
 // Eyes lower than this share of what the span says: he sits.

@@ -11,6 +11,18 @@ spec.loader.exec_module(check_docs)
 
 TEST_FILE = {"tests/systems/a_test.cpp": "TEST(SolvePhases, HeldRockMovesNobody) {}\n"}
 
+PAGE = "docs/decisions/0001-a.md"
+INDEX = "docs/decisions/README.md"
+
+
+def decisions(first: str, index: str = "| [1](0001-a.md) | One | accepted |\n") -> dict[str, str]:
+    """One page, and an index of it and of a second page that is as it should be."""
+    return {
+        PAGE: first,
+        "docs/decisions/0002-b.md": "# 2. Two\nStatus: accepted\n",
+        INDEX: index + "| [2](0002-b.md) | Two | accepted |\n",
+    }
+
 
 def breaches(files: dict[str, str]) -> list[str]:
     with tempfile.TemporaryDirectory() as folder:
@@ -55,6 +67,56 @@ class CheckDocs(unittest.TestCase):
 
     def test_other_documents_may_name_files_to_be_made(self):
         self.assertEqual(breaches({"CONTRIBUTING.md": "make `systems/grip/new_stage.cpp`\n"}), [])
+
+    def test_decisions_as_they_should_be_are_allowed(self):
+        self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n" + 13 * (100 * "a" + "\n"))), [])
+        for status in ("superseded by 2", "amended by 2"):
+            self.assertEqual(breaches(decisions(f"# 1. One\nStatus: {status}\n",
+                                                f"| [1](0001-a.md) | One | {status} |\n")), [])
+
+    def test_decision_without_a_status_is_named(self):
+        for text in ("# 1. One\n", "# 1. One\n\nStatus: accepted\n", "# 1. One\nStatus: superseded\n"):
+            self.assertEqual(breaches(decisions(text)), [
+                f"{PAGE}:2: no line `Status: accepted`, `Status: superseded by N` or `Status: amended by N`"])
+
+    def test_decision_that_is_too_long_is_named(self):
+        self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n" + 14 * "a\n")),
+                         [f"{PAGE}:16: more than 15 lines"])
+
+    def test_decision_that_is_too_wide_is_named(self):
+        self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n\n" + 101 * "a" + "\n")),
+                         [f"{PAGE}:4: more than 100 characters"])
+
+    def test_decision_superseded_by_none_that_exists_is_named(self):
+        for status in ("superseded by 3", "amended by 2, 3"):
+            self.assertEqual(breaches(decisions(f"# 1. One\nStatus: {status}\n",
+                                                f"| [1](0001-a.md) | One | {status} |\n")),
+                             [f"{PAGE}:2: decision 3 does not exist"])
+
+    def test_decision_superseded_by_an_earlier_one_is_named(self):
+        self.assertEqual(breaches(decisions("# 1. One\nStatus: superseded by 1\n",
+                                            "| [1](0001-a.md) | One | superseded by 1 |\n")),
+                         [f"{PAGE}:2: decision 1 is not later than this one"])
+
+    def test_decision_that_the_index_leaves_out_is_named(self):
+        row = "| [1](0001-a.md) | One | accepted |"
+        for index in ("", "| [1](0001-a.md) | Another title | accepted |\n", "| [1](0001-a.md) | One | amended by 2 |\n"):
+            self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n", index)),
+                             [f"{PAGE}:1: {INDEX} has no row {row}"])
+
+    def test_decision_with_another_number_in_its_title_is_named(self):
+        self.assertEqual(breaches(decisions("# 3. One\nStatus: accepted\n")),
+                         [f"{PAGE}:1: the first line is not `# 1. title`"])
+
+    def test_decision_with_a_wrong_file_name_is_named(self):
+        self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n") | {"docs/decisions/notes.md": ""}),
+                         ["docs/decisions/notes.md:1: not called NNNN-short-title.md"])
+
+    def test_two_decisions_with_one_number_are_named(self):
+        pages = decisions("# 1. One\nStatus: accepted\n") | {"docs/decisions/0001-c.md": "# 1. Three\nStatus: accepted\n"}
+        pages[INDEX] += "| [1](0001-c.md) | Three | accepted |\n"
+        self.assertEqual(breaches(pages), [f"{PAGE}:1: another page has number 1",
+                                           "docs/decisions/0001-c.md:1: another page has number 1"])
 
     def test_build_folders_are_left_out(self):
         self.assertEqual(breaches({"build/a.md": "[a](b.md)\n", "out/a.md": "[a](b.md)\n"}), [])

@@ -1,5 +1,5 @@
 # Everything the project links, wrapped into targets whose headers count as system headers: our warnings are
-# for our code. Versions measured with: docs/decisions.md and the distribution's packages.
+# for our code. Versions measured with: docs/decisions/ and the distribution's packages.
 
 include(${CMAKE_CURRENT_LIST_DIR}/runtime_dependencies.cmake)
 
