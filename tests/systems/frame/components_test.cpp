@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "components/fields.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"

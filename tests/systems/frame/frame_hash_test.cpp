@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "components/fields.hpp"
 #include "engine/core/check.hpp"
 #include "systems/frame.hpp"

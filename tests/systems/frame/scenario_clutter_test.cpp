@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 namespace handhold::scenario_clutter_test {
