@@ -42,8 +42,8 @@ struct Joint {
     bool limited = false;   // true: lower and upper apply; distance joints are always limited
     double lower = 0.0;     // of the coordinate, rad or m; lower <= upper
     double upper = 0.0;
-    double friction =
-        0.0;  // maximum friction: N along a slider, N m about a hinge or any axis of a ball
+    // Maximum friction: N along a slider, N m about a hinge or any axis of a ball.
+    double friction = 0.0;
     double detent_spacing = 0.0;   // a rest position at each multiple, rad or m; 0: none
     double detent_strength = 0.0;  // maximum force towards the rest position, N or N m
     JointLatch latch;

@@ -80,8 +80,8 @@ void make_end_faces(const Barrel& barrel, double grown_m, btConvexPolyhedron& fa
 
 // Scaling about an inner point moves every face outwards by at least grown_m.
 void make_hull_faces(const ConvexHull& hull, double grown_m, btConvexPolyhedron& faces) {
-    double inradius_m =
-        std::numeric_limits<double>::infinity();  // distance from the origin to the nearest face
+    // Distance from the origin to the nearest face.
+    double inradius_m = std::numeric_limits<double>::infinity();
     for (const HullFace& face : hull.faces) {
         inradius_m = std::min(inradius_m, face.offset_m);
         faces.m_faces.push_back(make_face(face.loop, face.normal, face.offset_m));

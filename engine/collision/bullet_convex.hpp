@@ -30,8 +30,8 @@ struct Barrel {
 struct Convex {
     const btConvexShape* shape = nullptr;       // its Bullet margin equals radius_m
     const btConvexPolyhedron* faces = nullptr;  // null: sphere, capsule; cylinder: its two ends
-    const btConvexPolyhedron* prisms =
-        nullptr;  // `faces` with side planes moved outwards by a nanometre, for clipping
+    // `faces` with side planes moved outwards by a nanometre, for clipping.
+    const btConvexPolyhedron* prisms = nullptr;
     btTransform pose_ns = btTransform::getIdentity();
     double radius_m = 0.0;
     const Corners* corners_ns = nullptr;  // triangle: its corners; null otherwise

@@ -12,8 +12,8 @@ namespace {
 constexpr double k_sweep_touch_m = 1e-6;
 // Grazing rotations converge slowly. At this limit the touch is reported early, never late.
 constexpr int k_steps = 128;
-constexpr double k_reuse_ratio =
-    0.5;  // share of the queried gap below which a new direction is searched
+// Share of the queried gap below which a new direction is searched.
+constexpr double k_reuse_ratio = 0.5;
 
 // Advances a's bounding sphere up to the triangle, in cheap steps that ignore rotation. Rejects
 // most triangles. nullopt if the sphere never reaches it before `limit`.

@@ -76,8 +76,8 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
     std::optional<RayHit> best;
     const auto cast = [&](const ColliderProxy& proxy) {
         const CollisionShape& shape = impl_->cache[proxy.shape.index];
-        const Vec3 from =
-            inverse_transform_point(proxy.to_ws, from_ws);  // near space lies about it here
+        // Near space lies about it here.
+        const Vec3 from = inverse_transform_point(proxy.to_ws, from_ws);
         const Vec3 along = inverse_transform_point(proxy.to_ws, to_ws) - from;
         const RelativeMotion motion({}, {along, Quat::Identity()});
         const auto offer = [&](const Convex& b) {

@@ -9,8 +9,8 @@ namespace handhold {
 struct MassProperties {
     double volume_m3 = 0.0;
     Vec3 centre_m = Vec3::Zero();  // centre of mass, in the shape's frame
-    Mat3 inertia_per_kg_m2 =
-        Mat3::Zero();  // per kg of total mass; about the centre of mass, along the shape's axes
+    // Per kg of total mass; about the centre of mass, along the shape's axes.
+    Mat3 inertia_per_kg_m2 = Mat3::Zero();
 };
 
 // Exact: closed forms, and for a hull a sum over its faces. The overlap of a compound's parts

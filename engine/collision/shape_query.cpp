@@ -10,8 +10,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_edge_tolerance =
-    1e-12;  // relative tolerance by which faces are extended past their edges
+// Relative tolerance by which faces are extended past their edges.
+constexpr double k_edge_tolerance = 1e-12;
 
 struct Ray {
     Vec3 from;
@@ -350,8 +350,8 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
-    constexpr double k_on_surface_m =
-        1e-9;  // nearer than this the direction to the point is rounding noise
+    // Nearer than this the direction to the point is rounding noise.
+    constexpr double k_on_surface_m = 1e-9;
     const Vec3 surface = closest_on_triangle(point, corners);
     const Vec3 along = point - surface;
     const double distance = along.norm();

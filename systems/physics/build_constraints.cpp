@@ -213,8 +213,8 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
-    rows.previous =
-        state.coordinate + state.speed * dt_s;  // predicted, because the joint may rotate fast
+    // Predicted, because the joint may rotate fast.
+    rows.previous = state.coordinate + state.speed * dt_s;
     rows.friction_impulse = joint.friction * dt_s;
     rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
     rows.lock_limit_impulse = rows.lock_impulse = 0.0;

@@ -65,8 +65,8 @@ TEST(MeshContacts, InternalEdgesTiltNoNormal) {
 
 TEST(MeshContacts, BoxOnAFineFloorKeepsOnlyTheCornersOfItsFace) {
     ShapeLibrary shapes;
-    const ShapeId floor =
-        shapes.add_mesh(test::make_floor(2.0, 80, Winding::mixed));  // 2.5 cm squares
+    // 2.5 cm squares.
+    const ShapeId floor = shapes.add_mesh(test::make_floor(2.0, 80, Winding::mixed));
     const ShapeId box = shapes.add_box({0.2, 0.1, 0.15});
     const Pose pose = at({0.013, 0.099, 0.007}, rotation_about(Vec3::UnitY(), 0.3));
     const auto contacts =

@@ -68,7 +68,7 @@ void visit_near(const Level& level, const Vec3& point, double reach_m, const Vis
 }
 
 // Oracle: distance of the centre to every triangle, in closed form.
-TEST(RealLevelContacts, SphereInARealLevelIsAsDeepAsAtItsNearestTriangle) {
+TEST(RealLevelContacts, SphereInARealLevelIsAsDeepAsItsNearestTriangle) {
     auto level = load_level();
     if (!level) {
         GTEST_SKIP() << "no level data";

@@ -187,8 +187,8 @@ TEST(Sweep, TriangleStopsExactlyTheBodiesThatHitIt) {
         const ShapeId triangle = shapes.add_mesh(mesh);
         const Vec3 start = random.direction();
         const Pose from = at(start, random.rotation());
-        const Vec3 aside =
-            random.vector(0.3);  // drawn first: the order of evaluation of arguments is unspecified
+        // Drawn first: the order of evaluation of arguments is unspecified.
+        const Vec3 aside = random.vector(0.3);
         const Pose to = at(aside - start, random.rotation());
         double lowest = 1e9;
         for (int i = 0; i <= 400; ++i) {
@@ -247,8 +247,8 @@ TEST(Sweep, FirstOfManyTrianglesStops) {
         const ShapeId soup = shapes.add_mesh(mesh);
         const Vec3 start = 1.5 * random.direction();
         const Pose from = at(start, random.rotation());
-        const Vec3 aside =
-            random.vector(0.3);  // drawn first: the order of evaluation of arguments is unspecified
+        // Drawn first: the order of evaluation of arguments is unspecified.
+        const Vec3 aside = random.vector(0.3);
         const Pose to = at(aside - start, random.rotation());
         std::optional<double> met;
         for (int i = 0; i <= k_steps && !met; ++i) {
