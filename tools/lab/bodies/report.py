@@ -148,7 +148,7 @@ def page(table, recording, truth, clips, runs, scores):
 <h1>Arms and chest, measured</h1>
 <p>Estimated from a head and two hands alone, against motion capture: {len(np.unique(recording.clip))} recordings of {len(clips.people)} people,
 {everybody[first]["minutes"]:.1f} minutes. Constants of Handhold's estimator were moved towards what suits these people, part of the way: docs/decisions.md says which, and what came of
-leaving one person out while fitting. What each figure means: docs/lab.md.</p>
+leaving one person out while fitting. What each figure means: docs/reference/lab.md.</p>
 <h2>Goals</h2>{goals_html(table)}
 <h2>Beside the baselines</h2>{figures_html("estimator", everybody.items())}
 <div class="plots">{plots_html(runs, alone, 7.0)}</div>
