@@ -7,6 +7,7 @@ using namespace handhold;
 
 namespace {
 
+// [devices]
 // The headset and both controllers at `t_s`; the right palm faces the wall and closes at 0.5 s.
 TrackingSample devices_at(double t_s) {
     TrackingSample sample;
@@ -23,6 +24,7 @@ TrackingSample devices_at(double t_s) {
     }
     return sample;
 }
+// [devices]
 
 }  // namespace
 
