@@ -28,7 +28,7 @@ WORDS = [
     (r"softness|softest|softens?|softened|hardens|hardened|hardening", "regularisation"),
     (r"mends?|mended|mending", "fix, depenetrate"),
     (r"outlook", "look-ahead, cached result"),
-    (r"dear|dearer|dearest", "expensive"),
+    (r"dear(?! imgui)|dearer|dearest", "expensive"),
     (r"in vain", "failed, without success"),
     (r"bound for", "target"),
     (r"at ease|relaxed pose", "rest pose"),
