@@ -27,14 +27,14 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         offset.target_m = target.position;
         offset.target_turn_rad = rotation_to_vector(target.rotation);
         offset.lift_m = 0.0;
-        offset.target_signature = 0;
+        offset.solved_signature = 0;
         return;
     }
     if (surface.triangle == GripSurface::k_none) {
         offset.target_m = Vec3::Zero();
         offset.target_turn_rad = Vec3::Zero();
         offset.lift_m = 0.0;
-        offset.target_signature = 0;
+        offset.solved_signature = 0;
         return;
     }
     const Pose moved = inverse(offset.lift_wrist_bs) * hand.wrist_bs;
@@ -43,15 +43,15 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         offset.lift_m = 0.0;
     }
     const bool knows = is_known(hand, surface, offset.lift_m);
-    if (!knows && offset.target_signature == hand.signature &&
-        offset.target_lift_m == offset.lift_m && offset.target_triangle == surface.triangle &&
-        hand_travel_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
+    if (!knows && offset.solved_signature == hand.signature &&
+        offset.solved_lift_m == offset.lift_m && offset.solved_triangle == surface.triangle &&
+        hand_travel_m(offset.solved_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
         return;
     }
-    offset.target_signature = hand.signature;
-    offset.target_wrist_bs = hand.wrist_bs;
-    offset.target_lift_m = offset.lift_m;
-    offset.target_triangle = surface.triangle;
+    offset.solved_signature = hand.signature;
+    offset.solved_wrist_bs = hand.wrist_bs;
+    offset.solved_lift_m = offset.lift_m;
+    offset.solved_triangle = surface.triangle;
     const Pose fitted_wrist_bs =
         knows ? surface.fitted_wrist_bs
               : fit_palm(hand, surface, offset.lift_m, tuning.palm, {.last = &surface}).wrist_bs;

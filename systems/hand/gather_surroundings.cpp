@@ -28,7 +28,7 @@ class Gatherer {
         out.meshes.clear();
         out.signature = 0;
         out.authored = nullptr;
-        out.grips = grab.kind != GripKind::none;
+        out.is_gripping = grab.kind != GripKind::none;
         const bool is_there = io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
         if (grab.kind == GripKind::none || !is_there) {
             return;

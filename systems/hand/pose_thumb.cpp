@@ -46,7 +46,7 @@ class ThumbPoser {
         const FingerRig& thumb = hand.rig->fingers[f];
         const bool was_deferred = std::exchange(pose.thumb_refit_pending, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
-            set_rest_pose(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
+            set_rest_pose(thumb, !hand.is_gripping && io_.hand.at(hand.hand).pressed, pose.target[f]);
             if (const auto posed = posed_in(hand, thumb)) {
                 pose.target[f] = *posed;
             }

@@ -64,7 +64,7 @@ class FingerFitter {
         FingerPose& pose = io_.fingers.at(hand.hand);
         pose.finger_refit_this_frame = false;
         if (surface.triangle == GripSurface::k_none) {
-            rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
+            rest_fingers(*hand.rig, !hand.is_gripping && io_.hand.at(hand.hand).pressed, pose);
             pose_unverified(hand, pose);
             return;
         }

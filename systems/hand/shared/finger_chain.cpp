@@ -187,7 +187,7 @@ bool lift_if_penetrating(const HandSurroundings& hand, double depth_m, const Pal
                          PalmOffset& offset) {
     constexpr double k_max_lifts = 3.0;
     const double most_m = k_max_lifts * tuning.lift_m;
-    const bool is_turn_limited = !is_at_target(offset) || offset.target_lift_m != offset.lift_m;
+    const bool is_turn_limited = !is_at_target(offset) || offset.solved_lift_m != offset.lift_m;
     if (is_turn_limited || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
         offset.lift_m >= most_m) {
         return false;

@@ -70,7 +70,7 @@ TEST(GatherSurroundings, CountsHandsOnABodyWithoutASurface) {
     const GripMeshLibrary none;
     const HandSurroundings& hand = scene.gather(&none);
     EXPECT_EQ(hand.body, k_no_entity);
-    EXPECT_TRUE(hand.grips);
+    EXPECT_TRUE(hand.is_gripping);
     EXPECT_EQ(scene.counted(), 1U);
 }
 

@@ -99,7 +99,7 @@ TEST_F(SweepFingers, OpensAtOnceAndClosesAtItsRate) {
     // Arrived; then the hand lets go and its fingers are at ease within one frame where that opens.
     EXPECT_EQ(before.shown[2].curl_rad, before.target[2].curl_rad);
     hand.hands.front().body = k_no_entity;
-    hand.hands.front().grips = false;
+    hand.hands.front().is_gripping = false;
     hand.hands.front().meshes.clear();
     hand.tracking.at(k_right).pressed = false;
     hand.frame(k_dt_s);
@@ -347,7 +347,7 @@ TEST_F(SweepFingers, ThumbOfAHandThatStandsGivesWayToWhatComesNear) {
 TEST_F(SweepFingers, EmptyHandsAreAtEaseOrAFist) {
     FittedHand hand(beam, {});
     hand.hands.front().body = k_no_entity;
-    hand.hands.front().grips = false;
+    hand.hands.front().is_gripping = false;
     hand.hands.front().meshes.clear();
     hand.tracking.at(k_right).pressed = false;
     hand.frame(k_at_once_s);
