@@ -46,7 +46,8 @@ class ThumbPoser {
         const FingerRig& thumb = hand.rig->fingers[f];
         const bool was_deferred = std::exchange(pose.thumb_refit_pending, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
-            set_rest_pose(thumb, !hand.is_gripping && io_.hand.at(hand.hand).pressed, pose.target[f]);
+            set_rest_pose(thumb, !hand.is_gripping && io_.hand.at(hand.hand).pressed,
+                          pose.target[f]);
             if (const auto posed = posed_in(hand, thumb)) {
                 pose.target[f] = *posed;
             }
@@ -156,7 +157,7 @@ class ThumbPoser {
         target.opposition_rad = rest_opposition(thumb);
         for (std::size_t i = 0; i < thumb.link_count; ++i) {
             const double fist =
-                thumb.lower_rad[i] + k_fist * (thumb.upper_rad[i] - thumb.lower_rad[i]);
+                thumb.lower_rad[i] + k_fist_curl * (thumb.upper_rad[i] - thumb.lower_rad[i]);
             target.curl_rad[i] = is_fist ? fist : thumb.rest_rad[i];
         }
     }

@@ -25,7 +25,7 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
         }
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             const double fist =
-                finger.lower_rad[i] + k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
+                finger.lower_rad[i] + k_fist_curl * (finger.upper_rad[i] - finger.lower_rad[i]);
             pose.target[f].curl_rad[i] = is_fist ? fist : finger.rest_rad[i];
         }
         pose.backoff[f].queued_frames = 0;

@@ -29,12 +29,12 @@ struct SweepFingersIo {
 // Closes the fingers of each gripping hand until they touch the surfaces near it. Talk rows 12 to
 // 15.
 //
-// A finger stops at the smallest closing angle at which a capsule of it touches the cuts of its
-// planes through the meshes (engine/geometry/chain_fit.hpp); the result is then checked and
-// depenetrated in three dimensions. While a hand slides, fits are carried along
-// (engine/geometry/chain_refit.hpp, chain_follow.hpp); a finger that still penetrates is refitted
-// from scratch with a back-off (FingerBackoff). A finger's angles are kept while the shown wrist
-// travels less than FingerTuning::reuse_travel_m.
+// A finger closes from fully open, all hinges in step. Where a link first touches, its hinge and
+// those before it stop and the links beyond close on (engine/geometry/chain_fit.hpp,
+// disc_contact.hpp). The result is checked and depenetrated in three dimensions. While a hand
+// slides, the last fit is carried along (chain_refit.hpp, chain_follow.hpp); a finger that still
+// penetrates is refitted from scratch with a back-off (FingerBackoff). Angles are kept while the
+// shown wrist travels less than FingerTuning::reuse_travel_m.
 //
 // If fingers still penetrate, PalmOffset::lift_m grows, which raises the palm from the next frame
 // on. Fingers of an empty hand take the rest pose, or a fist while the player presses the grip.
