@@ -48,7 +48,7 @@ class ThumbPoser {
         const HandSurroundings& hand = io_.hands[hand_index];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
-        const bool was_deferred = std::exchange(pose.thumb_refit_pending, false);
+        const bool was_pending = std::exchange(pose.thumb_refit_pending, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
             set_rest_pose(thumb, !hand.is_gripping && io_.hand.at(hand.hand).pressed,
                           pose.target[f]);
@@ -67,7 +67,7 @@ class ThumbPoser {
         if (take_authored_pose(hand, thumb, pose, f) || defer_to_fingers(hand, f, pose)) {
             return;
         }
-        const ThumbFit best = fit_thumb(hand, thumb, f, was_deferred, pose);
+        const ThumbFit best = fit_thumb(hand, thumb, f, was_pending, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         if (best.fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = best.fit.contact_triangle;
@@ -197,7 +197,7 @@ class ThumbPoser {
     // Fits the thumb for this frame. Keeps its opposition while it touches there without
     // penetrating, and while the back-off after a failed refit lasts.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       bool was_deferred, FingerPose& pose) {
+                       bool was_pending, FingerPose& pose) {
         FingerBackoff& backoff = pose.backoff[f];
         const bool is_new =
             !pose.thumb_solved || !is_small_move(pose.thumb_wrist_bs, pose.solved_wrist_bs);
@@ -228,10 +228,10 @@ class ThumbPoser {
             backoff.failures = backoff.retry_in_m <= 0.0 ? 0 : backoff.failures;
             return kept;
         }
-        // If there is no budget now, the thumb keeps its claim on the next refit. Candidate
-        // evaluation takes the budget of fingers and thumb without changing whose refit is next.
+        // The thumb is next if the fingers used this frame's refit, or if it was next already and
+        // candidate evaluation used the frame.
         pose.thumb_refit_pending =
-            is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_deferred);
+            is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_pending);
         if (!is_retry_due(backoff) || !has_budget) {
             return kept;
         }
