@@ -26,7 +26,7 @@ struct FingerClearance {
 };
 
 // Penetration of each digit at its best sample pose, with the wrist at `wrist_bs` (frame of
-// HandSurroundings::meshes). An upper bound for choosing a surface, not a fit: sweep_fingers can
+// HandSurroundings::meshes). An upper bound to choose surfaces by, not a fit: sweep_fingers can
 // find better angles in between. `patch` is scratch.
 FingerClearance find_finger_clearance(const HandSurroundings& hand, const Pose& wrist_bs,
                                       ChainPatch& patch);
