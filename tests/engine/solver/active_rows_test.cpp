@@ -160,7 +160,7 @@ TEST(WorstJoints, OfASolveAreThoseOfTheBlocks) {
     scene.graph.blocks[100].rotation_a_bs = rotation_from_vector(Vec3(0.02, 0.01, -0.03));
     scene.graph.blocks[300].kind = RowKind::drive_point;
     scene.graph.blocks[300].point_a_bs += Vec3(0.3, 0.0, 0.0);  // hands do not count
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 1;
     const NewtonResult result = scene.solve_positions(settings);
     JointError worst;

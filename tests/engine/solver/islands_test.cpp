@@ -229,7 +229,7 @@ TEST(Islands, FixedBodiesCutThem) {
 TEST(Islands, PlayersAndHeavyBodiesJoinThem) {
     // Which phases move them changes within a frame; the islands do not.
     ConstraintGraph graph;
-    graph.bodies = {test::player_body(1, 80.0), test::ball(2, 5000.0, 0.5),
+    graph.bodies = {test::translating_body(1, 80.0), test::ball(2, 5000.0, 0.5),
                     test::ball(3, 1.0, 0.1)};
     graph.bodies[1].role = BodyRole::heavy;
     graph.bodies[1].inverse_mass = 0.0;
@@ -263,7 +263,7 @@ TEST(FindBody, FindsEveryIdAndNoOther) {
 
 ConstraintGraph player_before_a_wall() {
     ConstraintGraph graph;
-    graph.bodies = {test::fixed_body(3), test::player_body(7, 80.0)};
+    graph.bodies = {test::fixed_body(3), test::translating_body(7, 80.0)};
     graph.bodies[0].restitution = 0.6;
     graph.bodies[1].restitution = 0.2;
     graph.bodies[1].collider_offset_bs = Vec3(0.1, 1.6, 0.0);

@@ -24,7 +24,7 @@ bool is_same(const RowBlock& a, const RowBlock& b) {
 RC_GTEST_PROP(LoadSteppedDrives, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
+    scene.graph.bodies = {test::translating_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
     const bool is_weld = random.between(0.0, 1.0) < 0.5;
     scene.graph.blocks = {
@@ -70,7 +70,7 @@ SolverScene chain_to(double reach) {
         scene.graph.blocks.push_back(
             test::row_block(RowKind::ball, i, i + 1, i == 0 ? Vec3(Vec3::Zero()) : end, -end));
     }
-    scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
+    scene.graph.bodies.push_back(test::translating_body(k_links + 2, 80.0));
     scene.body(k_links + 1).inverse_mass = 0.0;
     const Vec3 hand = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
     scene.graph.blocks.push_back(
@@ -91,7 +91,7 @@ TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
     SolverScene scene = chain_to(0.8);
     build_islands(scene.graph);
     const std::vector<RowBlock> blocks = scene.graph.blocks;
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 12;
     const NewtonResult result = scene.solve_positions(settings);
     EXPECT_EQ(result.load_stepping, LoadStepping::converged);
@@ -110,7 +110,7 @@ TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
     SolverScene scene = chain_to(1.5);
     build_islands(scene.graph);
     const std::vector<RowBlock> blocks = scene.graph.blocks;
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 8;
     const NewtonResult result = scene.solve_positions(settings);
     EXPECT_EQ(result.load_stepping, LoadStepping::failed);
@@ -127,11 +127,11 @@ TEST(SolvePositions, HandsOnTautRopesAreNotLed) {
     for (const double beyond_m : {0.001, 0.02, 0.2}) {
         SolverScene scene = chain_to(1.0 + beyond_m / 1.6);
         build_islands(scene.graph);
-        NewtonSettings settings;
+        NewtonSettings settings = test::tight_settings();
         settings.max_iterations = 300;
         settings.load_stepping_from_m = std::numeric_limits<double>::infinity();
         scene.solve_positions(settings);  // as earlier frames have left it
-        settings = NewtonSettings{};
+        settings = test::tight_settings();
         for (int frame = 1; frame <= 5; ++frame) {
             scene.graph.blocks.back().point_a_bs *= 1.001;
             const NewtonResult result = scene.solve_positions(settings);

@@ -16,7 +16,7 @@ namespace {
 using test::Random;
 using test::SolverScene;
 
-constexpr double k_tolerance_m = NewtonSettings{}.tolerance_m;
+constexpr double k_tolerance_m = 1e-8;  // test::tight_settings
 
 double angle_between(const Quat& a, const Quat& b) {
     return rotation_to_vector(a * b.conjugate()).norm();
@@ -25,7 +25,7 @@ double angle_between(const Quat& a, const Quat& b) {
 // A player's hand at `hand_ps` on a body's centre.
 SolverScene hand_on_ball(double player_kg, double ball_kg, const Vec3& hand_ps) {
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, player_kg), test::ball(2, ball_kg, 0.1)};
+    scene.graph.bodies = {test::translating_body(1, player_kg), test::ball(2, ball_kg, 0.1)};
     scene.graph.blocks = {test::row_block(RowKind::drive_point, 0, 1, hand_ps)};
     return scene;
 }
@@ -69,7 +69,7 @@ TEST(SolvePositions, BlockThatNothingCanMoveIsPassedOverAndItsErrorReported) {
 RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random, 0.5)),
+    scene.graph.bodies = {test::translating_body(1, 80.0, test::random_pose(random, 0.5)),
                           test::random_free_body(2, random)};
     scene.body(0).inverse_mass = 0.0;
     scene.body(1).pose_ws = test::random_pose(random, 0.5);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(SolvePositions, WeldBringsTheBodyWhereTheHandIsFromAnyPose, (std::
 // A ball of radius 0.1 on a plane y = 0, its centre pulled to `hand_y`.
 SolverScene ball_between_hand_and_plane(double hand_y) {
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0),
+    scene.graph.bodies = {test::fixed_body(1), test::translating_body(2, 80.0),
                           test::ball(3, 2.0, 0.1, {Vec3(0.0, 0.15, 0.0), Quat::Identity()})};
     scene.body(1).inverse_mass = 0.0;
     scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 2, Vec3(0.0, hand_y, 0.0)),
@@ -107,7 +107,7 @@ TEST(SolvePositions, BallInReachGoesToTheHandWithoutTouchingThePlane) {
 TEST(SolvePositions, ContactOutweighsAHandByAHundredThousand) {
     for (const double first_softness : {1e-6, 1e-3}) {
         SolverScene scene = ball_between_hand_and_plane(0.0);
-        NewtonSettings settings;
+        NewtonSettings settings = test::tight_settings();
         settings.regularisation.drive = first_softness;
         const NewtonResult result = scene.solve_positions(settings);
         EXPECT_FALSE(result.converged);
@@ -119,13 +119,13 @@ TEST(SolvePositions, ContactOutweighsAHandByAHundredThousand) {
 
 TEST(SolvePositions, FiltersSolveOnlyTheirOwnBlocksButReportEveryError) {
     SolverScene hands = ball_between_hand_and_plane(0.0);
-    EXPECT_TRUE(hands.solve_positions({}, BlockFilter::without_contacts).converged);
+    EXPECT_TRUE(hands.solve_positions(test::tight_settings(), BlockFilter::without_contacts).converged);
     EXPECT_NEAR(hands.body(2).pose_ws.position.y(), 0.0, k_tolerance_m);
     EXPECT_NEAR(hands.error_m(1), 0.1, k_tolerance_m);
 
     SolverScene contacts = ball_between_hand_and_plane(0.0);
     contacts.body(2).pose_ws.position.y() = 0.04;
-    EXPECT_TRUE(contacts.solve_positions({}, BlockFilter::without_drives).converged);
+    EXPECT_TRUE(contacts.solve_positions(test::tight_settings(), BlockFilter::without_drives).converged);
     EXPECT_NEAR(contacts.body(2).pose_ws.position.y(), 0.1, k_tolerance_m);
     EXPECT_NEAR(contacts.error_m(0), 0.1, k_tolerance_m);
 }
@@ -135,7 +135,7 @@ TEST(SolvePositions, FiltersSolveOnlyTheirOwnBlocksButReportEveryError) {
 RC_GTEST_PROP(SolvePositions, TwoHandsThatCannotBothBeMetEndAtTheMean, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::player_body(2, random.between(1.0, 200.0))};
+    scene.graph.bodies = {test::fixed_body(1), test::translating_body(2, random.between(1.0, 200.0))};
     RowBlock left = test::random_block(RowKind::drive_point, 1, 0, random);
     RowBlock right = test::random_block(RowKind::drive_point, 1, 0, random);
     right.key = 1;
@@ -151,8 +151,8 @@ TEST(SolvePositions, HubOfHandsSharesBetweenPlayersByMass) {
     // Two players pull one ball to different points: forces balance, so the ball and both players
     // keep their common centre of mass.
     SolverScene scene;
-    scene.graph.bodies = {test::ball(1, 4.0, 0.1), test::player_body(2, 60.0),
-                          test::player_body(3, 90.0)};
+    scene.graph.bodies = {test::ball(1, 4.0, 0.1), test::translating_body(2, 60.0),
+                          test::translating_body(3, 90.0)};
     scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 0, Vec3(0.4, 0.0, 0.0)),
                           test::row_block(RowKind::drive_point, 2, 0, Vec3(-0.1, 0.3, 0.0))};
     EXPECT_TRUE(scene.solve_positions().converged);
@@ -172,7 +172,7 @@ TEST(SolvePositions, RodBetweenTwoHandsIsFoundFromAnyTurn) {
         SolverScene scene;
         const Quat turned = rotation_about(Vec3(0.6, 0.0, 0.8), angle);
         scene.graph.bodies = {
-            test::player_body(1, 80.0),
+            test::translating_body(1, 80.0),
             test::free_body(2, 1.0, Vec3(1e-4, 1.0 / 12.0, 1.0 / 12.0), {Vec3::Zero(), turned})};
         scene.body(0).inverse_mass = 0.0;
         const Vec3 end(0.5, 0.0, 0.0);
@@ -201,7 +201,7 @@ SolverScene uneven_chain_with_a_far_hand() {
         scene.graph.blocks.push_back(test::row_block(RowKind::drive_point, i, i + 1,
                                                      i == 0 ? Vec3(Vec3::Zero()) : end, -end));
     }
-    scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
+    scene.graph.bodies.push_back(test::translating_body(k_links + 2, 80.0));
     scene.body(k_links + 1).inverse_mass = 0.0;
     const double length_m = 2.0 * k_half_m * k_links;
     const Vec3 hand = 0.9 * length_m * Vec3(1.0, 2.0, 0.0).normalized();
@@ -217,7 +217,7 @@ TEST(SolvePositions, ChainOfUnevenMassesFollowsAJumpOfItsEnd) {
 }
 
 TEST(SolvePositions, HandsHardenAsFastAsTheScheduleSays) {
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.load_stepping_from_m = std::numeric_limits<double>::infinity();
     settings.regularisation.drive = 1e-3;
     const int usual = uneven_chain_with_a_far_hand().solve_positions(settings).iterations;
@@ -237,7 +237,7 @@ RC_GTEST_PROP(SolvePositions, NoStepTurnsABodyFartherThanTheScheduleSays, (std::
     const RowKind kind =
         random.between(0.0, 1.0) < 0.5 ? RowKind::drive_point : RowKind::drive_weld;
     scene.graph.blocks = {test::random_block(kind, 0, 1, random)};
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 1;
     settings.schedule.max_step_rotation_rad = random.between(0.05, 1.0);
     for (int i = 0; i < 5; ++i) {

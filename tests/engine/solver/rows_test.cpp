@@ -164,7 +164,7 @@ TEST(Rows, ContactNormalTurnsWithB) {
 
 TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
     const std::vector<SolverBody> bodies = {
-        test::player_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
+        test::translating_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
         test::fixed_body(2, {Vec3(0.5, 0.0, 0.0), Quat::Identity()})};
     const RowBlock block =
         test::row_block(RowKind::drive_point, 0, 1, Vec3(0.0, 0.25, 0.0), Vec3(0.25, 0.0, -1.0));
@@ -177,7 +177,7 @@ TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
 }
 
 TEST(Rows, AnglesOfAWeldCountAsLengthsAtItsLever) {
-    std::vector<SolverBody> bodies = {test::player_body(1, 80.0), test::ball(2, 1.0, 0.1)};
+    std::vector<SolverBody> bodies = {test::translating_body(1, 80.0), test::ball(2, 1.0, 0.1)};
     bodies[0].pose_ws.rotation = rotation_about(Vec3::UnitY(), 0.5);
     const RowBlock block = test::row_block(RowKind::drive_weld, 0, 1);
     const std::vector<Row> rows = rows_of(bodies, block);

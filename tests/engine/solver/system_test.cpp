@@ -90,7 +90,7 @@ std::vector<SolverBody> random_bodies(std::size_t count, Random& random) {
         bodies.push_back(test::random_free_body(i + 1, random));
     }
     bodies.back() = test::fixed_body(count, bodies.back().pose_ws);
-    bodies.front() = test::player_body(1, 80.0, bodies.front().pose_ws);
+    bodies.front() = test::translating_body(1, 80.0, bodies.front().pose_ws);
     return bodies;
 }
 

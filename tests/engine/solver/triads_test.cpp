@@ -33,7 +33,7 @@ SolverScene random_tree(Random& random) {
     for (std::uint32_t i = 1; i < count; ++i) {
         scene.graph.bodies.push_back(test::random_free_body(i + 1, random));
     }
-    scene.graph.bodies.push_back(test::player_body(count + 1, 80.0, test::random_pose(random)));
+    scene.graph.bodies.push_back(test::translating_body(count + 1, 80.0, test::random_pose(random)));
     const auto tie = [&](RowKind kind, std::uint32_t a, std::uint32_t b) {
         RowBlock block = test::random_block(kind, a, b, random);
         block.key = scene.graph.blocks.size();
@@ -126,7 +126,7 @@ SolverScene random_rope(Random& random) {
         tie(RowKind::ball, 1 + random_index(links, random), links + 1);
     }
     const auto player = static_cast<std::uint32_t>(scene.graph.bodies.size());
-    scene.graph.bodies.push_back(test::player_body(player + 1, 80.0, test::random_pose(random)));
+    scene.graph.bodies.push_back(test::translating_body(player + 1, 80.0, test::random_pose(random)));
     if (random_index(3, random) > 0) {
         tie(random_index(3, random) > 0 ? RowKind::drive_point : RowKind::drive_weld, player,
             links);
@@ -188,7 +188,7 @@ std::optional<double> apart_after_one_step(SolverScene (*make)(Random&), std::ui
     if (loads(rows)) {
         return std::nullopt;
     }
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 1;
     scene.solve_positions(settings);
     rows.solve_positions(settings);
@@ -382,7 +382,7 @@ void expect_same_as_loaded_anew(bool resumes, Change&& change) {
         SolverScene scene = seed <= 50 ? random_island(random) : random_rope(random);
         disturb(scene, 0.02, random);
         const Island& island = scene.graph.islands.front();
-        solve_positions(scene.view(island, BlockFilter::without_contacts), {}, scene.scratch);
+        solve_positions(scene.view(island, BlockFilter::without_contacts), test::tight_settings(), scene.scratch);
         change(scene);
         EXPECT_EQ(TriadSystem(scene.scratch.triads).resume(scene.view(island)), resumes);
         SolverScene anew;
@@ -421,7 +421,7 @@ TEST(Triads, DoNotGoOnWithAnotherIsland) {
     build_islands(scene.graph);
     ASSERT_EQ(scene.graph.islands.size(), 2U);
     for (const Island& island : scene.graph.islands) {
-        solve_positions(scene.view(island), {}, scene.scratch);
+        solve_positions(scene.view(island), test::tight_settings(), scene.scratch);
     }
     EXPECT_FALSE(scene.scratch.triads.resume(scene.view(scene.graph.islands[0])));
     EXPECT_TRUE(scene.scratch.triads.resume(scene.view(scene.graph.islands[1])));
@@ -490,7 +490,7 @@ TEST(Triads, LeaveAnUntouchedBodyBitForBit) {
     sort_blocks(scene.graph);
     scene.body(1).pose_ws.position.x() = 0.03;
     const Pose before = scene.body(2).pose_ws;
-    EXPECT_TRUE(scene.solve_positions({}, BlockFilter::without_contacts).converged);
+    EXPECT_TRUE(scene.solve_positions(test::tight_settings(), BlockFilter::without_contacts).converged);
     EXPECT_EQ(scene.body(2).pose_ws.position, before.position);
     EXPECT_EQ(scene.body(2).pose_ws.rotation.coeffs(), before.rotation.coeffs());
 }

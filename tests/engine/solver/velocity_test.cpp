@@ -112,7 +112,7 @@ RC_GTEST_PROP(SolveVelocities, ImpulsesOutAreWhatTheBodiesReceived, (std::uint64
 
 TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0)};
+    scene.graph.bodies = {test::fixed_body(1), test::translating_body(2, 80.0)};
     scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 0)};
     scene.block(0).drive_velocity_ws_mps = Vec3(0.5, -1.0, 0.25);
     scene.solve_velocities();
@@ -124,7 +124,7 @@ TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
 RC_GTEST_PROP(SolveVelocities, WeldedBodyMovesAndTurnsWithTheHand, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
+    scene.graph.bodies = {test::translating_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
     scene.body(0).inverse_mass = 0.0;
     scene.body(0).velocity_mps = random.vector(2.0);
@@ -239,7 +239,7 @@ RC_GTEST_PROP(SolveVelocities, ContactsAloneGiveNoEnergy, (std::uint64_t seed)) 
 // still brakes it, though it gives energy against the motion that the hand ended.
 TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1), test::player_body(3, 80.0)};
+    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1), test::translating_body(3, 80.0)};
     scene.body(1).velocity_mps = Vec3(0.3, 0.0, 0.0);
     RowBlock contact = test::row_block(RowKind::contact, 1, 0);
     contact.friction = 0.4;
