@@ -1,5 +1,6 @@
-// Solver, model: the rotation that two drives give one body. Source: swing-twist decomposition as
-// in Dobrowolski, Swing-twist decomposition in Clifford algebra (2015).
+// Solver, model: the rotation that two drives give one body.
+// Source: swing-twist decomposition as in Dobrowolski, Swing-twist decomposition in Clifford
+// algebra (2015).
 #include "engine/solver/model/drive_pair.hpp"
 
 namespace handhold {

@@ -1,6 +1,6 @@
-// Solver, newton: the active set of unilateral rows. Sources: block principal pivoting of Judice
-// and Pires (1994); if pivoting cycles, the active-set descent of Lawson and Hanson, Solving Least
-// Squares Problems (1974), which cannot cycle.
+// Solver, newton: the active set of unilateral rows.
+// Sources: block principal pivoting of Judice and Pires (1994); if pivoting cycles, the active-set
+// descent of Lawson and Hanson, Solving Least Squares Problems (1974), which cannot cycle.
 #include "engine/solver/newton/active_set.hpp"
 
 #include <algorithm>

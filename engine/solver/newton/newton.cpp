@@ -1,8 +1,8 @@
 // Solver, newton: the damped Newton iteration of the position solve. One iteration,
 //   (J W J^T + R) lambda = -C,   dx = W J^T lambda,   x += scale * dx
-// is the same for islands solved row by row (RowSteps) and in packed triads (TriadSteps). Sources:
-// Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness after
-// Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
+// is the same for islands solved row by row (RowSteps) and in packed triads (TriadSteps).
+// Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness
+// after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
 #include "engine/solver/newton/newton.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_min_active_distance_m =
-    1e-3;  // Contacts and limits are omitted beyond this distance and beyond twice the worst error.
+    1e-3;  // contacts and limits are omitted beyond both this and twice the worst error
 // Longest plausible move of a body by joint rows, relative to the residual: an almost stretched
 // chain. Without it a drive that pulls across an endless rail would move a slider without bound.
 constexpr double k_max_joint_move_ratio = 10.0;

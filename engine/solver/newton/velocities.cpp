@@ -1,6 +1,6 @@
-// Solver, newton: the velocity solve, row by row. Sources: Coulomb's cone by fixed-point iteration
-// over sticking and sliding contacts, as in Moreau's contact dynamics (1988); restitution after
-// Newton.
+// Solver, newton: the velocity solve, row by row.
+// Sources: Coulomb's cone by fixed-point iteration over sticking and sliding contacts, as in
+// Moreau's contact dynamics (1988); restitution after Newton.
 #include "engine/solver/newton/velocities.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Solver, packed: finds strands in an island's chains. Source: nested dissection after George,
-// Nested Dissection of a Regular Finite Element Mesh (1973), applied to a path.
+// Solver, packed: finds strands in an island's chains.
+// Source: nested dissection after George, Nested Dissection of a Regular Finite Element Mesh
+// (1973), applied to a path.
 #include "engine/solver/packed/strand_plan.hpp"
 
 #include <algorithm>

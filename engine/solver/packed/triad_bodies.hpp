@@ -151,8 +151,8 @@ HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& o
     out.yz += scaled.y * v.z;
 }
 
-// out += positive_stiffness(force, arm, +1). For b's ends force and arm both have the opposite
-// sign.
+// out += positive_stiffness(force, arm, +1). The arm of b's ends is reversed, which amounts to the
+// sign -1.
 HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
     constexpr double k_min_ratio = 1e-12;
     const Double4 zero = zero4();

@@ -1,6 +1,6 @@
-// Solver, packed: kernels of the rest's sparse LDL^T in 3x3 blocks. Included by
-// triad_kernels.cpp only, and inlined there into functions for one processor type. Source: LDL^T by
-// blocks as in Golub and Van Loan, Matrix Computations, 4.2.
+// Solver, packed: kernels of the rest's sparse LDL^T in 3x3 blocks. Included by triad_kernels.cpp
+// only, and inlined there into functions for one processor type.
+// Source: LDL^T by blocks as in Golub and Van Loan, Matrix Computations, 4.2.
 
 #pragma once
 

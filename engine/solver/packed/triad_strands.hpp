@@ -1,7 +1,7 @@
 // Solver, packed: kernels for strands, four strands side by side in a register's lanes. Nothing
 // crosses lanes except at the strands' ends. Included by triad_kernels.cpp only, and inlined there
-// into functions for one processor type. Sources: block LDL^T as in triad_factor.hpp; nested
-// dissection after George (1973).
+// into functions for one processor type.
+// Sources: block LDL^T as in triad_factor.hpp; nested dissection after George (1973).
 
 #pragma once
 

@@ -1,5 +1,5 @@
-// Solver, sparse: numeric LDL^T factorisation on panels. Source: right-looking LDL^T as in Golub
-// and Van Loan, Matrix Computations, 4.1 and 4.2.
+// Solver, sparse: numeric LDL^T factorisation on panels.
+// Source: right-looking LDL^T as in Golub and Van Loan, Matrix Computations, 4.1 and 4.2.
 #include "engine/solver/sparse/block_factor.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// Solver, sparse: symbolic factorisation. The data structures are described in the header. Sources:
-// minimum degree as in George and Liu, The Evolution of the Minimum Degree Ordering Algorithm
-// (1989), on blocks; bodies as unknowns after Baraff, Linear-Time Dynamics using Lagrange
+// Solver, sparse: symbolic factorisation. The data structures are described in the header.
+// Sources: minimum degree as in George and Liu, The Evolution of the Minimum Degree Ordering
+// Algorithm (1989), on blocks; bodies as unknowns after Baraff, Linear-Time Dynamics using Lagrange
 // Multipliers (1996).
 #include "engine/solver/sparse/elimination_plan.hpp"
 

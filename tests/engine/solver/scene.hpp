@@ -10,8 +10,8 @@
 #include "engine/solver/newton/velocities.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// Shared by the solver's tests: bodies with consistent masses and inertias, blocks, and a graph that
-// is solved island by island.
+// Shared by the solver's tests: bodies with consistent masses and inertias, blocks, and a graph
+// that is solved island by island.
 namespace handhold::test {
 
 inline SolverBody fixed_body(std::uint64_t id, const Pose& pose_ws = {}) {
