@@ -118,8 +118,8 @@ void TriadPlan::find_groups() {
         }
     }
     groups_.clear();
-    auto group = static_cast<std::uint32_t>(strands_.row_count());
-    const std::uint32_t packed = 2 * group;
+    auto group_index = static_cast<std::uint32_t>(strands_.row_count());
+    const std::uint32_t packed = 2 * group_index;
     std::uint32_t ends = 0;
     std::uint32_t pairs = 0;
     for (std::size_t body = 0; body < slots.size(); body += k_lanes) {
@@ -128,7 +128,7 @@ void TriadPlan::find_groups() {
              slots.subspan(body, std::min(k_lanes, slots.size() - body))) {
             width = std::max(width, counts_[slot]);
         }
-        groups_.push_back({width, group++, packed + ends, ends, pairs});
+        groups_.push_back({width, group_index++, packed + ends, ends, pairs});
         ends += width;
         pairs += width * (width + 1) / 2;
     }
