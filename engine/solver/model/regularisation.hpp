@@ -1,10 +1,10 @@
 // Solver, model: regularisation R of the normal equations (J W J^T + R) lambda = -C.
 //
-// R is diagonal. With K = J W J^T and row i,
+// R is diagonal. With A = J W J^T and i a row,
 //   R_ii = factor * r_i * s_i
-//   r_i   dimensionless, by the row's group: `relative_regularisation`
-//   s_i   K_ii; for drive rows the harmonic mean of all K_ii instead, so that two drives on bodies
-//         of different masses share an error evenly: `HarmonicMean`
+//   r_i      dimensionless, by the row's group: `relative_regularisation`
+//   s_i      A_ii; for drive rows the harmonic mean of all A_ii instead, so that two drives on
+//            bodies of different masses share an error evenly: `HarmonicMean`
 //   factor   1, or larger if a step was rejected
 // RowSystem (`regularise`) and TriadSystem (`factorise`) both evaluate this formula. A row with a
 // larger r_i is less stiff: if rows contradict each other, their errors end in proportion to R_ii.
@@ -40,8 +40,8 @@ inline double relative_regularisation(const Row& row, const Regularisation& regu
     return regularisation.joint;
 }
 
-// Harmonic mean of K's diagonal. The rows of one vector-valued error enter with the mean of their
-// diagonal entries, so that the result does not depend on the world's orientation.
+// Harmonic mean of the diagonal of J W J^T. The rows of one vector-valued error enter with the mean
+// of their diagonal entries, so that the result does not depend on the world's orientation.
 class HarmonicMean {
   public:
     // `width` rows of one error and the sum of their diagonal entries, 0 if nothing can move them.

@@ -36,9 +36,9 @@ class LoadSteppedDrives {
         std::uint32_t block = 0;  // into the graph's blocks
         Vec3 point_a_bs = Vec3::Zero();
         Quat rotation_a_bs = Quat::Identity();
-        Vec3 point_error_a_bs = Vec3::Zero();  // from b's point to a's, in a's frame
-        Vec3 rotation_error_a_bs =
-            Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
+        Vec3 point_error_a_bs = Vec3::Zero();  // p_a - p_b in a's frame
+        // Rotation vector from b's frame to a's, in a's frame, radians.
+        Vec3 rotation_error_a_bs = Vec3::Zero();
     };
     std::vector<Drive> drives_;
     std::vector<Pose> start_;  // by slot

@@ -17,8 +17,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_min_active_distance_m =
-    1e-3;  // contacts and limits are omitted beyond both this and twice the worst error
+// Contacts and limits are omitted from a step beyond both this and twice the worst error.
+constexpr double k_min_active_distance_m = 1e-3;
 // Longest plausible move of a body by joint rows, relative to the residual: an almost stretched
 // chain. Without it a drive that pulls across an endless rail would move a slider without bound.
 constexpr double k_max_joint_move_ratio = 10.0;
@@ -39,7 +39,7 @@ bool has_unilateral_block(const IslandView& island) {
     });
 }
 
-// Contacts and limits farther apart than this are omitted from a step: twice the worst error.
+// Separation beyond which contacts and limits are omitted from a step.
 double active_distance_of(const IslandView& island) {
     if (!has_unilateral_block(island)) {
         return k_min_active_distance_m;

@@ -18,8 +18,8 @@ struct NewtonResult {
     double residual_m = 0.0;             // largest error at the end (Row::residual)
     bool converged = false;              // residual_m < tolerance_m
     std::optional<JointError> joints;    // largest joint errors at the end; packed islands only
-    bool active_set_unconverged =
-        false;  // In some step the active set did not converge: inactive rows may overlap.
+    // In some step the active set did not converge: inactive rows may overlap.
+    bool active_set_unconverged = false;
     // Load stepping, if the iterations ran out; failed: the bodies are where the full load left
     // them.
     LoadStepping load_stepping = LoadStepping::none;

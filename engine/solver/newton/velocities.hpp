@@ -11,14 +11,16 @@ namespace handhold {
 struct VelocityResult {
     // Friction wedged, or restitution or friction added energy: contact friction was removed.
     bool wedged = false;
-    bool friction_unconverged = false;  // stick-slip iteration reached its limit
-    bool active_set_unconverged =
-        false;  // the active set did not converge: inactive rows may overlap
+    bool friction_unconverged = false;  // the stick-slip iteration reached its limit
+    // The active set did not converge: inactive rows may overlap.
+    bool active_set_unconverged = false;
 };
-// Solves the same rows as the position solve for velocities v:
-//   drives     v_a + v_drive - v_b = 0, v_drive: RowBlock::drive_velocity_ws_mps and
-//   drive_spin_ws_radps joints     J v = 0 contacts   v_n >= -e v_n(before), e the restitution, 0
-//   for slow impacts friction   |impulse| <= limit, opposing the slip
+// Solves the same rows as the position solve for the bodies' velocities v:
+//   drives     v_a + v_drive - v_b = 0, and the same for spins (RowBlock::drive_velocity_ws_mps,
+//              drive_spin_ws_radps)
+//   joints     J v = 0
+//   contacts   v_n >= -e v_n(before); e: restitution, 0 for slow impacts
+//   friction   |impulse| <= limit, opposing the slip
 // Writes the bodies' velocities, the blocks' impulses and the impulses of locked joints.
 VelocityResult solve_velocities(const IslandView& island, const VelocitySettings& settings,
                                 SolveScratch& scratch);

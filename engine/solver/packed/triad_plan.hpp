@@ -13,7 +13,7 @@
 namespace handhold {
 
 // Elimination order and memory layout of a sparse LDL^T whose blocks are all 3x3: strands first,
-// then the rest in the order of an EliminationPlan. Also maps groups of group_index bodies to the
+// then the rest in the order of an EliminationPlan. Also maps groups of four bodies to the
 // ends of their triads and to the blocks that they contribute to.
 //
 // Nodes, ends (2 * node + side), steps and blocks are those of the rest, numbered by their index in
@@ -57,16 +57,16 @@ class TriadPlan {
     // By place: the slot; k_no_slot if a strand has no body there.
     std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t group_count() const { return strands_.row_count() + groups_.size(); }
-    // Ends of given nodes in the order in which they are packed, group_index bodies each: two for
+    // Ends of given nodes in the order in which they are packed, four bodies each: two for
     // each row of a strand (that of the link before, that of the link after), then `ends()`.
     // k_no_slot: none in this lane.
     std::span<const Lanes> packed_ends() const { return packed_ends_; }
 
-    // Four strands. A row has group_index bodies.
+    // Four strands. A row has four bodies.
     struct StrandPack {
         std::uint32_t length = 0;  // links per strand: one less than rows
-        std::uint32_t row = 0;     // its first row, into the groups of group_index bodies
-        std::uint32_t step = 0;  // first of its `length` steps; a step eliminates group_index links
+        std::uint32_t row = 0;     // its first row, into the groups of four bodies
+        std::uint32_t step = 0;    // first of its `length` steps; a step eliminates four links
         // First of its length + 2 quadruples of multipliers: those of `before`, of each step and of
         // `after`.
         std::uint32_t bound = 0;
@@ -98,7 +98,7 @@ class TriadPlan {
     // eliminated nodes first; missing ones are `dummy_end`.
     struct Group {
         std::uint32_t width = 0;
-        std::uint32_t group_index = 0;  // index of the group
+        std::uint32_t group_index = 0;  // into groups of four bodies, rows of strands first
         std::uint32_t packed = 0;       // into `packed_ends`
         std::uint32_t ends = 0;         // into `ends`, `width` of them
         // into `pairs`, ordered as Step::updates: products of two of its ends
@@ -114,7 +114,7 @@ class TriadPlan {
     std::span<const Pair> pairs() const { return pairs_; }
     // Blocks that must be set to 0 before products are added.
     std::span<const std::uint32_t> zeros() const { return zeros_; }
-    // Indices one past the last end and block: written, but never read.
+    // Dummies: indices one past the last end and block.
     std::uint32_t dummy_end() const { return static_cast<std::uint32_t>(2 * steps_.size()); }
     std::uint32_t dummy_block() const { return static_cast<std::uint32_t>(block_count_); }
 

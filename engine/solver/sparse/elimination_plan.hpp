@@ -15,7 +15,7 @@ inline constexpr std::uint32_t k_widest_node = 12;  // rows; four contacts with 
 // Relative to the diagonal. A smaller pivot means that the row is linearly dependent on others to a
 // degree that alpha cannot separate.
 inline constexpr double k_smallest_pivot = 1e-14;
-inline constexpr std::uint32_t k_hub_nodes = 4;  // Bodies with more row nodes than this are hubs.
+inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
 
 template <typename T>
@@ -59,8 +59,7 @@ class EliminationPlan {
         std::uint32_t scalar = 0;        // of the node's first unknown
         std::uint32_t blocks_begin = 0;  // coupled later nodes, into `blocks`
         std::uint32_t blocks_end = 0;
-        // Into `updates`: one target for each pair of its blocks, (0, 0), (0, 1) .. (1, 1), (1, 2)
-        // ..
+        // Into `updates`: one target per pair of its blocks: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
         std::uint32_t updates = 0;
     };
     struct Block {
@@ -110,7 +109,7 @@ class EliminationPlan {
                      appearances_begin_[node + 1] - appearances_begin_[node]);
     }
     std::size_t value_count() const { return value_count_; }    // number of values of all panels
-    std::size_t scalar_count() const { return scalar_count_; }  // unknowns
+    std::size_t scalar_count() const { return scalar_count_; }  // number of unknowns
 
   private:
     void find_incidence();
