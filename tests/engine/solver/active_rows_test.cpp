@@ -69,7 +69,7 @@ Outcome pull(SolverScene& scene, bool restricts, TriadSystem& system) {
             return outcome;
         }
         if (restricts && outcome.steps > 0) {
-            system.restricted(k_min_move_m);
+            system.restrict_to_active(k_min_move_m);
         }
         outcome.min_rows = std::min(outcome.min_rows, system.active_rows());
         system.factorise({}, 1.0);
