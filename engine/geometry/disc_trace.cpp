@@ -239,7 +239,7 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
 
 // `line_triangle[i]` belongs to the piece from point i to point i + 1.
 void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
-    constexpr std::size_t k_max_merged = 16;  // is_straight looks at all again for every point
+    constexpr std::size_t k_max_merged = 16;  // bounds the cost: is_straight rechecks every point
     std::size_t first = 0;
     for (std::size_t i = 1; i < scratch.line.size(); ++i) {
         const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_max_merged &&

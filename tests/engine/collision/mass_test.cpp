@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/collision/mass_properties.hpp"
 #include "engine/core/check.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
+#include "tests/engine/collision/oracle.hpp"
 #include "engine/io/gltf.hpp"
 #include "tests/places.hpp"
 

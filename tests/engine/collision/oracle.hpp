@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/collision/closest_point.hpp"
 
 // Distances of convex shapes found without the library under test: all features are compared.

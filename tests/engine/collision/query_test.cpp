@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/collision/closest_point.hpp"
 
 namespace handhold::collision_query_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/io/gltf.hpp"
 
 // A scaled mesh is the mesh whose positions were multiplied: that one is the oracle.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
+#include "tests/engine/collision/oracle.hpp"
 #include "engine/core/check.hpp"
 
 // Cylinders, hulls and compounds: distances carry their certificate (collision_distance_test.cpp),

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/core/parallel.hpp"
 
 // Four threads ask one world at the same time; preset tsan runs what is called Threaded.

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
 

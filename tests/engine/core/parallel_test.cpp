@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
 

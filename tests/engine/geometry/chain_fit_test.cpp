@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "broken_meshes.hpp"
-#include "sunk_oracle.hpp"
+#include "tests/engine/geometry/penetration_oracle.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold::chain_fit_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "surface_cuts.hpp"
 
 namespace handhold::chain_refit_test {

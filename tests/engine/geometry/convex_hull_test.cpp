@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/io/gltf.hpp"
 #include "tests/places.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "disc_oracle.hpp"
 
 namespace handhold::disc_contact_test {

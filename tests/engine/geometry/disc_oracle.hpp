@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/geometry/disc_contact.hpp"
 
 // Distances in the plane in closed form, in double precision, and chains replayed in small steps:

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/collision/shape_query.hpp"
 #include "graph_claims.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
 

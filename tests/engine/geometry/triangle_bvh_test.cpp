@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
-#include "collision_scene.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "data_meshes.hpp"
 #include "engine/collision/closest_point.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 #include "engine/solver/packed/triad_plan.hpp"
 
 namespace handhold::solver_plan_cache_test {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "engine/solver/model/islands.hpp"
 #include "engine/solver/model/rows.hpp"
 #include "engine/solver/newton/newton.hpp"

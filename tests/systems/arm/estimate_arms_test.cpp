@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "systems/arm/pose_arms.hpp"
 
 namespace handhold::estimate_arms_test {

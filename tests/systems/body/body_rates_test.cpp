@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "engine/io/csv.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/pose_thumb.hpp"

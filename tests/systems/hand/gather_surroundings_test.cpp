@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "systems/input/read_tracking.hpp"
 
 // What the tests of read_tracking share: players' devices as columns, and samples made on the spot.

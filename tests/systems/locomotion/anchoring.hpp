@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "systems/locomotion/anchor_grabs.hpp"
 
 namespace handhold::settle_grabs_test {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "components/play_space.hpp"
 
 namespace handhold::update_grabs_test {

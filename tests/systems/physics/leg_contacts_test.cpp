@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "engine/anim/deflect_outward.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tests/random.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 #include "engine/collision/shape_library.hpp"
 
 namespace handhold::solve_phases_test {
