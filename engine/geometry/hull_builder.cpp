@@ -7,8 +7,8 @@
 namespace handhold {
 namespace {
 
-// Share of the size below which nothing stands out: far above rounding, so that every triangle has
-// a normal and every point a side; far below what can be seen.
+// Tolerance relative to the hull's size. Far above rounding, so that every triangle has a normal
+// and every point a side; far below anything visible.
 constexpr double k_flat = 1e-6;
 
 }  // namespace

@@ -92,8 +92,8 @@ class TriangleBvh {
         bool is_leaf() const { return count > 0; }
     };
     static constexpr Child k_no_child = {0xffffffff, 0};
-    // Up to four children side by side. Boxes are about origin_, with k_padding of the mesh's reach
-    // to spare, so that rounding hides nothing. That of a child that is not there is empty.
+    // Up to four children. Boxes are relative to origin_ and padded against rounding. Missing
+    // children have empty boxes.
     struct Node {
         Boxes4 box;
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
@@ -108,7 +108,7 @@ class TriangleBvh {
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
-    Vec3 low_ = Vec3::Zero();  // of the box of all, about origin_
+    Vec3 low_ = Vec3::Zero();  // of the whole tree's box, relative to origin_
     Vec3 high_ = Vec3::Zero();
     std::vector<Node> nodes_;  // root first
     std::vector<Vec3> positions_;
