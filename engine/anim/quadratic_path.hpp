@@ -4,9 +4,9 @@
 
 namespace handhold {
 
-// The way of what moves in one frame: through where it was at both end_change_mps of the last frame
-// and is now, so that a steady acceleration looks the same at any frame rate. Never back past
-// either end.
+// Motion within one frame, interpolated quadratically through the positions at both ends of the
+// last frame and at the current one. A constant acceleration therefore looks the same at any frame
+// rate. Never overshoots an end.
 class QuadraticPath {
   public:
     // `moved_m` in the last span_s seconds; before that, at before_mps for before_s seconds. Times
