@@ -94,8 +94,8 @@ class ChainPatch::PenetrationSearch {
         CapsulePenetration penetration = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
         penetration.nearest_ds = nearest_.on_segment.head<2>();
         if (nearest_.distance_m > 0.0) {
-            const Vec3 way = nearest_.on_segment - nearest_.on_triangle;
-            penetration.away_ds = way.head<2>() / nearest_.distance_m;
+            const Vec3 offset = nearest_.on_segment - nearest_.on_triangle;
+            penetration.away_ds = offset.head<2>() / nearest_.distance_m;
         }
         return penetration;
     }

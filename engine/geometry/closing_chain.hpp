@@ -41,10 +41,10 @@ class ClosingChain {
         double angle = frozen_angle_rad_;
         for (std::size_t i = first_free_hinge_; i < chain_.link_count; ++i) {
             angle += angle_at(i, at);
-            const Vec2 way = chain_.length_m[i] * direction(angle);
-            motion.point[i + 1] = motion.point[i] + way;
+            const Vec2 link = chain_.length_m[i] * direction(angle);
+            motion.point[i + 1] = motion.point[i] + link;
             motion.velocity_m[i + 1] =
-                motion.velocity_m[i] + turn_rad_[i] * Vec2(-way.y(), way.x());
+                motion.velocity_m[i] + turn_rad_[i] * Vec2(-link.y(), link.x());
         }
         return motion;
     }

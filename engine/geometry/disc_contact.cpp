@@ -21,7 +21,7 @@ constexpr double k_aim_m = 1e-5;
 constexpr double k_disc_clear_m = 1e-4;
 // Larger separations use the closed form. Smaller ones use Box2D, whose error is at most 5e-7 m and
 // which decides what touches.
-constexpr double k_exact_below_m = 3e-5;
+constexpr double k_closed_form_above_m = 3e-5;
 constexpr int k_max_rounds = 20000;  // guard; a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
@@ -131,13 +131,13 @@ class ChainCloser {
     // Lower bound on the pair's contact time (conservative advancement). `gap.away` is a separating
     // axis with the segment behind it. The pair cannot touch before one of the link's ends has
     // covered its distance along that axis.
-    double next_touch(const Pair& pair, const DiscGap& gap, double separation_m,
+    double next_touch(const Pair& pair, const DiscGap& gap, double clearance_m,
                       const ChainMotion& motion, double at) const {
         double step = std::numeric_limits<double>::infinity();
         for (std::size_t end = pair.link; end <= pair.link + 1; ++end) {
             const double beyond_m =
                 gap.away.dot(motion.point[end] - gap.on_segment) - gap.distance_m;
-            step = std::min(step, time_to_cross(std::max(beyond_m, 0.0) + separation_m - k_aim_m,
+            step = std::min(step, time_to_cross(std::max(beyond_m, 0.0) + clearance_m - k_aim_m,
                                                 -gap.away.dot(motion.velocity_m[end]),
                                                 links_.acceleration_m(end)));
         }
@@ -299,9 +299,9 @@ class ChainCloser {
 
     // Uses GJK near contact and the closed form elsewhere.
     double separation_m(const Pair& pair, const DiscGap& gap, const ChainMotion& motion) {
-        const double separation_m = gap.distance_m - radius_m(pair);
-        if (separation_m > k_exact_below_m) {
-            return separation_m;
+        const double clearance_m = gap.distance_m - radius_m(pair);
+        if (clearance_m > k_closed_form_above_m) {
+            return clearance_m;
         }
         ++closure_.distances;
         const DiscSegment& segment = segments_[pair.segment];

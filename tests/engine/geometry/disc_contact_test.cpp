@@ -167,7 +167,7 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
         }
         const std::size_t last = touches ? stopped : chain.link_count - 1;
         for (std::size_t i = oracle.first_free_hinge; i <= last; ++i) {
-            oracle.kept_rad[i] = closure.angle_rad[i];
+            oracle.frozen_rad[i] = closure.angle_rad[i];
             EXPECT_NEAR(closure.angle_rad[i],
                         chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]), 1e-12);
         }

@@ -83,7 +83,7 @@ inline void expect_best_pairs(const SurfaceGraph& graph) {
     EXPECT_EQ(graph.report.flipped_links, flipped);
 }
 
-inline void expect_sound_graph(const SurfaceGraph& graph, const Mesh& source) {
+inline void expect_valid_graph(const SurfaceGraph& graph, const Mesh& source) {
     const std::size_t count = graph.triangles.size();
     ASSERT_EQ(graph.neighbours.size(), count);
     ASSERT_EQ(graph.normals.size(), count);
