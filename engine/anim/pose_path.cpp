@@ -78,9 +78,9 @@ class PeriodicSpline {
     static void check_turn(double cosine, std::size_t key) {
         // The cosine is that of half the angle between the rotations.
         double sine = 0.0;
-        double least = 1.0;
-        sin_cos(0.5 * k_max_path_turn_rad, sine, least);
-        HH_CHECK(std::abs(cosine) >= least, "a path turns too far between two poses", key);
+        double min_cosine = 1.0;
+        sin_cos(0.5 * k_max_path_turn_rad, sine, min_cosine);
+        HH_CHECK(std::abs(cosine) >= min_cosine, "a path turns too far between two poses", key);
     }
     Neighbour previous(std::size_t i) const {
         return i > 0 ? Neighbour{i - 1, 1.0} : Neighbour{count_ - 1, closing_sign_};

@@ -135,10 +135,10 @@ class ChainPatch::PenetrationSearch {
     // Lower bound on the squared distance: distance to the triangle's bounding box.
     Float4 bounds_squared(const Corners4& corner) const {
         const Float4 zero = {};
-        const auto beyond = [&](std::size_t axis, const Float4& most) -> Float4 {
+        const auto beyond = [&](std::size_t axis, const Float4& upper) -> Float4 {
             const Float4 low = lower(lower(corner[0][axis], corner[1][axis]), corner[2][axis]);
             const Float4 high = higher(higher(corner[0][axis], corner[1][axis]), corner[2][axis]);
-            return higher(higher(low - most, -high), zero);
+            return higher(higher(low - upper, -high), zero);
         };
         const Float4 ahead = beyond(0, length_);
         const Float4 aside = beyond(1, zero);

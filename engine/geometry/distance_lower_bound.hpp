@@ -16,7 +16,7 @@ class DistanceLowerBound {
   public:
     // `point` is relative to the tree's origin; no coordinate of the tree exceeds `reach_m`.
     DistanceLowerBound(const Vec3& point, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // at min_squared ten roundings
+        constexpr double k_rounding = 0x1p-20;  // at least ten roundings
         for (std::size_t i = 0; i < 3; ++i) {
             point_[i] = splat4(point[static_cast<Eigen::Index>(i)]);
         }

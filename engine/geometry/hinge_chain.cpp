@@ -59,11 +59,11 @@ std::array<Vec2, k_max_disc_links + 1> chain_points_ds(const HingeChain& chain,
 }
 
 double max_radius_m(const HingeChain& chain) {
-    double thickest = 0.0;
+    double radius_m = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
-        thickest = std::max(thickest, chain.radius_m[i]);
+        radius_m = std::max(radius_m, chain.radius_m[i]);
     }
-    return thickest;
+    return radius_m;
 }
 
 double reach_m(const HingeChain& chain) {

@@ -5,7 +5,7 @@
 
 #include "engine/math/float4.hpp"
 
-// Distances of splat triangles from a segment, in floats: the SIMD counterpart of
+// Distances of four triangles from a segment, in floats: the SIMD counterpart of
 // segment_triangle.hpp, for rejection tests.
 namespace handhold {
 

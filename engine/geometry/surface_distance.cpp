@@ -50,7 +50,7 @@ class Cover {
     const Vec3& far_point() const { return far_point_; }  // valid after covers() returned false
 
   private:
-    // Splits at the edge of the nearest triangle that the piece overhangs max_out. The part above
+    // Splits at the edge of the nearest triangle that the piece overhangs most. The part above
     // that triangle stays near it; the rest finds another.
     bool covers_parts(const Corners& piece, int cuts) {
         const Corners near = corners_of(hint_);

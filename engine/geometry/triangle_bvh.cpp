@@ -71,10 +71,10 @@ class RayEntry {
         }
     }
 
-    // Entry as a fraction of the segment; infinity if it does not enter before `most`.
-    Double4 of(const Boxes4& boxes, double most) const {
+    // Entry as a fraction of the segment; infinity if it does not enter before `max_fraction`.
+    Double4 of(const Boxes4& boxes, double max_fraction) const {
         Double4 enter = zero4();
-        Double4 leave = same_four(most);
+        Double4 leave = same_four(max_fraction);
         for (std::size_t i = 0; i < 3; ++i) {
             const Double4 a =
                 (__builtin_convertvector(boxes.low[i], Double4) - start_[i]) * inverse_[i];
@@ -125,18 +125,19 @@ class NearestFirstStack {
 
 // Index of the minimum of the first `count` values.
 std::uint32_t index_of_min(const Float4& values, std::uint32_t count) {
-    std::uint32_t least = 0;
+    std::uint32_t min_index = 0;
     for (std::uint32_t i = 1; i < count; ++i) {
-        least = values[i] < values[least] ? i : least;
+        min_index = values[i] < values[min_index] ? i : min_index;
     }
-    return least;
+    return min_index;
 }
 
 // Sums the area vectors of triangles that face a side.
 class FacingAreas {
   public:
     FacingAreas(const Vec3& side, double max_area_m2)
-        : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())}, most_(splat4(max_area_m2)) {}
+        : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())},
+          max_area_(splat4(max_area_m2)) {}
 
     // Uses the first `count` lanes, masked by `is_wanted`.
     Vec3 areas_of(const Triangles4& four, const Int4& is_wanted, std::uint32_t count) const {
@@ -153,7 +154,7 @@ class FacingAreas {
         const Float4 facing =
             side_[0] * four.normal[0] + side_[1] * four.normal[1] + side_[2] * four.normal[2];
         const Int4 counts = is_wanted & (facing > zero);
-        const Float4 area = counts ? lower(higher(size, zero), most_) : zero;
+        const Float4 area = counts ? lower(higher(size, zero), max_area_) : zero;
         Vec3 sum = Vec3::Zero();
         for (std::uint32_t i = 0; i < count; ++i) {
             sum += static_cast<double>(area[i]) * Vec3(static_cast<double>(four.normal[0][i]),
@@ -165,7 +166,7 @@ class FacingAreas {
 
   private:
     std::array<Float4, 3> side_;
-    Float4 most_;
+    Float4 max_area_;
 };
 
 // Squared distance to the triangle's bounding box: a lower bound up to rounding.
@@ -194,14 +195,15 @@ Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec
     if (!is_finite(center) || !(radius_m >= 0.0)) {
         return sum;
     }
-    const DistanceLowerBound least(center - origin_, reach_m());
-    const Float4 most = splat4(radius_m * radius_m);
+    const DistanceLowerBound lower_bound(center - origin_, reach_m());
+    const Float4 max_squared = splat4(radius_m * radius_m);
     const FacingAreas facing_areas(side, max_area_m2);
-    visit_leaves([&](const Boxes4& boxes) -> Int4 { return least.squared(boxes) <= most; },
-                 [&](std::uint32_t first_slot, std::uint32_t count) {
-                     const Triangles4& four = fours_[first_slot / 4];
-                     sum += facing_areas.areas_of(four, least.squared(four) <= most, count);
-                 });
+    visit_leaves(
+        [&](const Boxes4& boxes) -> Int4 { return lower_bound.squared(boxes) <= max_squared; },
+        [&](std::uint32_t first_slot, std::uint32_t count) {
+            const Triangles4& four = fours_[first_slot / 4];
+            sum += facing_areas.areas_of(four, lower_bound.squared(four) <= max_squared, count);
+        });
     return sum;
 }
 
@@ -236,11 +238,11 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
         }
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
-            const double most = std::min(1.0, best);
-            const Double4 fraction = entry.of(node.box, most);
+            const double max_fraction = std::min(1.0, best);
+            const Double4 fraction = entry.of(node.box, max_fraction);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
-                if (fraction[i] <= most && node.child[i].is_there()) {
+                if (fraction[i] <= max_fraction && node.child[i].is_there()) {
                     open.put(node.child[i], fraction[i]);
                 }
             }
@@ -266,37 +268,37 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
     if (nodes_.empty() || !is_finite(point) || !(max_distance_m >= 0.0)) {
         return std::nullopt;
     }
-    const DistanceLowerBound least(point - origin_, reach_m());
+    const DistanceLowerBound lower_bound(point - origin_, reach_m());
     double best = max_distance_m * max_distance_m;
     TriangleHit hit;
     bool found = false;
-    float most = DistanceLowerBound::limit(best);
+    float max_squared = DistanceLowerBound::limit(best);
     NearestFirstStack<Child, float, k_max_open> open;
     open.put({0, 0}, 0.0F);
     while (!open.is_empty()) {
         const auto [next, bound_squared] = open.take();
-        if (bound_squared > most) {
+        if (bound_squared > max_squared) {
             continue;
         }
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
-            const Float4 squared = least.squared(node.box);
+            const Float4 squared = lower_bound.squared(node.box);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
-                if (squared[i] <= most && node.child[i].is_there()) {
+                if (squared[i] <= max_squared && node.child[i].is_there()) {
                     open.put(node.child[i], squared[i]);
                 }
             }
             continue;
         }
         const Triangles4& four = fours_[next.place / 4];
-        if (!any_of(least.squared(four) <= splat4(most))) {
+        if (!any_of(lower_bound.squared(four) <= splat4(max_squared))) {
             continue;
         }
-        Float4 bounds_squared = least.squared_tight(four);
+        Float4 bounds_squared = lower_bound.squared_tight(four);
         for (std::uint32_t tested = 0; tested < next.count; ++tested) {
             const std::uint32_t i = index_of_min(bounds_squared, next.count);
-            if (bounds_squared[i] > most) {
+            if (bounds_squared[i] > max_squared) {
                 break;
             }
             bounds_squared[i] = std::numeric_limits<float>::infinity();
@@ -305,7 +307,7 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;
-                most = DistanceLowerBound::limit(best);
+                max_squared = DistanceLowerBound::limit(best);
                 hit = {numbers_[slot], on_triangle, 0.0};
                 found = true;
             }

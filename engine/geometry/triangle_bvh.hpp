@@ -49,14 +49,14 @@ class TriangleBvh {
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
     // Sums the area vectors of triangles within radius_m that face `side`; a few triangles slightly
-    // farther away may be included. Each vector is twice its triangle's area long, at max_squared
+    // farther away may be included. Each vector is twice its triangle's area long, at most
     // max_area_m2. Computed in floats, so errors scale with the mesh's size.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                          double max_area_m2) const;
 
     // Calls visit(first_slot, count, four) for each leaf that may overlap the box, in tree order.
     // The box and the corners of `four` are relative to origin(). A leaf has one to four triangles,
-    // the last repeated. Includes triangles that do not overlap the box, but costs lower_bound.
+    // the last repeated. Includes triangles that do not overlap the box, but costs least.
     template <typename Visit>
     void visit_near_box(const OrientedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }

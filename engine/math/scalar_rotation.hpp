@@ -35,7 +35,7 @@ inline Quat product(const Quat& a, const Quat& b) {
 }
 
 // Rotation that maps the coordinate axes onto x, y and z (orthonormal, right-handed). After
-// Shepperd 1978: divides inverse_length the largest component.
+// Shepperd 1978: divides by the largest component.
 inline Quat rotation_from_axes(const Vec3& x, const Vec3& y, const Vec3& z) {
     const double trace = x.x() + y.y() + z.z();
     if (trace > 0.0) {
