@@ -14,7 +14,7 @@
 #include "engine/io/result.hpp"
 
 // Saves, restores and compares whole worlds: rollback, saved games, and finding where two runs
-// diverge. Format: docs/snapshot_format.md.
+// diverge. Format: docs/reference/snapshot_format.md.
 namespace handhold {
 
 // Identifies the assets that a world refers to and a snapshot omits: the shapes of its colliders.
@@ -42,8 +42,8 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 // are valid again. Returns an error, with its place and what was expected, and leaves the world
 // unchanged, for: bytes that are no snapshot, truncated or damaged; another format or schema (the
 // first differing field is named); other assets; and any state that step_frame could not run on
-// (docs/snapshot_format.md). Memory use is at most proportional to the size of `bytes`, never to a
-// number in them.
+// (docs/reference/snapshot_format.md). Memory use is at most proportional to the size of `bytes`,
+// never to a number in them.
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
                                                         const SnapshotAssets& assets, World& world);
 

@@ -12,7 +12,7 @@
 #include "components/world.hpp"
 #include "engine/io/result.hpp"
 
-// The payload of a snapshot: docs/snapshot_format.md, "Payload".
+// The payload of a snapshot: docs/reference/snapshot_format.md, "Payload".
 namespace handhold {
 
 // Converts to and from little-endian, the byte order of snapshots.

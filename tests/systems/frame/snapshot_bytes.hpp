@@ -13,7 +13,7 @@
 #include "systems/snapshot_schema.hpp"
 
 // Snapshots tampered with by someone who knows the format: the checksum is valid. Written from
-// docs/snapshot_format.md, not from the code.
+// docs/reference/snapshot_format.md, not from the code.
 namespace handhold::test {
 
 struct SnapshotBytes {
