@@ -181,13 +181,13 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
                 [&](World& w) { w.body.remove(by_name(w, "rock")); });
     break_world("expected a row in persistent_id of the same owner",
                 [&](World& w) { w.persistent_id.remove(by_name(w, "rock")); });
-    break_world("ids that nothing else has",
+    break_world("unique ids",
                 [](World& w) { w.persistent_id.rows()[1] = w.persistent_id.rows()[2]; });
     break_world("ids above 0", [](World& w) { w.persistent_id.rows()[1].value = 0; });
     break_world("below 2^64 - 1", [](World& w) { w.persistent_id.rows()[1].value = ~0ULL; });
     break_world(".player: expected a player",
                 [&](World& w) { w.hand_owner.rows()[0].player = by_name(w, "rock"); });
-    break_world(".side: expected one hand a side",
+    break_world(".side: expected one hand per side",
                 [](World& w) { w.hand_owner.rows()[1].side = w.hand_owner.rows()[0].side; });
     break_world(".mass_kg", [&](World& w) { w.body.at(by_name(w, "rock")).mass_kg = 0.0; });
     break_world(".inertia_kgm2",
