@@ -54,7 +54,7 @@ class StageTimer {
 };
 
 // What every stage is bound from: below, one function per stage selects the columns it gets.
-struct Frame {
+struct FrameContext {
     World& w;
     FrameCaches& caches;
     const Tuning& tuning;
@@ -71,7 +71,7 @@ struct Frame {
 
 // --- Input and intent ----------------------------------------------------------------------------
 
-void read_tracking(const Frame& f) {
+void read_tracking(const FrameContext& f) {
     const StageTimer timer(Stage::read_tracking, f.stats);
     World& w = f.w;
     handhold::read_tracking(
@@ -80,7 +80,7 @@ void read_tracking(const Frame& f) {
         f.tuning, f.stats);
 }
 
-void calibrate_players(const Frame& f) {
+void calibrate_players(const FrameContext& f) {
     const StageTimer timer(Stage::calibrate_players, f.stats);
     World& w = f.w;
     handhold::calibrate_players({f.dt_s(), w.player_commands, w.head_tracking, w.hand_owner,
@@ -88,13 +88,13 @@ void calibrate_players(const Frame& f) {
                                 f.tuning.calibration);
 }
 
-void group_joints(const Frame& f) {
+void group_joints(const FrameContext& f) {
     const StageTimer timer(Stage::group_joints, f.stats);
     handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
 }
 
 // Runs twice a frame; its time counts for the stage that needs the colliders.
-void place_colliders(const Frame& f, Stage needed_by) {
+void place_colliders(const FrameContext& f, Stage needed_by) {
     const StageTimer timer(needed_by, f.stats);
     World& w = f.w;
     handhold::place_colliders(
@@ -103,7 +103,7 @@ void place_colliders(const Frame& f, Stage needed_by) {
         f.tuning.head);
 }
 
-void update_grabs(const Frame& f) {
+void update_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
     World& w = f.w;
     handhold::update_grabs(
@@ -113,7 +113,7 @@ void update_grabs(const Frame& f) {
         f.tuning, f.stats);
 }
 
-void locomote_players(const Frame& f) {
+void locomote_players(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::locomote_players(
@@ -123,7 +123,7 @@ void locomote_players(const Frame& f) {
         f.tuning.locomotion);
 }
 
-void pull_bodies(const Frame& f) {
+void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
@@ -134,21 +134,21 @@ void pull_bodies(const Frame& f) {
 
 // --- Prediction ----------------------------------------------------------------------------------
 
-void animate_movers(const Frame& f) {
+void animate_movers(const FrameContext& f) {
     const StageTimer timer(Stage::animate_movers, f.stats);
     World& w = f.w;
     handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
                               w.body_start, w.body_velocity});
 }
 
-void predict_bodies(const Frame& f) {
+void predict_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::predict_bodies, f.stats);
     World& w = f.w;
     handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
                               w.body_velocity, w.player_origin, w.player_start});
 }
 
-void anchor_grabs(const Frame& f) {
+void anchor_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::anchor_grabs, f.stats);
     World& w = f.w;
     handhold::anchor_grabs({f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history,
@@ -159,7 +159,7 @@ void anchor_grabs(const Frame& f) {
 
 // --- Constraints and solve -----------------------------------------------------------------------
 
-void find_contacts(const Frame& f) {
+void find_contacts(const FrameContext& f) {
     const StageTimer timer(Stage::find_contacts, f.stats);
     World& w = f.w;
     handhold::find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner,
@@ -167,7 +167,7 @@ void find_contacts(const Frame& f) {
                             f.tuning.contact);
 }
 
-void build_constraints(const Frame& f) {
+void build_constraints(const FrameContext& f) {
     const StageTimer timer(Stage::build_constraints, f.stats);
     World& w = f.w;
     handhold::build_constraints(
@@ -177,19 +177,19 @@ void build_constraints(const Frame& f) {
         f.tuning);
 }
 
-void solve_phases(const Frame& f) {
+void solve_phases(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
     handhold::solve_phases({f.collision(), f.graph()}, f.tuning, f.stats);
 }
 
-void finish_positions(const Frame& f) {
+void finish_positions(const FrameContext& f) {
     const StageTimer timer(Stage::solve_phases, f.stats);
     World& w = f.w;
     handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab},
                                f.tuning.contact, f.stats);
 }
 
-void update_velocities(const Frame& f) {
+void update_velocities(const FrameContext& f) {
     const StageTimer timer(Stage::update_velocities, f.stats);
     World& w = f.w;
     handhold::update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, f.graph(),
@@ -197,14 +197,14 @@ void update_velocities(const Frame& f) {
                                 f.tuning, f.stats);
 }
 
-void update_joints(const Frame& f) {
+void update_joints(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
     handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
 }
 
 // --- Shown hands ---------------------------------------------------------------------------------
 
-void gather_surroundings(const Frame& f) {
+void gather_surroundings(const FrameContext& f) {
     const StageTimer timer(Stage::gather_surroundings, f.stats);
     World& w = f.w;
     handhold::gather_surroundings(
@@ -215,20 +215,20 @@ void gather_surroundings(const Frame& f) {
     f.hands().traces.assign(f.hands().surroundings.size(), {});
 }
 
-void search_grip(const Frame& f) {
+void search_grip(const FrameContext& f) {
     const StageTimer timer(Stage::search_grip, f.stats);
     handhold::search_grip({f.dt_s(), f.hands().surroundings, f.w.grip_surface, f.hands().search},
                           f.tuning, f.stats);
 }
 
-void constrain_palms(const Frame& f) {
+void constrain_palms(const FrameContext& f) {
     const StageTimer timer(Stage::constrain_palms, f.stats);
     World& w = f.w;
     handhold::constrain_palms(
         {f.dt_s(), f.hands().surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, f.tuning);
 }
 
-void sweep_fingers(const Frame& f) {
+void sweep_fingers(const FrameContext& f) {
     const StageTimer timer(Stage::sweep_fingers, f.stats);
     World& w = f.w;
     handhold::sweep_fingers(
@@ -237,7 +237,7 @@ void sweep_fingers(const Frame& f) {
         f.tuning, f.stats);
 }
 
-void pose_thumb(const Frame& f) {
+void pose_thumb(const FrameContext& f) {
     const StageTimer timer(Stage::pose_thumb, f.stats);
     World& w = f.w;
     handhold::pose_thumb({f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface,
@@ -247,7 +247,7 @@ void pose_thumb(const Frame& f) {
 
 // --- Shown body ----------------------------------------------------------------------------------
 
-void estimate_arms(const Frame& f) {
+void estimate_arms(const FrameContext& f) {
     const StageTimer timer(Stage::estimate_arms, f.stats);
     World& w = f.w;
     handhold::estimate_arms({f.dt_s(), w.player_origin, w.head_tracking, w.body_measures,
@@ -255,20 +255,20 @@ void estimate_arms(const Frame& f) {
                             f.tuning.arm);
 }
 
-void layer_clavicles(const Frame& f) {
+void layer_clavicles(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     handhold::layer_clavicles({f.caches.body_clips, f.w.body_measures, f.w.arm_estimate},
                               f.tuning.additive, f.tuning.arm);
 }
 
-void pose_arms(const Frame& f) {
+void pose_arms(const FrameContext& f) {
     const StageTimer timer(Stage::pose_arms, f.stats);
     World& w = f.w;
     handhold::pose_arms(
         {w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate, w.arm_pose});
 }
 
-void propagate_spine(const Frame& f) {
+void propagate_spine(const FrameContext& f) {
     const StageTimer timer(Stage::propagate_spine, f.stats);
     World& w = f.w;
     handhold::propagate_spine(
@@ -278,7 +278,7 @@ void propagate_spine(const Frame& f) {
         f.tuning.spine);
 }
 
-void layer_additives(const Frame& f) {
+void layer_additives(const FrameContext& f) {
     const StageTimer timer(Stage::layer_additives, f.stats);
     World& w = f.w;
     handhold::layer_additives(
@@ -287,7 +287,7 @@ void layer_additives(const Frame& f) {
         f.tuning.additive);
 }
 
-void publish_pose(const Frame& f) {
+void publish_pose(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
     World& w = f.w;
     handhold::publish_pose(
@@ -296,7 +296,7 @@ void publish_pose(const Frame& f) {
         f.tuning);
 }
 
-void publish_body(const Frame& f) {
+void publish_body(const FrameContext& f) {
     const StageTimer timer(Stage::publish_pose, f.stats);
     handhold::publish_body({f.w.arm_pose, f.w.spine_pose, f.w.render_pose});
 }
@@ -308,7 +308,7 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     HH_CHECK(input.dt_s >= k_min_dt_s && input.dt_s <= k_max_dt_s,
              "dt_s must lie between 1e-6 and 10", input.dt_s);
     stats = {};
-    const Frame f{world, caches, tuning, input, stats};
+    const FrameContext f{world, caches, tuning, input, stats};
 
     // Input and intent: what players do.
     read_tracking(f);

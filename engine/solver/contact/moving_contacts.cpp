@@ -8,6 +8,7 @@
 
 #include "engine/solver/contact/contact_rows.hpp"
 #include "engine/solver/model/collider_pose.hpp"
+#include "engine/solver/newton/settings.hpp"
 
 namespace handhold {
 namespace {
@@ -17,6 +18,7 @@ constexpr double k_max_slide_m =
     5e-3;  // A contact point whose bodies slid farther than this is dropped.
 constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
+constexpr double k_touch_m = VelocitySettings{}.touch_m;
 
 // True if a collider moved farther than its contacts stay valid.
 bool exceeds_contact_motion(const Pose& from, const Pose& to) {
@@ -55,15 +57,35 @@ bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
     return std::tie(x.id_a, x.id_b) < std::tie(y.id_a, y.id_b);
 }
 
-bool has_slid_apart(const ConstraintGraph& graph, const ContactPoint& contact) {
+// The distance between a contact's two points at the bodies' current poses.
+struct PointOffset {
+    double normal_m = 0.0;   // along the normal; negative if penetrating
+    double tangent_m = 0.0;  // across it
+};
+PointOffset offset_of(const ConstraintGraph& graph, const ContactPoint& contact) {
     const auto pose_of = [&graph](std::uint64_t id) {
         return collider_pose(graph.bodies[find_body(graph, id)]);
     };
     const Pose b = pose_of(contact.id_b);
-    const Vec3 separation = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
-                            transform_point(b, contact.point_b_bs);
+    const Vec3 offset = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
+                        transform_point(b, contact.point_b_bs);
     const Vec3 normal = b.rotation * contact.normal_b_bs;
-    return (separation - normal * normal.dot(separation)).norm() > k_max_slide_m;
+    const double normal_m = normal.dot(offset);
+    return {normal_m, (offset - normal * normal_m).norm()};
+}
+
+bool has_slid_apart(const ConstraintGraph& graph, const ContactPoint& contact) {
+    return offset_of(graph, contact).tangent_m > k_max_slide_m;
+}
+
+// True if the solve met this contact exactly: it limited the motion.
+bool limited_motion(const ConstraintGraph& graph, const ContactPoint& contact) {
+    return std::abs(offset_of(graph, contact).normal_m) < k_touch_m;
+}
+
+bool any_touches(std::span<const ContactPoint> points) {
+    return std::ranges::any_of(
+        points, [](const ContactPoint& point) { return point.separation_m < k_touch_m; });
 }
 
 bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> points) {
@@ -75,7 +97,9 @@ bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> p
 
 // Merges old and new contacts; both lists are sorted. New contacts replace the old ones of their
 // pair, or join them (OldPoints). Pairs that are no longer found keep their old contacts, because
-// those are what separates the pair.
+// those are what separates the pair. So do pairs whose new contacts are all apart, for the contacts
+// that limited the motion: a ball that is deflected by a rail slides along the contact's plane and
+// ends a little off the rail, and yet the impact at the old point must change its velocity.
 void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::vector<ContactPoint>& merged = moving.scratch;
     const std::size_t new_count = merged.size();
@@ -94,10 +118,14 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
                 feature = merged[end++].feature;
             }
         }
-        if (first == end) {
+        const auto found = std::span(merged).subspan(first, end - first);
+        if (found.empty()) {
+            merged.push_back(old);
+        } else if (!any_touches(found) && limited_motion(moving.graph, old)) {
+            old.feature = ++feature;
             merged.push_back(old);
         } else if (old_points == OldPoints::kept && !has_slid_apart(moving.graph, old) &&
-                   !has_same_point(old, std::span(merged).subspan(first, end - first))) {
+                   !has_same_point(old, found)) {
             old.feature = ++feature;
             merged.push_back(old);
         }
