@@ -132,10 +132,10 @@ void add_thumb_socket(FigureKit& kit, const FingerRig& thumb, const PalmFigures&
     const double r = thumb.radius_m[0];
     kit.add(joint, make_sphere(1.06 * r, 20), {base, Quat::Identity()});
     const Vec3 inner(0.35 * base.x(), 0.5 * (palm.above + palm.below), base.z() + 0.004);
-    const Vec3 way = (base - inner).normalized();
+    const Vec3 axis = (base - inner).normalized();
     kit.add(shell, make_torus(1.00 * r, 0.26 * r, 28, 10),
-            {base - 0.42 * r * way, rotation_between(Vec3::UnitZ(), way)});
-    kit.add(shell, make_capsule(inner, base - 0.45 * r * way, 0.96 * r, 18));
+            {base - 0.42 * r * axis, rotation_between(Vec3::UnitZ(), axis)});
+    kit.add(shell, make_capsule(inner, base - 0.45 * r * axis, 0.96 * r, 18));
 }
 
 void add_wrist(FigureKit& kit) {

@@ -441,8 +441,8 @@ void main() {
     float high = max(here.a, max(max(a, b), max(c, d)));
     vec2 gradient = vec2(b + d - a - c, c + d - a - b);
     vec2 along = vec2(-gradient.y, gradient.x);
-    float least = max(min(abs(along.x), abs(along.y)), 0.03 * (a + b + c + d) + 0.004);
-    along = clamp(along / least, -4.0, 4.0) * texel;
+    float min_slope = max(min(abs(along.x), abs(along.y)), 0.03 * (a + b + c + d) + 0.004);
+    along = clamp(along / min_slope, -4.0, 4.0) * texel;
     vec4 near = 0.5 * (texture(picture, uv - 0.17 * along) + texture(picture, uv + 0.17 * along));
     vec4 far = 0.5 * (texture(picture, uv - 0.5 * along) + texture(picture, uv + 0.5 * along));
     vec4 wide = 0.5 * (near + far);

@@ -1,5 +1,5 @@
-// The figures, computed again by a reader that has nothing but the two files: its own quaternions,
-// its own joints.
+// Recomputes the figures from the two output files alone, with independent quaternion and joint
+// code.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ V axis(const Frame& body, const nlohmann::json& local) {
     return turn(body.rotation, turn(frame_of(local).rotation, {1.0, 0.0, 0.0}));
 }
 
-// Worst errors over all frames, in the units of the file.
+// Worst errors over all frames, in the file's units.
 struct Errors {
     double joint_mm = 0.0;
     double joint_deg = 0.0;
@@ -127,18 +127,18 @@ class LabReader : public LabTest {
     }
 };
 
-TEST_F(LabReader, FindsTheSameErrorsInTheFiles) {
+TEST_F(LabReader, ErrorsRecomputedFromTheFilesAgree) {
     for (const char* scene : {"chain", "lever", "drawer"}) {
         for (const char* holder : {"player", "kinematic"}) {
             expect_same(scene, holder, "direct");
         }
     }
-    // Where the errors are large enough to see with the naked eye too.
+    // Solvers whose errors are large enough to see.
     expect_same("chain", "kinematic", "plain");
     expect_same("chain", "player", "bullet");
 }
 
-TEST_F(LabReader, FindsAPlayerWhereHeWasInEveryFrame) {
+TEST_F(LabReader, PlayerRowsHaveTheOriginInEveryFrame) {
     SolveOptions asked = options("chain", 120);
     asked.csv = folder_ / "out.csv";
     const nlohmann::json json = solve(asked);
@@ -155,7 +155,7 @@ TEST_F(LabReader, FindsAPlayerWhereHeWasInEveryFrame) {
     EXPECT_EQ(found, 120);
 }
 
-TEST_F(LabReader, FindsNoPartOfARockInTheWall) {
+TEST_F(LabReader, HeldRockNeverPenetratesTheWall) {
     SolveOptions asked = options("shove", 90);
     asked.csv = folder_ / "out.csv";
     const nlohmann::json json = solve(asked);
