@@ -58,7 +58,7 @@ LIBRARIES = [
     library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/(render|xr)/.*", "game/render/ and game/xr/"),
 ]
 
-# Comments become blanks; literals keep their quotes only. Line breaks stay, so that lines keep their numbers.
+# Comments become blanks; literals keep only their quotes. Line breaks stay, so line numbers stay correct.
 TOKEN = re.compile(
     r'(?P<comment>//[^\n]*|/\*.*?\*/)'
     r'|(?P<raw>R"(?P<mark>[^\s()\\]{0,16})\(.*?\)(?P=mark)")'
@@ -104,7 +104,7 @@ def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
     target = path.split("/")[0]
     if target not in ALLOWED_FOLDERS:
         if folder not in PRODUCT_FOLDERS:
-            return  # a library, or a helper beside a test
+            return  # a library, or a helper next to a test
         if mark == '"':
             yield f'"{path}": paths of our headers start at the root; a library\'s header goes in <>'
         for lib in LIBRARIES:

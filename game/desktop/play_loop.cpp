@@ -41,12 +41,12 @@ class Clock {
 };
 
 // Input of one poll applies to the first of several steps, except for held buttons.
-void spend(DesktopInput& input) {
+void clear_momentary_input(DesktopInput& input) {
     input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
     input.snap_turns = 0;
     input.opened = {};
 }
-void gather(const DesktopInput& now, DesktopInput& input) {
+void accumulate_input(const DesktopInput& now, DesktopInput& input) {
     const DesktopInput before = input;
     input = now;
     input.turn_left_rad += before.turn_left_rad;
@@ -175,13 +175,13 @@ class Loop {
             now = combine(now, read_gamepad(*events.gamepad, stage_.settings, dt_s, gamepad_));
         }
         held_.grip = now.grip;
-        gather(now, input_);
+        accumulate_input(now, input_);
     }
 
     void step() {
         const std::int64_t begin_ns = now_ns();
         history_.step(stage_.session, input_);
-        spend(input_);
+        clear_momentary_input(input_);
         stage_.tally.add_frame(world(), stage_.session.player(), stage_.session.stats(),
                                us_since(begin_ns), DesktopSession::k_dt_s);
         if (stage_.status != nullptr && world().clock.t_s >= next_status_s_) {
@@ -202,7 +202,7 @@ class Loop {
         if (rewinds_) {
             paused_ = true;
             rewound_ += history_.rewind(stage_.session, static_cast<std::size_t>(due));
-            spend(input_);
+            clear_momentary_input(input_);
             return;
         }
         const int steps = paused_ ? std::exchange(steps_, 0) : due;
@@ -212,7 +212,7 @@ class Loop {
             ends_ = stage_.end_s > 0.0 && world().clock.t_s >= stage_.end_s;
         }
         if (paused_) {
-            spend(input_);
+            clear_momentary_input(input_);
         }
     }
 

@@ -203,10 +203,11 @@ Mesh make_tube(std::span<const Vec3> path, double radius_m, int segments) {
             i + 1 < path.size() ? Vec3((path[i + 1] - path[i]).normalized()) : direction;
         const Vec3 tangent = (direction + next).normalized();
         const Quat tilt = rotation_between(direction, tangent);
-        const Vec3 bend = direction.cross(next);
+        const Vec3 corner_axis = direction.cross(next);
         const double stretch_at_mitre = 1.0 / std::max(direction.dot(tangent), 0.5);
-        const Vec3 outward =
-            bend.norm() > 1e-9 ? Vec3(tangent.cross(bend).normalized()) : Vec3(Vec3::Zero());
+        const Vec3 outward = corner_axis.norm() > 1e-9
+                                 ? Vec3(tangent.cross(corner_axis).normalized())
+                                 : Vec3(Vec3::Zero());
         Ring ring;
         for (int j = 0; j < segments; ++j) {
             double sine = 0.0;

@@ -13,7 +13,7 @@ namespace {
 constexpr double k_query_radius_m = 1.0;  // for the nearest surface beyond reach
 constexpr double k_pointed_cos = 0.9962;
 
-[[gnu::format(printf, 1, 2)]] std::string say(const char* format, ...) {
+[[gnu::format(printf, 1, 2)]] std::string format_text(const char* format, ...) {
     char text[240];
     va_list arguments;
     va_start(arguments, format);
@@ -35,30 +35,30 @@ void explain_reach(const Scene& scene, const CollisionWorld& collision, const Ha
     const double before_palm_m = tuning.ray_length_m - tuning.ray_back_m;
     if (const auto hit = collision.cast_ray(ray.from_ws, ray.to_ws, own_head)) {
         story.reasons.push_back(
-            say("The palm's ray meets %s, %.1f cm before the palm: if it closed "
-                "now, it grips there.",
-                name(hit->id).c_str(), 100.0 * (hit->distance_m - tuning.ray_back_m)));
+            format_text("The palm's ray meets %s, %.1f cm before the palm: if it closed "
+                        "now, it grips there.",
+                        name(hit->id).c_str(), 100.0 * (hit->distance_m - tuning.ray_back_m)));
         return;
     }
     story.reasons.push_back(
-        say("The palm's ray meets nothing within %.0f cm.", 100.0 * before_palm_m));
+        format_text("The palm's ray meets nothing within %.0f cm.", 100.0 * before_palm_m));
     const auto near = collision.closest_point(ray.palm_ws, k_query_radius_m, own_head);
     if (!near) {
         story.reasons.emplace_back("No surface within 1 m of the palm.");
     } else if (near->distance_m <= tuning.reach_m) {
         story.reasons.push_back(
-            say("%s is %.1f cm from the palm, within reach (%.0f cm): if it closes "
-                "now, it grips there.",
-                name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
+            format_text("%s is %.1f cm from the palm, within reach (%.0f cm): if it closes "
+                        "now, it grips there.",
+                        name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
     } else {
         story.reasons.push_back(
-            say("The nearest surface, %s, is %.1f cm from the palm: farther "
-                "than hand.reach_m, %.0f cm.",
-                name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
+            format_text("The nearest surface, %s, is %.1f cm from the palm: farther "
+                        "than hand.reach_m, %.0f cm.",
+                        name(near->id).c_str(), 100.0 * near->distance_m, 100.0 * tuning.reach_m));
     }
 }
 
-std::string how_body_counts(const World& world, const Tuning& tuning, const Grab& grab) {
+std::string body_effect_text(const World& world, const Tuning& tuning, const Grab& grab) {
     const RigidBody* const body = world.body.find(grab.body);
     if (body == nullptr) {
         return "It is another player's head: both players move, by their masses.";
@@ -71,21 +71,24 @@ std::string how_body_counts(const World& world, const Tuning& tuning, const Grab
     }
     const double mass_kg = body->mass_kg;
     if (mass_kg >= tuning.phases.heavy_body_kg) {
-        return say("It weighs %.0f kg, at least phases.heavy_body_kg (%.0f): gripped like a wall.",
-                   mass_kg, tuning.phases.heavy_body_kg);
+        return format_text(
+            "It weighs %.0f kg, at least phases.heavy_body_kg (%.0f): gripped like a wall.",
+            mass_kg, tuning.phases.heavy_body_kg);
     }
     if (grab.jointed) {
-        return say(
+        return format_text(
             "It weighs %.1f kg and is jointed to something fixed: three rows, "
             "the hand may rotate on it.",
             mass_kg);
     }
     return mass_kg < tuning.phases.kappa_light_kg
-               ? say("It weighs %.1f kg, less than phases.kappa_light_kg (%.0f): it never moves "
+               ? format_text(
+                     "It weighs %.1f kg, less than phases.kappa_light_kg (%.0f): it never moves "
                      "the "
                      "player.",
                      mass_kg, tuning.phases.kappa_light_kg)
-               : say("It weighs %.0f kg, between phases.kappa_light_kg and kappa_heavy_kg: it "
+               : format_text(
+                     "It weighs %.0f kg, between phases.kappa_light_kg and kappa_heavy_kg: it "
                      "moves "
                      "the player partly.",
                      mass_kg);
@@ -96,25 +99,25 @@ void explain_grip(const Scene& scene, Entity hand, const Pose& hand_ws, HandStor
     const Grab& grab = world.grab.at(hand);
     story.headline = (grab.kind == GripKind::held ? "holds " : "grips ") +
                      name_of_entity(scene, grab.body) +
-                     say(", for %.1f s", world.clock.t_s - grab.since_s);
-    story.reasons.push_back(how_body_counts(world, scene.tuning, grab));
+                     format_text(", for %.1f s", world.clock.t_s - grab.since_s);
+    story.reasons.push_back(body_effect_text(world, scene.tuning, grab));
     const AuthoredHold* const hold = world.authored_hold.find(hand);
     if (hold != nullptr && hold->body == grab.body) {
         const auto grips = scene.grips.find(name_of_entity(scene, grab.body));
         const bool is_named = grips != scene.grips.end() && hold->grip < grips->second.size();
-        story.reasons.push_back(
-            say("It closed in the zone of an authored grip, %s: the hand takes that grip's pose.",
-                is_named ? grips->second[hold->grip].name.c_str() : "without a name"));
+        story.reasons.push_back(format_text(
+            "It closed in the zone of an authored grip, %s: the hand takes that grip's pose.",
+            is_named ? grips->second[hold->grip].name.c_str() : "without a name"));
     }
     const Pose body_ws =
         gripped_pose_ws(world.body_pose, world.player_origin, world.head_tracking, grab.body);
     story.reasons.push_back(
-        say("When it closed, the surface was %.1f cm from the wrist.",
-            100.0 * (transform_point(body_ws, grab.hit_bs) - hand_ws.position).norm()));
+        format_text("When it closed, the surface was %.1f cm from the wrist.",
+                    100.0 * (transform_point(body_ws, grab.hit_bs) - hand_ws.position).norm()));
     story.reasons.push_back(
-        say("The hand is %.3f mm from its anchor; it lets go at %.0f mm "
-            "(hand.max_stretch_m).",
-            1e3 * grab.error_m, 1e3 * scene.tuning.hand.max_stretch_m));
+        format_text("The hand is %.3f mm from its anchor; it lets go at %.0f mm "
+                    "(hand.max_stretch_m).",
+                    1e3 * grab.error_m, 1e3 * scene.tuning.hand.max_stretch_m));
     if (grab.two_handed) {
         story.reasons.emplace_back(
             "Two-handed hold: the first hand sets the position; the line between the "
@@ -134,13 +137,14 @@ std::string name_of_entity(const Scene& scene, Entity entity) {
         return owner->side == HandSide::left ? "left hand" : "right hand";
     }
     if (world.player.contains(entity)) {
-        return say("player %zu", world.player.find_row(entity));
+        return format_text("player %zu", world.player.find_row(entity));
     }
     if (const Joint* const joint = world.joint.find(entity)) {
         return "joint of " + name_of_entity(scene, joint->b);
     }
     const PersistentId* const id = world.persistent_id.find(entity);
-    return id != nullptr ? say("0x%016llx", static_cast<unsigned long long>(id->value)) : "nobody";
+    return id != nullptr ? format_text("0x%016llx", static_cast<unsigned long long>(id->value))
+                         : "nobody";
 }
 
 HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Entity hand) {
@@ -155,7 +159,7 @@ HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Enti
         return story;
     }
     if (tracking.state == TrackingState::lost) {
-        story.reasons.push_back(say(
+        story.reasons.push_back(format_text(
             "Its tracking has been lost for %.2f s: it is frozen and neither grips nor releases.",
             world.clock.t_s - tracking.sample_t_s));
     }

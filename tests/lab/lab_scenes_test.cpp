@@ -24,9 +24,9 @@ TEST_F(LabScenes, JointsHoldWithBothKindsOfHolders) {
             if (std::string(holder) == "kinematic" && make_scene(name, {}).needs_player) {
                 continue;
             }
-            SolveOptions asked = options(std::string(name), name == "hub" ? 20 : 90);
-            asked.holder = holder;
-            const Json json = solve(asked);
+            SolveOptions run_options = options(std::string(name), name == "hub" ? 20 : 90);
+            run_options.holder = holder;
+            const Json json = solve(run_options);
             SCOPED_TRACE(std::string(name) + " " + holder);
             EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
             EXPECT_LE(worst(json, "joint_error_deg"), 1e-4);
@@ -38,10 +38,10 @@ TEST_F(LabScenes, JointsHoldWithBothKindsOfHolders) {
 TEST_F(LabScenes, ChainsOfAnyMassesHoldWithoutMovingPlayers) {
     for (const std::string_view masses : mass_patterns()) {
         for (const int links : {8, 33}) {
-            SolveOptions asked = options("chain", 120);
-            asked.links = links;
-            asked.masses = masses;
-            const Json json = solve(asked);
+            SolveOptions run_options = options("chain", 120);
+            run_options.links = links;
+            run_options.masses = masses;
+            const Json json = solve(run_options);
             SCOPED_TRACE(std::string(masses));
             EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
             EXPECT_LE(worst(json, "grab_error_mm"), 1e-3);
@@ -55,10 +55,10 @@ TEST_F(LabScenes, JumpingHandsAndRingsHoldWithoutMovingPlayers) {
     for (const std::string_view masses : mass_patterns()) {
         for (const int links : {16, 64, 128}) {
             for (const char* scene : {"teleport", "ring"}) {
-                SolveOptions asked = options(scene, 100);
-                asked.links = links;
-                asked.masses = masses;
-                const Json json = solve(asked);
+                SolveOptions run_options = options(scene, 100);
+                run_options.links = links;
+                run_options.masses = masses;
+                const Json json = solve(run_options);
                 SCOPED_TRACE(std::string(scene) + " " + std::string(masses) + " " +
                              std::to_string(links));
                 EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
@@ -73,34 +73,34 @@ TEST_F(LabScenes, JumpingHandsAndRingsHoldWithoutMovingPlayers) {
 // express. The runtime's solver satisfies the joints; the baselines move the player of a reachable
 // chain.
 TEST_F(LabScenes, EverySceneRunsWithEverySolver) {
-    const auto run = [&](SolveOptions asked, const std::string& solver) {
-        asked.solver = solver;
-        const Json json = solve(asked);
+    const auto run = [&](SolveOptions run_options, const std::string& solver) {
+        run_options.solver = solver;
+        const Json json = solve(run_options);
         EXPECT_EQ(json["solver"], solver);
-        EXPECT_EQ(json["scene"], asked.scene);
+        EXPECT_EQ(json["scene"], run_options.scene);
         EXPECT_TRUE(std::isfinite(worst(json, "joint_error_mm")));
         EXPECT_TRUE(solver != "direct" || worst(json, "joint_error_mm") <= 1e-3);
         return json;
     };
     for (const std::string_view scene : scene_names()) {
-        SolveOptions asked = options(std::string(scene), 12);
-        asked.links = 12;
+        SolveOptions run_options = options(std::string(scene), 12);
+        run_options.links = 12;
         for (const std::string& solver : solver_names()) {
-            SCOPED_TRACE(asked.scene + " " + solver);
+            SCOPED_TRACE(run_options.scene + " " + solver);
             if (solver == "bullet" && !make_scene(scene, {}).beyond_bullet.empty()) {
-                asked.solver = solver;
-                EXPECT_EQ(solve_command(asked), 1);
+                run_options.solver = solver;
+                EXPECT_EQ(solve_command(run_options), 1);
             } else {
-                run(asked, solver);
+                run(run_options, solver);
             }
         }
     }
     for (const std::string_view masses : mass_patterns()) {
-        SolveOptions asked = options("chain", 100);
-        asked.masses = masses;
+        SolveOptions run_options = options("chain", 100);
+        run_options.masses = masses;
         for (const std::string& solver : solver_names()) {
             SCOPED_TRACE(std::string(masses) + " " + solver);
-            const double player_mm = worst(run(asked, solver), "player_error_mm");
+            const double player_mm = worst(run(run_options, solver), "player_error_mm");
             EXPECT_TRUE(solver == "direct" ? player_mm == 0.0 : player_mm > 1.0) << player_mm;
         }
     }
@@ -182,28 +182,28 @@ TEST_F(LabScenes, BouncesAndSlidesFollowTheirClosedForms) {
 }
 
 TEST_F(LabScenes, BaselineSolversLeaveLargerErrors) {
-    SolveOptions asked = options("chain", 120);
-    asked.holder = "kinematic";
-    const double direct_mm = worst(solve(asked), "joint_error_mm");
+    SolveOptions run_options = options("chain", 120);
+    run_options.holder = "kinematic";
+    const double direct_mm = worst(solve(run_options), "joint_error_mm");
     for (const char* solver : {"plain", "sweep", "bullet"}) {
-        asked.solver = solver;
-        EXPECT_GT(worst(solve(asked), "joint_error_mm"), 100.0 * direct_mm) << solver;
+        run_options.solver = solver;
+        EXPECT_GT(worst(solve(run_options), "joint_error_mm"), 100.0 * direct_mm) << solver;
     }
 }
 
 TEST_F(LabScenes, ResidualFallsWithEachIteration) {
-    SolveOptions asked = options("chain", 40);
-    asked.residual_frame = 30;
+    SolveOptions run_options = options("chain", 40);
+    run_options.residual_frame = 30;
     for (const char* solver : {"direct", "plain"}) {
-        asked.solver = solver;
-        const Json json = solve(asked);
+        run_options.solver = solver;
+        const Json json = solve(run_options);
         const auto curve = json["residual_per_iteration"].get<std::vector<double>>();
         ASSERT_GE(curve.size(), 3U);
         EXPECT_LT(curve.back(), 0.1 * curve.front()) << solver;
         EXPECT_TRUE(std::is_sorted(curve.rbegin(), curve.rend())) << solver;
     }
-    asked.solver = "bullet";
-    EXPECT_EQ(solve(asked)["residual_per_iteration"].size(), 50U);
+    run_options.solver = "bullet";
+    EXPECT_EQ(solve(run_options)["residual_per_iteration"].size(), 50U);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace handhold::lab {
 namespace {
 
 constexpr int k_directions = 96;
-// a view from beside is worth a quarter of the fingers hidden
+// a view from the side is worth hiding a quarter of the fingers
 constexpr double k_beside_weight = 0.25;
 constexpr double k_above_weight = 0.08;  // prefers views from above
 

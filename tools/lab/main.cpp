@@ -128,12 +128,12 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help
         }
-        const CLI::App& asked = solve->parsed()     ? *solve
-                                : grip->parsed()    ? *grip
-                                : picture->parsed() ? *picture
-                                : body->parsed()    ? *body
-                                                    : app;
-        std::fprintf(stderr, "%s\n%s", error.what(), asked.help().c_str());
+        const CLI::App& subcommand = solve->parsed()     ? *solve
+                                     : grip->parsed()    ? *grip
+                                     : picture->parsed() ? *picture
+                                     : body->parsed()    ? *body
+                                                         : app;
+        std::fprintf(stderr, "%s\n%s", error.what(), subcommand.help().c_str());
         return k_exit_usage;
     }
     if (picture->parsed()) {

@@ -137,9 +137,9 @@ Differing compare(const Image& a, const Image& b, const Vec3& place, double radi
         for (int x = 0; x < k_width_px; ++x) {
             const std::uint8_t* p = a.pixel(x, y);
             const std::uint8_t* q = b.pixel(x, y);
-            const int most =
+            const int difference =
                 std::max({std::abs(p[0] - q[0]), std::abs(p[1] - q[1]), std::abs(p[2] - q[2])});
-            if (most > 6) {
+            if (difference > 6) {
                 ++found.all;
                 found.outside +=
                     std::hypot(x + 0.5 - at_x, y + 0.5 - at_y) > scale * radius_m ? 1 : 0;
