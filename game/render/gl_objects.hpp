@@ -65,7 +65,7 @@ GlTexture make_texture(int width_px, int height_px, const TextureKind& kind);
 
 // A framebuffer with these attachments; 0 omits one.
 GlFramebuffer make_framebuffer(GLuint color_texture, GLuint depth_texture);
-// Checks the framebuffer bound for drawing.
+// Checks the current draw framebuffer.
 bool is_framebuffer_complete();
 
 // `vertex` and `fragment` have no version line. On failure returns name 0 and the compiler's
