@@ -15,6 +15,8 @@
 #include "components/render.hpp"
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
+#include "components/world_index.hpp"
+#include "engine/collision/shape_library.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/ecs/entity.hpp"
 
@@ -25,8 +27,7 @@ struct FrameClock {
     double t_s = 0.0;         // end of the last frame
 };
 
-// The whole state, and its table of contents: one column a component. Nothing outside of it
-// survives a frame.
+// The whole state: one column for each component. Nothing outside it survives a frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
@@ -76,6 +77,10 @@ struct World {
     Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
     Column<AuthoredHold> authored_hold;           // only hands that sit in an authored grip
     Column<HandPull> hand_pull;                   // only hands that pull something from afar
+
+    // Caches over persistent_id and joint, kept by the functions below. Not state.
+    EntityById entity_by_id;
+    JointsByBody joints_by_body;
 };
 
 // Calls visit(name, column) for every column. The one list of them: hashing, destroying and
@@ -125,6 +130,19 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_pull", world.hand_pull);
 }
 
+// Largest numbers that the add_ functions take. With them no frame computes a number that a
+// snapshot refuses.
+constexpr double k_max_coordinate_m = 1e9;  // of each axis
+constexpr double k_max_speed_mps = 1e6;
+constexpr double k_max_spin_radps = 1e4;
+constexpr double k_min_mass_kg = 1e-9;
+constexpr double k_max_mass_kg = 1e15;
+constexpr double k_min_inertia_kgm2 = 1e-18;
+constexpr double k_max_inertia_kgm2 = 1e18;
+constexpr double k_max_friction = 1e6;          // of bodies
+constexpr double k_max_joint_coordinate = 1e9;  // rad or m
+constexpr double k_max_joint_strength = 1e15;   // N or N m
+
 struct BodyDescription {
     std::string_view name;  // unique in the world: gives the persistent id
     RigidBody body;
@@ -132,20 +150,24 @@ struct BodyDescription {
     BodyVelocity velocity;
     ShapeId shape;
 };
-// A body, and its collider unless its shape is k_no_shape. Throws PreconditionError for a name that
-// is taken, a pose that is not valid, or a free body without mass or inertia.
+// Adds a body, and its collider unless its shape is k_no_shape. Throws PreconditionError, and adds
+// nothing, for a name that is taken or any number outside the limits above; restitution must lie in
+// [0, 1], and a free body needs mass and inertia.
 Entity add_body(World& world, const BodyDescription& description);
+// Also throws for a shape that the library lacks, and for a free body with a mesh. Without a
+// library the first frame throws.
+Entity add_body(World& world, const BodyDescription& description, const ShapeLibrary& shapes);
 
 struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
-// A joint between two bodies, or the world and one. Throws PreconditionError for a name that is
-// taken, a body that is none, a frame that is not valid, limits the wrong way round, or a negative
-// friction, detent or latch.
+// Adds a joint between two bodies, or between the world and a body. Its bodies never change. Throws
+// PreconditionError, and adds nothing, for a name that is taken, an entity that is no body, a lower
+// limit above the upper, negative friction, detents or latches, or any number outside the limits
+// above.
 Entity add_joint(World& world, const JointDescription& description);
-// The joint whose frames meet at `frame_ws` as the two bodies stand now; kind and all numbers as in
-// `joint`.
+// `joint` with both frames at `frame_ws`, as the two bodies stand now.
 Joint joint_at(const World& world, Joint joint, const Pose& frame_ws);
 
 struct PlayerDescription {
@@ -153,21 +175,27 @@ struct PlayerDescription {
     PlayerBody body;
     Pose origin_ws;
     Vec3 velocity_mps = Vec3::Zero();
-    ShapeId head_shape;  // a sphere
+    ShapeId head_shape;  // a sphere; k_no_shape: the head touches nothing
     BodyMeasures measures = {};
 };
 struct PlayerEntities {
     Entity player;
     Entity hands[k_hand_count];  // by HandSide
 };
-// A player and his two hands. Errors as add_body.
+// Adds a player and two hands. Throws as add_body, and for body measures outside their range.
 PlayerEntities add_player(World& world, const PlayerDescription& description);
+// Also throws for a head shape that is not a sphere of the library.
+PlayerEntities add_player(World& world, const PlayerDescription& description,
+                          const ShapeLibrary& shapes);
 
-// Removes the entity from every column; a player's hands go with him, and a body's joints with it.
-// False for a stale handle.
+// Removes the entity from every column, and with it a player's hands or a body's joints. False for
+// a stale handle. The cost does not depend on how many other bodies and joints there are.
 bool destroy(World& world, Entity entity);
 
-// Null where no entity has the id.
+// Rebuilds the caches if columns were filled by other means, such as a restored snapshot.
+void sync_index(World& world);
+
+// Null if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
 
 }  // namespace handhold

@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "engine/io/result.hpp"
 
 // Zones: named spans of time on one thread, for traces that Perfetto and chrome://tracing read.
 // A zone costs a call and a branch at either end while no trace is taken, and two clock calls
@@ -27,9 +30,8 @@ void start_trace(std::size_t max_zones = 1U << 20U);
 void stop_trace();
 bool is_tracing();
 // Writes what was collected as Chrome trace JSON: complete events, a tid for each thread, and how
-// many zones were dropped in otherData.dropped_zones. Atomic as write_file_atomically; false where
-// the file cannot be written.
-bool write_trace(const std::string& path);
+// many zones were dropped in otherData.dropped_zones. Writes and fails as write_file_atomically.
+[[nodiscard]] std::optional<FileError> write_trace(const std::string& path);
 
 class Zone {
   public:

@@ -16,10 +16,9 @@ struct FileError {
                         // whole file
     std::string expected;  // what should have been there, and what was
 
-    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2".
-    std::string message() const {
-        return file + ": " + (place.empty() ? std::string() : place + ": ") + expected;
-    }
+    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Control
+    // characters are escaped and long texts cut (printable.hpp): any field may quote a file.
+    std::string message() const;
 };
 
 // A value or the reason why there is none.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "engine/core/check.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
@@ -117,8 +117,10 @@ std::string export_robot_hand(const HandRig& rig) {
 }
 
 int export_hands_command(const std::string& folder) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
+    const Result<OutputFolder> out = OutputFolder::open(folder);
+    if (!out) {
+        return refuse(out.error());
+    }
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::filesystem::path file =
             std::filesystem::path(folder) /

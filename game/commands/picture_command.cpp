@@ -4,14 +4,17 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 
+#include "engine/io/file_name.hpp"
+#include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_fit.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
+#include "game/session/interrupt.hpp"
 #include "game/view/scene_picture.hpp"
 #include "systems/frame.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -80,12 +83,12 @@ class PictureSaver {
         renderer_.draw(frame, image_);
         const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;
         const std::vector<std::uint8_t> png = encode_png(image_);
-        const std::filesystem::path file = folder_ / (name + ".png");
+        const std::filesystem::path file = folder_ / (file_name(name) + ".png");
         if (auto error = write_file_atomically(file, std::string(png.begin(), png.end()))) {
             return error;
         }
-        std::printf("%s: %.2f s, %d triangles in all passes\n", file.string().c_str(), cost.count(),
-                    renderer_.counters().triangles);
+        std::printf("%s: %.2f s, %d triangles in all passes\n", printable(file.string()).c_str(),
+                    cost.count(), renderer_.counters().triangles);
         return std::nullopt;
     }
 
@@ -141,6 +144,7 @@ std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
 }  // namespace
 
 int picture_command(const PictureOptions& options) {
+    const InterruptGuard interrupts;
     Result<Scene> loaded = load_scene(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
@@ -150,10 +154,9 @@ int picture_command(const PictureOptions& options) {
     if (!models) {
         return refuse(models.error());
     }
-    std::error_code failure;
-    std::filesystem::create_directories(options.out, failure);
-    if (failure) {
-        return refuse({options.out, "", "expected a folder that can be made"});
+    const Result<OutputFolder> folder = OutputFolder::open(options.out);
+    if (!folder) {
+        return refuse(folder.error());
     }
     step_to(scene, options.seconds);
     std::string why_not;
@@ -186,6 +189,9 @@ int picture_command(const PictureOptions& options) {
         }
         if (const auto error = saver.save(frame, spawn.name)) {
             return refuse(*error);
+        }
+        if (is_interrupted()) {
+            return k_exit_interrupted;
         }
     }
     return 0;

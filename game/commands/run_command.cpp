@@ -5,12 +5,16 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "engine/core/profile.hpp"
+#include "engine/io/file_name.hpp"
+#include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/commands/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
@@ -20,6 +24,7 @@
 #include "game/scene/built_in_scenes.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/spawn.hpp"
+#include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "game/view/film.hpp"
 #include "game/view/run_shots.hpp"
@@ -139,7 +144,7 @@ class SnapshotTaker {
     }
     // After the session.
     std::optional<FileError> error() const {
-        if (!options_.snapshot.empty() && !taken_) {
+        if (!options_.snapshot.empty() && !taken_ && !is_interrupted()) {
             return FileError{options_.snapshot, "",
                              "expected a time within the session for --snapshot-at, found " +
                                  std::to_string(options_.snapshot_at_s)};
@@ -192,11 +197,16 @@ std::optional<FileError> resume(const RunOptions& options, const RunSettings& se
 
 std::optional<FileError> write_pictures(const std::filesystem::path& folder,
                                         std::vector<FilmShot> shots, ReportMedia& media) {
-    std::error_code ignored;
-    std::filesystem::create_directories(folder / "shots", ignored);
+    std::error_code failure;
+    std::filesystem::create_directories(folder / "shots", failure);
+    if (failure) {
+        return FileError{(folder / "shots").string(), "",
+                         "expected a folder that can be made: " + failure.message()};
+    }
     for (FilmShot& shot : shots) {
         const std::string bytes(shot.png.begin(), shot.png.end());
-        if (auto error = write_file_atomically(folder / "shots" / (shot.name + ".png"), bytes)) {
+        if (auto error =
+                write_file_atomically(folder / "shots" / (file_name(shot.name) + ".png"), bytes)) {
             return error;
         }
         media.pictures.push_back({shot.caption, std::move(shot.png)});
@@ -223,8 +233,8 @@ std::optional<FileError> write_output(const std::filesystem::path& folder, const
 
 void print_summary(const RunLog& log, const RunSummary& summary) {
     std::printf("%s: %llu frames at %g Hz, %.2f s simulated, %.0f frames a second\n",
-                log.scene.c_str(), static_cast<unsigned long long>(summary.frames), log.hz,
-                summary.duration_s, summary.frames_per_s);
+                printable(log.scene).c_str(), static_cast<unsigned long long>(summary.frames),
+                log.hz, summary.duration_s, summary.frames_per_s);
     std::printf("grabs: %llu onsets, %llu gripped; path of the origin %.2f m\n",
                 static_cast<unsigned long long>(summary.totals.grab_onsets),
                 static_cast<unsigned long long>(summary.totals.grabs_gripped),
@@ -248,6 +258,7 @@ RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t
     settings.climbers_from = options.climbers ? 0 : 1;
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
+    settings.should_stop = is_interrupted;
     if (options.distance_grab) {
         scene.tuning.pull.reach_m = k_pull_reach_m;
     }
@@ -298,7 +309,7 @@ std::vector<FilmShot> finish_film(Film& film) {
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
             RunTally& tally, SnapshotTaker& snapshots) {
-    Progress progress("playing " + scene.name);
+    Progress progress("playing " + printable(scene.name, k_max_shown_name));
     const double length_s = session_length_s(recording, settings);
     return run_session(scene, caches, players, recording, settings,
                        [&](const Scene& played, const FrameLog& frame) {
@@ -314,6 +325,7 @@ RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>
 }  // namespace
 
 int run_command(const RunOptions& options) {
+    const InterruptGuard interrupts;
     Result<Scene> loaded = load_scene(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
@@ -327,13 +339,13 @@ int run_command(const RunOptions& options) {
     if (!session) {
         return refuse(session.error());
     }
+    std::optional<OutputFolder> out;  // locked until the end
     if (!options.out.empty()) {
-        std::error_code failure;
-        std::filesystem::create_directories(options.out, failure);
-        if (failure) {
-            return refuse(
-                {options.out, "", "expected a folder that can be made: " + failure.message()});
+        Result<OutputFolder> folder = OutputFolder::open(options.out);
+        if (!folder) {
+            return refuse(folder.error());
         }
+        out.emplace(std::move(folder.value()));
     }
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     caches.body_clips = game_body_clips();
@@ -377,8 +389,8 @@ int run_command(const RunOptions& options) {
     log.spawn = place.value().name;
     if (!options.trace.empty()) {
         stop_trace();
-        if (!write_trace(options.trace)) {
-            return refuse({options.trace, "", "expected a file that can be written"});
+        if (const auto error = write_trace(options.trace)) {
+            return refuse(*error);
         }
     }
     if (!options.out.empty()) {
@@ -388,8 +400,11 @@ int run_command(const RunOptions& options) {
         }
     }
     print_summary(log, tally.finish(log));
+    if (is_interrupted()) {
+        std::printf("interrupted: the files are of the frames played so far\n");
+    }
     std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
-    return 0;
+    return is_interrupted() ? k_exit_interrupted : 0;
 }
 
 }  // namespace handhold

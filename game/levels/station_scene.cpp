@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/io/file_name.hpp"
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
@@ -136,6 +137,7 @@ std::string write_model_glb(const Structure& structure) {
 
 std::optional<FileError> write_station(const StationScene& station,
                                        const std::filesystem::path& folder) {
+    HH_CHECK(is_file_name(station.scene.name), "the name is no file's", station.scene.name.size());
     for (const StationModel& model : station.models) {
         const std::filesystem::path file = folder / model.file;
         std::error_code failure;

@@ -161,6 +161,9 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         if (observe) {
             observe(scene, log.frames.back());
         }
+        if (settings.should_stop != nullptr && settings.should_stop()) {
+            break;
+        }
     }
     log.state_hash = hash_state(scene.world);
     return log;

@@ -22,6 +22,8 @@ struct RunSettings {
     std::size_t climbers_from = std::numeric_limits<std::size_t>::max();
     std::uint64_t seed = 1;   // of the climbers
     bool keep_frames = true;  // false: the log has the last frame only; memory does not grow
+    // Asked after each frame: true ends the run there. Null: never.
+    bool (*should_stop)() = nullptr;
 };
 
 // How long run_session will play, seconds. `recording` may be null.
