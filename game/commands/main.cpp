@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <handhold/version.hpp>
 
 #include "engine/io/printable.hpp"
 #include "game/climber/climber_session.hpp"
@@ -211,6 +212,7 @@ int list_scenes() {
 // Parses the command line and runs the command. Returns the exit status.
 int run_program(int argc, char** argv) {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
+    app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
     handhold::RunOptions options;
     CLI::App* const run =
@@ -257,7 +259,7 @@ int run_program(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
-            return app.exit(error);  // --help
+            return app.exit(error);  // --help, --version
         }
         std::fprintf(stderr, "%s\n%s", handhold::printable(error.what()).c_str(),
                      app.help().c_str());
