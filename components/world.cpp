@@ -79,10 +79,10 @@ void check_body(const World& world, const BodyDescription& description, const ch
           wrong_number_of(description.pose_ws));
     const bool is_free = body.kind == BodyKind::free;
     check(is_in(body.mass_kg, is_free ? k_min_mass_kg : 0.0, k_max_mass_kg),
-          "a free body needs a mass within 1e-9 to 1e15 kg", body.mass_kg);
+          "a free body needs a mass within 1e-12 to 1e15 kg", body.mass_kg);
     for (const double inertia : body.inertia_kgm2) {
         check(is_in(inertia, is_free ? k_min_inertia_kgm2 : 0.0, k_max_inertia_kgm2),
-              "a free body needs moments of inertia within 1e-18 to 1e18 kg m^2", inertia);
+              "a free body needs moments of inertia within 1e-24 to 1e18 kg m^2", inertia);
     }
     check(is_in(body.restitution, 0.0, 1.0), "the restitution must lie in [0, 1]",
           body.restitution);
@@ -173,7 +173,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     HH_CHECK(is_in_world(description.origin_ws), "the origin is not valid",
              wrong_number_of(description.origin_ws));
     HH_CHECK(is_in(description.body.mass_kg, k_min_mass_kg, k_max_mass_kg),
-             "a player needs a mass within 1e-9 to 1e15 kg", description.body.mass_kg);
+             "a player needs a mass within 1e-12 to 1e15 kg", description.body.mass_kg);
     HH_CHECK(is_within(description.velocity_mps, k_max_speed_mps), "the velocity is beyond 1e6 m/s",
              beyond(description.velocity_mps, k_max_speed_mps));
     const BodyMeasures& measures = description.measures;

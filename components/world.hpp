@@ -135,9 +135,9 @@ void visit_columns(WorldType& world, Visit&& visit) {
 constexpr double k_max_coordinate_m = 1e9;  // of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
-constexpr double k_min_mass_kg = 1e-9;
+constexpr double k_min_mass_kg = 1e-12;
 constexpr double k_max_mass_kg = 1e15;
-constexpr double k_min_inertia_kgm2 = 1e-18;
+constexpr double k_min_inertia_kgm2 = 1e-24;
 constexpr double k_max_inertia_kgm2 = 1e18;
 constexpr double k_max_friction = 1e6;          // of bodies
 constexpr double k_max_joint_coordinate = 1e9;  // rad or m

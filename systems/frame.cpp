@@ -1,5 +1,8 @@
 #include "systems/frame.hpp"
 
+#include <cmath>
+
+#include "components/tuning_check.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/arm/estimate_arms.hpp"
@@ -56,7 +59,7 @@ class StageTimer {
 void place(World& w, FrameCaches& caches, const Tuning& tuning) {
     place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.head_tracking, w.last_valid, caches.collision, caches.graph},
+         w.player_start, w.head_tracking, w.last_valid, caches.collision, caches.graph},
         tuning.head);
 }
 
@@ -241,6 +244,11 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
                 StageStats& stats) {
     HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
              "dt_s must lie between 1e-6 and 10", input.dt_s);
+    for (const double axis_mps : w.reference_velocity_mps) {
+        HH_CHECK(std::abs(axis_mps) <= k_max_speed_mps, "reference_velocity_mps is out of range",
+                 axis_mps);
+    }
+    check_tuning(tuning);
     stats = {};
     predict(w, caches, tuning, input, stats);
     solve(w, caches, tuning, input, stats);

@@ -54,6 +54,7 @@ class Broadphase {
     btDbvt tree_;
     // Leaves without a body, kept in the tree: Bullet frees a removed leaf's memory.
     std::vector<btDbvtNode*> parked_;
+    std::uint64_t parked_count_ = 0;  // since the beginning
     std::uint64_t changes_ = 0;
 };
 

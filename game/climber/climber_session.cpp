@@ -6,6 +6,7 @@
 #include "engine/core/check.hpp"
 #include "engine/io/printable.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/loading.hpp"
 #include "game/scene/place_scene.hpp"
 #include "game/session/interrupt.hpp"
 #include "systems/frame.hpp"
@@ -62,7 +63,7 @@ Recording record_climb(Scene& scene, const ClimbPlan& plan) {
 
 int climb_command(const ClimbOptions& options) {
     const InterruptGuard interrupts;
-    Result<Scene> loaded = load_scene(options.scene);
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <handhold/version.hpp>
@@ -50,6 +51,20 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
                        "controller-to-hand joint the hands then have");
 }
 
+// An option that may be given several times, one value each.
+void first_and_more(CLI::App& command, const char* name, std::string& first,
+                    std::vector<std::string>& more, const char* what) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [&first, &more](const std::vector<std::string>& values) {
+                first = values.front();
+                more.assign(values.begin() + 1, values.end());
+            },
+            what)
+        ->allow_extra_args(false);
+}
+
 const std::map<std::string, handhold::PictureQuality> k_qualities = {
     {"plain", handhold::PictureQuality::plain},
     {"quick", handhold::PictureQuality::quick},
@@ -59,7 +74,8 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
                    "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
         ->required();
-    run.add_option("--input", options.input, "A recorded session (.csv); default: the scene's own");
+    first_and_more(run, "--input", options.input, options.more_inputs,
+                   "A recorded session (.csv), once for each player; default: the scene's own");
     run.add_option("--hz", options.hz, "Frames a second")->check(number_in(10.0, 1000.0));
     run.add_option("--players", options.players,
                    "Players: the first plays the session, the others are scripted climbers")
@@ -72,9 +88,9 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--seconds", options.seconds,
                    "Stop after so many seconds; default: with the session")
         ->check(number_in(0.01, 1e6));
-    run.add_option(
-        "--spawn", options.spawn,
-        "A spawn of the scene, or auto: where most of the session's grabs begin near a surface");
+    first_and_more(run, "--spawn", options.spawn, options.more_spawns,
+                   "A spawn of the scene, or auto: where most of the session's grabs begin near a "
+                   "surface; once for each --input");
     run.add_option("--trace", options.trace,
                    "Write stage zones as a Chrome trace (Perfetto reads it)");
     CLI::Option* const out =

@@ -10,6 +10,7 @@
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_fit.hpp"
+#include "game/commands/loading.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
@@ -145,7 +146,7 @@ std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
 
 int picture_command(const PictureOptions& options) {
     const InterruptGuard interrupts;
-    Result<Scene> loaded = load_scene(options.scene);
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }

@@ -14,6 +14,7 @@
 #include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/loading.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/commands/progress.hpp"
 #include "game/render/image.hpp"
@@ -22,6 +23,7 @@
 #include "game/report/report_json.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/scene/built_in_scenes.hpp"
+#include "game/scene/overlaps.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/spawn.hpp"
 #include "game/session/interrupt.hpp"
@@ -35,7 +37,8 @@ namespace {
 
 struct Session {
     std::optional<Recording> recording;
-    std::string name;  // file, "built-in <name>", or empty
+    std::vector<Recording> more;  // of the second player, the third...
+    std::string name;             // files, "built-in <name>", or empty
 };
 
 // What drives the players: the given file, else the scene's own session, else nothing.
@@ -64,7 +67,27 @@ Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     }
     session.recording = std::move(recording.value());
     session.name = file.filename().string();
+    for (const std::string& input : options.more_inputs) {
+        Result<Recording> another = load_recording(input);
+        if (!another) {
+            return another.error();
+        }
+        session.more.push_back(std::move(another.value()));
+        session.name += ", " + std::filesystem::path(input).filename().string();
+    }
     return session;
+}
+
+// A recording may say anything of its times: two samples, one of them years later.
+std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
+                                      double length_s) {
+    constexpr double k_longest_s = 1e6;  // as --seconds
+    if (length_s <= k_longest_s) {
+        return std::nullopt;
+    }
+    return FileError{options.input.empty() ? name : options.input, "",
+                     "expected a session of at most 1e6 s, or --seconds, found one of " +
+                         std::to_string(length_s) + " s"};
 }
 
 struct Place {
@@ -72,48 +95,83 @@ struct Place {
     std::string name;
 };
 
-Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameCaches& caches,
-                           const Session& session) {
-    if (options.spawn == "auto") {
-        if (!session.recording) {
+// `spawn` as in RunOptions.
+Result<Place> choose_place(const RunOptions& options, const std::string& spawn, const Scene& scene,
+                           FrameCaches& caches, const Recording* recording) {
+    if (spawn == "auto") {
+        if (recording == nullptr) {
             return FileError{options.scene, "", "expected a session for --spawn auto, found none"};
         }
-        const FoundSpawn found = find_spawn(scene, caches, *session.recording, options.hz);
+        const FoundSpawn found = find_spawn(scene, caches, *recording, options.hz);
         const Vec3& at = found.origin_ws.position;
         std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(),
                     at.y(), at.z(), found.gripped, found.onsets);
         return Place{found.origin_ws, "auto"};
     }
-    for (const SceneSpawnPoint& spawn : scene.spawns) {
-        if (options.spawn.empty() || spawn.name == options.spawn) {
-            return Place{spawn.pose_ws, spawn.name};
+    for (const SceneSpawnPoint& known : scene.spawns) {
+        if (spawn.empty() || known.name == spawn) {
+            return Place{known.pose_ws, known.name};
         }
     }
-    if (!options.spawn.empty()) {
+    if (!spawn.empty()) {
+        constexpr std::size_t k_listed = 5;
         std::string names;
-        for (const SceneSpawnPoint& spawn : scene.spawns) {
-            names += spawn.name + ", ";
+        for (std::size_t i = 0; i < std::min(k_listed, scene.spawns.size()); ++i) {
+            names += printable(scene.spawns[i].name, k_max_shown_name / 2) + ", ";
         }
         return FileError{options.scene, "/spawns",
-                         "expected " + names + "or auto, found \"" + options.spawn + "\""};
+                         "expected " + names +
+                             (scene.spawns.size() > k_listed ? "another spawn, " : "") +
+                             "or auto, found \"" + spawn + "\""};
     }
     return Place{{}, "origin"};
 }
 
-// The scene's own players where it has some and neither place nor number was asked for; else the
-// first at the place, the others spread over the scene.
+std::size_t recorded_players(const RunOptions& options) { return 1 + options.more_inputs.size(); }
+
+// Where the players with a recording begin: the first at `first`, the others at their --spawn, else
+// at the scene's next spawn. Fewer than there are recordings if the scene has no more spawns.
+Result<std::vector<Place>> choose_places(const RunOptions& options, const Place& first,
+                                         const Scene& scene, FrameCaches& caches,
+                                         const Session& session) {
+    std::vector<Place> places = {first};
+    for (std::size_t i = 1; i < recorded_players(options); ++i) {
+        if (i - 1 < options.more_spawns.size()) {
+            Result<Place> place = choose_place(options, options.more_spawns[i - 1], scene, caches,
+                                               &session.more[i - 1]);
+            if (!place) {
+                return place.error();
+            }
+            places.push_back(std::move(place.value()));
+        } else if (options.spawn.empty() && i < scene.spawns.size()) {
+            places.push_back({scene.spawns[i].pose_ws, scene.spawns[i].name});
+        } else {
+            break;
+        }
+    }
+    return places;
+}
+
+// The scene's own players if it has enough and neither place nor number was asked for; else the
+// first at the places, the others spread over the scene.
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
-                                                const Place& place, const RunOptions& options) {
+                                                const std::vector<Place>& places,
+                                                const RunOptions& options) {
     std::vector<ScenePlayerStart> starts;
-    if (!scene.players.empty() && options.spawn.empty() && options.players == 0) {
+    if (scene.players.size() >= recorded_players(options) && options.spawn.empty() &&
+        options.players == 0) {
         starts = scene.players;
     } else {
         const auto count =
-            static_cast<std::size_t>(options.players > 0 ? options.players : 1 + scene.climbers);
+            options.players > 0
+                ? static_cast<std::size_t>(options.players)
+                : std::max(recorded_players(options), static_cast<std::size_t>(1 + scene.climbers));
         for (const Pose& origin_ws :
-             spread_players(scene, caches, place.origin_ws, count, options.seed)) {
-            const std::string name = "player" + std::to_string(starts.size());
-            starts.push_back({free_player_name(scene.world, name), origin_ws, 80.0});
+             spread_players(scene, caches, places.front().origin_ws, count, options.seed)) {
+            const std::size_t i = starts.size();
+            const std::string name = "player" + std::to_string(i);
+            starts.push_back({free_player_name(scene.world, name),
+                              i < places.size() ? places[i].origin_ws : origin_ws, 80.0});
         }
         if (starts.size() < count) {
             return FileError{options.scene, "",
@@ -127,6 +185,21 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
         players.push_back(add_scene_player(scene, start));
     }
     return players;
+}
+
+void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
+                      const std::vector<PlayerEntities>& players) {
+    constexpr std::size_t k_told = 5;
+    const std::vector<SpawnOverlap> overlaps = find_overlaps(scene, caches, players);
+    for (std::size_t i = 0; i < std::min(k_told, overlaps.size()); ++i) {
+        std::fprintf(stderr, "warning: %s and %s begin %.0f mm inside each other\n",
+                     printable(overlaps[i].a, k_max_shown_name).c_str(),
+                     printable(overlaps[i].b, k_max_shown_name).c_str(), 1e3 * overlaps[i].depth_m);
+    }
+    if (overlaps.size() > k_told) {
+        std::fprintf(stderr, "warning: %zu more pairs begin inside each other\n",
+                     overlaps.size() - k_told);
+    }
 }
 
 // Saves the state when its time has come.
@@ -255,7 +328,7 @@ void print_summary(const RunLog& log, const RunSummary& summary) {
 // Climbers need jets to come back from where nothing is in reach: who has none gets small ones.
 RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
     RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : 1;
+    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
     settings.should_stop = is_interrupted;
@@ -326,7 +399,13 @@ RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>
 
 int run_command(const RunOptions& options) {
     const InterruptGuard interrupts;
-    Result<Scene> loaded = load_scene(options.scene);
+    if (options.players > 0 &&
+        static_cast<std::size_t>(options.players) < recorded_players(options)) {
+        return refuse({options.scene, "",
+                       "expected a player for each --input, found " +
+                           std::to_string(options.players) + " players"});
+    }
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }
@@ -349,26 +428,39 @@ int run_command(const RunOptions& options) {
     }
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     caches.body_clips = game_body_clips();
-    const Result<Place> place = choose_place(options, scene, caches, session.value());
+    const Recording* const recording =
+        session.value().recording ? &*session.value().recording : nullptr;
+    const Result<Place> place = choose_place(options, options.spawn, scene, caches, recording);
     if (!place) {
         return refuse(place.error());
     }
+    const Result<std::vector<Place>> places =
+        choose_places(options, place.value(), scene, caches, session.value());
+    if (!places) {
+        return refuse(places.error());
+    }
     Result<std::vector<PlayerEntities>> players =
-        add_players(scene, caches, place.value(), options);
+        add_players(scene, caches, places.value(), options);
     if (!players) {
         return refuse(players.error());
     }
+    warn_of_overlaps(scene, caches, players.value());
     if (const auto joints = models.value().controller_joints()) {
         set_controller_joints(*joints, scene.world);
     }
     const SnapshotAssets assets(*scene.shapes, scene.name);
-    const RunSettings settings = choose_settings(options, scene, players.value().size());
+    RunSettings settings = choose_settings(options, scene, players.value().size());
+    for (const Recording& more : session.value().more) {
+        settings.more_recordings.push_back(&more);
+    }
+    if (const auto error =
+            check_length(options, session.value().name, session_length_s(recording, settings))) {
+        return refuse(*error);
+    }
     if (const auto error = resume(options, settings, assets, scene, players.value())) {
         return refuse(*error);
     }
 
-    const Recording* const recording =
-        session.value().recording ? &*session.value().recording : nullptr;
     if (!options.shots.empty()) {
         return draw_shots(options, {scene, caches, players.value(), recording, settings},
                           std::move(models.value()));

@@ -11,10 +11,13 @@ namespace handhold {
 // `handhold run`, as given on the command line.
 struct RunOptions {
     std::string scene;
-    std::string input;  // empty: the scene's own session, if it has one
-    std::string spawn;  // empty: the scene's first; "auto"
-    std::string trace;  // empty: none
-    std::string out;    // empty: no files
+    std::string input;                     // empty: the scene's own session, if it has one
+    std::vector<std::string> more_inputs;  // of the second player, the third...
+    std::string spawn;                     // empty: the scene's first; "auto"
+    std::vector<std::string> more_spawns;  // of the second player, the third...; none: the scene's
+                                           // second, third..., then places apart from each other
+    std::string trace;                     // empty: none
+    std::string out;                       // empty: no files
     std::string shots;  // a list of shots: those of this scene into `out`, and no report
     int shot_width_px = 960;
     int shot_height_px = 540;

@@ -6,6 +6,7 @@
 
 #include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/commands/loading.hpp"
 #include "game/commands/shell_word.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/scene/player_defaults.hpp"
@@ -47,7 +48,7 @@ std::string replay_command(const PlayOptions& options, const std::string& spawn,
 }
 
 Result<PlayedScene> load_played_scene(const PlayOptions& options) {
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = load_scene_with_progress(options.scene);
     if (!scene) {
         return scene.error();
     }

@@ -191,7 +191,7 @@ Scene make_ship_scene() {
         part.body.kind = BodyKind::kinematic;
         part.shape = scene.shapes->add_mesh(mesh);
         part.velocity = {velocity, spin};
-        const Entity entity = add_body(scene.world, part);
+        const Entity entity = add_body(scene.world, part, *scene.shapes);
         scene.world.mover.add(entity, {{}, velocity, spin, false});
         scene.body_names.push_back(name);
         scene.visuals.push_back({entity, mesh, std::nullopt, ship.looks[i]});
@@ -205,7 +205,7 @@ Scene make_ship_scene() {
     // session's hand in time.
     rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
     rock.velocity = {velocity, Vec3::Zero()};
-    const Entity entity = add_body(scene.world, rock);
+    const Entity entity = add_body(scene.world, rock, *scene.shapes);
     scene.body_names.emplace_back("rock");
     scene.visuals.push_back(
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});

@@ -44,7 +44,7 @@ void add_free_body(Scene& scene, const Thing& thing, const std::string& name, co
                  solid_inertia(scene.shapes->at(body.shape), thing.mass_kg), 0.3};
     body.pose_ws = pose_ws;
     body.velocity = velocity;
-    const Entity entity = add_body(scene.world, body);
+    const Entity entity = add_body(scene.world, body, *scene.shapes);
     scene.body_names.push_back(name);
     Mesh mesh = ball ? make_sphere(thing.half_m.x()) : make_box(thing.half_m);
     scene.visuals.push_back(

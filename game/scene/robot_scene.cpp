@@ -45,7 +45,7 @@ Entity add_kinematic(const std::string& name, ShapeId shape, const Pose& pose,
     body.velocity = velocity;
     body.shape = shape;
     scene.body_names.push_back(name);
-    return add_body(scene.world, body);
+    return add_body(scene.world, body, *scene.shapes);
 }
 
 Entity add_torso(const Structure& torso, const PosePath& path, Scene& scene) {

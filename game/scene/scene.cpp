@@ -30,7 +30,7 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
     description.pose_ws = pose_ws;
     description.shape = scene.shapes->add_mesh(std::move(mesh));
     scene.body_names.push_back(name);
-    return add_body(scene.world, description);
+    return add_body(scene.world, description, *scene.shapes);
 }
 
 // Builds a scene file's bodies one by one; the first error is kept and ends it.
@@ -239,7 +239,7 @@ class SceneBuilder {
                                   : solid_inertia(scene_.shapes->at(shape.shape), body.mass_kg);
             description.velocity = {turned(body.velocity_mps), turned(body.angular_velocity_radps)};
         }
-        const Entity entity = add_body(scene_.world, description);
+        const Entity entity = add_body(scene_.world, description, *scene_.shapes);
         scene_.body_names.push_back(body.name);
         add_grips(body, shape.frame, entity);
         if (body.kind == BodyKind::kinematic) {
@@ -419,7 +419,7 @@ PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start) {
     description.origin_ws = start.origin_ws;
     description.velocity_mps = scene.world.reference_velocity_mps;
     description.head_shape = scene.head_shape;
-    return add_player(scene.world, description);
+    return add_player(scene.world, description, *scene.shapes);
 }
 
 }  // namespace handhold

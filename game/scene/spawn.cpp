@@ -228,7 +228,8 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
                       double hz) {
-    Scene trial;  // shares nothing but shapes by address: the caches refer to those of `scene`
+    Scene trial;  // the caches refer to the shapes of `scene`, which have the same numbers
+    *trial.shapes = *scene.shapes;
     trial.name = scene.name;
     trial.world = scene.world;
     trial.tuning = scene.tuning;

@@ -17,6 +17,7 @@ struct PlaceCollidersIo {
     const Column<BodyPose>& body_pose;          // in
     const Column<BodyStart>& body_start;        // in
     const Column<PlayerOrigin>& origin;         // in
+    const Column<PlayerStart>& player_start;    // in
     const Column<HeadTracking>& head;           // in
     const Column<LastValidPose>& last_valid;    // in
     CollisionWorld& collision;                  // out

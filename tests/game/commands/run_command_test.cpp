@@ -1,6 +1,7 @@
 #include "game/commands/run_command.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -141,6 +142,60 @@ TEST_F(RunCommand, PlaysWhatTheClimbCommandRecorded) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(climb_command(climb), 2);
     EXPECT_EQ(lines_of(testing::internal::GetCapturedStderr()), 1U);
+}
+
+TEST_F(RunCommand, EveryInputHasAPlayerOfItsOwn) {
+    RunOptions options;
+    options.scene = "station";
+    options.pictures = false;
+    options.out = (folder_ / "two").string();
+    for (const std::uint64_t seed : {1U, 2U}) {
+        ClimbOptions climb;
+        climb.scene = "station";
+        climb.seconds = seed == 1 ? 2.0 : 3.0;
+        climb.seed = seed;
+        climb.out = (folder_ / ("climb" + std::to_string(seed) + ".csv")).string();
+        testing::internal::CaptureStdout();
+        ASSERT_EQ(climb_command(climb), 0);
+        testing::internal::GetCapturedStdout();
+        if (seed == 1) {
+            options.input = climb.out;
+        } else {
+            options.more_inputs = {climb.out};
+        }
+    }
+    ASSERT_EQ(run(options), 0) << err_;
+    const auto report = nlohmann::json::parse(read_file(folder_ / "two" / "report.json").value());
+    EXPECT_EQ(report["frames"], 270);  // the longer one
+    EXPECT_EQ(report["input"], "climb1.csv, climb2.csv");
+    std::ifstream rows(folder_ / "two" / "frames.csv");
+    std::string line;
+    std::array<std::size_t, 3> rows_of_player = {};
+    while (std::getline(rows, line)) {
+        const std::size_t player = line.find(',', line.find(',') + 1) + 1;
+        if (line[player] >= '0' && line[player] <= '2') {
+            ++rows_of_player[static_cast<std::size_t>(line[player] - '0')];
+        }
+    }
+    EXPECT_EQ(rows_of_player, (std::array<std::size_t, 3>{270, 270, 0}));
+    options.players = 1;
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("a player for each --input"), std::string::npos) << err_;
+}
+
+TEST_F(RunCommand, SamplesYearsApartAreRefusedUnlessTheLengthIsGiven) {
+    const std::string header =
+        "t,hx,hy,hz,hqx,hqy,hqz,hqw,lx,ly,lz,lqx,lqy,lqz,lqw,lbtn,ltrig,rx,ry,rz,rqx,rqy,rqz,rqw,"
+        "rbtn,rtrig\n";
+    const std::string pose =
+        ",0,1.6,0,0,0,0,1,-0.2,1.2,-0.3,0,0,0,1,0,0,0.2,1.2,-0.3,0,0,0,1,0,0\n";
+    RunOptions options;
+    options.scene = "reach";
+    options.input = write("years.csv", header + "0" + pose + "2e9" + pose);
+    EXPECT_EQ(run(options), 2);
+    EXPECT_EQ(lines_of(err_), 1U) << err_;
+    options.seconds = 0.2;
+    EXPECT_EQ(run(options), 0) << err_;
 }
 
 // A name gives the persistent id: two of one name were a broken precondition, not a refused file.
