@@ -43,6 +43,9 @@ class Broadphase {
     // Any threads may ask at the same time, each with a scratch of its own.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
 
+    // Longest path in the tree: for tests.
+    int depth() const { return btDbvt::maxdepth(tree_.m_root); }
+
   private:
     // Makes bodies_ one for each proxy that has a shape; what was there before stays as it was.
     void match_bodies(std::span<const ColliderProxy> proxies);

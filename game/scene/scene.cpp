@@ -1,6 +1,7 @@
 #include "game/scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -246,11 +247,25 @@ class SceneBuilder {
             set_moving(body, entity);
         }
         if (body.visual.empty()) {
-            scene_.visuals.push_back(
-                {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), body.color, {}});
+            scene_.visuals.push_back({entity, shape_mesh(shape.shape), body.color, {}});
         } else if (const std::optional<GltfLevel> drawn = load(body.visual)) {
             add_visuals(entity, *drawn, inverse(shape.frame));
         }
+    }
+
+    // Equal simple shapes share a mesh: a scene may have 100,000 equal links of chains.
+    std::shared_ptr<const Mesh> shape_mesh(ShapeId id) {
+        const Shape& shape = scene_.shapes->at(id);
+        if (shape.hull != nullptr || shape.parts != nullptr || shape.mesh != nullptr) {
+            return make_shape_mesh(shape);
+        }
+        std::shared_ptr<const Mesh>& mesh =
+            shape_meshes_[{static_cast<double>(shape.kind), shape.half_m.x(), shape.half_m.y(),
+                           shape.half_m.z(), shape.radius_m, shape.half_height_m}];
+        if (mesh == nullptr) {
+            mesh = make_shape_mesh(shape);
+        }
+        return mesh;
     }
 
     void add_grips(const SceneBody& body, const Pose& shape_frame, Entity entity) {
@@ -327,6 +342,7 @@ class SceneBuilder {
     std::string place_;            // of what is being added
     std::set<std::string> names_;  // taken
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
+    std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;  // by their numbers
     std::optional<FileError> error_;
 };
 
