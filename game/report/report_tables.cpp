@@ -35,7 +35,7 @@ std::string wrap_table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</tbody></table></div>\n";
 }
 
-// The same decimals in every row: the points stand below each other.
+// A fixed number of decimals, so that decimal points align.
 std::string make_fixed_cell(double value, int decimals, const char* unit = "") {
     std::string text;
     append_fixed(text, value, decimals);
@@ -153,7 +153,7 @@ const char* meaning_of(Fallback reason) {
 
 std::string make_stage_table(const RunSummary& summary) {
     std::string rows = make_head({"stage"}, {"median µs", "p99 µs", "max µs", "of all time"});
-    // The bar's column has no heading of its own.
+    // The column of bars has no heading.
     const std::size_t head_end = rows.find("</tr>");
     rows.insert(head_end, "<th></th>");
     rows += "<tbody>\n";
