@@ -96,7 +96,7 @@ std::optional<FileError> pose_known(const Scene& scene, const GripMesh& mesh,
     const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning, &hand);
     out.fingers = fitted.fingers;
     if (fitted.penetrating_fingers > 0) {
-        std::fprintf(stderr, "%d posed fingers would be sunk and are fitted\n",
+        std::fprintf(stderr, "%d posed fingers would penetrate and were fitted instead\n",
                      static_cast<int>(fitted.penetrating_fingers));
     }
     return std::nullopt;

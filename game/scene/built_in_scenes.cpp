@@ -224,7 +224,7 @@ Scene make_ship_scene() {
 Scene make_crowd_scene() {
     Scene scene = make_station_scene();
     scene.name = "crowd";
-    scene.description = "the station with a dozen scripted climbers and things that float about";
+    scene.description = "the station with a dozen scripted climbers and free bodies";
     scene.session = SceneSession{{}, scene.name};
     fill_with_crowd(scene);
     return scene;

@@ -316,7 +316,7 @@ CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "t
 
 
 def run(room: Room, names: list[str]) -> int:
-    """How many failed. Feeds are real time, and a machine that stalls is no fault of the game: what fails is tried once more, and counted."""
+    """Returns the number of failures. Feeds are in real time and a machine may stall, so a failed check is repeated once and counted."""
     failed = second_tries = 0
     for name in names:
         for is_last in (False, True):

@@ -1,4 +1,5 @@
-"""The game's own convention of a hand on a grip, written again from OpenXR's words: what tools/xr_e2e feeds must lie on things."""
+"""The game's convention of a hand on a grip pose, implemented a second time from the OpenXR specification, so that tools/xr_e2e can place
+hands on surfaces."""
 import math
 
 SLANT_RAD = 0.55   # of the handle's thumb end towards the fingers
