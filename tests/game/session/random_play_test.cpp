@@ -155,7 +155,7 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     }
     std::printf(
         "%s: %llu frames, %zu hostile, %zu climbers, %llu grips; fastest player %.2f m/s, "
-        "loose thing %.2f m/s, farthest step %.2f m\n",
+        "loose body %.2f m/s, farthest step %.2f m\n",
         play.scene, static_cast<unsigned long long>(frames), play.hostile, play.climbers,
         static_cast<unsigned long long>(stage.grabs), stage.fastest_player, stage.fastest_loose,
         stage.farthest_step_m);
