@@ -14,7 +14,7 @@
 namespace handhold {
 
 int build_station_command(const BuildStationOptions& options) {
-    const InterruptGuard interrupts;  // every file that is begun is written whole
+    const InterruptGuard interrupts;  // each file is written whole
     StationDescription description;
     if (options.description.empty()) {
         description = own_station_description();

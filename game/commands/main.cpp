@@ -51,7 +51,7 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
                        "controller-to-hand joint the hands then have");
 }
 
-// An option that may be given several times, one value each.
+// An option that may be given several times, with one value each.
 void first_and_more(CLI::App& command, const char* name, std::string& first,
                     std::vector<std::string>& more, const char* what) {
     command
@@ -311,7 +311,7 @@ int run_program(int argc, char** argv) {
     return handhold::run_command(options);
 }
 
-// What was printed reaches the disk, or the failure is told. Returns the exit status.
+// Flushes standard output and reports a failure. Returns the exit status.
 int flush_output(int status) {
     const bool failed_before = std::ferror(stdout) != 0;
     if (std::fflush(stdout) == 0 && !failed_before) {
@@ -321,7 +321,7 @@ int flush_output(int status) {
     return status != 0 ? status : handhold::k_exit_bad_file;
 }
 
-// For an exception that no handler can meet, such as one on the way out of a destructor.
+// For exceptions that no handler can catch, such as one thrown by a destructor.
 [[noreturn]] void end_without_handler() {
     std::fputs("handhold: out of memory, or an internal error\n", stderr);
     std::_Exit(handhold::k_exit_internal);
@@ -337,10 +337,10 @@ int report_exception(const char* what) {
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
 #ifdef SIGXFSZ
-    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of the write
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the limit on file sizes becomes a write error
 #endif
 #ifdef SIGPIPE
-    std::signal(SIGPIPE, SIG_IGN);  // files are written whole although nobody reads the summary
+    std::signal(SIGPIPE, SIG_IGN);  // files are written whole even if nobody reads the summary
 #endif
     try {
         return flush_output(run_program(argc, argv));

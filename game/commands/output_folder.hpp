@@ -6,11 +6,11 @@
 
 namespace handhold {
 
-// A folder that one process at a time writes its files into. The lock is the operating system's: it
-// ends with the process, and leaves no file.
+// Exclusive access to a folder for output. The lock is the operating system's: it ends with the
+// process and leaves no file.
 class OutputFolder {
   public:
-    // Makes the folder and those above it as needed. Refused: a path that is no folder, and a
+    // Makes the folder and its parents if needed. Refused: a path that is not a folder, and a
     // folder that another OutputFolder holds.
     static Result<OutputFolder> open(const std::filesystem::path& path);
     OutputFolder(OutputFolder&& other) noexcept;

@@ -38,8 +38,8 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
-// Before the eyes, as a player looks at them: fingers up, backs to him; or thumbs up, fists around
-// controllers.
+// In front of the eyes: fingers up, with the backs of the hands to the player; or thumbs up, in
+// fists around controllers.
 Pose wrist_before_eyes(HandSide side, bool holds_controller) {
     const double out = side == HandSide::left ? -1.0 : 1.0;
     if (holds_controller) {
@@ -73,7 +73,7 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
     }
 }
 
-// Draws, saves and says what it took.
+// Draws and saves pictures and prints the cost.
 class PictureSaver {
   public:
     PictureSaver(Renderer& renderer, std::filesystem::path folder)
@@ -99,7 +99,7 @@ class PictureSaver {
     Image image_;
 };
 
-// A right hand in the first grip, a left one in the second.
+// A right hand in the first grip, a left hand in the second.
 std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
                                     const RenderFrame& bare, HandFigures& figures,
                                     Renderer& renderer, PictureSaver& saver) {

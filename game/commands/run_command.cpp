@@ -41,7 +41,7 @@ struct Session {
     std::string name;             // files, "built-in <name>", or empty
 };
 
-// What drives the players: the given file, else the scene's own session, else nothing.
+// The players' recordings: those of --input, else the scene's session, else none.
 Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     Session session;
     std::filesystem::path file = options.input;
@@ -78,7 +78,7 @@ Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     return session;
 }
 
-// A recording may say anything of its times: two samples, one of them years later.
+// Times in a recording are arbitrary: two samples may be years apart.
 std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
                                       double length_s) {
     constexpr double k_longest_s = 1e6;  // as --seconds
@@ -129,8 +129,8 @@ Result<Place> choose_place(const RunOptions& options, const std::string& spawn, 
 
 std::size_t recorded_players(const RunOptions& options) { return 1 + options.more_inputs.size(); }
 
-// Where the players with a recording begin: the first at `first`, the others at their --spawn, else
-// at the scene's next spawn. Fewer than there are recordings if the scene has no more spawns.
+// Places of players with recordings: the first at `first`, the others at their --spawn, else at the
+// scene's next spawn. May be fewer than the recordings if the scene has no more spawns.
 Result<std::vector<Place>> choose_places(const RunOptions& options, const Place& first,
                                          const Scene& scene, FrameCaches& caches,
                                          const Session& session) {
@@ -152,8 +152,8 @@ Result<std::vector<Place>> choose_places(const RunOptions& options, const Place&
     return places;
 }
 
-// The scene's own players if it has enough and neither place nor number was asked for; else the
-// first at the places, the others spread over the scene.
+// The scene's own players, if they are enough and neither place nor number was given. Else the
+// first players at `places`, the others spread over the scene.
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
                                                 const std::vector<Place>& places,
                                                 const RunOptions& options) {
@@ -202,7 +202,7 @@ void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
     }
 }
 
-// Saves the state when its time has come.
+// Saves a snapshot once its time is reached.
 class SnapshotTaker {
   public:
     SnapshotTaker(const RunOptions& options, const SnapshotAssets& assets)
@@ -215,7 +215,7 @@ class SnapshotTaker {
             error_ = save_snapshot_file(options_.snapshot, scene.world, assets_);
         }
     }
-    // After the session.
+    // Call after the session.
     std::optional<FileError> error() const {
         if (!options_.snapshot.empty() && !taken_ && !is_interrupted()) {
             return FileError{options_.snapshot, "",
@@ -232,8 +232,8 @@ class SnapshotTaker {
     std::optional<FileError> error_;
 };
 
-// Puts the saved state, if the run is to begin with one, in the place of the scene's first one. The
-// players stay who they are. Climbers remember their plans themselves: with them nothing is saved.
+// Replaces the scene's initial state by the snapshot of --resume, if given. The players keep their
+// identities. Refused with climbers: their plans are not part of a snapshot.
 std::optional<FileError> resume(const RunOptions& options, const RunSettings& settings,
                                 const SnapshotAssets& assets, Scene& scene,
                                 std::vector<PlayerEntities>& players) {
@@ -325,7 +325,7 @@ void print_summary(const RunLog& log, const RunSummary& summary) {
     }
 }
 
-// Climbers need jets to come back from where nothing is in reach: who has none gets small ones.
+// Climbers need jets to return to something in reach: a scene without jets gets small ones.
 RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
     RunSettings settings{options.hz, options.seconds, options.threads};
     settings.climbers_from = options.climbers ? 0 : recorded_players(options);
@@ -364,7 +364,7 @@ Film open_film(const RunOptions& options, const Scene& scene, PlayerModels model
     return film;
 }
 
-// The shots; the video is on disk then.
+// The pictures. The video is written.
 std::vector<FilmShot> finish_film(Film& film) {
     if (film.camera == nullptr) {
         return {};

@@ -70,7 +70,7 @@ constexpr std::array<Word<ToolType>, 12> k_tool_types = {{{"wrench", ToolType::w
                                                           {"book", ToolType::book},
                                                           {"helmet", ToolType::helmet}}};
 
-// The value that a text names; the first one, with an error kept, where it names none.
+// The value of a word. For an unknown word, keeps an error and returns the first value.
 template <typename T, std::size_t N>
 T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     const std::string text = value.text();
@@ -199,7 +199,7 @@ void DescriptionReader::read_place(const JsonValue& value, StationSection& secti
         attach.refuse("nothing: a truss is placed by \"position_m\"");
     }
     if (section.type == SectionType::node) {
-        taken_ports_.insert({section.name, 2});  // its -Z is where it came from
+        taken_ports_.insert({section.name, 2});  // its -Z port is the connection
     }
     if (!taken_ports_.insert({section.attached_to, section.port}).second) {
         attach["port"].refuse("a port that nothing else is attached to");

@@ -23,7 +23,7 @@ std::shared_ptr<const Mesh> placed_mesh(Mesh mesh, const SceneLevel& level) {
     return std::make_shared<const Mesh>(std::move(mesh));
 }
 
-// A static body that is not drawn.
+// A static body without a visual.
 Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
                        const Pose& pose_ws) {
     BodyDescription description;
@@ -34,7 +34,7 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
     return add_body(scene.world, description, *scene.shapes);
 }
 
-// Builds a scene file's bodies one by one; the first error is kept and ends it.
+// Builds a scene file's bodies one by one. Stops at the first error and keeps it.
 class SceneBuilder {
   public:
     SceneBuilder(const SceneFile& file, const std::filesystem::path& path,
@@ -69,8 +69,8 @@ class SceneBuilder {
     }
 
   private:
-    // The file's own names differ, but parts of levels and players' hands get theirs here. False,
-    // with the error kept, where somebody has it already.
+    // Names within the file are unique already; parts of levels and players' hands get their names
+    // here. Returns false, and keeps the error, if the name is taken.
     bool take_name(const std::string& name) {
         if (!error_ && !names_.insert(name).second) {
             error_ =
@@ -82,7 +82,7 @@ class SceneBuilder {
 
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
-    // Null, with the error kept, where the file is refused.
+    // Empty, with the error kept, if the file is refused.
     std::optional<GltfLevel> load(const std::filesystem::path& path) {
         if (error_) {
             return std::nullopt;
@@ -117,7 +117,7 @@ class SceneBuilder {
                     add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
         }
-        if (!bodies.empty()) {  // they stand still together: any of them carries the pictures
+        if (!bodies.empty()) {  // they are static, so any of them carries the visuals
             for (LevelMesh& part : make_level_meshes(*loaded)) {
                 scene_.visuals.push_back({bodies.front(), placed_mesh(std::move(part.mesh), level),
                                           std::nullopt, part.look});
@@ -135,7 +135,7 @@ class SceneBuilder {
         }
     }
 
-    // All of a file's parts as one mesh: one however many bodies name it, so that they share it.
+    // All parts of a file as one mesh, shared by all bodies that name the file.
     std::shared_ptr<const Mesh> load_mesh(const std::filesystem::path& path) {
         std::shared_ptr<const Mesh>& mesh = meshes_[path];
         if (mesh != nullptr) {
@@ -339,14 +339,14 @@ class SceneBuilder {
     const std::filesystem::path& path_;
     const LevelSource& levels_;
     Scene& scene_;
-    std::string place_;            // of what is being added
-    std::set<std::string> names_;  // taken
+    std::string place_;            // JSON pointer of what is being added
+    std::set<std::string> names_;  // taken names
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
     std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;  // by their numbers
     std::optional<FileError> error_;
 };
 
-// Any level by itself: its mesh nodes are static bodies, and nothing else is there.
+// A level by itself: each mesh node is a static body.
 SceneFile level_scene(const std::filesystem::path& path) {
     SceneFile file;
     file.name = path.stem().string();

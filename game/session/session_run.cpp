@@ -51,7 +51,7 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
     return log;
 }
 
-// Into a log that may have been used before: nothing is allocated then.
+// Into a log that may have been used before: then nothing is allocated.
 void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
                const BodyIndex& bodies, const StageStats& stats, FrameLog& log) {
     const World& world = scene.world;
@@ -74,7 +74,7 @@ void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
     }
 }
 
-// Of a player and his hands in the columns of the world, with what it takes to find them there.
+// Bytes of a player's and their hands' rows in all columns, including owners and indices.
 std::size_t state_bytes(const World& world, const PlayerEntities& player) {
     std::size_t bytes = 0;
     visit_columns(world, [&](const char*, const auto& column) {
@@ -143,12 +143,12 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
     if (scene.world.clock.frame > 0) {
         for (Playback& playback : playbacks) {
-            playback.window(begin_s);  // what was played before the world was saved
+            playback.window(begin_s);  // skip what was played before the snapshot
         }
     }
 
     RunLog log = begin_log(scene, players, settings);
-    // As many as a session of minutes has: what a file claims to last is no reason to take memory.
+    // Enough for minutes. The length that a file claims must not decide how much memory is taken.
     log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
                                             : 1);
     const BodyIndex bodies(scene.world);

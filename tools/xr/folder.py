@@ -21,7 +21,7 @@ NAMESPACE = ["unshare", "--mount", "--pid", "--fork", "--kill-child"]
 
 
 class CannotMake(Exception):
-    """Why the folder cannot be made on this machine, in one line."""
+    """The reason why the folder cannot be made on this machine, in one line."""
 
 
 class NotOurs(Exception):
@@ -40,7 +40,7 @@ def refuse_foreign(folder: Path) -> None:
 
 
 def part_of(folder: Path) -> Path:
-    """Where the folder is made before it gets its name."""
+    """The path where the folder is made; it is renamed when complete."""
     return folder.with_name(folder.name + ".part")
 
 

@@ -1,4 +1,4 @@
-// Where the game writes: folders are locked, and commands to copy are quoted.
+// Output: folders are locked, and commands to copy are quoted.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -30,10 +30,10 @@ TEST(OutputFolder, SecondHolderIsRefusedUntilTheFirstEnds) {
     fs::remove_all(path);
 }
 
-// What a shell makes of `word`.
+// The word as a shell reads it.
 std::string read_by_shell(const char* shell, const std::string& word) {
     const std::string script = "printf %s " + word;
-    // The script reaches the shell as an environment variable: no other quoting is involved.
+    // The script reaches the shell in an environment variable, so no other quoting is involved.
     setenv("HANDHOLD_SCRIPT", script.c_str(), 1);
     const std::string command = std::string(shell) + " -c \"$HANDHOLD_SCRIPT\"";
     std::FILE* const pipe = popen(command.c_str(), "r");

@@ -20,7 +20,7 @@ namespace {
 
 class RunCommand : public testing::Test {
   protected:
-    // A folder of its own: tests run side by side.
+    // A folder of its own: tests run in parallel.
     RunCommand()
         : folder_(std::filesystem::path(testing::TempDir()) /
                   ("handhold_run_command_" + std::to_string(getpid()))) {
@@ -34,7 +34,7 @@ class RunCommand : public testing::Test {
         std::ofstream(path) << text;
         return path.string();
     }
-    // Exit status; what was printed is in out_ and err_.
+    // Returns the exit status. The output is in out_ and err_.
     int run(const RunOptions& options) {
         testing::internal::CaptureStdout();
         testing::internal::CaptureStderr();
@@ -101,11 +101,11 @@ TEST_F(RunCommand, SeveralPlayersAreAllInTheFilesAndTheFirstPlaysTheSession) {
         EXPECT_GT(report["bytes_per_player"], 1000);
         return report["players"][0]["path_m"].get<double>();
     };
-    // The others climb elsewhere: what the first does is his session, as when he is alone.
+    // The others climb elsewhere, so the first player's session is the same as alone.
     EXPECT_EQ(first_rows(3), first_rows(1));
 }
 
-TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
+TEST_F(RunCommand, KeepsNoFramesIfNoFilesAreWritten) {
     RunOptions options;
     options.scene = "ship";
     options.seconds = 1.0;
@@ -116,7 +116,7 @@ TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
     EXPECT_NE(out_.find("2 players, "), std::string::npos) << out_;
 }
 
-TEST_F(RunCommand, RefusesMorePlayersThanThereIsRoomFor) {
+TEST_F(RunCommand, RefusesMorePlayersThanTheSceneHasSpaceFor) {
     RunOptions options;
     options.scene = write("void.json", R"({"name": "void"})");
     options.players = 2;
@@ -198,7 +198,7 @@ TEST_F(RunCommand, SamplesYearsApartAreRefusedUnlessTheLengthIsGiven) {
     EXPECT_EQ(run(options), 0) << err_;
 }
 
-// A name gives the persistent id: two of one name were a broken precondition, not a refused file.
+// Equal names give equal persistent ids: they must be a refused file, not a broken precondition.
 TEST_F(RunCommand, NamesThatPlayersHandsWouldTakeAreRefusedAndInventedOnesMakeWay) {
     const std::string ball =
         R"("kind": "static", "shape": {"type": "sphere", "radius_m": 0.1}, "position_m": [0, 9, 0]})";
@@ -244,11 +244,11 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
     EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
 }
 
-// --- Saved and taken up again --------------------------------------------------------------------
+// --- Snapshots in the middle of a run ---
 
 class ResumedRun : public RunCommand {
   protected:
-    // The ship's session next to a wall.
+    // The ship's session beside a wall.
     ResumedRun() {
         options_.scene = write("wall.json", R"({"name": "wall", "session": "ship", "bodies": [
             {"name": "wall", "kind": "static", "shape": {"type": "box", "half_m": [0.1, 2, 4]},
@@ -282,7 +282,7 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     ASSERT_EQ(run(options_), 0) << err_;
     options_.snapshot.clear();
     options_.resume = snapshot_;
-    options_.players = 1;  // somebody else
+    options_.players = 1;  // another player
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
         << err_;
@@ -294,7 +294,7 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     EXPECT_EQ(lines_of(err_), 1U) << err_;
 }
 
-// What climbers plan is not in the world.
+// The plans of climbers are not part of the world.
 TEST_F(ResumedRun, ClimbersAreRefused) {
     options_.scene = "station";
     options_.seconds = 0.2;
