@@ -60,12 +60,13 @@ bool is_within(const Vec3& v, double limit) {
 }
 
 bool is_in_world(const Pose& pose) {
-    return is_valid(pose) && is_within(pose.position, k_max_coordinate_m);
+    return is_valid(pose) && is_within(pose.position, world_limits::k_max_coordinate_m);
 }
 
 double wrong_number_of(const Pose& pose) {
-    return is_within(pose.position, k_max_coordinate_m) ? pose.rotation.norm()
-                                                        : beyond(pose.position, k_max_coordinate_m);
+    return is_within(pose.position, world_limits::k_max_coordinate_m)
+               ? pose.rotation.norm()
+               : beyond(pose.position, world_limits::k_max_coordinate_m);
 }
 
 void check_body(const World& world, const BodyDescription& description, const char* caller) {
@@ -78,21 +79,25 @@ void check_body(const World& world, const BodyDescription& description, const ch
     check(is_in_world(description.pose_ws), "the pose is not valid",
           wrong_number_of(description.pose_ws));
     const bool is_free = body.kind == BodyKind::free;
-    check(is_in(body.mass_kg, is_free ? k_min_mass_kg : 0.0, k_max_mass_kg),
+    check(is_in(body.mass_kg, is_free ? world_limits::k_min_mass_kg : 0.0,
+                world_limits::k_max_mass_kg),
           "a free body needs a mass within 1e-12 to 1e15 kg", body.mass_kg);
     for (const double inertia : body.inertia_kgm2) {
-        check(is_in(inertia, is_free ? k_min_inertia_kgm2 : 0.0, k_max_inertia_kgm2),
+        check(is_in(inertia, is_free ? world_limits::k_min_inertia_kgm2 : 0.0,
+                    world_limits::k_max_inertia_kgm2),
               "a free body needs moments of inertia within 1e-24 to 1e18 kg m^2", inertia);
     }
     check(is_in(body.restitution, 0.0, 1.0), "the restitution must lie in [0, 1]",
           body.restitution);
-    check(is_in(body.friction, 0.0, k_max_friction), "the friction must lie in [0, 1e6]",
-          body.friction);
+    check(is_in(body.friction, 0.0, world_limits::k_max_friction),
+          "the friction must lie in [0, 1e6]", body.friction);
     const BodyVelocity& velocity = description.velocity;
-    check(is_within(velocity.linear_mps, k_max_speed_mps), "the velocity is beyond 1e6 m/s",
-          beyond(velocity.linear_mps, k_max_speed_mps));
-    check(is_within(velocity.angular_radps, k_max_spin_radps), "the spin is beyond 1e4 rad/s",
-          beyond(velocity.angular_radps, k_max_spin_radps));
+    check(is_within(velocity.linear_mps, world_limits::k_max_speed_mps),
+          "the velocity is beyond 1e6 m/s",
+          beyond(velocity.linear_mps, world_limits::k_max_speed_mps));
+    check(is_within(velocity.angular_radps, world_limits::k_max_spin_radps),
+          "the spin is beyond 1e4 rad/s",
+          beyond(velocity.angular_radps, world_limits::k_max_spin_radps));
     check_name_is_free(world, description.name);
 }
 
@@ -144,12 +149,13 @@ Entity add_joint(World& world, const JointDescription& description) {
     HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
     const JointLatch& latch = joint.latch;
     for (const double coordinate : {joint.lower, joint.upper, latch.at, latch.handle_at}) {
-        HH_CHECK(is_in(coordinate, -k_max_joint_coordinate, k_max_joint_coordinate),
+        HH_CHECK(is_in(coordinate, -world_limits::k_max_joint_coordinate,
+                       world_limits::k_max_joint_coordinate),
                  "a joint's coordinates must lie within 1e9", coordinate);
     }
     for (const double number : {joint.friction, joint.detent_spacing, joint.detent_strength,
                                 latch.catch_range, latch.strength}) {
-        HH_CHECK(is_in(number, 0.0, k_max_joint_strength),
+        HH_CHECK(is_in(number, 0.0, world_limits::k_max_joint_strength),
                  "friction, detents and latches must lie in [0, 1e15]", number);
     }
     HH_CHECK(is_null(latch.handle) || world.joint.contains(latch.handle),
@@ -172,10 +178,12 @@ Joint joint_at(const World& world, Joint joint, const Pose& frame_ws) {
 PlayerEntities add_player(World& world, const PlayerDescription& description) {
     HH_CHECK(is_in_world(description.origin_ws), "the origin is not valid",
              wrong_number_of(description.origin_ws));
-    HH_CHECK(is_in(description.body.mass_kg, k_min_mass_kg, k_max_mass_kg),
-             "a player needs a mass within 1e-12 to 1e15 kg", description.body.mass_kg);
-    HH_CHECK(is_within(description.velocity_mps, k_max_speed_mps), "the velocity is beyond 1e6 m/s",
-             beyond(description.velocity_mps, k_max_speed_mps));
+    HH_CHECK(
+        is_in(description.body.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg),
+        "a player needs a mass within 1e-12 to 1e15 kg", description.body.mass_kg);
+    HH_CHECK(is_within(description.velocity_mps, world_limits::k_max_speed_mps),
+             "the velocity is beyond 1e6 m/s",
+             beyond(description.velocity_mps, world_limits::k_max_speed_mps));
     const BodyMeasures& measures = description.measures;
     for (const double length_m : {measures.eye_height_m, measures.shoulder_width_m,
                                   measures.upper_arm_m, measures.forearm_m}) {

@@ -132,6 +132,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
 
 // Largest numbers that the add_ functions take. With them no frame computes a number that a
 // snapshot refuses.
+namespace world_limits {
 constexpr double k_max_coordinate_m = 1e9;  // of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
@@ -142,6 +143,7 @@ constexpr double k_max_inertia_kgm2 = 1e18;
 constexpr double k_max_friction = 1e6;          // of bodies
 constexpr double k_max_joint_coordinate = 1e9;  // rad or m
 constexpr double k_max_joint_strength = 1e15;   // N or N m
+}  // namespace world_limits
 
 struct BodyDescription {
     std::string_view name;  // unique in the world: gives the persistent id

@@ -24,6 +24,7 @@
 #include "systems/locomotion/update_grabs.hpp"
 #include "systems/physics/animate_movers.hpp"
 #include "systems/physics/build_constraints.hpp"
+#include "systems/physics/discard_broken_results.hpp"
 #include "systems/physics/find_contacts.hpp"
 #include "systems/physics/finish_positions.hpp"
 #include "systems/physics/group_joints.hpp"
@@ -156,6 +157,10 @@ void solve(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput
     {
         const StageTimer timer(Stage::update_joints, stats);
         update_joints({input.dt_s, graph, w.joint, w.joint_state});
+        discard_broken_results(
+            {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
+             w.player_velocity, w.last_valid, w.joint_state, w.grab, graph},
+            stats);
     }
 }
 
@@ -245,8 +250,8 @@ void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const Frame
     HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
              "dt_s must lie between 1e-6 and 10", input.dt_s);
     for (const double axis_mps : w.reference_velocity_mps) {
-        HH_CHECK(std::abs(axis_mps) <= k_max_speed_mps, "reference_velocity_mps is out of range",
-                 axis_mps);
+        HH_CHECK(std::abs(axis_mps) <= world_limits::k_max_speed_mps,
+                 "reference_velocity_mps is out of range", axis_mps);
     }
     check_tuning(tuning);
     stats = {};

@@ -24,7 +24,7 @@ struct RunSettings {
     bool keep_frames = true;  // false: keep the last frame only, so memory does not grow
     // Recordings of the second player, the third, and so on. Players beyond the last play the first
     // recording.
-    std::vector<const Recording*> more_recordings;
+    std::vector<const Recording*> more_recordings = {};
     // Called after each frame; true ends the run. Null: never.
     bool (*should_stop)() = nullptr;
 };

@@ -17,7 +17,8 @@ bool is_trackable(const Pose& pose_ps) {
 }
 
 bool is_stale(double t_s, bool has_sample, double last_t_s) {
-    return !std::isfinite(t_s) || (has_sample && t_s <= last_t_s);
+    constexpr double k_latest_s = 1e9;  // beyond it a time is no time: a snapshot refuses it too
+    return !(std::abs(t_s) <= k_latest_s) || (has_sample && t_s <= last_t_s);
 }
 
 // A sample of no time at all is not one after the frame.

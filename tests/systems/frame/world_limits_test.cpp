@@ -326,7 +326,7 @@ struct AnyWorld {
             body.body.inertia_kgm2 = Vec3(moment, moment, moment);
             body.body.restitution = random.between(0.0, 1.0);
             body.body.friction = magnitude(random, -3.0, 6.0);
-            body.pose_ws = random.pose(std::min(spread_m, k_max_coordinate_m));
+            body.pose_ws = random.pose(std::min(spread_m, world_limits::k_max_coordinate_m));
             body.velocity.linear_mps = random.vector(magnitude(random, -2.0, 6.0));
             body.velocity.angular_radps = random.vector(magnitude(random, -2.0, 4.0));
             body.shape = known[any(known.size())];
@@ -353,7 +353,8 @@ struct AnyWorld {
             const std::string name = "player" + std::to_string(i);
             PlayerDescription description = player(name);
             description.body.mass_kg = magnitude(random, -12.0, 15.0);
-            description.origin_ws = random.pose(std::min(spread_m, k_max_coordinate_m));
+            description.origin_ws =
+                random.pose(std::min(spread_m, world_limits::k_max_coordinate_m));
             description.velocity_mps = random.vector(magnitude(random, -2.0, 6.0));
             description.head_shape = any(4) == 0 ? k_no_shape : head;
             players.push_back(add_player(world, description, shapes).player);
