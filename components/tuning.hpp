@@ -4,6 +4,7 @@
 
 #include "components/body_tuning.hpp"
 #include "engine/math/math.hpp"
+#include "engine/solver/newton/settings.hpp"
 
 // Every tunable number. Each is declared here with its default, and described once, with unit and
 // range, in visit_tuning, which tuning files, the report and the inspector use.
@@ -107,37 +108,33 @@ struct PhaseTuning {
 struct ContactTuning {
     double margin_m = 0.02;
     double sweep_m = 0.005;
-    double restitution_speed_mps = 0.2;
+    double restitution_speed_mps = VelocitySettings{}.restitution_speed_mps;
     std::int32_t max_rounds = 4;
     double restore_depth_m = 1e-4;
 };
 
-// Damped Newton of the phases (engine/solver/newton/newton.hpp). Regularisations are relative to
-// the system's diagonal: a larger one lets its constraint rows yield more.
+// Defaults: engine/solver/newton/settings.hpp, which also documents the fields.
 struct SolverTuning {
-    std::int32_t max_iterations = 30;
-    double tolerance_m = 1e-7;
-    double step_tolerance_m = 1e-9;
-    // Initial values. The hands' (drive) regularisation is then adapted from step to step.
-    double drive_regularisation = 1e-8;
+    std::int32_t max_iterations = NewtonSettings{}.max_iterations;
+    double tolerance_m = NewtonSettings{}.tolerance_m;
+    double step_tolerance_m = NewtonSettings{}.step_tolerance_m;
+    // Initial regularisation, relative to the system's diagonal.
+    double drive_regularisation = Regularisation{}.drive;
     double forward_drive_regularisation = 1e-3;
-    double contact_regularisation = 1e-7;
-    double joint_regularisation = 1e-10;
-    // Bounds and factors of that adaptation (engine/solver/newton/regularisation.hpp).
-    double max_drive_regularisation = 1e-2;
-    double min_drive_regularisation = 1e-9;
-    double max_contact_regularisation = 1e-3;
-    double regularisation_decrease = 0.03;
-    double regularisation_increase = 10.0;
-    std::int32_t linear_decrease_steps = 3;
-    double linear_decrease_ratio = 0.95;
-    // Limits of one Newton step.
-    double max_step_rotation_rad = 1.0;
-    double min_step_scale = 0.3;
-    // Errors from which more expensive methods are used.
-    double geometric_stiffness_from_m = 1e-4;
-    double load_stepping_from_m = 0.05;
-    std::int32_t friction_passes = 16;
+    double contact_regularisation = Regularisation{}.contact;
+    double joint_regularisation = Regularisation{}.joint;
+    double max_drive_regularisation = StepControl{}.max_drive_regularisation;
+    double min_drive_regularisation = StepControl{}.min_drive_regularisation;
+    double max_contact_regularisation = StepControl{}.max_contact_regularisation;
+    double regularisation_decrease = StepControl{}.regularisation_decrease;
+    double regularisation_increase = StepControl{}.regularisation_increase;
+    std::int32_t linear_decrease_steps = StepControl{}.linear_decrease_steps;
+    double linear_decrease_ratio = StepControl{}.linear_decrease_ratio;
+    double max_step_rotation_rad = StepControl{}.max_step_rotation_rad;
+    double min_step_scale = StepControl{}.min_step_scale;
+    double geometric_stiffness_from_m = NewtonSettings{}.geometric_stiffness_from_m;
+    double load_stepping_from_m = NewtonSettings{}.load_stepping_from_m;
+    std::int32_t friction_passes = VelocitySettings{}.friction_passes;
 };
 
 struct Tuning {

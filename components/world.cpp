@@ -28,9 +28,9 @@ void sync_index(World& world) {
 
 namespace {
 
-void check_name_is_free(const World& world, std::string_view name) {
+void check_name_is_unique(const World& world, std::string_view name) {
     const PersistentId id = persistent_id_from_name(name);
-    HH_CHECK(is_null(find_by_id(world, id)), "the name is taken", id.value);
+    HH_CHECK(is_null(find_by_id(world, id)), "the name is used already", id.value);
 }
 
 // Precondition: the name is free.
@@ -98,7 +98,7 @@ void check_body(const World& world, const BodyDescription& description, const ch
     check(is_within(velocity.angular_radps, world_limits::k_max_spin_radps),
           "the spin is beyond 1e4 rad/s",
           beyond(velocity.angular_radps, world_limits::k_max_spin_radps));
-    check_name_is_free(world, description.name);
+    check_name_is_unique(world, description.name);
 }
 
 const Shape& known_shape(ShapeId shape, const ShapeLibrary& shapes, const char* caller) {
@@ -138,7 +138,7 @@ Entity add_body(World& world, const BodyDescription& description, const ShapeLib
 
 Entity add_joint(World& world, const JointDescription& description) {
     const Joint& joint = description.joint;
-    HH_CHECK(world.body.contains(joint.b), "a joint's second body must exist", joint.b.slot);
+    HH_CHECK(world.body.contains(joint.b), "a joint's second body does not exist", joint.b.slot);
     HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
              "a joint's first body must exist, or be null for the world", joint.a.slot);
     HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
@@ -160,7 +160,7 @@ Entity add_joint(World& world, const JointDescription& description) {
     }
     HH_CHECK(is_null(latch.handle) || world.joint.contains(latch.handle),
              "a latch's handle must be a joint, or null", latch.handle.slot);
-    check_name_is_free(world, description.name);
+    check_name_is_unique(world, description.name);
     const Entity entity = add_named(world, description.name);
     world.joint.add(entity, joint);
     world.joint_state.add(entity);
@@ -190,11 +190,11 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
         HH_CHECK(is_in(length_m, BodyMeasures::k_min_m, BodyMeasures::k_max_m),
                  "the body's measures must lie within 0.05 to 5 m", length_m);
     }
-    check_name_is_free(world, description.name);
+    check_name_is_unique(world, description.name);
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};
     for (const std::string& name : hand_names) {
-        check_name_is_free(world, name);
+        check_name_is_unique(world, name);
     }
     PlayerEntities made;
     made.player = add_named(world, description.name);

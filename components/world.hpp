@@ -23,27 +23,27 @@
 namespace handhold {
 
 struct FrameClock {
-    std::uint64_t frame = 0;  // frames stepped
-    double t_s = 0.0;         // end of the last frame
+    std::uint64_t frame = 0;  // number of frames stepped
+    double t_s = 0.0;         // end of the last frame, s
 };
 
-// The whole state: one column for each component. Nothing outside it survives a frame.
+// The whole simulation state: one column per component. Nothing outside it survives a frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
-    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's
+    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's, world
     Column<PersistentId> persistent_id;          // every entity
 
     Column<RigidBody> body;
     Column<BodyPose> body_pose;            // every body
     Column<BodyStart> body_start;          // every body
     Column<BodyVelocity> body_velocity;    // every body
-    Column<Collider> collider;             // bodies that can be touched; players: the head
-    Column<Mover> mover;                   // kinematic bodies that move by themselves
+    Column<Collider> collider;             // bodies with a shape; players: the sphere of the head
+    Column<Mover> mover;                   // kinematic bodies with a constant twist
     Column<PathMover> path_mover;          // kinematic bodies on closed paths
-    Column<LegMover> leg_mover;            // bones of those bodies' legs
+    Column<LegMover> leg_mover;            // kinematic bones of legs of path movers
     Column<LastValidPose> last_valid;      // free bodies and players
-    Column<AuthoredGrips> authored_grips;  // bodies that have some
+    Column<AuthoredGrips> authored_grips;  // bodies with authored grips
 
     Column<Joint> joint;
     Column<JointState> joint_state;  // every joint
@@ -57,7 +57,7 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // these eight: every player
+    Column<BodyMeasures> body_measures;  // this and the next seven: every player
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
@@ -74,17 +74,18 @@ struct World {
     Column<PalmOffset> palm_offset;
     Column<PalmPose> palm_pose;
     Column<FingerPose> finger_pose;
-    Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
-    Column<AuthoredHold> authored_hold;           // only hands that sit in an authored grip
-    Column<HandPull> hand_pull;                   // only hands that pull something from afar
+    Column<ControllerToHand>
+        controller_to_hand;  // only hands with their own controller-to-hand joint; else Tuning's
+    Column<AuthoredHold> authored_hold;  // only hands in an authored grip
+    Column<HandPull> hand_pull;          // only hands that pull a body from a distance
 
     // Caches over persistent_id and joint, kept by the functions below. Not state.
     EntityById entity_by_id;
     JointsByBody joints_by_body;
 };
 
-// Calls visit(name, column) for every column. The one list of them: hashing, destroying and
-// snapshots follow it.
+// Calls visit(name, column) for every column. The only list of columns: hashing, destroying and
+// snapshots use it.
 template <typename WorldType, typename Visit>
 void visit_columns(WorldType& world, Visit&& visit) {
     visit("persistent_id", world.persistent_id);
@@ -146,15 +147,15 @@ constexpr double k_max_joint_strength = 1e15;   // N or N m
 }  // namespace world_limits
 
 struct BodyDescription {
-    std::string_view name;  // unique in the world: gives the persistent id
+    std::string_view name;  // unique in the world; hashed to the persistent id
     RigidBody body;
     Pose pose_ws;
     BodyVelocity velocity;
     ShapeId shape;
 };
-// Adds a body, and its collider unless its shape is k_no_shape. Throws PreconditionError, and adds
-// nothing, for a name that is taken or any number outside the limits above; restitution must lie in
-// [0, 1], and a free body needs mass and inertia.
+// Adds a body, with a collider unless its shape is k_no_shape. Throws PreconditionError, and adds
+// nothing, for a duplicate name or a number outside world_limits; restitution must lie in [0, 1],
+// and a free body needs mass and inertia.
 Entity add_body(World& world, const BodyDescription& description);
 // Also throws for a shape that the library lacks, and for a free body with a mesh. Without a
 // library the first frame throws.
@@ -164,12 +165,12 @@ struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
-// Adds a joint between two bodies, or between the world and a body. Its bodies never change. Throws
-// PreconditionError, and adds nothing, for a name that is taken, an entity that is no body, a lower
-// limit above the upper, negative friction, detents or latches, or any number outside the limits
-// above.
+// Adds a joint between two bodies, or the world and a body. Its bodies never change. Throws
+// PreconditionError, and adds nothing, for a duplicate name, a missing body, a lower limit above
+// the upper, a negative friction, detent or latch, or a number outside world_limits.
 Entity add_joint(World& world, const JointDescription& description);
-// `joint` with both frames at `frame_ws`, as the two bodies stand now.
+// A copy of `joint` with both frames set so that they coincide at `frame_ws` with the bodies at
+// their current poses.
 Joint joint_at(const World& world, Joint joint, const Pose& frame_ws);
 
 struct PlayerDescription {
@@ -190,14 +191,14 @@ PlayerEntities add_player(World& world, const PlayerDescription& description);
 PlayerEntities add_player(World& world, const PlayerDescription& description,
                           const ShapeLibrary& shapes);
 
-// Removes the entity from every column, and with it a player's hands or a body's joints. False for
-// a stale handle. The cost does not depend on how many other bodies and joints there are.
+// Removes the entity from every column, together with a player's hands and a body's joints. False
+// for a stale handle. The cost does not depend on how many other bodies and joints there are.
 bool destroy(World& world, Entity entity);
 
 // Rebuilds the caches if columns were filled by other means, such as a restored snapshot.
 void sync_index(World& world);
 
-// Null if no entity has the id. Constant cost.
+// k_no_entity if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
 
 }  // namespace handhold

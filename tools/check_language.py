@@ -43,7 +43,7 @@ WORDS = [
     (r"undecided", "not converged"),
 ]
 RULES = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), instead) for pattern, instead in WORDS]
-# Openings of sentences that need decoding.
+# Openings of sentences that are hard to read.
 OPENINGS = re.compile(r"(?:^\W*|[.:;] )((?:What is|Of those|Where that) [a-z])")
 
 CPP_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

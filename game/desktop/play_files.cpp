@@ -18,7 +18,7 @@ std::optional<FileError> check_folder(const std::filesystem::path& file) {
     const std::filesystem::path folder = file.parent_path();
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        return FileError{file.string(), "", "expected a folder that is there"};
+        return FileError{file.string(), "", "expected an existing folder"};
     }
     return std::nullopt;
 }

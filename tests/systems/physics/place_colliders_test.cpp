@@ -21,7 +21,7 @@ constexpr Entity k_wall = entity(1);
 constexpr Entity k_ship = entity(2);
 constexpr Entity k_rock = entity(3);
 
-// Ids run against the slots, so that an order by slot would show.
+// Ids descend with the slots, so that ordering by slot would be noticed.
 PersistentId id_of(Entity entity) { return {100 - std::uint64_t{entity.slot}}; }
 
 struct Placing {
@@ -67,7 +67,7 @@ struct Placing {
     }
 };
 
-TEST(PlaceColliders, AllAreListedByPersistentIdWithTheirEntities) {
+TEST(PlaceColliders, ProxiesAreSortedByPersistentIdWithTheirEntities) {
     Random random(1);
     Placing scene;
     scene.add_body(k_rock, BodyKind::free, random);
@@ -83,7 +83,7 @@ TEST(PlaceColliders, AllAreListedByPersistentIdWithTheirEntities) {
     }
 }
 
-TEST(PlaceColliders, FreeBodiesComeFromTheirLastValidPoseOthersFromTheFramesStart) {
+TEST(PlaceColliders, FreeBodiesStartAtTheirLastValidPoseOthersAtTheFramesStart) {
     Random random(2);
     Placing scene;
     scene.add_body(k_rock, BodyKind::free, random);
@@ -100,8 +100,7 @@ TEST(PlaceColliders, FreeBodiesComeFromTheirLastValidPoseOthersFromTheFramesStar
     }
 }
 
-RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
-              (std::uint64_t seed)) {
+RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHead, (std::uint64_t seed)) {
     Random random(seed);
     Placing scene;
     scene.add_player(random);
@@ -117,13 +116,13 @@ RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
     RC_ASSERT(scene.proxy(k_player).free);
 }
 
-TEST(PlaceColliders, HeadThatWasNeverTrackedIsNowhere) {
+TEST(PlaceColliders, HeadThatWasNeverTrackedHasAnInvalidPose) {
     Random random(4);
     Placing scene;
     scene.add_player(random);
     scene.head.at(k_player).state = TrackingState::never;
     scene.run();
-    EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // what is not valid takes no part
+    EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // invalid poses take no part in collision
 }
 
 TEST(PlaceColliders, HeadWithoutALastValidPoseIsSweptFromTheStartOfTheFrame) {
@@ -131,7 +130,7 @@ TEST(PlaceColliders, HeadWithoutALastValidPoseIsSweptFromTheStartOfTheFrame) {
     Placing scene;
     scene.add_player(random);
     scene.last_valid.at(k_player).known = false;
-    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but there
+    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but present
     scene.run();
     const Pose head_ps{head_center_ps(scene.head.at(k_player), {}), Quat::Identity()};
     EXPECT_EQ(
@@ -139,7 +138,7 @@ TEST(PlaceColliders, HeadWithoutALastValidPoseIsSweptFromTheStartOfTheFrame) {
         0.0);
 }
 
-TEST(PlaceColliders, OrderOfInsertionDoesNotMatterAndOnceMoreChangesNothing) {
+TEST(PlaceColliders, ResultDoesNotDependOnInsertionOrderAndIsIdempotent) {
     Placing forth;
     Placing back;
     Random first(4);
@@ -160,7 +159,7 @@ TEST(PlaceColliders, OrderOfInsertionDoesNotMatterAndOnceMoreChangesNothing) {
     }
 }
 
-TEST(PlaceColliders, WithoutAColliderABodyIsListedButNothingMeetsIt) {
+TEST(PlaceColliders, BodyWithoutAColliderIsListedButTouchesNothing) {
     Random random(7);
     Placing scene;
     scene.add_body(k_wall, BodyKind::fixed, random);
@@ -175,7 +174,7 @@ TEST(PlaceColliders, WithoutAColliderABodyIsListedButNothingMeetsIt) {
     EXPECT_FALSE(scene.collision.cast_ray(Vec3::Zero(), Vec3(0.0, 10.0, 0.0)).has_value());
 }
 
-TEST(PlaceColliders, CollisionWorldKnowsThem) {
+TEST(PlaceColliders, CollisionWorldHasTheProxies) {
     Random random(6);
     Placing scene;
     scene.add_body(k_wall, BodyKind::fixed, random);
