@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -9,20 +11,23 @@
 
 namespace handhold {
 
-// Why a file was refused. Nothing of a refused file is loaded.
+// `text` made safe to print: control characters become spaces, bytes that are not UTF-8 become
+// '?', and everything after `max_characters` is cut and replaced by "...". Use it for every text
+// that comes from a file.
+std::string printable(std::string_view text, std::size_t max_characters = 200);
+
+// Why a file was refused. A refused file is not loaded in part.
 struct FileError {
     std::string file;
-    std::string place;  // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty for the
-                        // whole file
-    std::string expected;  // what should have been there, and what was
+    std::string place;     // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty if the
+                           // error concerns the whole file
+    std::string expected;  // what the reader expected, and what it found
 
-    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2".
-    std::string message() const {
-        return file + ": " + (place.empty() ? std::string() : place + ": ") + expected;
-    }
+    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Printable.
+    std::string message() const;
 };
 
-// A value or the reason why there is none.
+// A value, or the reason why there is none.
 template <typename T>
 class Result {
   public:

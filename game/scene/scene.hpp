@@ -74,6 +74,7 @@ struct Scene {
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
     std::optional<SceneSession> session;  // what shows it
+    std::vector<std::string> notes;       // about the loaded files; see GltfLevel::notes
     int climbers = 0;  // scripted ones beside the first player, where nobody says how many
 };
 
