@@ -2,13 +2,13 @@
 
 #include <limits>
 
-#include "column_scene.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::test {
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::gather_surroundings_test {
 namespace {
