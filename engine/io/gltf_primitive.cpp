@@ -147,11 +147,6 @@ bool PrimitiveReader::read_accessors() {
         return false;
     }
     const std::uint64_t vertices = element(model_.accessors, positions).count;
-    if (vertices > k_max_level_size) {
-        return refusal_.refuse(place_of("POSITION"),
-                               "expected at most " + std::to_string(k_max_level_size) +
-                                   " vertices, found " + std::to_string(vertices));
-    }
     out_.vertices = vertices;
     for (const Attribute& attribute : attributes_) {
         const int accessor = accessor_of(attribute.name);
@@ -166,6 +161,11 @@ bool PrimitiveReader::read_accessors() {
                                  *attribute.values)) {
             return false;
         }
+    }
+    if (vertices > k_max_level_size) {
+        return refusal_.refuse(place_of("POSITION"),
+                               "expected at most " + std::to_string(k_max_level_size) +
+                                   " vertices, found " + std::to_string(vertices));
     }
     if (primitive_.indices != k_none) {
         return reader_.read_indices(primitive_.indices, place_ + "/indices", out_.indices);
