@@ -41,7 +41,7 @@ struct GltfLevel {
     std::size_t dropped_triangles = 0;
     std::size_t skipped_primitives = 0;  // points, lines, and primitives without positions
     // What was ignored, skipped or clamped: a line each, "chair.glb: ignored morph targets: 2".
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = {};
 };
 
 // Limit of every coordinate of a loaded mesh. At this distance a double resolves 2 nm.
