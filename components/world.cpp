@@ -7,13 +7,13 @@
 namespace handhold {
 namespace {
 
-void check_name_is_free(const World& world, std::string_view name) {
+void check_name_is_unique(const World& world, std::string_view name) {
     const PersistentId id = persistent_id_from_name(name);
-    HH_CHECK(is_null(find_by_id(world, id)), "the name is taken", id.value);
+    HH_CHECK(is_null(find_by_id(world, id)), "the name is used already", id.value);
 }
 
 Entity add_named(World& world, std::string_view name) {
-    check_name_is_free(world, name);
+    check_name_is_unique(world, name);
     const Entity entity = world.entities.create();
     world.persistent_id.add(entity, persistent_id_from_name(name));
     return entity;
@@ -44,7 +44,7 @@ Entity add_body(World& world, const BodyDescription& description) {
 
 Entity add_joint(World& world, const JointDescription& description) {
     const Joint& joint = description.joint;
-    HH_CHECK(world.body.contains(joint.b), "a joint's second body must exist", joint.b.slot);
+    HH_CHECK(world.body.contains(joint.b), "a joint's second body does not exist", joint.b.slot);
     HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
              "a joint's first body must exist, or be null for the world", joint.a.slot);
     HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
@@ -53,7 +53,7 @@ Entity add_joint(World& world, const JointDescription& description) {
     HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
     HH_CHECK(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 && joint.detent_strength >= 0.0 &&
                  joint.latch.catch_range >= 0.0 && joint.latch.strength >= 0.0,
-             "friction, detents and latches are not negative", joint.friction);
+             "friction, detents and latches must not be negative", joint.friction);
     const Entity entity = add_named(world, description.name);
     world.joint.add(entity, joint);
     world.joint_state.add(entity);
@@ -74,7 +74,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};
     for (const std::string& name : hand_names) {
-        check_name_is_free(world, name);
+        check_name_is_unique(world, name);
     }
     PlayerEntities made;
     made.player = add_named(world, description.name);

@@ -21,28 +21,27 @@
 namespace handhold {
 
 struct FrameClock {
-    std::uint64_t frame = 0;  // frames stepped
-    double t_s = 0.0;         // end of the last frame
+    std::uint64_t frame = 0;  // number of frames stepped
+    double t_s = 0.0;         // end of the last frame, s
 };
 
-// The whole state, and its table of contents: one column a component. Nothing outside of it
-// survives a frame.
+// The whole simulation state: one column per component. Nothing outside it survives a frame.
 struct World {
     EntityPool entities;
     FrameClock clock;
-    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's
+    Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's, world
     Column<PersistentId> persistent_id;          // every entity
 
     Column<RigidBody> body;
     Column<BodyPose> body_pose;            // every body
     Column<BodyStart> body_start;          // every body
     Column<BodyVelocity> body_velocity;    // every body
-    Column<Collider> collider;             // bodies that can be touched; players: the head
-    Column<Mover> mover;                   // kinematic bodies that move by themselves
+    Column<Collider> collider;             // bodies with a shape; players: the sphere of the head
+    Column<Mover> mover;                   // kinematic bodies with a constant twist
     Column<PathMover> path_mover;          // kinematic bodies on closed paths
-    Column<LegMover> leg_mover;            // bones of those bodies' legs
+    Column<LegMover> leg_mover;            // kinematic bones of legs of path movers
     Column<LastValidPose> last_valid;      // free bodies and players
-    Column<AuthoredGrips> authored_grips;  // bodies that have some
+    Column<AuthoredGrips> authored_grips;  // bodies with authored grips
 
     Column<Joint> joint;
     Column<JointState> joint_state;  // every joint
@@ -56,7 +55,7 @@ struct World {
     Column<HeadTracking> head_tracking;
     Column<HeadIgnores> head_ignores;
     Column<RenderPose> render_pose;
-    Column<BodyMeasures> body_measures;  // these eight: every player
+    Column<BodyMeasures> body_measures;  // this and the next seven: every player
     Column<Calibration> calibration;
     Column<ArmMemory> arm_memory;
     Column<ArmEstimate> arm_estimate;
@@ -73,13 +72,14 @@ struct World {
     Column<PalmOffset> palm_offset;
     Column<PalmPose> palm_pose;
     Column<FingerPose> finger_pose;
-    Column<ControllerToHand> controller_to_hand;  // only hands whose joint is not Tuning's
-    Column<AuthoredHold> authored_hold;           // only hands that sit in an authored grip
-    Column<HandPull> hand_pull;                   // only hands that pull something from afar
+    Column<ControllerToHand>
+        controller_to_hand;  // only hands with their own controller-to-hand joint; else Tuning's
+    Column<AuthoredHold> authored_hold;  // only hands in an authored grip
+    Column<HandPull> hand_pull;          // only hands that pull a body from a distance
 };
 
-// Calls visit(name, column) for every column. The one list of them: hashing, destroying and
-// snapshots follow it.
+// Calls visit(name, column) for every column. The only list of columns: hashing, destroying and
+// snapshots use it.
 template <typename WorldType, typename Visit>
 void visit_columns(WorldType& world, Visit&& visit) {
     visit("persistent_id", world.persistent_id);
@@ -126,26 +126,26 @@ void visit_columns(WorldType& world, Visit&& visit) {
 }
 
 struct BodyDescription {
-    std::string_view name;  // unique in the world: gives the persistent id
+    std::string_view name;  // unique in the world; hashed to the persistent id
     RigidBody body;
     Pose pose_ws;
     BodyVelocity velocity;
     ShapeId shape;
 };
-// A body, and its collider unless its shape is k_no_shape. Throws PreconditionError for a name that
-// is taken, a pose that is not valid, or a free body without mass or inertia.
+// Adds a body, with a collider unless its shape is k_no_shape. Throws PreconditionError for a
+// duplicate name, an invalid pose, or a free body without mass or inertia.
 Entity add_body(World& world, const BodyDescription& description);
 
 struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
-// A joint between two bodies, or the world and one. Throws PreconditionError for a name that is
-// taken, a body that is none, a frame that is not valid, limits the wrong way round, or a negative
+// Adds a joint between two bodies, or the world and a body. Throws PreconditionError for a
+// duplicate name, a missing body, an invalid frame, a lower limit above the upper, or a negative
 // friction, detent or latch.
 Entity add_joint(World& world, const JointDescription& description);
-// The joint whose frames meet at `frame_ws` as the two bodies stand now; kind and all numbers as in
-// `joint`.
+// A copy of `joint` with both frames set so that they coincide at `frame_ws` with the bodies at
+// their current poses.
 Joint joint_at(const World& world, Joint joint, const Pose& frame_ws);
 
 struct PlayerDescription {
@@ -160,14 +160,14 @@ struct PlayerEntities {
     Entity player;
     Entity hands[k_hand_count];  // by HandSide
 };
-// A player and his two hands. Errors as add_body.
+// Adds a player and two hands. Errors as in add_body.
 PlayerEntities add_player(World& world, const PlayerDescription& description);
 
-// Removes the entity from every column; a player's hands go with him, and a body's joints with it.
-// False for a stale handle.
+// Removes the entity from every column, together with a player's hands and a body's joints. False
+// for a stale handle.
 bool destroy(World& world, Entity entity);
 
-// Null where no entity has the id.
+// k_no_entity if no entity has the id.
 Entity find_by_id(const World& world, PersistentId id);
 
 }  // namespace handhold

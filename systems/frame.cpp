@@ -33,10 +33,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_shortest_frame_s = 1e-6;
-constexpr double k_longest_frame_s = 10.0;
+constexpr double k_min_dt_s = 1e-6;
+constexpr double k_max_dt_s = 10.0;
 
-// Times a stage and gives it a zone in traces.
+// Adds a scope's time to its stage, and marks the scope as a zone in traces.
 class StageTimer {
   public:
     StageTimer(Stage stage, StageStats& stats)
@@ -53,201 +53,306 @@ class StageTimer {
     std::int64_t begin_ns_;
 };
 
-void place(World& w, FrameCaches& caches, const Tuning& tuning) {
-    place_colliders(
+// What every stage is bound from: below, one function per stage selects the columns it gets.
+struct FrameContext {
+    World& w;
+    FrameCaches& caches;
+    const Tuning& tuning;
+    const FrameInput& input;
+    StageStats& stats;
+
+    double dt_s() const { return input.dt_s; }
+    double start_s() const { return w.clock.t_s; }
+    double end_s() const { return w.clock.t_s + input.dt_s; }
+    FrameGraph& graph() const { return caches.graph; }
+    CollisionWorld& collision() const { return caches.collision; }
+    HandScratch& hands() const { return caches.hands; }
+};
+
+// --- Input and intent ----------------------------------------------------------------------------
+
+void read_tracking(const FrameContext& f) {
+    const StageTimer timer(Stage::read_tracking, f.stats);
+    World& w = f.w;
+    handhold::read_tracking(
+        {f.input.players, f.start_s(), f.end_s(), w.hand_owner, w.controller_to_hand,
+         w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
+        f.tuning, f.stats);
+}
+
+void calibrate_players(const FrameContext& f) {
+    const StageTimer timer(Stage::calibrate_players, f.stats);
+    World& w = f.w;
+    handhold::calibrate_players({f.dt_s(), w.player_commands, w.head_tracking, w.hand_owner,
+                                 w.hand_tracking, w.calibration, w.body_measures},
+                                f.tuning.calibration);
+}
+
+void group_joints(const FrameContext& f) {
+    const StageTimer timer(Stage::group_joints, f.stats);
+    handhold::group_joints({f.w.joint, f.w.body, f.graph()}, f.tuning.phases);
+}
+
+// Runs twice a frame; its time counts for the stage that needs the colliders.
+void place_colliders(const FrameContext& f, Stage needed_by) {
+    const StageTimer timer(needed_by, f.stats);
+    World& w = f.w;
+    handhold::place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.head_tracking, w.last_valid, caches.collision, caches.graph},
-        tuning.head);
+         w.head_tracking, w.last_valid, f.collision(), f.graph()},
+        f.tuning.head);
 }
 
-// What players do, and where they and all bodies would go if nothing were in the way.
-void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-             StageStats& stats) {
-    const double start_s = w.clock.t_s;
-    const double end_s = start_s + input.dt_s;
-    FrameGraph& graph = caches.graph;
-    {
-        const StageTimer timer(Stage::read_tracking, stats);
-        read_tracking({input.players, start_s, end_s, w.hand_owner, w.controller_to_hand,
-                       w.head_tracking, w.hand_tracking, w.hand_history, w.player_commands},
-                      tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::calibrate_players, stats);
-        calibrate_players({input.dt_s, w.player_commands, w.head_tracking, w.hand_owner,
-                           w.hand_tracking, w.calibration, w.body_measures},
-                          tuning.calibration);
-    }
-    {
-        const StageTimer timer(Stage::group_joints, stats);
-        group_joints({w.joint, w.body, graph}, tuning.phases);
-    }
-    {
-        const StageTimer timer(Stage::update_grabs, stats);
-        place(w, caches, tuning);
-        update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
-                      w.player_origin, w.head_tracking, w.body, w.body_pose, graph.joint_groups,
-                      w.authored_grips, w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
-                     tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::locomote_players, stats);
-        locomote_players({input.dt_s, w.reference_velocity_mps, w.player_commands, w.head_tracking,
-                          w.hand_owner, w.hand_tracking, w.grab, w.body_pose, w.body_velocity,
-                          w.player_origin, w.player_velocity, w.reference_velocity},
-                         tuning.locomotion);
-        pull_bodies({input.dt_s, caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
-                     w.grab, w.player, w.player_origin, w.body, w.body_pose, graph.joint_groups,
-                     w.hand_pull, w.body_velocity, w.player_velocity},
-                    tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::animate_movers, stats);
-        animate_movers({end_s, w.mover, w.path_mover, w.leg_mover, w.body_pose, w.body_start,
-                        w.body_velocity});
-    }
-    {
-        const StageTimer timer(Stage::predict_bodies, stats);
-        predict_bodies({input.dt_s, w.body, w.player_velocity, w.body_pose, w.body_start,
-                        w.body_velocity, w.player_origin, w.player_start});
-    }
-    {
-        const StageTimer timer(Stage::anchor_grabs, stats);
-        anchor_grabs({start_s, end_s, w.hand_owner, w.hand_tracking, w.hand_history, w.player_start,
-                      w.player_origin, w.head_tracking, w.body_start, w.body_pose, w.authored_hold,
-                      w.body, w.joint, w.joint_state, w.grab},
-                     tuning, stats);
-    }
+void update_grabs(const FrameContext& f) {
+    const StageTimer timer(Stage::update_grabs, f.stats);
+    World& w = f.w;
+    handhold::update_grabs(
+        {f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
+         w.head_tracking, w.body, w.body_pose, f.graph().joint_groups, w.authored_grips,
+         w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
+        f.tuning, f.stats);
 }
 
-// What is in the way, and what holds together.
-void solve(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-           StageStats& stats) {
-    FrameGraph& graph = caches.graph;
-    {
-        const StageTimer timer(Stage::find_contacts, stats);
-        place(w, caches, tuning);
-        find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner, w.grab,
-                       caches.collision, w.head_ignores, graph},
-                      tuning.contact);
-    }
-    {
-        const StageTimer timer(Stage::build_constraints, stats);
-        build_constraints({input.dt_s, w.persistent_id, w.body, w.body_pose, w.body_velocity,
-                           w.joint, w.joint_state, w.player, w.player_origin, w.player_velocity,
-                           w.head_tracking, w.hand_owner, w.grab, graph},
-                          tuning);
-    }
-    {
-        const StageTimer timer(Stage::solve_phases, stats);
-        solve_phases({caches.collision, graph}, tuning, stats);
-        finish_positions({caches.collision, graph, w.body_pose, w.player_origin, w.grab},
-                         tuning.contact, stats);
-    }
-    {
-        const StageTimer timer(Stage::update_velocities, stats);
-        update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, graph,
-                           w.body_velocity, w.player_velocity, w.grab, w.last_valid},
-                          tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::update_joints, stats);
-        update_joints({input.dt_s, graph, w.joint, w.joint_state});
-    }
+void locomote_players(const FrameContext& f) {
+    const StageTimer timer(Stage::locomote_players, f.stats);
+    World& w = f.w;
+    handhold::locomote_players(
+        {f.dt_s(), w.reference_velocity_mps, w.player_commands, w.head_tracking, w.hand_owner,
+         w.hand_tracking, w.grab, w.body_pose, w.body_velocity, w.player_origin, w.player_velocity,
+         w.reference_velocity},
+        f.tuning.locomotion);
 }
 
-// What the hands that are shown hold, and how.
-void fit_hands(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-               StageStats& stats) {
-    HandScratch& hands = caches.hands;
-    {
-        const StageTimer timer(Stage::gather_surroundings, stats);
-        gather_surroundings(
-            {caches.meshes_for_hands, caches.hand_rigs, caches.graph, w.persistent_id, w.hand_owner,
-             w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose, w.collider,
-             w.authored_hold, hands.surroundings},
-            stats);
-        hands.traces.assign(hands.surroundings.size(), {});
-    }
-    {
-        const StageTimer timer(Stage::search_grip, stats);
-        search_grip({input.dt_s, hands.surroundings, w.grip_surface, hands.search}, tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::constrain_palms, stats);
-        constrain_palms(
-            {input.dt_s, hands.surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, tuning);
-    }
-    {
-        const StageTimer timer(Stage::sweep_fingers, stats);
-        sweep_fingers({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.palm_pose,
-                       w.palm_offset, w.finger_pose, hands.traces, hands.fit},
-                      tuning, stats);
-    }
-    {
-        const StageTimer timer(Stage::pose_thumb, stats);
-        pose_thumb({input.dt_s, hands.surroundings, w.hand_tracking, w.grip_surface, w.palm_offset,
-                    w.finger_pose, hands.traces, hands.fit},
-                   tuning, stats);
-    }
+void pull_bodies(const FrameContext& f) {
+    const StageTimer timer(Stage::locomote_players, f.stats);
+    World& w = f.w;
+    handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
+                           w.grab, w.player, w.player_origin, w.body, w.body_pose,
+                           f.graph().joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
+                          f.tuning, f.stats);
 }
 
-// What follows the head and the hands that are shown.
-void follow(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
-            StageStats& stats) {
-    {
-        const StageTimer timer(Stage::estimate_arms, stats);
-        estimate_arms({input.dt_s, w.player_origin, w.head_tracking, w.body_measures, w.hand_owner,
-                       w.palm_pose, w.arm_memory, w.arm_estimate},
-                      tuning.arm);
-    }
-    {
-        const StageTimer timer(Stage::layer_additives, stats);
-        layer_clavicles({caches.body_clips, w.body_measures, w.arm_estimate}, tuning.additive,
-                        tuning.arm);
-    }
-    {
-        const StageTimer timer(Stage::pose_arms, stats);
-        pose_arms({w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate,
-                   w.arm_pose});
-    }
-    {
-        const StageTimer timer(Stage::propagate_spine, stats);
-        propagate_spine({input.dt_s, w.clock.t_s + input.dt_s, w.player_origin, w.player_velocity,
-                         w.reference_velocity, w.body_measures, w.arm_estimate, w.spine_memory,
-                         w.spine_pose, &caches.collision, &w.head_tracking, &w.persistent_id},
-                        tuning.spine);
-    }
-    {
-        const StageTimer timer(Stage::layer_additives, stats);
-        layer_additives({input.dt_s, caches.body_clips, w.head_tracking, w.player_velocity,
-                         w.reference_velocity, w.hand_owner, w.grab, w.arm_estimate,
-                         w.body_clip_state, w.spine_pose},
-                        tuning.additive);
-    }
-    {
-        const StageTimer timer(Stage::publish_pose, stats);
-        publish_pose(
-            {caches.graph, w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
-             w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
-            tuning);
-        publish_body({w.arm_pose, w.spine_pose, w.render_pose});
-    }
+// --- Prediction ----------------------------------------------------------------------------------
+
+void animate_movers(const FrameContext& f) {
+    const StageTimer timer(Stage::animate_movers, f.stats);
+    World& w = f.w;
+    handhold::animate_movers({f.end_s(), w.mover, w.path_mover, w.leg_mover, w.body_pose,
+                              w.body_start, w.body_velocity});
+}
+
+void predict_bodies(const FrameContext& f) {
+    const StageTimer timer(Stage::predict_bodies, f.stats);
+    World& w = f.w;
+    handhold::predict_bodies({f.dt_s(), w.body, w.player_velocity, w.body_pose, w.body_start,
+                              w.body_velocity, w.player_origin, w.player_start});
+}
+
+void anchor_grabs(const FrameContext& f) {
+    const StageTimer timer(Stage::anchor_grabs, f.stats);
+    World& w = f.w;
+    handhold::anchor_grabs({f.start_s(), f.end_s(), w.hand_owner, w.hand_tracking, w.hand_history,
+                            w.player_start, w.player_origin, w.head_tracking, w.body_start,
+                            w.body_pose, w.authored_hold, w.body, w.joint, w.joint_state, w.grab},
+                           f.tuning, f.stats);
+}
+
+// --- Constraints and solve -----------------------------------------------------------------------
+
+void find_contacts(const FrameContext& f) {
+    const StageTimer timer(Stage::find_contacts, f.stats);
+    World& w = f.w;
+    handhold::find_contacts({w.persistent_id, w.body, w.joint, w.head_tracking, w.hand_owner,
+                             w.grab, f.collision(), w.head_ignores, f.graph()},
+                            f.tuning.contact);
+}
+
+void build_constraints(const FrameContext& f) {
+    const StageTimer timer(Stage::build_constraints, f.stats);
+    World& w = f.w;
+    handhold::build_constraints(
+        {f.dt_s(), w.persistent_id, w.body, w.body_pose, w.body_velocity, w.joint, w.joint_state,
+         w.player, w.player_origin, w.player_velocity, w.head_tracking, w.hand_owner, w.grab,
+         f.graph()},
+        f.tuning);
+}
+
+void solve_phases(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_phases, f.stats);
+    handhold::solve_phases({f.collision(), f.graph()}, f.tuning, f.stats);
+}
+
+void finish_positions(const FrameContext& f) {
+    const StageTimer timer(Stage::solve_phases, f.stats);
+    World& w = f.w;
+    handhold::finish_positions({f.collision(), f.graph(), w.body_pose, w.player_origin, w.grab},
+                               f.tuning.contact, f.stats);
+}
+
+void update_velocities(const FrameContext& f) {
+    const StageTimer timer(Stage::update_velocities, f.stats);
+    World& w = f.w;
+    handhold::update_velocities({w.hand_owner, w.reference_velocity, w.head_tracking, f.graph(),
+                                 w.body_velocity, w.player_velocity, w.grab, w.last_valid},
+                                f.tuning, f.stats);
+}
+
+void update_joints(const FrameContext& f) {
+    const StageTimer timer(Stage::update_joints, f.stats);
+    handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
+}
+
+// --- Shown hands ---------------------------------------------------------------------------------
+
+void gather_surroundings(const FrameContext& f) {
+    const StageTimer timer(Stage::gather_surroundings, f.stats);
+    World& w = f.w;
+    handhold::gather_surroundings(
+        {f.caches.meshes_for_hands, f.caches.hand_rigs, f.graph(), w.persistent_id, w.hand_owner,
+         w.hand_tracking, w.grab, w.player_origin, w.head_tracking, w.body_pose, w.collider,
+         w.authored_hold, f.hands().surroundings},
+        f.stats);
+    f.hands().traces.assign(f.hands().surroundings.size(), {});
+}
+
+void search_grip(const FrameContext& f) {
+    const StageTimer timer(Stage::search_grip, f.stats);
+    handhold::search_grip({f.dt_s(), f.hands().surroundings, f.w.grip_surface, f.hands().search},
+                          f.tuning, f.stats);
+}
+
+void constrain_palms(const FrameContext& f) {
+    const StageTimer timer(Stage::constrain_palms, f.stats);
+    World& w = f.w;
+    handhold::constrain_palms(
+        {f.dt_s(), f.hands().surroundings, w.grip_surface, w.palm_offset, w.palm_pose}, f.tuning);
+}
+
+void sweep_fingers(const FrameContext& f) {
+    const StageTimer timer(Stage::sweep_fingers, f.stats);
+    World& w = f.w;
+    handhold::sweep_fingers(
+        {f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface, w.palm_pose,
+         w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
+        f.tuning, f.stats);
+}
+
+void pose_thumb(const FrameContext& f) {
+    const StageTimer timer(Stage::pose_thumb, f.stats);
+    World& w = f.w;
+    handhold::pose_thumb({f.dt_s(), f.hands().surroundings, w.hand_tracking, w.grip_surface,
+                          w.palm_offset, w.finger_pose, f.hands().traces, f.hands().fit},
+                         f.tuning, f.stats);
+}
+
+// --- Shown body ----------------------------------------------------------------------------------
+
+void estimate_arms(const FrameContext& f) {
+    const StageTimer timer(Stage::estimate_arms, f.stats);
+    World& w = f.w;
+    handhold::estimate_arms({f.dt_s(), w.player_origin, w.head_tracking, w.body_measures,
+                             w.hand_owner, w.palm_pose, w.arm_memory, w.arm_estimate},
+                            f.tuning.arm);
+}
+
+void layer_clavicles(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    handhold::layer_clavicles({f.caches.body_clips, f.w.body_measures, f.w.arm_estimate},
+                              f.tuning.additive, f.tuning.arm);
+}
+
+void pose_arms(const FrameContext& f) {
+    const StageTimer timer(Stage::pose_arms, f.stats);
+    World& w = f.w;
+    handhold::pose_arms(
+        {w.player_origin, w.body_measures, w.hand_owner, w.palm_pose, w.arm_estimate, w.arm_pose});
+}
+
+void propagate_spine(const FrameContext& f) {
+    const StageTimer timer(Stage::propagate_spine, f.stats);
+    World& w = f.w;
+    handhold::propagate_spine(
+        {f.dt_s(), f.end_s(), w.player_origin, w.player_velocity, w.reference_velocity,
+         w.body_measures, w.arm_estimate, w.spine_memory, w.spine_pose, &f.collision(),
+         &w.head_tracking, &w.persistent_id},
+        f.tuning.spine);
+}
+
+void layer_additives(const FrameContext& f) {
+    const StageTimer timer(Stage::layer_additives, f.stats);
+    World& w = f.w;
+    handhold::layer_additives(
+        {f.dt_s(), f.caches.body_clips, w.head_tracking, w.player_velocity, w.reference_velocity,
+         w.hand_owner, w.grab, w.arm_estimate, w.body_clip_state, w.spine_pose},
+        f.tuning.additive);
+}
+
+void publish_pose(const FrameContext& f) {
+    const StageTimer timer(Stage::publish_pose, f.stats);
+    World& w = f.w;
+    handhold::publish_pose(
+        {f.graph(), w.persistent_id, w.player_origin, w.head_tracking, w.hand_owner,
+         w.hand_tracking, w.grab, w.palm_pose, w.finger_pose, w.authored_hold, w.render_pose},
+        f.tuning);
+}
+
+void publish_body(const FrameContext& f) {
+    const StageTimer timer(Stage::publish_pose, f.stats);
+    handhold::publish_body({f.w.arm_pose, f.w.spine_pose, f.w.render_pose});
 }
 
 }  // namespace
 
-void step_frame(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
+void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const FrameInput& input,
                 StageStats& stats) {
-    HH_CHECK(input.dt_s >= k_shortest_frame_s && input.dt_s <= k_longest_frame_s,
+    HH_CHECK(input.dt_s >= k_min_dt_s && input.dt_s <= k_max_dt_s,
              "dt_s must lie between 1e-6 and 10", input.dt_s);
     stats = {};
-    predict(w, caches, tuning, input, stats);
-    solve(w, caches, tuning, input, stats);
-    fit_hands(w, caches, tuning, input, stats);
-    follow(w, caches, tuning, input, stats);
-    ++w.clock.frame;
-    w.clock.t_s += input.dt_s;
+    const FrameContext f{world, caches, tuning, input, stats};
+
+    // Input and intent: what players do.
+    read_tracking(f);
+    calibrate_players(f);
+    group_joints(f);
+    place_colliders(f, Stage::update_grabs);
+    update_grabs(f);
+    locomote_players(f);
+    pull_bodies(f);
+
+    // Prediction: where bodies and players would go unconstrained.
+    animate_movers(f);
+    predict_bodies(f);
+    anchor_grabs(f);
+
+    // Constraints and solve: the poses and velocities of the frame.
+    place_colliders(f, Stage::find_contacts);
+    find_contacts(f);
+    build_constraints(f);
+    solve_phases(f);
+    finish_positions(f);
+    update_velocities(f);
+    update_joints(f);
+
+    // Shown hands: palms and fingers on what they hold.
+    gather_surroundings(f);
+    search_grip(f);
+    constrain_palms(f);
+    sweep_fingers(f);
+    pose_thumb(f);
+
+    // Shown body: arms, spine and legs between head and hands.
+    estimate_arms(f);
+    layer_clavicles(f);
+    pose_arms(f);
+    propagate_spine(f);
+    layer_additives(f);
+
+    // Output.
+    publish_pose(f);
+    publish_body(f);
+
+    ++world.clock.frame;
+    world.clock.t_s += input.dt_s;
 }
 
 }  // namespace handhold

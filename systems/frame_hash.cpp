@@ -1,5 +1,5 @@
-// The state hash: one hash a row, mixed from the component's name, the owner's persistent id and
-// every field, and summed over rows, so that the order of rows does not show.
+// The state hash: one hash per row, of the component's name, the owner's persistent id and every
+// field. Rows are summed, so their order does not matter.
 #include <array>
 #include <type_traits>
 
@@ -31,13 +31,13 @@ class FieldHasher {
         add(pose.position);
         add(pose.rotation);
     }
-    // Who, not where: a handle's slot depends on the history of the pool.
+    // By persistent id: a handle's slot depends on the pool's history.
     void add(Entity entity) const {
         const PersistentId* const id = world_.persistent_id.find(entity);
         stream_.add(id != nullptr ? id->value : std::uint64_t{0});
     }
-    // A place in the library of assets, by order of loading. What a body's shape is never changes
-    // while frames run.
+    // Not hashed: an index into the asset library, which depends on loading order. A body's shape
+    // never changes while frames run.
     void add(ShapeId /*shape*/) const {}
     template <typename T, std::size_t N>
     void add(const std::array<T, N>& values) const {

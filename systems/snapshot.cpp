@@ -13,17 +13,18 @@
 namespace handhold {
 namespace {
 
-// Like PNG's: a byte that no text has, and a line end that a transfer as text would change.
+// Like PNG's: starts with a byte that no text has, ends with a line feed that a text-mode transfer
+// would alter.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 1;
-// Where things stand.
+constexpr std::uint32_t k_format_version = 2;
+// Byte offsets of the header's fields.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;
 constexpr std::size_t k_size_at = k_schema_size_at + 4;
 constexpr std::size_t k_assets_at = k_size_at + 8;
-constexpr std::size_t k_snapshot_header_bytes =
-    k_assets_at + 8;  // then the schema, the payload and
+// Followed by the schema, the payload and the checksum.
+constexpr std::size_t k_snapshot_header_bytes = k_assets_at + 8;
 constexpr std::size_t k_checksum_bytes = 8;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
@@ -43,7 +44,7 @@ FileError refusal(std::size_t byte, const std::string& expected) {
     return {"snapshot", "byte " + std::to_string(byte), "expected " + expected};
 }
 
-// All around the payload: what file this is, and whether it is whole.
+// Checks everything but the payload: file type, version, size, checksum, schema, assets.
 std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
                                         const SnapshotAssets& assets) {
     if (bytes.size() < k_snapshot_header_bytes + k_checksum_bytes ||
@@ -70,7 +71,7 @@ std::optional<FileError> check_envelope(std::span<const std::byte> bytes,
         return refusal(k_schema_size_at, "a schema within the snapshot, found one of " +
                                              std::to_string(schema_bytes) + " bytes");
     }
-    // Text may be looked at through char.
+    // char may alias any object.
     const std::string_view schema(
         reinterpret_cast<const char*>(bytes.data()) + k_snapshot_header_bytes, schema_bytes);
     if (schema != snapshot_schema()) {

@@ -13,15 +13,15 @@
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/result.hpp"
 
-// The whole state as bytes: rollback, saved games, and the place where two runs part. The format is
-// docs/reference/snapshot_format.md.
+// Saves, restores and compares whole worlds: rollback, saved games, and finding where two runs
+// diverge. Format: docs/reference/snapshot_format.md.
 namespace handhold {
 
-// What a world refers to and a snapshot leaves out: the shapes of its colliders. Make it once a
-// scene: every vertex of every mesh is hashed.
+// Identifies the assets that a world refers to and a snapshot omits: the shapes of its colliders.
+// Make it once per scene: it hashes every vertex of every mesh.
 class SnapshotAssets {
   public:
-    // `shapes` must outlive this and not change. `scene` is the host's name for what is played.
+    // `shapes` must outlive this object and not change. `scene`: the host's name of the scene.
     explicit SnapshotAssets(const ShapeLibrary& shapes, std::string_view scene = {});
 
     const ShapeLibrary& shapes() const { return *shapes_; }
@@ -32,22 +32,22 @@ class SnapshotAssets {
     std::uint64_t hash_ = 0;
 };
 
-// Between two frames only. Every bit of the columns, the clock and the pool of entities: free
-// slots, generations, the order of rows. `bytes` is overwritten; where its capacity suffices,
-// nothing is allocated but at the first call of all.
+// Call between frames only. Saves every bit of the columns, the clock and the entity pool (free
+// slots, generations, row order). Overwrites `bytes`; allocates nothing if its capacity suffices,
+// except in the first call of the process.
 void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector<std::byte>& bytes);
 
-// The world continues bit for bit as the saved one, with any caches that fit `assets` and have the
-// same hand rigs and body clips, which nothing checks; handles
-// taken before are good again. Refused, with the place in the bytes and what was expected there,
-// and the world is as it was: what is no snapshot, of another format, schema (the first column or
-// field that differs is named) or other assets, cut short or damaged; and what step_frame could not
-// run on (docs/reference/snapshot_format.md lists it), whoever made it. Memory taken is at most
-// proportional to the bytes given, never to a number in them.
+// The restored world continues bit for bit like the saved one, with any caches built for `assets`
+// that have the same hand rigs and body clips (not checked). Entity handles taken before the save
+// are valid again. Returns an error, with its place and what was expected, and leaves the world
+// unchanged, for: bytes that are no snapshot, truncated or damaged; another format or schema (the
+// first differing field is named); other assets; and any state that step_frame could not run on
+// (docs/reference/snapshot_format.md). Memory use is at most proportional to the size of `bytes`,
+// never to a number in them.
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
                                                         const SnapshotAssets& assets, World& world);
 
-// The same by way of a file. Saving replaces the file at once or not at all.
+// The same with a file. Saving is atomic: the file is replaced completely or not at all.
 [[nodiscard]] std::optional<FileError> save_snapshot_file(const std::filesystem::path& path,
                                                           const World& world,
                                                           const SnapshotAssets& assets);
@@ -56,12 +56,14 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
                                                           World& world);
 
 struct WorldDiffSettings {
-    std::size_t limit = 20;              // differences listed
-    std::span<const std::string> names;  // entities to be called by their names; others by number
+    std::size_t limit = 20;  // maximum number of differences listed
+    std::span<const std::string>
+        names;  // names of entities for the messages; others are shown by id
 };
-// Where two worlds differ, bit for bit, by persistent id, in the order of the columns and of a's
-// rows: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2", "grab[0x5d...1]: only in a".
-// Slots and the order of rows do not count, as in hash_state; numbers of shapes do.
+// Lists the fields in which two worlds differ, bit for bit, by persistent id, in the order of the
+// columns and of a's rows: "head_tracking[player].pose_ps.position.x: a 0.1, b 0.2",
+// "grab[0x5d...1]: only in a". As in hash_state, slots and row order are ignored; shape ids are
+// compared.
 std::vector<std::string> diff_worlds(const World& a, const World& b,
                                      const WorldDiffSettings& settings = {});
 

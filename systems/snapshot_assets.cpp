@@ -1,5 +1,4 @@
-// What a snapshot's assets are told apart by: the content of every shape, in the order of the
-// library.
+// Asset hash: the content of every shape, in library order.
 #include <map>
 
 #include "engine/core/hash.hpp"
@@ -32,7 +31,7 @@ class ShapeHasher {
   public:
     explicit ShapeHasher(HashStream& stream) : stream_(stream) {}
 
-    // A hull's faces follow from its corners.
+    // A hull is identified by its corners; its faces follow from them.
     void add_shape(const Shape& shape) {
         stream_.add(static_cast<std::uint64_t>(shape.kind));
         add(stream_, shape.half_m);
@@ -47,7 +46,7 @@ class ShapeHasher {
         }
         if (shape.mesh != nullptr) {
             const auto [known, is_new] = meshes_.try_emplace(shape.mesh.get());
-            if (is_new) {  // shapes share meshes
+            if (is_new) {  // shapes may share a mesh: hash it once
                 known->second = hash_of(*shape.mesh);
             }
             stream_.add(known->second);

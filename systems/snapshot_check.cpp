@@ -12,14 +12,14 @@
 namespace handhold {
 namespace {
 
-// Beyond this adding a frame's length to a time loses it.
-constexpr double k_latest_s = 1e9;
+// Latest time: beyond it adding a frame's length is lost to rounding.
+constexpr double k_max_time_s = 1e9;
 
 constexpr double k_min_bone_ratio = 0.01;
 
-bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_latest_s; }
+bool is_duration(double seconds) { return seconds >= 1e-3 && seconds <= k_max_time_s; }
 
-// Keeps the first breach; what is asked after it changes nothing.
+// Keeps the first violation; later checks have no effect.
 class BreachFinder {
   public:
     BreachFinder(const World& world, const ShapeLibrary& shapes) : w_(world), shapes_(shapes) {}
@@ -27,7 +27,7 @@ class BreachFinder {
     std::optional<WorldBreach> find() {
         check_globals();
         check_ids();
-        if (!breach_) {  // from here on everybody can be named
+        if (!breach_) {  // all owners have ids from here on
             check_bodies();
             check_movers();
             check_joints();
@@ -49,18 +49,18 @@ class BreachFinder {
         }
     }
 
-    // Every owner in `column` has a row in `required`.
+    // Every owner of a row in `column` must have one in `required`.
     template <typename A, typename B>
     void require(const char* name, const Column<A>& column, const char* required_name,
                  const Column<B>& required) {
         for (const Entity owner : column.owners()) {
             if (!required.contains(owner)) {
                 check(false, name, owner, "",
-                      (std::string("a row in ") + required_name + " beside it").c_str());
+                      (std::string("a row in ") + required_name + " of the same owner").c_str());
             }
         }
     }
-    // Two columns have the same owners.
+    // Both columns must have the same owners.
     template <typename A, typename B>
     void require_both(const char* a_name, const Column<A>& a, const char* b_name,
                       const Column<B>& b) {
@@ -69,7 +69,7 @@ class BreachFinder {
     }
 
     void check_globals() {
-        if (!(std::abs(w_.clock.t_s) <= k_latest_s)) {
+        if (!(std::abs(w_.clock.t_s) <= k_max_time_s)) {
             breach_ = WorldBreach{"clock.t_s", "expected a time within 1e9 s"};
         }
     }
@@ -81,14 +81,14 @@ class BreachFinder {
         std::vector<PersistentId> ids(w_.persistent_id.rows().begin(),
                                       w_.persistent_id.rows().end());
         std::sort(ids.begin(), ids.end());
-        const auto twice = std::adjacent_find(ids.begin(), ids.end());
-        if (!breach_ && twice != ids.end()) {
-            breach_ = WorldBreach{"persistent_id[" + text_of(*twice) + "]",
-                                  "expected ids that nothing else has"};
+        const auto duplicate = std::adjacent_find(ids.begin(), ids.end());
+        if (!breach_ && duplicate != ids.end()) {
+            breach_ =
+                WorldBreach{"persistent_id[" + text_of(*duplicate) + "]", "expected unique ids"};
         }
-        constexpr std::uint64_t k_the_world = std::numeric_limits<std::uint64_t>::max();
+        constexpr std::uint64_t k_world_id = std::numeric_limits<std::uint64_t>::max();
         if (!breach_ && !ids.empty() &&
-            (ids.front().value == 0 || ids.back().value == k_the_world)) {
+            (ids.front().value == 0 || ids.back().value == k_world_id)) {
             breach_ = WorldBreach{"persistent_id", "expected ids above 0 and below 2^64 - 1"};
         }
     }
@@ -100,14 +100,15 @@ class BreachFinder {
         for (std::size_t row = 0; row < w_.body.size(); ++row) {
             const Entity owner = w_.body.owners()[row];
             const RigidBody& body = w_.body.rows()[row];
-            check(!w_.player.contains(owner), "body", owner, "", "no player in the same place");
+            check(!w_.player.contains(owner), "body", owner, "",
+                  "an entity that is not a player too");
             check(body.restitution >= 0.0 && body.restitution <= 1.0, "body", owner, ".restitution",
                   "a number in [0, 1]");
-            check(body.friction >= 0.0, "body", owner, ".friction", "a number not below 0");
+            check(body.friction >= 0.0, "body", owner, ".friction", "a number >= 0");
             if (body.kind == BodyKind::free) {
-                check(body.mass_kg > 0.0, "body", owner, ".mass_kg", "a mass above 0");
+                check(body.mass_kg > 0.0, "body", owner, ".mass_kg", "a mass > 0");
                 check(body.inertia_kgm2.minCoeff() > 0.0, "body", owner, ".inertia_kgm2",
-                      "moments above 0");
+                      "moments > 0");
             }
         }
     }
@@ -130,7 +131,7 @@ class BreachFinder {
                   "leg_mover", owner, ".gait", "steps of 1e-3 to 1e9 s and a share in (0, 1)");
             const auto [shorter, longer] = std::minmax(mover.leg.upper_m, mover.leg.lower_m);
             check(shorter >= k_min_bone_ratio * longer && longer > 0.0, "leg_mover", owner, ".leg",
-                  "bones above 0, none below a hundredth of the other");
+                  "bone lengths > 0, none below a hundredth of the other");
         }
     }
 
@@ -140,11 +141,11 @@ class BreachFinder {
             const Entity owner = w_.joint.owners()[row];
             const Joint& joint = w_.joint.rows()[row];
             const JointLatch& latch = joint.latch;
-            check(joint.lower <= joint.upper, "joint", owner, ".lower", "a limit not above upper");
+            check(joint.lower <= joint.upper, "joint", owner, ".lower", "a limit <= upper");
             check(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 &&
                       joint.detent_strength >= 0.0 && latch.catch_range >= 0.0 &&
                       latch.strength >= 0.0,
-                  "joint", owner, "", "friction, detents and latches not below 0");
+                  "joint", owner, "", "friction, detents and latches >= 0");
         }
     }
 
@@ -160,11 +161,11 @@ class BreachFinder {
         check_figures();
         for (std::size_t row = 0; row < w_.player.size(); ++row) {
             check(w_.player.rows()[row].mass_kg > 0.0, "player", w_.player.owners()[row],
-                  ".mass_kg", "a mass above 0");
+                  ".mass_kg", "a mass > 0");
         }
         for (std::size_t row = 0; row < w_.head_ignores.size(); ++row) {
             check(w_.head_ignores.rows()[row].next < HeadIgnores::k_capacity, "head_ignores",
-                  w_.head_ignores.owners()[row], ".next", "a place in the array");
+                  w_.head_ignores.owners()[row], ".next", "an index into the array");
         }
     }
 
@@ -181,30 +182,30 @@ class BreachFinder {
             const BodyClipState& state = w_.body_clip_state.rows()[row];
             const Entity owner = w_.body_clip_state.owners()[row];
             check(state.idle_s >= 0.0 && state.push_off_s >= 0.0, "body_clip_state", owner, "",
-                  "times not below 0");
+                  "times >= 0");
             check(state.push_off_weight >= 0.0 && state.push_off_weight <= 1.0, "body_clip_state",
                   owner, ".push_off_weight", "a number in [0, 1]");
         }
         for (std::size_t row = 0; row < w_.body_measures.size(); ++row) {
             const BodyMeasures& m = w_.body_measures.rows()[row];
-            const auto [least, most] =
+            const auto [shortest, longest] =
                 std::minmax({m.eye_height_m, m.shoulder_width_m, m.upper_arm_m, m.forearm_m});
-            check(least >= BodyMeasures::k_min_m && most <= BodyMeasures::k_max_m, "body_measures",
-                  w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
+            check(shortest >= BodyMeasures::k_min_m && longest <= BodyMeasures::k_max_m,
+                  "body_measures", w_.body_measures.owners()[row], "", "lengths of 0.05 to 5 m");
         }
         for (std::size_t row = 0; row < w_.calibration.size(); ++row) {
             const Calibration& c = w_.calibration.rows()[row];
             const Entity player = w_.calibration.owners()[row];
             check(c.held_s >= 0.0 && c.held_s <= 10.0, "calibration", player, ".held_s",
                   "0 to 10 s");
-            const auto is_sum_of = [&c](double sum_s_m, double least_m, double most_m) {
+            const auto is_sum_of = [&c](double sum_s_m, double min_m, double max_m) {
                 constexpr double k_rounding = 1e-9;
-                return sum_s_m >= (least_m - k_rounding) * c.held_s - k_rounding &&
-                       sum_s_m <= (most_m + k_rounding) * c.held_s + k_rounding;
+                return sum_s_m >= (min_m - k_rounding) * c.held_s - k_rounding &&
+                       sum_s_m <= (max_m + k_rounding) * c.held_s + k_rounding;
             };
             check(is_sum_of(c.eyes_s_m, TPoseRange::k_min_eyes_m, TPoseRange::k_max_eyes_m) &&
                       is_sum_of(c.span_s_m, TPoseRange::k_min_span_m, TPoseRange::k_max_span_m),
-                  "calibration", player, "", "sums of T-poses over the time held");
+                  "calibration", player, "", "sums that T-poses held for held_s can have");
         }
         for (std::size_t row = 0; row < w_.arm_memory.size(); ++row) {
             const ArmMemory& memory = w_.arm_memory.rows()[row];
@@ -214,22 +215,23 @@ class BreachFinder {
             };
             check(
                 !memory.known || (is_level_unit(memory.look_ps) && is_level_unit(memory.facing_ps)),
-                "arm_memory", w_.arm_memory.owners()[row], "", "level directions of length 1");
+                "arm_memory", w_.arm_memory.owners()[row], "", "horizontal unit vectors");
         }
         for (std::size_t row = 0; row < w_.spine_memory.size(); ++row) {
             const double since_s = w_.spine_memory.rows()[row].since_tick_s;
             check(since_s >= 0.0 && since_s <= 1.0, "spine_memory", w_.spine_memory.owners()[row],
                   ".since_tick_s", "a time in [0, 1] s");
             check(w_.spine_memory.rows()[row].rate_span_s >= 0.0, "spine_memory",
-                  w_.spine_memory.owners()[row], ".rate_span_s", "a time not below 0");
+                  w_.spine_memory.owners()[row], ".rate_span_s", "a time >= 0");
             for (const LegContact& contact : w_.spine_memory.rows()[row].contacts) {
                 check(std::abs(contact.normal_ps.norm() - 1.0) < 1e-3, "spine_memory",
-                      w_.spine_memory.owners()[row], ".contacts", "normals of length 1");
+                      w_.spine_memory.owners()[row], ".contacts", "unit normals");
             }
         }
     }
 
-    // Waits that are as long as those that are made: nothing waits for ever.
+    // Back-off distances and counters must be in the range that frames produce, so that no search
+    // is suspended for ever.
     void check_retries() {
         constexpr double k_max_m = 1.0;
         constexpr std::uint32_t k_max_tries = 1000000;
@@ -250,13 +252,13 @@ class BreachFinder {
                           backoff.travel_since_m <= k_max_m && backoff.failures <= k_max_tries &&
                           backoff.queued_frames <= k_max_tries,
                       "finger_pose", w_.finger_pose.owners()[row], ".backoff",
-                      "ways within 1 m, at most a million failures or frames");
+                      "distances within 1 m, at most a million failures or frames");
             }
             for (const FingerLookahead& lookahead : w_.finger_pose.rows()[row].lookahead) {
                 check(lookahead.retry_in_m >= 0.0 && lookahead.retry_in_m <= k_max_m &&
                           lookahead.travel_since_m >= 0.0 && lookahead.travel_since_m <= k_max_m,
                       "finger_pose", w_.finger_pose.owners()[row], ".lookahead",
-                      "ways in [0, 1] m");
+                      "distances in [0, 1] m");
             }
             const ThumbSearch& search = w_.finger_pose.rows()[row].thumb_search;
             check(search.start_step < k_max_tries && search.evaluated_count <= k_max_tries,
@@ -268,13 +270,13 @@ class BreachFinder {
             check(
                 surface.candidate_recheck_in_m >= 0.0 && surface.candidate_recheck_in_m <= k_max_m,
                 "grip_surface", w_.grip_surface.owners()[row], ".candidate_recheck_in_m",
-                "a way in [0, 1] m");
+                "a distance in [0, 1] m");
             check(
                 surface.clearance_recheck_in_m >= 0.0 && surface.clearance_recheck_in_m <= k_max_m,
                 "grip_surface", w_.grip_surface.owners()[row], ".clearance_recheck_in_m",
-                "a way in [0, 1] m");
+                "a distance in [0, 1] m");
             check(surface.full_search_in_m <= k_max_m, "grip_surface",
-                  w_.grip_surface.owners()[row], ".full_search_in_m", "a way of at most 1 m");
+                  w_.grip_surface.owners()[row], ".full_search_in_m", "a distance of at most 1 m");
             check(surface.evaluated_count <= GripSurface::k_max_candidates, "grip_surface",
                   w_.grip_surface.owners()[row], ".evaluated_count", "at most 14");
             check(surface.candidate_count <= GripSurface::k_max_candidates &&
@@ -299,12 +301,12 @@ class BreachFinder {
         for (std::size_t row = 0; row < w_.hand_owner.size(); ++row) {
             const Entity hand = w_.hand_owner.owners()[row];
             const HandOwner& owner = w_.hand_owner.rows()[row];
-            auto* const taken = has_hand.find(owner.player);
-            check(taken != nullptr, "hand_owner", hand, ".player", "a player");
-            if (taken != nullptr) {
-                std::uint8_t& place = (*taken)[index_of(owner.side)];
-                check(place == 0, "hand_owner", hand, ".side", "one hand a side");
-                place = 1;
+            auto* const used_sides = has_hand.find(owner.player);
+            check(used_sides != nullptr, "hand_owner", hand, ".player", "a player");
+            if (used_sides != nullptr) {
+                std::uint8_t& used = (*used_sides)[index_of(owner.side)];
+                check(used == 0, "hand_owner", hand, ".side", "one hand per side");
+                used = 1;
             }
         }
         for (std::size_t row = 0; row < w_.hand_history.size(); ++row) {
@@ -316,7 +318,7 @@ class BreachFinder {
         for (std::size_t row = 0; row < w_.grab.size(); ++row) {
             const Grab& grab = w_.grab.rows()[row];
             check((grab.kind == GripKind::none) == (grab.phase == GrabPhase::none), "grab",
-                  w_.grab.owners()[row], ".phase", "a phase where there is a grip, and none else");
+                  w_.grab.owners()[row], ".phase", "a phase if and only if there is a grip");
             check(grab.kind != GripKind::authored, "grab", w_.grab.owners()[row], ".kind",
                   "a surface, a held object or a player: an authored grip is in authored_hold");
         }
@@ -329,7 +331,7 @@ class BreachFinder {
         require("hand_pull", w_.hand_pull, "grab", w_.grab);
         for (std::size_t row = 0; row < w_.authored_grips.size(); ++row) {
             check(w_.authored_grips.rows()[row].count <= k_max_authored_grips, "authored_grips",
-                  w_.authored_grips.owners()[row], ".count", "4 grips at most");
+                  w_.authored_grips.owners()[row], ".count", "at most 4 grips");
         }
     }
 
@@ -346,9 +348,9 @@ class BreachFinder {
             }
             if (body == nullptr || body->kind == BodyKind::free) {
                 check(w_.last_valid.contains(owner), "collider", owner, "",
-                      "a row in last_valid beside it");
+                      "a row in last_valid of the same owner");
                 check(shapes_.at(shape).kind != ShapeKind::mesh, "collider", owner, ".shape",
-                      "no mesh on what is moved by contacts");
+                      "no mesh on a free body or player");
             }
         }
     }

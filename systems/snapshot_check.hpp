@@ -8,18 +8,18 @@
 
 namespace handhold {
 
-// Where a world breaks what step_frame relies on.
+// A violation of what step_frame relies on.
 struct WorldBreach {
-    std::string place;     // "hand_owner[0x5d...1].player"
-    std::string expected;  // and what was found
+    std::string place;     // e.g. "hand_owner[0x5d...1].player"
+    std::string expected;  // e.g. "expected a player"
 };
 
-// The first breach of the rules between rows (docs/reference/snapshot_format.md), for a world whose
-// fields are each by itself as they should be; none where step_frame can run. Worlds made by
-// add_body, add_player and frames have none.
+// Returns the first violation of the rules between rows (docs/reference/snapshot_format.md);
+// nullopt if step_frame can run. Each field must have been validated by itself. Worlds made by
+// add_body, add_joint, add_player and frames have no violation.
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes);
 
-// "0x00000000000000a1": entities in messages.
+// An entity in messages: "0x00000000000000a1".
 std::string text_of(PersistentId id);
 
 }  // namespace handhold

@@ -12,12 +12,12 @@
 namespace handhold {
 namespace {
 
-enum class LeafKind : std::uint8_t { number, whole, negative, who };
+enum class LeafKind : std::uint8_t { number, whole, negative, entity };
 
-// A number of a component, of either world.
+// One leaf value of a component.
 struct Leaf {
     LeafKind kind = LeafKind::whole;
-    std::uint64_t bits = 0;  // who: a persistent id, 0 for nobody and for those who are gone
+    std::uint64_t bits = 0;  // entity: its persistent id; 0 for null and for stale handles
     friend bool operator==(const Leaf&, const Leaf&) = default;
 };
 
@@ -25,7 +25,7 @@ template <typename T>
 Leaf leaf_of(const World& world, const T& value) {
     if constexpr (std::is_same_v<T, Entity>) {
         const PersistentId* const id = world.persistent_id.find(value);
-        return {LeafKind::who, id != nullptr ? id->value : 0};
+        return {LeafKind::entity, id != nullptr ? id->value : 0};
     } else if constexpr (std::is_same_v<T, ShapeId>) {
         return {LeafKind::whole, value.index};
     } else if constexpr (std::is_same_v<T, double>) {
@@ -38,7 +38,7 @@ Leaf leaf_of(const World& world, const T& value) {
     }
 }
 
-// A row's numbers in the order of the walk.
+// Collects a row's leaves in walk order.
 class LeafList : public FieldVisitor {
   public:
     LeafList(const World& world, std::vector<Leaf>& leaves) : world_(world), leaves_(leaves) {}
@@ -72,7 +72,7 @@ class WorldDiff {
     }
 
   private:
-    // Compares what walk(world, visitor) walks over in either world.
+    // Compares the fields that walk(world, visitor) visits in both worlds.
     template <typename Walk>
     void compare(const std::string& where, Walk&& walk) {
         b_leaves_.clear();
@@ -104,7 +104,7 @@ class WorldDiff {
         }
     }
 
-    // Walks over a's fields while b's lie in b_leaves_.
+    // Walks over a's fields; b's are in b_leaves_.
     class FieldComparison : public PathVisitor {
       public:
         FieldComparison(WorldDiff& diff, const std::string& where) : diff_(diff), where_(where) {}
@@ -136,7 +136,7 @@ class WorldDiff {
     std::string text(const Leaf& leaf) const {
         switch (leaf.kind) {
             case LeafKind::number: {
-                char digits[32];  // the fewest that tell it from its neighbours
+                char digits[32];  // shortest text that parses back to the same number
                 const auto end =
                     std::to_chars(digits, digits + sizeof digits, std::bit_cast<double>(leaf.bits));
                 return {digits, end.ptr};
@@ -145,10 +145,10 @@ class WorldDiff {
                 return std::to_string(leaf.bits);
             case LeafKind::negative:
                 return std::to_string(static_cast<std::int64_t>(leaf.bits));
-            case LeafKind::who:
+            case LeafKind::entity:
                 break;
         }
-        return leaf.bits == 0 ? "nobody" : name_of({leaf.bits});
+        return leaf.bits == 0 ? "none" : name_of({leaf.bits});
     }
     bool is_full() const { return found_.size() >= settings_.limit; }
     void add(std::string difference) {

@@ -10,31 +10,30 @@
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
 
-// Components taken apart down to their numbers, always in the same order: what saving, restoring
-// and comparing worlds share.
+// Walks components down to their leaf values, always in the same order. Shared by saving, restoring
+// and comparing worlds.
 namespace handhold {
 
-// What is walked down to.
+// The types at which a walk ends.
 template <typename T>
 inline constexpr bool k_is_leaf = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
                                   std::is_same_v<T, Entity> || std::is_same_v<T, ShapeId>;
 
-// Base of the visitors: those steps of the way that most of them do not care about. A visitor has,
-// besides, leaf(const T&) for every leaf.
+// Base of the visitors, with defaults for most steps. A visitor must add leaf(const T&).
 struct FieldVisitor {
     void enter(const char* /*name*/) {}
     void enter(std::size_t /*index*/) {}
     void leave() {}
-    // How many elements of an array are walked.
+    // How many elements of an array to walk.
     static std::size_t count_walked(std::size_t size) { return size; }
-    // True: this visitor takes it as it is, and its axes are not walked.
+    // True: the visitor handles the value as a whole, and its axes are not walked.
     static bool takes_whole(const Vec3& /*v*/) { return false; }
     static bool takes_whole(const Quat& /*q*/) { return false; }
-    // After its axes.
+    // Called after the axes.
     void finish(const Quat& /*q*/) {}
 };
 
-// A visitor that knows where it is.
+// A visitor that knows its path.
 class PathVisitor : public FieldVisitor {
   public:
     void enter(const char* name) { push({name, 0}); }
@@ -57,7 +56,7 @@ class PathVisitor : public FieldVisitor {
 
   private:
     struct Step {
-        const char* name = nullptr;  // null: an element
+        const char* name = nullptr;  // null: an array element
         std::size_t index = 0;
     };
     void push(const Step& step) {
@@ -133,7 +132,7 @@ void walk_component(const Component& component, Visitor& visitor) {
     });
 }
 
-// What a world has beside its entities and columns.
+// The world's data outside its entities and columns.
 template <typename Visitor>
 void walk_globals(const World& world, Visitor& visitor) {
     visitor.enter("clock");

@@ -11,13 +11,13 @@ namespace handhold {
 namespace {
 
 constexpr std::size_t k_owner_bytes = 8;
-// Numbers beyond this cannot be squared and multiplied safely, and are nobody's metres or seconds.
+// Larger numbers could overflow in products of squares, and are no valid length or time.
 constexpr double k_largest_number = 1e18;
-constexpr double k_unit_tolerance = 1e-3;  // as is_valid(Pose)
+constexpr double k_unit_tolerance = 1e-3;  // as in is_valid(Pose)
 
 // --- Saving --------------------------------------------------------------------------------------
 
-// What leaves are as unsigned numbers of their size, handed to put(number) one by one.
+// Calls put(number) for a leaf's value as unsigned numbers of the same size.
 template <typename T, typename Put>
 void encode_leaf(const T& value, Put&& put) {
     if constexpr (std::is_same_v<T, Entity>) {
@@ -46,7 +46,7 @@ class ByteCounter : public FieldVisitor {
     std::size_t bytes_ = 0;
 };
 
-// Of one row's fields, always the same.
+// Bytes of one row's fields, the same for all rows.
 template <typename Component>
 std::size_t row_bytes() {
     static const std::size_t k_bytes = [] {
@@ -87,8 +87,7 @@ class ByteWriter : public FieldVisitor {
 
 // --- Restoring -----------------------------------------------------------------------------------
 
-// Reads the payload. The first value that is not as it should be is kept as the error; everything
-// read after it is zero.
+// Reads the payload. Keeps the first invalid value as the error; everything after it reads as zero.
 class ByteReader : public PathVisitor {
   public:
     ByteReader(std::span<const std::byte> bytes, std::size_t begin, std::size_t end)
@@ -109,7 +108,7 @@ class ByteReader : public PathVisitor {
     }
     const std::optional<FileError>& error() const { return error_; }
 
-    // The walk goes over rows that are being filled: const only by its signature.
+    // The walk's signature is const, but it fills rows of the world under construction.
     template <typename T>
     void leaf(const T& place) {
         T& value = const_cast<T&>(place);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -122,7 +121,8 @@ class ByteReader : public PathVisitor {
         } else if constexpr (std::is_same_v<T, bool>) {
             value = read_choice(2) != 0;
         } else if constexpr (std::is_enum_v<T>) {
-            static_assert(k_value_count<T> > 0, "say in components/fields.hpp how many values");
+            static_assert(k_value_count<T> > 0,
+                          "add the enum's value count to components/fields.hpp");
             value = static_cast<T>(read_choice(k_value_count<T>));
         } else {
             value = static_cast<T>(number<std::make_unsigned_t<T>>());
@@ -155,7 +155,7 @@ class ByteReader : public PathVisitor {
         at_ += sizeof(T);
         return value;
     }
-    // A number of things of which each takes at least so many bytes.
+    // A count of elements that take at least `bytes_each` bytes each.
     std::uint32_t count_of(std::size_t bytes_each, const char* what) {
         const auto count = number<std::uint32_t>();
         if (count > left() / bytes_each) {
@@ -181,8 +181,8 @@ class ByteReader : public PathVisitor {
         }
         return value;
     }
-    // Null, alive or stale: who never was is nobody. After 2^32 - 1 lives of one slot a stale
-    // handle could look like one to come.
+    // Null, alive and stale handles are valid; handles of entities that never existed are not:
+    // after 2^32 - 1 reuses of one slot such a handle could match a future entity.
     Entity read_handle() {
         const auto slot = number<std::uint32_t>();
         const auto generation = number<std::uint32_t>();
@@ -190,8 +190,8 @@ class ByteReader : public PathVisitor {
         const bool has_been =
             generation != 0 && slot < generations_->size() && generation <= (*generations_)[slot];
         if (!is_null_handle && !has_been) {
-            refuse("a handle of somebody who is or was there, found slot " + std::to_string(slot) +
-                   ", generation " + std::to_string(generation));
+            refuse("a handle of an entity that exists or existed, found slot " +
+                   std::to_string(slot) + ", generation " + std::to_string(generation));
             return k_no_entity;
         }
         return {slot, generation};
@@ -235,7 +235,7 @@ class ByteReader : public PathVisitor {
             enter(std::size_t{row});
             const Entity owner = read_handle();
             if (!pool.is_alive(owner) || column.contains(owner)) {
-                refuse("an owner who is alive and has no row yet");
+                refuse("an owner that is alive and has no row yet");
             } else {
                 walk_component(column.add(owner), *this);
             }

@@ -12,10 +12,10 @@
 #include "components/world.hpp"
 #include "engine/io/result.hpp"
 
-// The part of a snapshot that is the world: docs/reference/snapshot_format.md, "Payload".
+// The payload of a snapshot: docs/reference/snapshot_format.md, "Payload".
 namespace handhold {
 
-// Numbers in a snapshot are little-endian: this turns to and from it.
+// Converts to and from little-endian, the byte order of snapshots.
 template <typename T>
 T swapped_unless_little(T value) {
     if constexpr (std::endian::native == std::endian::little) {
@@ -41,10 +41,10 @@ void store_little(T value, std::byte* at) {
 }
 
 std::size_t payload_bytes(const World& world);
-// Writes payload_bytes(world) bytes from `to` on; returns their end.
+// Writes payload_bytes(world) bytes to `to`; returns their end.
 std::byte* write_payload(const World& world, std::byte* to);
-// Reads bytes [begin, end) of a snapshot into `world`, which should be empty and is not to be used
-// after an error: the first byte that is not as it should be. Fields are checked each by itself.
+// Reads bytes [begin, end) of a snapshot into `world`, which must be empty. Validates each field by
+// itself. On error returns the first invalid value; `world` must then be discarded.
 std::optional<FileError> read_payload(std::span<const std::byte> snapshot, std::size_t begin,
                                       std::size_t end, World& world);
 

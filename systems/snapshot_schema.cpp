@@ -12,7 +12,7 @@ class SchemaWriter : public PathVisitor {
   public:
     explicit SchemaWriter(std::string& text) : text_(text) {}
 
-    // One element stands for all: its line names how many there are.
+    // Walks one element for all; its line states the array's size.
     std::size_t count_walked(std::size_t size) {
         array_size_ = size;
         return 1;
@@ -66,16 +66,16 @@ std::string write_schema() {
     return text;
 }
 
-// The line at the front, which is taken away; "the end" where nothing is left. Short, and without
-// what a terminal would obey.
+// Removes and returns the first line; "the end" if nothing is left. Shortened, and without control
+// characters.
 std::string take_shown_line(std::string_view& text) {
     if (text.empty()) {
         return "the end";
     }
     const std::size_t length = std::min(text.find('\n'), text.size());
-    constexpr std::size_t k_longest = 80;
+    constexpr std::size_t k_max_length = 80;
     std::string line = "\"";
-    for (const char c : text.substr(0, std::min(length, k_longest))) {
+    for (const char c : text.substr(0, std::min(length, k_max_length))) {
         line += c >= ' ' && c <= '~' ? c : '?';
     }
     text.remove_prefix(std::min(length + 1, text.size()));

@@ -5,12 +5,13 @@
 
 namespace handhold {
 
-// What the columns of this build look like, one line a field: "grab.kind enum(3)",
-// "hand_history.entries[32].t_s f64". A snapshot holds its own; only equal ones can be restored.
+// Layout of this build's columns, one line per field: "grab.kind enum(3)",
+// "hand_history.entries[32].t_s f64". A snapshot contains its schema; it can be restored only if
+// that is equal.
 const std::string& snapshot_schema();
 
-// Where two schemas part first: 'expected "grab.kind enum(3)", found "grab.kind enum(4)"'. Empty
-// for equal ones. What was found may be any bytes.
+// The first difference of two schemas: 'expected "grab.kind enum(3)", found "grab.kind enum(4)"'.
+// Empty if they are equal. `found` may contain any bytes.
 std::string schema_difference(std::string_view expected, std::string_view found);
 
 }  // namespace handhold

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that the documents name what exists. Prints `file:line: what is missing` for each breach.
+"""Checks that the documents name existing files and tests. Prints `file:line: what is missing` for each breach.
 
-- Relative links and pictures of every *.md file resolve, their #anchors too.
+- Relative links, pictures and #anchors of every *.md file resolve.
 - docs/talk_map.md and docs/reference/stages.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
-- docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both.
-  A status names later pages that exist.
+- docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both. A status names later
+  pages that exist.
 
 usage: tools/check_docs.py [ROOT]      exit status 0: none, 1: some
 """
@@ -37,7 +37,7 @@ def without_fences(text: str) -> str:
 
 
 def anchors_of(text: str) -> set[str]:
-    """As GitHub makes them of headings."""
+    """The anchors that GitHub generates for headings."""
     anchors = set()
     for heading in HEADING.findall(without_fences(text)):
         kept = re.sub(r"[^\w\- ]", "", heading.lower())
@@ -48,7 +48,7 @@ def anchors_of(text: str) -> set[str]:
 def link_breaches(document: Path, line: str) -> Iterator[str]:
     for target in LINK.findall(INLINE_CODE.sub("", line)):
         if re.match(r"[a-z]+:", target):
-            continue  # of the web: not ours to check, and a check must not need the network
+            continue  # web links are not checked, since a check must not need the network
         path, _, anchor = target.partition("#")
         file = document.parent / path if path else document
         if not file.exists():

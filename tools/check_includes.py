@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks who may include whom (docs/conventions.md, "Folders"). Prints `file:line: rule` for each breach.
+"""Checks the include rules between folders (docs/conventions.md, "Folders"). Prints `file:line: rule` for each breach.
 
 usage: tools/check_includes.py [ROOT]      exit status 0: none, 1: some
 """
@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Iterator, NamedTuple
 
-# Folder of a file -> folders whose headers it may include. Inside systems/, system_rule() narrows this further.
+# Folder of a file -> folders whose headers it may include. Inside systems/, system_rule() restricts this further.
 ALLOWED_FOLDERS = {
     "engine": {"engine"},
     "components": {"components", "engine"},
@@ -17,12 +17,13 @@ ALLOWED_FOLDERS = {
     "tests": {"tests", "tools", "game", "systems", "components", "engine"},
     "tools": {"tools", "game", "systems", "components", "engine"},
 }
-# The product: where a library has one home and our headers are named from the root. Tests and tools may use any library as an oracle.
+# The product, in which each library is included in one place and our headers are named from the root. Tests and tools may use any library
+# as an oracle.
 PRODUCT_FOLDERS = {"engine", "components", "systems", "game"}
-# The order of the stages, copies of all columns and the public headers: these see every system and the whole World.
+# The order of the stages, copies of all columns, and the public headers: these may use every system and the whole World.
 FRONT_DOOR = re.compile(r"systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*")
 NAMES_WORLD = re.compile(r"(systems/(frame|snapshot)\w*\.[hc]pp|systems/host/.*|components/world\w*\.[hc]pp|(game|tools|tests)/.*)")
-# What a host includes: systems/host/include is an include directory, so these headers are named `handhold/...`.
+# Headers that a host includes: systems/host/include is an include directory, so these are named `handhold/...`.
 PUBLIC_HEADERS = "systems/host/include/"
 # Words of the player's body that engine code must not use in identifiers.
 ENGINE_FOREIGN = re.compile(r"(?<![A-Za-z])(?:player|hand|hands|finger|fingers|palm|thumb)(?![a-z])|(?:Player|Hand|Finger|Palm|Thumb)(?![a-z])")
@@ -31,8 +32,8 @@ ENGINE_FOREIGN = re.compile(r"(?<![A-Za-z])(?:player|hand|hands|finger|fingers|p
 class Library(NamedTuple):
     name: str
     header: re.Pattern  # of the included path
-    identifier: re.Pattern | None  # in code; None: naming its types is free
-    home: re.Pattern  # the files that may
+    identifier: re.Pattern | None  # in code; None: its types may be named anywhere
+    home: re.Pattern  # the files that may use it
     home_text: str
 
 
@@ -57,7 +58,7 @@ LIBRARIES = [
     library("OpenGL", r"(GL|GLES\d|EGL|KHR|epoxy)/", None, r"game/(render|xr)/.*", "game/render/ and game/xr/"),
 ]
 
-# Comments become blanks; literals keep their quotes only. Line breaks stay, so that lines keep their numbers.
+# Comments become blanks; literals keep only their quotes. Line breaks stay, so line numbers stay correct.
 TOKEN = re.compile(
     r'(?P<comment>//[^\n]*|/\*.*?\*/)'
     r'|(?P<raw>R"(?P<mark>[^\s()\\]{0,16})\(.*?\)(?P=mark)")'
@@ -98,12 +99,12 @@ def may_include_system(file: str, path: str) -> bool:
 
 
 def include_rules(file: str, mark: str, path: str) -> Iterator[str]:
-    """The rules that one include of `path` in `file` breaks."""
+    """The rules that the include of `path` in `file` breaks."""
     folder = file.split("/")[0]
     target = path.split("/")[0]
     if target not in ALLOWED_FOLDERS:
         if folder not in PRODUCT_FOLDERS:
-            return  # a library, or a helper beside a test
+            return  # a library, or a helper next to a test
         if mark == '"':
             yield f'"{path}": paths of our headers start at the root; a library\'s header goes in <>'
         for lib in LIBRARIES:

@@ -28,7 +28,7 @@ WORDS = [
     (r"softness|softest|softens?|softened|hardens|hardened|hardening", "regularisation"),
     (r"mends?|mended|mending", "fix, depenetrate"),
     (r"outlook", "look-ahead, cached result"),
-    (r"dear|dearer|dearest", "expensive"),
+    (r"dear(?! imgui)|dearer|dearest", "expensive"),
     (r"in vain", "failed, without success"),
     (r"bound for", "target"),
     (r"at ease|relaxed pose", "rest pose"),
@@ -43,7 +43,7 @@ WORDS = [
     (r"undecided", "not converged"),
 ]
 RULES = [(re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), instead) for pattern, instead in WORDS]
-# Openings of sentences that need decoding.
+# Openings of sentences that are hard to read.
 OPENINGS = re.compile(r"(?:^\W*|[.:;] )((?:What is|Of those|Where that) [a-z])")
 
 CPP_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that every C++ sample of the documents is compiled code. Prints `file:line: what is wrong` for each breach.
+"""Checks that every C++ sample in the documents is compiled code. Prints `file:line: what is wrong` for each breach.
 
 A page names the region of a program that its fence shows:
 
@@ -8,14 +8,14 @@ A page names the region of a program that its fence shows:
     hands.grip(wall);
     ```
 
-and the program, which the build compiles and ctest runs, marks that region with the same comment before and after it:
+The program, which the build compiles and ctest runs, marks that region with the same comment before and after it:
 
     // [grip]
     hands.grip(wall);
     // [grip]
 
-- Every ```cpp fence of a *.md file follows such a line, and its text equals the region's, without the indentation that the region's
-  lines share and without markers of regions within it.
+- Every ```cpp fence of a *.md file follows such a line. Its text equals the region's, without common indentation and without markers of
+  inner regions.
 - The program is in tests/samples/, and marks the region exactly once.
 
 usage: tools/check_samples.py [--fix] [ROOT]      exit status 0: none, 1: some
@@ -72,7 +72,7 @@ def region_of(root: Path, file: str, name: str) -> list[str]:
 
 
 def first_difference(shown: list[str], region: list[str]) -> tuple[int, str]:
-    """Index of the first line of `shown` that is not the region's, and what the region has there."""
+    """Index of the first line of `shown` that differs from the region, and the region's line there."""
     for number, line in enumerate(region):
         if number >= len(shown) or shown[number] != line:
             return number, f"`{line}`"
@@ -85,7 +85,7 @@ def check_page(root: Path, page: Path, fix: bool) -> list[str]:
     breaches = []
     fixed = list(lines)
     fences = fences_of(lines)
-    for fence in reversed(fences):  # a fix does not move the lines before it
+    for fence in reversed(fences):  # in reverse, so a fix does not move the lines before it
         sample = SAMPLE.fullmatch(lines[fence.begin - 1].rstrip()) if fence.begin > 0 else None
         if sample is None:
             if fence.language in CPP:

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy (.clang-tidy, every finding an error) over the product's sources. Tests are held to warnings and format only:
+"""Runs clang-tidy (.clang-tidy, every finding an error) over the product's sources. Tests are checked by warnings and format only:
 GoogleTest's macros would double the time and add no finding.
 
-clang-tidy looks through every header for each source anew, and that is nearly all its time: sources that compile as one are therefore
-looked at as one. Joint sources that were clean and have not changed since, headers included, are skipped: their marks lie in the user's
-cache folder, as those of ccache do.
+Parsing headers takes nearly all of clang-tidy's time, so sources that compile as one are checked together as one joint source. Joint
+sources that were clean and are unchanged, including their headers, are skipped: their marks are in the user's cache folder.
 
-The compile commands come from build/tidy, which is configured without precompiled headers: clang-tidy cannot read GCC's.
+The compile commands come from build/tidy, which is configured without precompiled headers, because clang-tidy cannot read GCC's.
 
-usage: tools/check_tidy.py [FILE...]      default: every source; a named file is looked at alone; exit status 0: clean, 1: not
+usage: tools/check_tidy.py [FILE...]      default: every source; a named file is checked alone; exit status 0: clean, 1: not
 """
 import hashlib
 import json
@@ -30,7 +29,7 @@ MOST_TOGETHER = 24
 
 @dataclass(frozen=True)
 class Joint:
-    """Sources of one folder that are compiled with the same flags, as one source."""
+    """Sources of one folder with the same compile flags, checked as one source."""
     flags: tuple[str, ...]
     sources: tuple[Path, ...]
 
@@ -38,7 +37,7 @@ class Joint:
         return "".join(f'#include "{source}"  // NOLINT\n' for source in self.sources)
 
     def file(self) -> Path:
-        """The source that includes them all; a single one is itself."""
+        """The source that includes them all; a single source is its own file."""
         if len(self.sources) == 1:
             return self.sources[0]
         name = hashlib.sha256(self.text().encode()).hexdigest()[:16]
@@ -50,7 +49,7 @@ class Joint:
 
 
 def flags_of(command: str) -> tuple[str, ...]:
-    """A compile command without its compiler and what launches that, its source and what it writes."""
+    """The flags of a compile command, without compiler, launcher, source and output."""
     words = shlex.split(command)
     compiler = next(place for place, word in enumerate(words) if Path(word).name in ("g++", "c++"))
     output = words.index("-o")
@@ -58,7 +57,7 @@ def flags_of(command: str) -> tuple[str, ...]:
 
 
 def sources_of(wanted: set[Path]) -> dict[tuple[str, ...], list[Path]]:
-    """Our sources by the flags that they are compiled with, each once; only the wanted ones if any are named."""
+    """Our sources by compile flags, each once; only the wanted ones if any are named."""
     found = defaultdict(list)
     seen = set()
     for entry in json.loads((BUILD / "compile_commands.json").read_text(encoding="utf-8")):
@@ -79,14 +78,14 @@ def joints_of(sources: dict[tuple[str, ...], list[Path]], most: int) -> list[Joi
 
 
 def compiles(joint: Joint) -> bool:
-    """False where two sources give the same name to different things of their own."""
+    """False if two sources define the same file-local name differently."""
     run = subprocess.run(["clang++", *joint.flags, "-w", "-fsyntax-only", str(joint.file())], cwd=BUILD, capture_output=True)
     return run.returncode == 0
 
 
 def fingerprint(joint: Joint) -> str:
-    """Of all that a finding can depend on: the sources with their headers and comments (NOLINT) as the compiler sees them, and the rules.
-    Nothing of where the folder lies."""
+    """Hash of everything that a finding can depend on: the preprocessed sources with headers and comments (NOLINT), and the rules.
+    Independent of the folder's path."""
     preprocessed = subprocess.run(["clang++", *joint.flags, "-w", "-E", "-P", "-C", str(joint.file())], cwd=BUILD, capture_output=True,
                                   check=True).stdout
     parts = [preprocessed.replace(os.fsencode(ROOT), b""), (ROOT / ".clang-tidy").read_bytes()]
@@ -94,7 +93,7 @@ def fingerprint(joint: Joint) -> str:
 
 
 def tidy(joint: Joint) -> list[str]:
-    """The findings in the sources and their headers; empty where they are clean."""
+    """The findings in the sources and their headers; empty if clean."""
     if len(joint.sources) > 1:
         joint.file().write_text(joint.text(), encoding="utf-8")
     mark = MARKS / fingerprint(joint)

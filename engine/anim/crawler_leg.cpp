@@ -6,10 +6,10 @@
 namespace handhold {
 namespace {
 
-// 0 to 1, with velocity and acceleration 0 at both ends.
+// Smoother step: 0 to 1, with zero velocity and acceleration at both ends.
 double smoother_step(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
 
-// 0 at both ends, with its velocity and acceleration; 1 in the middle.
+// 0 at both ends with zero velocity and acceleration; 1 in the middle.
 double arch(double s) {
     const double product = 4.0 * s * (1.0 - s);
     return product * product * product;
@@ -21,15 +21,15 @@ TwoBones place_two_bones(const Vec3& root, const Vec3& target, double upper_m, d
                          const Vec3& pole) {
     const double slack = 1e-3 * (upper_m + lower_m);
     const Vec3 to_target = target - root;
-    const double wanted = to_target.norm();
+    const double target_m = to_target.norm();
     const double nearest = std::abs(upper_m - lower_m) + slack;
-    const double reach = std::clamp(wanted, nearest, upper_m + lower_m - slack);
-    const Vec3 along = wanted > 0.0 ? Vec3(to_target / wanted) : Vec3(-pole.normalized());
+    const double reach = std::clamp(target_m, nearest, upper_m + lower_m - slack);
+    const Vec3 along = target_m > 0.0 ? Vec3(to_target / target_m) : Vec3(-pole.normalized());
     const Vec3 across = (pole - along * along.dot(pole)).normalized();
-    // Law of cosines: the knee's foot on the line from root to end, and its height over it.
-    const double foot = (upper_m * upper_m - lower_m * lower_m + reach * reach) / (2.0 * reach);
-    const double height = std::sqrt(std::max(0.0, upper_m * upper_m - foot * foot));
-    return {root, root + foot * along + height * across, root + reach * along};
+    // Law of cosines: distance of the knee along the line from root to end, and its height off it.
+    const double foot_m = (upper_m * upper_m - lower_m * lower_m + reach * reach) / (2.0 * reach);
+    const double height = std::sqrt(std::max(0.0, upper_m * upper_m - foot_m * foot_m));
+    return {root, root + foot_m * along + height * across, root + reach * along};
 }
 
 Vec3 crawler_foot(const PosePath& torso, const CrawlerGait& gait, const CrawlerLeg& leg,

@@ -4,10 +4,9 @@
 
 namespace handhold {
 
-// A bone of length 1 from the origin whose end is to stay before a surface: the unit direction
-// nearest to `towards` with normal . direction >= least, by the least turn, but at most `most` (of
-// the bone's length) farther out than `towards` is. Where nothing reaches that far: straight out.
-// `towards` and `normal` are unit.
-Vec3 deflect_outward(const Vec3& towards, const Vec3& normal, double least, double most);
+// Turns a unit bone away from a surface. Returns the unit direction nearest to `towards` with
+// normal . direction >= min_out, raised by at most max_lift above normal . towards. Returns
+// `normal` if no direction reaches that far. `towards` and `normal` are unit vectors.
+Vec3 deflect_outward(const Vec3& towards, const Vec3& normal, double min_out, double max_lift);
 
 }  // namespace handhold

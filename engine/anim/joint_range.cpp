@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-double nearing(const JointRange& range, double before_rad, double now_rad) {
+double approach_limit(const JointRange& range, double before_rad, double now_rad) {
     const double before = std::clamp(before_rad, range.low_rad, range.high_rad);
     return std::clamp(now_rad, before + range.share * (range.low_rad - before),
                       before + range.share * (range.high_rad - before));
@@ -20,8 +20,8 @@ Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& rang
     const Vec3 aside = towards - along * rest;
     const double length = aside.norm();
     const double wanted = arc_tangent2(length, along);
-    // From the rest there is no way below.
-    angle_rad = std::min(wanted, nearing(range, angle_rad, std::max(wanted, angle_rad)));
+    // An angle from `rest` has no lower limit to approach.
+    angle_rad = std::min(wanted, approach_limit(range, angle_rad, std::max(wanted, angle_rad)));
     if (angle_rad >= wanted) {
         return towards;
     }
@@ -35,7 +35,7 @@ Vec3 clamp_to_cone(const Vec3& towards, const Vec3& rest, const JointRange& rang
 }
 
 Vec3 clamp_to_hinge(const Vec3& towards, const JointRange& range, double& angle_rad) {
-    angle_rad = nearing(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
+    angle_rad = approach_limit(range, angle_rad, arc_tangent2(towards.z(), -towards.y()));
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(angle_rad, sine, cosine);

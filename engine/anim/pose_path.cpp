@@ -8,19 +8,19 @@
 namespace handhold {
 namespace {
 
-// Position and quaternion as one vector: the spline treats all seven numbers alike.
-using Numbers = std::array<double, 7>;
+// Position and quaternion as one array: the spline treats all seven components alike.
+using PoseArray = std::array<double, 7>;
 
-Numbers numbers_of(const Pose& pose) {
+PoseArray to_array(const Pose& pose) {
     const Quat& q = pose.rotation;
     return {pose.position.x(), pose.position.y(), pose.position.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
-// What comes after the last key is the first one again; a path that turned once around comes back
-// to the negative of its quaternion.
+// Index of a neighbouring key, wrapping around. A path with a full turn ends at the negated
+// quaternion.
 struct Neighbour {
     std::size_t index = 0;
-    double sign = 1.0;  // of the quaternion
+    double sign = 1.0;  // factor for the quaternion
 };
 
 double sign_of(std::size_t number, const Neighbour& neighbour) {
@@ -40,15 +40,16 @@ class PeriodicSpline {
                 pose.rotation.coeffs() = -pose.rotation.coeffs();
             }
             before = pose.rotation;
-            points_[i] = numbers_of(pose);
+            points_[i] = to_array(pose);
         }
         const Quat first = poses[0].rotation.normalized();
         check_turn(before.dot(first), 0);
         closing_sign_ = before.dot(first) < 0.0 ? -1.0 : 1.0;
     }
 
-    // Continuous curvature asks for m[i-1] + 4 m[i] + m[i+1] = 3 (p[i+1] - p[i-1]) / step of the
-    // rates m. Gauss and Seidel's sweeps at least halve the error each: after 64 nothing is left.
+    // Continuous second derivatives require m[i-1] + 4 m[i] + m[i+1] = 3 (p[i+1] - p[i-1]) / h for
+    // the rates m at the points p, h seconds apart. The system is diagonally dominant: each
+    // Gauss-Seidel sweep at least halves the error, so 64 sweeps reach full precision.
     void solve_rates() {
         for (int sweep = 0; sweep < 64; ++sweep) {
             for (std::size_t i = 0; i < count_; ++i) {
@@ -66,8 +67,8 @@ class PeriodicSpline {
     }
 
     PathKey key(std::size_t i) const {
-        const Numbers& p = points_[i];
-        const Numbers& m = rates_[i];
+        const PoseArray& p = points_[i];
+        const PoseArray& m = rates_[i];
         return {{Vec3(p[0], p[1], p[2]), Quat(p[6], p[3], p[4], p[5])},
                 Vec3(m[0], m[1], m[2]),
                 {m[3], m[4], m[5], m[6]}};
@@ -75,11 +76,11 @@ class PeriodicSpline {
 
   private:
     static void check_turn(double cosine, std::size_t key) {
-        // Of half the angle between two rotations.
+        // The cosine is that of half the angle between the rotations.
         double sine = 0.0;
-        double least = 1.0;
-        sin_cos(0.5 * k_max_path_turn_rad, sine, least);
-        HH_CHECK(std::abs(cosine) >= least, "a path turns too far between two poses", key);
+        double min_cosine = 1.0;
+        sin_cos(0.5 * k_max_path_turn_rad, sine, min_cosine);
+        HH_CHECK(std::abs(cosine) >= min_cosine, "a path turns too far between two poses", key);
     }
     Neighbour previous(std::size_t i) const {
         return i > 0 ? Neighbour{i - 1, 1.0} : Neighbour{count_ - 1, closing_sign_};
@@ -91,8 +92,8 @@ class PeriodicSpline {
     double step_s_;
     std::size_t count_ = 0;
     double closing_sign_ = 1.0;
-    std::array<Numbers, k_max_path_keys> points_ = {};
-    std::array<Numbers, k_max_path_keys> rates_ = {};
+    std::array<PoseArray, k_max_path_keys> points_ = {};
+    std::array<PoseArray, k_max_path_keys> rates_ = {};
 };
 
 using Vec4 = Eigen::Vector4d;
@@ -102,7 +103,7 @@ Vec4 rate_of(const PathKey& key) {
             key.quaternion_rate[3]};
 }
 
-// Hermite's cubic from a (rate ra) to b (rate rb) in step_s, at the share s of the way.
+// Cubic Hermite segment from a (rate ra) to b (rate rb) over step_s, at fraction s.
 template <typename Vector>
 struct Cubic {
     Vector value;
@@ -155,7 +156,8 @@ PosePathState evaluate(const PosePath& path, double t_s) {
     const Vec4 to = sign * b.pose.rotation.coeffs();
     const Cubic<Vec4> turn =
         cubic<Vec4>(a.pose.rotation.coeffs(), rate_of(a), to, sign * rate_of(b), step_s, s);
-    // q = c / |c|: its rate is the cubic's without the part along q; the spin is 2 q' q*.
+    // q = c / |c| with the cubic c. So q' is c' / |c| without its part along q, and the angular
+    // velocity is 2 q' q*.
     const double length = turn.value.norm();
     const Vec4 unit = turn.value / length;
     const Vec4 rate = (turn.rate - unit * unit.dot(turn.rate)) / length;

@@ -7,23 +7,23 @@
 
 #include "engine/math/math.hpp"
 
-// A closed smooth way through given poses. Source: the periodic cubic spline with continuous second
-// derivatives (de Boor 1978, "A Practical Guide to Splines", chapter IV), for positions and for the
-// four numbers of the quaternion, which is made unit where it is read.
+// A smooth closed path through given poses. Source: the periodic cubic spline with continuous
+// second derivatives (de Boor 1978, "A Practical Guide to Splines", chapter IV), for positions and
+// quaternion components; the quaternion is normalised on evaluation.
 namespace handhold {
 
 inline constexpr std::size_t k_max_path_keys = 16;
 
-// A pose that the path passes through, and how fast. Made by make_pose_path.
+// A pose on the path and its rates of change. Made by make_pose_path.
 struct PathKey {
-    Pose pose;  // the quaternion's sign is that of the key before
+    Pose pose;  // the quaternion is in the hemisphere of the previous key's
     Vec3 velocity_mps = Vec3::Zero();
-    std::array<double, 4> quaternion_rate = {};  // x, y, z, w a second
+    std::array<double, 4> quaternion_rate = {};  // x, y, z, w per second
 };
 
-// Plain data: a component may hold one.
+// Plain data, usable as a component.
 struct PosePath {
-    std::array<PathKey, k_max_path_keys> keys;  // the first `count`, at equal steps of the period
+    std::array<PathKey, k_max_path_keys> keys;  // the first `count`, evenly spaced over the period
     std::uint32_t count = 0;
     double period_s = 1.0;
 };
@@ -34,18 +34,17 @@ struct PosePathState {
     Vec3 angular_velocity_radps = Vec3::Zero();
 };
 
-// Rotations between neighbours are at most this far apart: beyond, the quaternion's way would leave
-// the unit sphere too far.
+// Maximum rotation between neighbouring poses. Beyond it the interpolated quaternion strays too far
+// from the unit sphere.
 inline constexpr double k_max_path_turn_rad = 2.1;
 
-// The path that is at poses[i] at time i * period_s / count and at poses[0] again after a period.
-// Throws PreconditionError for fewer than 2 or more than k_max_path_keys poses, a pose that is not
-// valid, a period that is not above 0, or neighbours (the last and the first too) turned by more
-// than k_max_path_turn_rad against each other.
+// Path through poses[i] at time i * period_s / count, back at poses[0] after one period. Throws
+// PreconditionError for fewer than 2 or more than k_max_path_keys poses, an invalid pose, a period
+// <= 0, or neighbours (including last and first) that differ by more than k_max_path_turn_rad.
 PosePath make_pose_path(std::span<const Pose> poses, double period_s);
 
-// In closed form of the time, which may be any: nothing accumulates. Velocities are the derivative
-// of the pose. Precondition: made by make_pose_path.
+// Closed form in time; t_s may be any value. Velocities are the derivatives of the pose.
+// Precondition: `path` was made by make_pose_path.
 PosePathState evaluate(const PosePath& path, double t_s);
 
 }  // namespace handhold

@@ -4,20 +4,22 @@
 
 namespace handhold {
 
-// The way of what moves in one frame: through where it was at both ends of the last frame and is
-// now, so that a steady acceleration looks the same at any frame rate. Never back past either end.
+// Motion within one frame, interpolated quadratically through the positions at both ends of the
+// last frame and at the current one. A constant acceleration therefore looks the same at any frame
+// rate. Never overshoots an end.
 class QuadraticPath {
   public:
-    // It moved so far in span_s; before, at this rate for that long. Times > 0.
+    // `moved_m` in the last span_s seconds; before that, at before_mps for before_s seconds. Times
+    // > 0.
     QuadraticPath(const Vec3& moved_m, double span_s, const Vec3& before_mps, double before_s)
         : span_s_(span_s), rate_mps_(moved_m / span_s) {
         const Vec3 change = rate_mps_ - before_mps;
         half_acceleration_ = change / (span_s + before_s);
-        // Twice what the way leaves the straight line at its ends must not exceed the line.
-        const double most = rate_mps_.norm();
-        const double ends = half_acceleration_.norm() * span_s;
-        if (ends > most) {
-            half_acceleration_ *= most / ends;
+        // The rate at an end must not reverse: |a| span / 2 <= |rate|.
+        const double rate_norm_mps = rate_mps_.norm();
+        const double end_change_mps = half_acceleration_.norm() * span_s;
+        if (end_change_mps > rate_norm_mps) {
+            half_acceleration_ *= rate_norm_mps / end_change_mps;
         }
     }
     Vec3 at(double t_s) const {
@@ -28,7 +30,7 @@ class QuadraticPath {
   private:
     double span_s_;
     Vec3 rate_mps_;
-    Vec3 half_acceleration_;  // half the acceleration
+    Vec3 half_acceleration_;
 };
 
 }  // namespace handhold

@@ -26,7 +26,7 @@ void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
             joints = std::max(joints, joint + std::size_t{1});
         }
     }
-    HH_CHECK(joints <= input.carry.size(), "a way for each joint", input.carry.size());
+    HH_CHECK(joints <= input.carry.size(), "a transform for each joint", input.carry.size());
     positions.resize(input.positions.size());
     normals.resize(input.positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {

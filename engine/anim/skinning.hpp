@@ -7,27 +7,27 @@
 
 #include "engine/math/math.hpp"
 
-// Meshes that follow joints.
+// Linear blend skinning.
 namespace handhold {
 
-// Up to four joints carry a vertex.
+// Joints that move a vertex.
 struct SkinWeights {
     std::array<std::uint16_t, 4> joint = {};
-    std::array<float, 4> weight = {};  // not negative; their sum is 1
+    std::array<float, 4> weight = {};  // >= 0; sum is 1
 };
 
-// The joint that carries most of a vertex; of equal ones the first.
+// Joint with the largest weight; the first one of equal weights.
 std::uint16_t heaviest_joint(const SkinWeights& weights);
 
 struct SkinVerticesInput {
     std::span<const Vec3> positions;
-    std::span<const Vec3> normals;         // by vertex, unit
-    std::span<const SkinWeights> weights;  // by vertex; joints below the number of joints
-    std::span<const Affine> carry;         // by joint: from the bind to where it takes them now
+    std::span<const Vec3> normals;         // per vertex, unit
+    std::span<const SkinWeights> weights;  // per vertex; joint indices < carry.size()
+    std::span<const Affine> carry;         // per joint: from its bind pose to its current pose
 };
 
-// Linear blend skinning: each vertex goes where its joints carry it, in the mean. Sizes of the
-// outputs become those of the input; normals stay unit, and square to surfaces that are scaled.
+// Moves each vertex by the weighted mean of its joints' transforms. Resizes the outputs to the
+// input's size. Normals stay unit and perpendicular to scaled surfaces.
 void skin_vertices(const SkinVerticesInput& input, std::vector<Vec3>& positions,
                    std::vector<Vec3>& normals);
 

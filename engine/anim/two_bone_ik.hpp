@@ -7,17 +7,16 @@
 
 namespace handhold {
 
-// Where the joint between two bones lies in their plane: so far along the line from root to tip,
-// and so far aside of it, metres.
+// Position of the joint between two bones in their plane, relative to the line from root to tip.
 struct MiddleJoint {
     double along_m = 0.0;
     double aside_m = 0.0;  // >= 0
 };
 
-// `upper_m` from the root, and `lower_m` from the tip where the tip, `distance_m` away, can be
-// reached. Farther: on the line, with both bones stretched alike. Nearer than the bones'
-// difference: on the line, `upper_m` from the root. On the root: straight to the side. Lengths > 0.
-// Closed form (law of cosines); continuous in everything.
+// Places the middle joint `upper_m` from the root and, if the tip at `distance_m` can be reached,
+// `lower_m` from the tip. Too far: on the line, both bones stretched by the same factor. Nearer
+// than the difference of the bones: on the line, `upper_m` from the root. Tip on the root: straight
+// to the side. Lengths > 0. Law of cosines, closed form; continuous in all arguments.
 inline MiddleJoint middle_joint(double distance_m, double upper_m, double lower_m) {
     const double total = upper_m + lower_m;
     if (distance_m >= total) {
@@ -37,10 +36,11 @@ struct TwoBoneIk {
     double lower_m = 0.0;  // > 0
     Vec3 root = Vec3::Zero();
     Vec3 tip = Vec3::Zero();
-    Vec3 bend = Vec3::UnitY();  // unit and square to tip - root: the side to which the joint goes
+    // Unit, perpendicular to tip - root: side towards which the joint bends.
+    Vec3 bend = Vec3::UnitY();
 };
 
-// The middle joint in space.
+// Position of the middle joint.
 Vec3 solve_two_bone_ik(const TwoBoneIk& ik);
 
 }  // namespace handhold

@@ -5,10 +5,10 @@
 namespace handhold {
 
 Bounds transformed(const Bounds& bounds, const Pose& pose) {
-    const Vec3 middle = transform_point(pose, 0.5 * (bounds.low + bounds.high));
+    const Vec3 centre = transform_point(pose, 0.5 * (bounds.low + bounds.high));
     const Vec3 half =
         pose.rotation.toRotationMatrix().cwiseAbs() * (0.5 * (bounds.high - bounds.low));
-    return {middle - half, middle + half};
+    return {centre - half, centre + half};
 }
 
 namespace {
@@ -62,11 +62,12 @@ ShapeExtent part_extent(const PlacedShape& part) {
 }
 
 Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to) {
-    // Between the ends a point strays from its chord by at most the sagitta of its arc, reach *
-    // angle^2 / 8. Twice that, because a sweep's way is a chord in the other body's frame.
+    // A point on an arc of radius R and angle phi strays from its chord by at most the sagitta, R
+    // phi^2 / 8. Twice that is added, because a sweep interpolates in the other body's frame, where
+    // the motion is another arc.
     const double angle_rad = rotation_to_vector(from.rotation.conjugate() * to.rotation).norm();
-    const Bounds ends = transformed(extent.box, from).joined(transformed(extent.box, to));
-    return ends.grown(extent.radius_m * angle_rad * angle_rad / 4.0 + k_rounding_m);
+    const Bounds box = transformed(extent.box, from).joined(transformed(extent.box, to));
+    return box.grown(extent.radius_m * angle_rad * angle_rad / 4.0 + k_rounding_m);
 }
 
 }  // namespace handhold

@@ -2,11 +2,13 @@
 
 #include "engine/collision/shape_library.hpp"
 
-// Axis-aligned boxes that hold a shape on its whole way through a frame.
+// Axis-aligned bounding boxes, and swept bounds: a box around a shape over its whole motion of a
+// frame.
 namespace handhold {
 
-constexpr double k_rounding_m =
-    1e-6;  // added to bounds, so that rounding never hides a touch; far above that of 100 km
+// Added to swept bounds so that rounding never hides a contact. Far above double rounding at 100
+// km.
+constexpr double k_rounding_m = 1e-6;
 
 struct Bounds {
     Vec3 low = Vec3::Zero();
@@ -24,34 +26,36 @@ inline Bounds bounds_of(const Vec3& from, const Vec3& to) {
     return {from.cwiseMin(to), from.cwiseMax(to)};
 }
 
-// True where two boxes have a point in common.
-inline bool meet(const Bounds& a, const Bounds& b) {
+// True if the boxes share a point; touching counts.
+inline bool overlaps(const Bounds& a, const Bounds& b) {
     return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-// True where the second lies in the first.
-inline bool holds(const Bounds& outer, const Bounds& inner) {
+// True if `inner` lies within `outer`; equal faces count.
+inline bool contains(const Bounds& outer, const Bounds& inner) {
     return (outer.low.array() <= inner.low.array()).all() &&
            (inner.high.array() <= outer.high.array()).all();
 }
 
-inline Bounds common(const Bounds& a, const Bounds& b) {
+inline Bounds intersection(const Bounds& a, const Bounds& b) {
     return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)};
 }
 
-// The box about a box in another frame; `pose`: of its own.
+// Bounds, in the parent frame of `pose`, of a box that is given in the frame of `pose`.
 Bounds transformed(const Bounds& bounds, const Pose& pose);
 
-// What bounds need of a shape, found once: a mesh's takes a walk over its vertices.
+// The part of a shape that bounds need. Computed once per shape, because a mesh's takes a pass over
+// its vertices.
 struct ShapeExtent {
     Bounds box;             // in the shape's frame
-    double radius_m = 0.0;  // about its origin
+    double radius_m = 0.0;  // bounding sphere about the shape's origin
 };
 ShapeExtent shape_extent(const Shape& shape);
-// In the frame, and about the origin, of what it is a part of.
+// The same for a part of a compound: in the compound's frame, about the compound's origin.
 ShapeExtent part_extent(const PlacedShape& part);
 
-// Covers every point of the shape on the way from one pose to another.
+// Contains every point of the shape on its motion from one pose to the other (position linear,
+// rotation along the shorter arc).
 Bounds swept_bounds(const ShapeExtent& extent, const Pose& from, const Pose& to);
 
 }  // namespace handhold

@@ -13,7 +13,7 @@ btDbvtVolume to_volume(const Bounds& bounds) {
 
 bool has_shape(const ColliderProxy& proxy) { return proxy.shape != k_no_shape; }
 
-// True where the bodies are those of the proxies that have a shape, one by one.
+// True if the bodies correspond one to one to the proxies that have a shape.
 bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderProxy> proxies) {
     std::size_t next = 0;
     for (const ColliderProxy& proxy : proxies) {
@@ -24,7 +24,7 @@ bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderPro
     return next == bodies.size();
 }
 
-// Overlaps nothing and widens no node above it.
+// An inverted box: overlaps nothing and enlarges no parent node.
 btDbvtVolume empty_volume() { return to_volume({Vec3::Constant(1e30), Vec3::Constant(-1e30)}); }
 
 }  // namespace
@@ -60,19 +60,19 @@ void Broadphase::match_bodies(std::span<const ColliderProxy> proxies) {
     next_bodies_.clear();
     next_bodies_.reserve(std::max(proxies.size(), bodies_.capacity()));
     parked_.reserve(parked_.size() + bodies_.size());
-    std::size_t old = 0;
+    std::size_t previous = 0;
     for (const ColliderProxy& proxy : proxies) {
         if (!has_shape(proxy)) {
             continue;
         }
-        for (; old < bodies_.size() && bodies_[old].proxy.id < proxy.id; ++old) {
-            park(bodies_[old]);
+        for (; previous < bodies_.size() && bodies_[previous].proxy.id < proxy.id; ++previous) {
+            park(bodies_[previous]);
         }
-        const bool is_old = old < bodies_.size() && bodies_[old].proxy.id == proxy.id;
-        next_bodies_.push_back(is_old ? bodies_[old++] : BroadphaseBody{});
+        const bool is_old = previous < bodies_.size() && bodies_[previous].proxy.id == proxy.id;
+        next_bodies_.push_back(is_old ? bodies_[previous++] : BroadphaseBody{});
     }
-    for (; old < bodies_.size(); ++old) {
-        park(bodies_[old]);
+    for (; previous < bodies_.size(); ++previous) {
+        park(bodies_[previous]);
     }
     bodies_.swap(next_bodies_);
 }
@@ -87,7 +87,7 @@ void Broadphase::set_proxies(std::span<const ColliderProxy> proxies,
         if (!has_shape(proxy)) {
             continue;
         }
-        if (!same_proxy(body->proxy, proxy)) {  // a new body's id is still 0
+        if (!same_proxy(body->proxy, proxy)) {  // also true for a new body: its id is still 0
             body->proxy = proxy;
             body->stamp = ++changes_;
             place(*body, extents[proxy.shape.index]);
@@ -104,8 +104,8 @@ void Broadphase::set_isolated(std::size_t body, const Bounds& box_ws) {
     bodies_[body].isolation_ws = box_ws;
 }
 
-// The tree's shape, and so the order in which it answers, depends on its history: sorting takes
-// that out again.
+// Results are sorted, because the tree's shape, and with it the traversal order, depends on
+// history.
 std::span<const std::size_t> Broadphase::find(const Bounds& box, BroadphaseScratch& scratch) const {
     struct Collector final : btDbvt::ICollide {
         explicit Collector(std::vector<std::size_t>& list) : found(list) {}

@@ -1,6 +1,7 @@
-// Bullet finds the candidates (btDbvt over moving bounds, a quantised tree over each mesh's
-// triangles), tests rays against triangles and, in bullet_separation and bullet_manifold, measures
-// distances and clips faces. What is ours, and why: docs/decisions/, 10.
+// Implementation of CollisionWorld. Bullet provides the candidates (btDbvt over swept bounds, a
+// quantised tree over each mesh's triangles), tests rays against triangles and, in
+// bullet_separation and bullet_manifold, measures distances and clips faces. docs/decisions/, 10
+// lists what is implemented here instead, and why.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -24,15 +25,16 @@ void* counted_allocate(std::size_t size) {
     return std::malloc(size);
 }
 
-constexpr std::size_t k_usual_contacts = 16;  // of one body
+constexpr std::size_t k_usual_contacts = 16;  // initial capacity per body
 
-// Memory from before the hook is freed by the same function: Bullet's default is malloc too.
+// Memory allocated before the hook may be freed through it: Bullet's default allocator is malloc
+// too.
 void hook_allocator() {
     static std::once_flag once;
     std::call_once(once, [] { btAlignedAllocSetCustom(&counted_allocate, &std::free); });
 }
 
-// One a thread: several meet pairs of one world at the same time.
+// Per thread: several threads process pairs of one world at the same time.
 PairScratch& pair_scratch() {
     thread_local PairScratch scratch;
     return scratch;
@@ -42,10 +44,11 @@ Corners moved(const Corners& corners, const Vec3& by) {
     return {corners[0] + by, corners[1] + by, corners[2] + by};
 }
 
-// A box about a's way, larger than it must be, where b, which rests, has no triangles: what drifts
-// through a room need not ask again for a while.
-std::optional<Bounds> clear_about(const BroadphaseBody& a, const ColliderProxy& b,
-                                  const ScaledTriangles& triangles, double margin_m) {
+// A box around a's swept bounds, larger than necessary, in which the resting mesh b has no
+// triangles. While a stays in this box, the pair needs no narrowphase. nullopt if b moves or no
+// such box is found.
+std::optional<Bounds> find_clear_box(const BroadphaseBody& a, const ColliderProxy& b,
+                                     const ScaledTriangles& triangles, double margin_m) {
     constexpr std::array k_slacks_m = {k_isolation_reach_m, 0.2 * k_isolation_reach_m};
     if (!same_pose(b.from_ws, b.to_ws)) {
         return std::nullopt;
@@ -117,7 +120,7 @@ std::optional<Bounds> CollisionWorld::Impl::find_pair(const BroadphaseBody& a,
             any = any || !near.empty();
         }
         if (!any) {
-            return clear_about(a, b.proxy, *shape_b.triangles, limits.margin_m);
+            return find_clear_box(a, b.proxy, *shape_b.triangles, limits.margin_m);
         }
     }
     const std::size_t first = contacts.size();
@@ -179,7 +182,8 @@ void CollisionWorld::find_contacts(const ContactLimits& limits,
     }
     auto find = [&](std::size_t i) {
         world.found[i].clear();
-        world.found[i].reserve(k_usual_contacts);  // a body's first touches allocate nothing
+        world.found[i].reserve(
+            k_usual_contacts);  // so that a body's first contacts allocate nothing
         world.find_contacts_of(world.body_pairs[i], limits, world.found[i]);
     };
     parallel_for(world.body_pairs.size(), find);

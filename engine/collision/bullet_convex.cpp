@@ -17,7 +17,8 @@
 namespace handhold {
 namespace {
 
-// Side planes stand this far out of their face: Bullet drops an edge that lies in one.
+// Distance by which clipping planes are moved outwards: Bullet drops an edge that lies in a
+// clipping plane.
 constexpr double k_inside_m = 1e-9;
 
 template <typename Loop>
@@ -33,8 +34,8 @@ btFace make_face(const Loop& corners, const Vec3& normal, double offset_m) {
     return face;
 }
 
-// Corner i is on the positive side of axis k where bit k of i is set. Made here because Bullet's
-// own hull builder puts corners on a grid.
+// Bit k of corner index i selects the positive side of axis k. Built here because Bullet's hull
+// builder snaps corners to a grid.
 void make_box_faces(const Vec3& half, double grown_m, btConvexPolyhedron& faces) {
     const Vec3 reach = half + Vec3::Constant(grown_m);
     for (unsigned i = 0; i < 8; ++i) {
@@ -53,9 +54,9 @@ void make_box_faces(const Vec3& half, double grown_m, btConvexPolyhedron& faces)
     }
 }
 
-// The ends of a cylinder. Their rims are given as polygons of so many corners on them, 2 % of the
-// radius inside between two: contacts reach there, and the deepest point is never one of the
-// polygon's alone.
+// Cylinder ends as polygons with this many corners on the rim. Between two corners the polygon lies
+// up to 2 % of the radius inside the rim. The deepest point is added separately, so only the spread
+// of contacts is affected.
 constexpr int k_rim_corners = 16;
 
 void make_end_faces(const Barrel& barrel, double grown_m, btConvexPolyhedron& faces) {
@@ -77,15 +78,16 @@ void make_end_faces(const Barrel& barrel, double grown_m, btConvexPolyhedron& fa
     faces.m_faces.push_back(make_face(bottom, -Vec3::UnitY(), barrel.half_height_m));
 }
 
-// Growing about an inner point moves every face out by at least grown_m.
+// Scaling about an inner point moves every face outwards by at least grown_m.
 void make_hull_faces(const ConvexHull& hull, double grown_m, btConvexPolyhedron& faces) {
-    double inner_m = std::numeric_limits<double>::infinity();  // from the origin to the faces
+    // Distance from the origin to the nearest face.
+    double inradius_m = std::numeric_limits<double>::infinity();
     for (const HullFace& face : hull.faces) {
-        inner_m = std::min(inner_m, face.offset_m);
+        inradius_m = std::min(inradius_m, face.offset_m);
         faces.m_faces.push_back(make_face(face.loop, face.normal, face.offset_m));
     }
     for (const Vec3& corner : hull.corners) {
-        faces.m_vertices.push_back(to_bullet((1.0 + grown_m / inner_m) * corner));
+        faces.m_vertices.push_back(to_bullet((1.0 + grown_m / inradius_m) * corner));
     }
 }
 
@@ -136,7 +138,8 @@ void make_faces(const Shape& shape, double grown_m, btConvexPolyhedron& faces) {
     }
 }
 
-// A hull's own frame may be anywhere; its core's is inside of it.
+// A hull's origin may lie outside it, but a core must contain its origin: the core's frame is at
+// the centroid.
 Pose core_frame(const Shape& shape) {
     if (shape.kind != ShapeKind::hull) {
         return {};
@@ -170,11 +173,12 @@ Vec3 Convex::face_normal(int face) const {
 int Convex::facing(const Vec3& direction) const {
     const Vec3 local = from_bullet(to_bullet(direction) * pose_ns.getBasis());
     int best = 0;
-    double most = -std::numeric_limits<double>::infinity();
+    double best_cosine = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < faces->m_faces.size(); ++i) {
         const btScalar* plane = faces->m_faces[i].m_plane;
-        if (const double cosine = local.dot(Vec3(plane[0], plane[1], plane[2])); cosine > most) {
-            most = cosine;
+        if (const double cosine = local.dot(Vec3(plane[0], plane[1], plane[2]));
+            cosine > best_cosine) {
+            best_cosine = cosine;
             best = i;
         }
     }
@@ -189,7 +193,7 @@ std::array<Vec3, 2> Convex::side_line(const Vec3& direction) const {
     const Vec3 half = barrel->half_height_m * up;
     Vec3 out = direction - direction.dot(up) * up;
     const double length = out.norm();
-    // Straight along the axis every line is as good.
+    // `direction` parallel to the axis: all lines on the side are equivalent.
     out = length > 0.0 ? Vec3(out / length) : from_bullet(pose_ns.getBasis().getColumn(2));
     const Vec3 middle = centre_ns() + barrel->radius_m * out;
     return {middle - half, middle + half};

@@ -14,9 +14,9 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/collision/shape_library.hpp"
 
-// Convex shapes as Bullet knows them. All values of one call share one space ("near space", suffix
-// _ns): b's axes about a's place, so that figures are as good far from the origin as at it. Nothing
-// outlives a call but memory.
+// Convex shapes in Bullet's representation. All values of one call share "near space" (suffix _ns):
+// b's axes with the origin at a's position, so that precision does not depend on the distance from
+// the world's origin. Only memory outlives a call.
 namespace handhold {
 
 // The curved side of a cylinder.
@@ -25,38 +25,43 @@ struct Barrel {
     double half_height_m = 0.0;  // along local y
 };
 
-// A shape at a place: a core (point, segment, triangle, polyhedron or cylinder) grown by a radius.
+// A placed convex shape: a core (point, segment, triangle, polyhedron or cylinder) inflated by
+// radius_m.
 struct Convex {
-    const btConvexShape* shape = nullptr;        // its margin is radius_m
-    const btConvexPolyhedron* faces = nullptr;   // null: sphere, capsule; of a cylinder its ends
-    const btConvexPolyhedron* prisms = nullptr;  // faces with their side planes a nanometre out
+    const btConvexShape* shape = nullptr;       // its Bullet margin equals radius_m
+    const btConvexPolyhedron* faces = nullptr;  // null: sphere, capsule; cylinder: its two ends
+    // `faces` with side planes moved outwards by a nanometre, for clipping.
+    const btConvexPolyhedron* prisms = nullptr;
     btTransform pose_ns = btTransform::getIdentity();
     double radius_m = 0.0;
-    const Corners* corners_ns = nullptr;  // of a triangle; null otherwise
-    const Barrel* barrel = nullptr;       // of a cylinder; null otherwise
+    const Corners* corners_ns = nullptr;  // triangle: its corners; null otherwise
+    const Barrel* barrel = nullptr;       // cylinder: its curved side; null otherwise
 
-    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // inside
-    // The core's point farthest along a direction.
+    Vec3 centre_ns() const { return from_bullet(pose_ns.getOrigin()); }  // a point of the core
+    // Support point of the core: its farthest point along `direction`.
     Vec3 support(const Vec3& direction) const;
     Vec3 face_normal(int face) const;
-    // The face that looks most along a direction. Not of spheres and capsules.
+    // Index of the face whose normal is nearest to `direction`. Requires `faces`.
     int facing(const Vec3& direction) const;
-    // Along local y, unit.
+    // Local y, unit.
     Vec3 axis() const { return from_bullet(pose_ns.getBasis().getColumn(1)); }
-    // Of a sphere twice its centre, of a capsule the ends of its core, of a cylinder those of the
-    // line on its side that lies farthest along a direction. Of nothing else.
+    // The segment of a round core that supports `direction`. Sphere: the centre twice. Capsule: the
+    // ends of its core. Cylinder: the line on its curved side farthest along `direction`. Undefined
+    // for other shapes.
     std::array<Vec3, 2> side_line(const Vec3& direction) const;
 };
 
-// A shape with one convex core, made once. Its own frame is inside of it.
+// A convex shape, prepared once. Its frame's origin lies inside it.
 class ConvexShape {
   public:
-    // Neither a mesh nor a compound; a hull's corners must lie about the origin.
+    // `shape` is neither a mesh nor a compound; a hull must contain its origin.
     explicit ConvexShape(const Shape& shape);
     Convex at(const Pose& pose_ns) const;
-    // Of a sphere only: the same shape at another size, without an allocation.
+    // Spheres only: changes the radius without an allocation.
     void set_sphere_radius(double radius_m);
-    double core_reach_m() const { return core_reach_m_; }  // from the centre to the core's corners
+    double core_reach_m() const {
+        return core_reach_m_;
+    }  // from the centre to the core's farthest point
     double thinnest_half_m() const { return thinnest_half_m_; }
     double bounding_radius_m() const { return core_reach_m_ + radius_m_; }
 
@@ -70,18 +75,19 @@ class ConvexShape {
     double thinnest_half_m_ = 0.0;
 };
 
-// A convex shape where it sits in a body: a compound's part, or the whole.
+// A convex shape placed in a body: a part of a compound, or the whole body.
 class ConvexPart {
   public:
     ConvexPart(const Shape& shape, const Pose& pose_bs);
     Convex at(const Pose& body_ns) const { return shape_.at(placed(body_ns)); }
     Pose placed(const Pose& body) const { return centred_ ? body : body * pose_bs_; }
     const ConvexShape& shape() const { return shape_; }
-    // Of a sphere only: the same shape at another size, without an allocation.
+    // Spheres only: changes the radius without an allocation.
     void set_sphere_radius(double radius_m);
-    // From the body's place to the core's corners: the arm that the body's turning has.
+    // Distance from the body's origin within which the core lies: the lever arm of the body's
+    // rotation.
     double arm_m() const { return pose_bs_.position.norm() + shape_.core_reach_m(); }
-    // In the body's frame, about the body's place.
+    // In the body's frame, about the body's origin.
     const ShapeExtent& extent() const { return extent_; }
 
   private:
@@ -91,10 +97,10 @@ class ConvexPart {
     ShapeExtent extent_;
 };
 
-// All parts of a shape: one, or those of a compound. Not for meshes.
+// The convex parts of a shape: one, or those of a compound. Not for meshes.
 std::vector<ConvexPart> make_parts(const Shape& shape);
 
-// One triangle after another in the same memory; a Convex of it is good until the next is placed.
+// Reuses one Bullet shape for many triangles. The returned Convex is valid until the next place().
 class TriangleShape {
   public:
     TriangleShape();

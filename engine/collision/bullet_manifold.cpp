@@ -1,6 +1,6 @@
-// Bullet's clipping makes the points of two faces. Ours is what it lacks: two points where edges
-// lie side by side (it gives one; perturbed poses give more, up to 0.7 mm off), and the sides of
-// cylinders.
+// Face-face contacts come from Bullet's polygon clipping. Added here: two points for nearly
+// parallel edges (Bullet gives one, and its perturbed manifolds are off by up to 0.7 mm), and the
+// curved sides of cylinders.
 #include "engine/collision/bullet_manifold.hpp"
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace handhold {
 namespace {
 
-// A face counts as facing along the normal up to 5 degrees: the points are then those of the faces,
-// still on both surfaces.
+// A face counts as the supporting feature if its normal is within 5 degrees of the contact normal;
+// the contact points still lie on both surfaces.
 constexpr double k_face_cosine = 0.996;
 constexpr double k_edge_sine = 0.09;
 constexpr double k_no_limit_m = 1e30;
 
-// visit(from, to) for every edge of the core; of a round one for the line on its side that lies
-// farthest along a direction.
+// Calls visit(from, to) for every edge of the core. For a round core: for the line on its side that
+// supports `direction`.
 template <typename Visit>
 void visit_edges(const Convex& convex, const Vec3& direction, const Visit& visit) {
     if (convex.faces == nullptr || convex.barrel != nullptr) {
@@ -46,8 +46,9 @@ double facing_cosine(const Convex& convex, const Vec3& direction) {
                                    : convex.face_normal(convex.facing(direction)).dot(direction);
 }
 
-// What a core turns towards `direction`: its face, else its segment where that lies across the
-// direction, else a point. Points count twice: Bullet clips no polygon of one.
+// The supporting feature along `direction`: a face, else a segment if it is within 30 degrees of
+// perpendicular to `direction`, else a point. A point is given twice, because Bullet cannot clip a
+// polygon with one corner.
 void supporting_feature(const Convex& convex, const Vec3& direction,
                         btAlignedObjectArray<btVector3>& polygon) {
     polygon.resizeNoInitialize(0);
@@ -76,7 +77,7 @@ struct Pair {
     ClipScratch& scratch;
     std::vector<NearContact>& contacts;
 
-    // Points of the cores: the radii are added here.
+    // Takes points of the cores and adds the radii.
     void add(const Vec3& core_a, const Vec3& core_b) const {
         const double separation = normal.dot(core_a - core_b) - a.radius_m - b.radius_m;
         if (separation < margin_m) {
@@ -86,8 +87,8 @@ struct Pair {
     }
 };
 
-// visit(point, foot): the corners of the part of `body`'s feature that is over `ground`'s face, and
-// their feet on that face. `up` points from ground to body.
+// Clips the supporting feature of `body` against the face of `ground` and calls visit(point, foot)
+// for each corner left; `foot` is its projection onto the face. `up` points from ground to body.
 template <typename Visit>
 void clip(const Convex& ground, const Convex& body, const Vec3& up, ClipScratch& scratch,
           const Visit& visit) {
@@ -125,25 +126,25 @@ bool add_faces(const Pair& pair) {
     return false;
 }
 
-// The edge at the outermost vertex that lies most across `direction`; nullopt where none lies
-// across it.
+// The edge at the support vertex that is most nearly perpendicular to `direction`; nullopt if none
+// is within k_edge_sine.
 std::optional<std::array<Vec3, 2>> supporting_edge(const Convex& convex, const Vec3& direction) {
     const Vec3 outermost = convex.support(direction);
     std::optional<std::array<Vec3, 2>> best;
-    double least = k_edge_sine;
+    double lowest = k_edge_sine;
     visit_edges(convex, direction, [&](const Vec3& from, const Vec3& to) {
         const double sine = std::abs((to - from).normalized().dot(direction));
         const bool is_outermost =
             std::min((from - outermost).norm(), (to - outermost).norm()) < k_same_place_m;
-        if (is_outermost && from != to && sine < least) {
-            least = sine;
+        if (is_outermost && from != to && sine < lowest) {
+            lowest = sine;
             best = {from, to};
         }
     });
     return best;
 }
 
-// Two edges side by side hold each other at both ends of their common part.
+// Two nearly parallel edges touch at both ends of their common part.
 void add_edges(const Pair& pair) {
     const auto edge_a = supporting_edge(pair.a, -pair.normal);
     const auto edge_b = supporting_edge(pair.b, pair.normal);
@@ -170,11 +171,11 @@ void add_manifold(const Convex& a, const Convex& b, const CoreSeparation& separa
     if (!add_faces(pair)) {
         add_edges(pair);
     }
-    double least = std::numeric_limits<double>::infinity();
+    double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = first; i < contacts.size(); ++i) {
-        least = std::min(least, contacts[i].separation_m);
+        lowest = std::min(lowest, contacts[i].separation_m);
     }
-    if (separation.separation_m - a.radius_m - b.radius_m < least - k_same_place_m) {
+    if (separation.separation_m - a.radius_m - b.radius_m < lowest - k_same_place_m) {
         pair.add(separation.point_a_ns, separation.point_b_ns);
     }
 }

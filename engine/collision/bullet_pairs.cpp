@@ -1,4 +1,4 @@
-// Which pairs of colliders may touch, and what is known of them from before.
+// Pair finding: which pairs may touch, and which cached results still hold.
 #include <algorithm>
 
 #include "engine/collision/bullet_world.hpp"
@@ -6,23 +6,23 @@
 namespace handhold {
 namespace {
 
-PairCache::Seen seen(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
+PairCache::Version version_of(const BroadphaseBody& body) { return {body.proxy.id, body.stamp}; }
 
-// Of more, those that changed are found sooner through the tree.
-constexpr std::size_t k_few = 128;
+// With more changed bodies than this, a tree query is faster than testing each of them.
+constexpr std::size_t k_max_linear_changes = 128;
 
 }  // namespace
 
 bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const {
     if (b.proxy.free && a.proxy.id >= b.proxy.id) {
-        return false;  // two free bodies meet once, and none meets itself
+        return false;  // two free bodies form one pair, found from the lower id
     }
     const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
     return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
 }
 
-// What cannot touch each other any more need not be looked for: of a body that stays in its quiet
-// box only those are candidates that changed since it was found.
+// A body that stays inside its isolation box is tested only against bodies that changed since the
+// box was computed.
 void CollisionWorld::Impl::find_pairs(double margin_m) {
     body_pairs.clear();
     pairs.clear();
@@ -34,18 +34,18 @@ void CollisionWorld::Impl::find_pairs(double margin_m) {
             continue;
         }
         const Bounds reach_ws = a.bounds_ws.grown(margin_m);
-        const bool is_isolated = a.isolated_since > 0 && holds(a.isolation_ws, reach_ws);
+        const bool is_isolated = a.isolated_since > 0 && contains(a.isolation_ws, reach_ws);
         if (!is_isolated) {
             broadphase.clear_isolation(i);
         }
         const std::uint64_t since = is_isolated ? a.isolated_since : 0;
-        const bool are_few = is_isolated && changed_bodies.size() <= k_few;
+        const bool use_changed_list = is_isolated && changed_bodies.size() <= k_max_linear_changes;
         const std::span<const std::size_t> candidates =
-            are_few ? changed_bodies : broadphase.find(reach_ws, broadphase_scratch);
+            use_changed_list ? changed_bodies : broadphase.find(reach_ws, broadphase_scratch);
         const std::size_t first = pairs.size();
         for (const std::size_t other : candidates) {
             const BroadphaseBody& b = bodies[other];
-            if (b.stamp > since && meet(b.bounds_ws, reach_ws) && is_pair(a, b)) {
+            if (b.stamp > since && overlaps(b.bounds_ws, reach_ws) && is_pair(a, b)) {
                 pairs.push_back(other);
             }
         }
@@ -70,7 +70,7 @@ void CollisionWorld::Impl::find_changed_bodies() {
 }
 
 void CollisionWorld::Impl::look_up_pairs(const ContactLimits& limits) {
-    memory.begin(limits);
+    pair_cache.begin(limits);
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     pair_results.clear();
     for (const BodyPairs& of_body : body_pairs) {
@@ -78,7 +78,7 @@ void CollisionWorld::Impl::look_up_pairs(const ContactLimits& limits) {
         const Bounds reach_ws = a.bounds_ws.grown(limits.margin_m);
         for (std::size_t i = of_body.first; i < of_body.last; ++i) {
             pair_results.push_back(
-                {memory.recall(seen(a), seen(bodies[pairs[i]]), reach_ws), 0, {}});
+                {pair_cache.recall(version_of(a), version_of(bodies[pairs[i]]), reach_ws), 0, {}});
         }
     }
 }
@@ -87,8 +87,9 @@ void CollisionWorld::Impl::remember(const BodyPairs& body, std::span<const Conta
     const std::span<const BroadphaseBody> bodies = broadphase.bodies();
     std::size_t first = 0;
     for (std::size_t i = body.first; i < body.last; ++i) {
-        memory.note(seen(bodies[body.body]), seen(bodies[pairs[i]]),
-                    {contacts.subspan(first, pair_results[i].count), pair_results[i].clear_ws});
+        pair_cache.record(
+            version_of(bodies[body.body]), version_of(bodies[pairs[i]]),
+            {contacts.subspan(first, pair_results[i].count), pair_results[i].clear_ws});
         first += pair_results[i].count;
     }
 }
@@ -104,9 +105,9 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
         if (!pair_results[i].clear_ws) {
             return;
         }
-        box_ws = common(box_ws, *pair_results[i].clear_ws);
+        box_ws = intersection(box_ws, *pair_results[i].clear_ws);
     }
-    if (!holds(box_ws, a.bounds_ws.grown(margin_m))) {
+    if (!contains(box_ws, a.bounds_ws.grown(margin_m))) {
         return;
     }
     for (const std::size_t other : broadphase.find(box_ws, broadphase_scratch)) {
@@ -117,7 +118,7 @@ void CollisionWorld::Impl::cache_isolation(const BodyPairs& body, double margin_
     broadphase.set_isolated(body.body, box_ws);
 }
 
-// Of two free bodies the one with the lower id looks after both.
+// Two free bodies: the lower id is responsible for the pair.
 bool CollisionWorld::Impl::may_enter(const Bounds& box_ws, const BroadphaseBody& a,
                                      const BroadphaseBody& b) const {
     if (b.proxy.free) {

@@ -1,6 +1,6 @@
-// Bullet's GJK and EPA run on the cores, without margins: so they are exact to rounding on boxes
-// and triangles, and a radius adds exactly. Around them stands what Bullet lacks: a certificate of
-// its answer, and a normal where cores meet without a volume.
+// GJK and EPA run on the cores, without margins: results are exact to rounding on boxes and
+// triangles, and a radius can be added exactly. Bullet lacks two parts that are added here: a check
+// that its answer is optimal, and a normal for cores that intersect without volume.
 #include "engine/collision/bullet_separation.hpp"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace {
 
 constexpr double k_face_gain_m = 1e-9;
 
-// Cores that meet in a plane or a line have no least way out: any across both is as good, and this
-// one is always the same.
-Vec3 any_exit_direction(const Convex& a, const Convex& b) {
+// Exit direction for cores whose intersection has no volume (a plane or a line). Any direction
+// perpendicular to both cores has depth 0; this choice is deterministic.
+Vec3 flat_exit_direction(const Convex& a, const Convex& b) {
     if (b.corners_ns != nullptr) {
         const Vec3 normal = b.face_normal(0);
         return (a.centre_ns() - (*b.corners_ns)[0]).dot(normal) >= 0.0 ? normal : Vec3(-normal);
@@ -37,7 +37,8 @@ Vec3 any_exit_direction(const Convex& a, const Convex& b) {
     return longer.norm() > 0.0 ? Vec3(longer.unitOrthogonal()) : Vec3(Vec3::UnitY());
 }
 
-// A normal from two points that nearly meet is noise beside a face's own.
+// Replaces the normal by a face normal if the two agree within rounding: a normal computed from two
+// nearly coincident points is noise.
 void snap_to_faces(const Convex& convex, double side, CoreSeparation& result) {
     if (convex.faces == nullptr) {
         return;
@@ -49,10 +50,10 @@ void snap_to_faces(const Convex& convex, double side, CoreSeparation& result) {
     }
 }
 
-// EPA gives a wrong depth and way out where its first simplex is flat (two cubes in line: 0.7 mm
-// across an edge instead of 1 mm out of a face). The ways through faces are tried beside it.
-// `side`: the normal's direction against the faces', +1 for b's.
-void try_faces(const Convex& a, const Convex& b, double side, CoreSeparation& best) {
+// Compares the result with the exits through all faces. EPA returns a wrong depth and normal if its
+// first simplex is flat (two aligned cubes: 0.7 mm across an edge instead of 1 mm through a face).
+// `side`: +1 for the faces of b, -1 for those of a, whose normals point the other way.
+void compare_faces(const Convex& a, const Convex& b, double side, CoreSeparation& best) {
     const Convex& owner = side > 0.0 ? b : a;
     const int count = owner.faces != nullptr ? owner.faces->m_faces.size() : 0;
     for (int i = 0; i < count; ++i) {
@@ -73,18 +74,18 @@ double depth_along(const Convex& a, const Convex& b, const Vec3& normal) {
     return normal.dot(a.support(-normal) - b.support(normal));
 }
 
-enum class Search { apart, depth_and_exit };
+enum class Query { apart, depth_and_exit };
 
-bool run(Search search, const Convex& a, const Convex& b, const btVector3& guess,
+bool run(Query search, const Convex& a, const Convex& b, const btVector3& guess,
          CoreSeparation& result) {
     btGjkEpaSolver2::sResults found;
     const bool any =
-        search == Search::apart
+        search == Query::apart
             ? btGjkEpaSolver2::Distance(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found)
             : btGjkEpaSolver2::Penetration(a.shape, a.pose_ns, b.shape, b.pose_ns, guess, found,
                                            false);
     if (any) {
-        // Bullet leaves the normal in a's frame.
+        // Bullet returns the normal in a's frame.
         result.normal = from_bullet(a.pose_ns.getBasis() * found.normal).normalized();
         result.separation_m = found.distance;
         result.point_a_ns = from_bullet(found.witnesses[0]);
@@ -95,24 +96,25 @@ bool run(Search search, const Convex& a, const Convex& b, const btVector3& guess
     return any;
 }
 
-// A start for a search that stopped early: another octant each time.
+// Another start direction for a search that stopped early: another octant for each attempt.
 btVector3 other_guess(int attempt) {
     return {(attempt & 1) != 0 ? 0.9 : -0.8, (attempt & 2) != 0 ? 0.7 : -1.0,
             (attempt & 4) != 0 ? 1.0 : -0.6};
 }
 
-// An answer is whole where no point of the cores lies between the planes across its normal. That
-// Bullet stops early was measured in 1 of 5000 pairs, up to 30 cm off: it then starts again
-// elsewhere, and the best of all answers counts. False where the cores meet, or have no volume.
-bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess,
-                CoreSeparation& best) {
+// Runs GJK or EPA until the answer is optimal: no point of either core lies between the planes
+// through the two points, perpendicular to the normal. Bullet stops early in about 1 of 5000 pairs,
+// with errors up to 30 cm; then the search restarts in another direction and the best answer is
+// kept. False if the cores touch (search `apart`) or the intersection has no volume.
+bool search_until_optimal(Query search, const Convex& a, const Convex& b, btVector3 guess,
+                          CoreSeparation& best) {
     constexpr int k_attempts = 8;
     bool any = false;
     for (int attempt = 0; attempt < k_attempts; ++attempt) {
         CoreSeparation result;
         if (run(search, a, b, guess, result)) {
             const double along_m = depth_along(a, b, result.normal);
-            // Two points that nearly meet leave noise in the normal.
+            // Noise of a normal from nearly coincident points.
             const double noise_m = 1e-9 + 1e-14 / std::max(std::abs(result.separation_m), 1e-13);
             if (std::abs(along_m - result.separation_m) < noise_m) {
                 best = result;
@@ -123,7 +125,7 @@ bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess
                 best = result;
             }
             any = true;
-        } else if (search == Search::apart && !any) {
+        } else if (search == Query::apart && !any) {
             return false;
         }
         guess = other_guess(attempt);
@@ -134,21 +136,22 @@ bool find_whole(Search search, const Convex& a, const Convex& b, btVector3 guess
 }  // namespace
 
 CoreSeparation separate(const Convex& a, const Convex& b) {
-    const Vec3 fallback = any_exit_direction(a, b);
+    const Vec3 fallback = flat_exit_direction(a, b);
     const btVector3 guess =
-        -(to_bullet(fallback) * a.pose_ns.getBasis());  // where EPA has no volume: its answer
+        -(to_bullet(fallback) *
+          a.pose_ns.getBasis());  // also EPA's answer for an intersection without volume
     CoreSeparation result;
-    if (find_whole(Search::apart, a, b, guess, result) && result.separation_m > 0.0) {
+    if (search_until_optimal(Query::apart, a, b, guess, result) && result.separation_m > 0.0) {
         return result;
     }
-    if (!find_whole(Search::depth_and_exit, a, b, guess, result)) {
+    if (!search_until_optimal(Query::depth_and_exit, a, b, guess, result)) {
         result.normal = fallback;
         result.separation_m = depth_along(a, b, fallback);
         result.point_a_ns = result.point_b_ns = a.support(-fallback);
     }
     result.overlap = true;
-    try_faces(a, b, 1.0, result);
-    try_faces(a, b, -1.0, result);
+    compare_faces(a, b, 1.0, result);
+    compare_faces(a, b, -1.0, result);
     return result;
 }
 

@@ -2,16 +2,17 @@
 
 #include "engine/collision/bullet_convex.hpp"
 
-// The distance of convex cores by Bullet's GJK and EPA.
+// Signed distance of two convex cores, by Bullet's GJK and EPA.
 namespace handhold {
 
-// How far two cores are apart, radii left out.
+// Signed distance of two cores; radii are not included.
 struct CoreSeparation {
-    Vec3 normal = Vec3::UnitY();  // unit, from b towards a: along the shortest way between the
-                                  // cores, or out of b where they overlap
-    double separation_m =
-        0.0;  // negative: the least way along which a core must move to be free of the other
-    Vec3 point_a_ns = Vec3::Zero();  // a pair of points of the cores that are this far apart
+    // Unit, from b towards a: along the shortest connection, or along the shortest exit from b if
+    // the cores overlap.
+    Vec3 normal = Vec3::UnitY();
+    // Negative: penetration depth, the shortest translation that separates the cores.
+    double separation_m = 0.0;
+    Vec3 point_a_ns = Vec3::Zero();  // closest (or deepest) pair of points
     Vec3 point_b_ns = Vec3::Zero();
     bool overlap = false;
 };

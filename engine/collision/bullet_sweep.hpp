@@ -5,12 +5,11 @@
 
 #include "engine/collision/bullet_separation.hpp"
 
-// When a moving convex shape first touches a resting one.
-// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative
-// advancement).
+// Time of impact of a moving convex shape with a resting one, by conservative advancement.
+// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996.
 namespace handhold {
 
-// The way of a relative to b, in near space; its place goes along a line, its rotation along the
+// Motion of a relative to b over a frame, in near space: position linear, rotation along the
 // shorter arc.
 class RelativeMotion {
   public:
@@ -18,11 +17,12 @@ class RelativeMotion {
 
     Pose at(double fraction) const;
     const Vec3& from_ns() const { return from_.position; }
-    const Vec3& move() const { return move_; }  // of the centre, over the whole way
+    const Vec3& move() const { return move_; }  // displacement of a's origin over the whole motion
     const Vec3& turn_rad() const {
         return turn_;
-    }  // rotation vector over the whole way, in near space
-    // Velocity, over the whole way, of the point of a that is at `point` at that fraction of it.
+        // Rotation vector over the whole motion, in near space.
+    }
+    // Velocity (per whole motion) of the material point of a that is at `point_ns` at `fraction`.
     Vec3 velocity_at(const Vec3& point_ns, double fraction) const;
 
   private:
@@ -33,29 +33,31 @@ class RelativeMotion {
 };
 
 struct Impact {
-    double fraction = 0.0;           // of the way, in [0, 1]
+    double fraction = 0.0;           // of the motion, in [0, 1]
     Vec3 normal = Vec3::UnitY();     // unit, from b towards a
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
-    std::uint32_t part = 0;          // of a; whoever asks about several writes it
+    std::uint32_t part = 0;          // index of a's part; written by the caller
 };
 
-// How far a part of what moves is known to go without touching a resting shape.
+// State of one conservative advancement: how far a part is known to move without touching a resting
+// shape.
 struct Approach {
     double fraction = 0.0;
-    Impact impact;  // of the last search for what keeps them apart; where they touch: the touch
-    double gap_m = 0.0;  // then
+    Impact impact;       // from the last separation query; at a touch, the contact
+    double gap_m = 0.0;  // separation at that query
     int steps = 0;
 };
 enum class ApproachState : std::uint8_t { continues, touches, misses };
-// The first step, cheap, and the others, each from the last one's fraction to one that no point of
-// a can outrun: many shapes are so met at a time, whichever is nearest first. `limit` as below.
+// begin_approach is a cheap first step; advance moves on to a fraction that no point of a can
+// overshoot. Callers advance whichever of many shapes is nearest. nullopt: never touches before
+// `limit`, a fraction of the motion.
 std::optional<Approach> begin_approach(const ConvexPart& a, const RelativeMotion& motion,
                                        const Convex& b, double limit);
 ApproachState advance(const ConvexPart& a, const RelativeMotion& motion, const Convex& b,
                       double limit, Approach& approach);
 
-// First fraction of the way at which a, a part of what moves, is within a micrometre of b, or
-// nullopt where it is not before `limit`. A start in touch is an impact at 0.
+// First fraction of the motion at which part a comes within a micrometre of b; nullopt if that does
+// not happen before `limit`. If they touch at the start: fraction 0.
 std::optional<Impact> time_of_impact(const ConvexPart& a, const RelativeMotion& motion,
                                      const Convex& b, double limit);
 

@@ -11,14 +11,14 @@
 namespace handhold {
 namespace {
 
-// True where the segment comes into the box; rounding may say so beside it.
+// True if the segment enters the box; conservative by rounding.
 bool segment_meets(const Bounds& box, const Vec3& from, const Vec3& inverse_displacement) {
     constexpr double k_rounding = 1e-12;
     double enter = 0.0;
     double leave = 1.0;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(inverse_displacement[axis])) {
-            continue;  // it stays between the two sides, or the walk would not have come here
+            continue;  // parallel to the slab: the traversal has tested this axis already
         }
         const double near = (box.low[axis] - from[axis]) * inverse_displacement[axis];
         const double far = (box.high[axis] - from[axis]) * inverse_displacement[axis];
@@ -81,7 +81,7 @@ std::optional<LocalRayHit> ScaledTriangles::cast_ray(const Vec3& from, const Vec
         std::optional<LocalRayHit> hit;
     };
     Nearest nearest(to_bullet(from), to_bullet(to));
-    // The tree knows the mesh at its own scale, where a ray's fractions are the same.
+    // The tree stores the unscaled mesh. Scaling does not change a ray's fractions.
     const Bounds along = unscaled(bounds_of(from, to));
     const Vec3 start = from.cwiseProduct(inverse_scale_);
     const Vec3 inverse_displacement = (to - from).cwiseProduct(inverse_scale_).cwiseInverse();
@@ -95,7 +95,7 @@ std::optional<LocalRayHit> ScaledTriangles::cast_ray(const Vec3& from, const Vec
     return nearest.hit;
 }
 
-// Boxes grow about the point until one holds a triangle that is nearer than its side.
+// Searches boxes of doubling size until one contains a triangle nearer than the box's half size.
 std::optional<LocalSurfacePoint> ScaledTriangles::closest_point(const Vec3& point,
                                                                 double max_distance_m) const {
     std::optional<LocalSurfacePoint> best;

@@ -14,12 +14,12 @@
 
 class btBvhTriangleMeshShape;
 
-// The triangles of a mesh, found by box or ray through Bullet's quantised tree. Bullet builds the
-// tree; its walks count their steps in a global, so that two threads could not take one at a time:
-// the walk here writes nothing.
+// Triangles of a mesh by box or ray, through Bullet's quantised BVH. The tree is Bullet's, the
+// traversal is not: Bullet counts traversal steps in a global, which is a data race. This traversal
+// writes nothing.
 namespace handhold {
 
-// The tree of one mesh at its own scale. Refers to the mesh and holds no copy of it.
+// BVH of one mesh at its own scale. Refers to the mesh, which must outlive it.
 class TriangleTree {
   public:
     explicit TriangleTree(const Mesh& mesh);
@@ -27,14 +27,14 @@ class TriangleTree {
     TriangleTree(const TriangleTree&) = delete;
     TriangleTree& operator=(const TriangleTree&) = delete;
 
-    // A box as the tree's nodes have it.
+    // A box in the tree's quantised coordinates.
     struct NodeBox {
         std::array<unsigned short, 3> low;
         std::array<unsigned short, 3> high;
     };
 
-    // visit(triangle's number) for at least every triangle whose bounds meet the box and whose
-    // nodes' boxes `enters(box)` all let through; always in the same order, neighbours together.
+    // Calls visit(triangle index) for at least every triangle whose bounds overlap `box` and whose
+    // ancestors' boxes all pass enters(box). The order is fixed and keeps neighbours together.
     template <typename Enters, typename Visit>
     void walk(const Bounds& box, const Enters& enters, const Visit& visit) const {
         const int count = nodes_->isLeafNode() ? 1 : nodes_->getEscapeIndex();
@@ -71,31 +71,31 @@ class TriangleTree {
     const Mesh& mesh_;
     btTriangleIndexVertexArray parts_;
     std::unique_ptr<btBvhTriangleMeshShape> shape_;
-    const btQuantizedBvh* tree_ = nullptr;       // shape_'s
-    const btQuantizedBvhNode* nodes_ = nullptr;  // tree_'s
-    Vec3 low_;                                   // of the grid that the nodes' boxes are on
+    const btQuantizedBvh* tree_ = nullptr;       // owned by shape_
+    const btQuantizedBvhNode* nodes_ = nullptr;  // owned by tree_
+    Vec3 low_;                                   // origin and step of the quantisation grid
     Vec3 step_;
 };
 
-// A tree's triangles stretched along the mesh's axes: many bodies share one tree. Nothing is
-// scaled but what a query finds.
+// A tree's triangles scaled along the mesh's axes, so that many bodies share one tree. Only the
+// triangles that a query finds are scaled.
 class ScaledTriangles {
   public:
-    // Scale factors > 0.
+    // Scale factors are > 0.
     ScaledTriangles(std::shared_ptr<const TriangleTree> tree, const Vec3& scale);
 
-    // visit(corners) for at least every triangle whose bounds meet the box.
+    // Calls visit(corners) for at least every triangle whose bounds overlap the box.
     template <typename Visit>
     void visit_box(const Bounds& box, const Visit& visit) const {
         tree_->walk(
             unscaled(box), [](const Bounds&) { return true; },
             [&](std::size_t triangle) { visit(corners(triangle)); });
     }
-    // False only where no triangle's bounds meet the box.
+    // False only if no triangle's bounds overlap the box.
     bool may_meet(const Bounds& box) const;
-    // First triangle on the way, from either side.
+    // First triangle hit on the segment, from either side.
     std::optional<LocalRayHit> cast_ray(const Vec3& from, const Vec3& to) const;
-    // Nearest point within max_distance_m.
+    // Nearest point within max_distance_m; nullopt if none.
     std::optional<LocalSurfacePoint> closest_point(const Vec3& point, double max_distance_m) const;
 
   private:

@@ -4,7 +4,7 @@
 
 #include "engine/math/math.hpp"
 
-// Our vectors and poses as Bullet's, and back.
+// Conversions between Handhold's and Bullet's vectors and poses.
 namespace handhold {
 
 inline btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }

@@ -5,24 +5,24 @@
 #include "engine/collision/pair_cache.hpp"
 #include "engine/collision/pair_contact.hpp"
 
-// What a CollisionWorld holds.
+// Private data of CollisionWorld.
 namespace handhold {
 
-// One of the two is there.
+// Exactly one of the two members is set.
 struct CollisionShape {
-    std::optional<ScaledTriangles> triangles;  // of a mesh
-    std::vector<ConvexPart> parts;             // of anything else
+    std::optional<ScaledTriangles> triangles;  // meshes
+    std::vector<ConvexPart> parts;             // all other shapes
 };
 
-// A free body and those that it may touch: a range of Impl::pairs.
+// A free body and its potential partners: a range of Impl::pairs.
 struct BodyPairs {
     std::size_t body = 0;
     std::size_t first = 0;
     std::size_t last = 0;
-    bool is_isolated = false;  // it is where all but these have nothing
+    bool is_isolated = false;  // inside its isolation box: only the partners listed need a test
 };
 
-// How far about a body at most it is noted that nothing is there.
+// Largest distance around a body's bounds at which an empty region is cached.
 constexpr double k_isolation_reach_m = 0.3;
 
 struct CollisionWorld::Impl {
@@ -32,40 +32,42 @@ struct CollisionWorld::Impl {
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
     // Fills body_pairs and pairs.
     void find_pairs(double margin_m);
-    // Fills restless.
+    // Fills changed_bodies.
     void find_changed_bodies();
-    // Where none of the body's pairs is near: a box about it in which nothing is, if there is one.
+    // If no partner of the body is near: caches a box around it that no partner reaches into.
     void cache_isolation(const BodyPairs& body, double margin_m);
     bool may_enter(const Bounds& box_ws, const BroadphaseBody& a, const BroadphaseBody& b) const;
-    // The pair's contacts; a box about a's way in which b has nothing, where that is easily seen.
+    // Appends the pair's contacts. Returns a box around a's swept bounds that b does not reach
+    // into, if one is known.
     std::optional<Bounds> find_pair(const BroadphaseBody& a, const BroadphaseBody& b,
                                     const ContactLimits& limits,
                                     std::vector<ContactPoint>& contacts) const;
-    // Asks the memory for every pair: what it has need not be met.
+    // Looks up every pair in the cache: a hit needs no narrowphase.
     void look_up_pairs(const ContactLimits& limits);
     void find_contacts_of(const BodyPairs& body, const ContactLimits& limits,
                           std::vector<ContactPoint>& contacts);
     void remember(const BodyPairs& body, std::span<const ContactPoint> contacts);
 
     const ShapeLibrary& shapes;
-    std::vector<CollisionShape> cache;  // by shape
-    std::vector<ShapeExtent> extents;   // by shape
+    std::vector<CollisionShape> cache;  // by shape index
+    std::vector<ShapeExtent> extents;   // by shape index
     Broadphase broadphase;
     std::vector<IgnoredPair> ignored;
-    // Of find_contacts.
+    // Scratch of find_contacts.
     BroadphaseScratch broadphase_scratch;
     std::vector<std::size_t>
-        changed_bodies;                 // numbers of bodies that changed since some box was noted
-    std::vector<BodyPairs> body_pairs;  // by rising id of a
-    std::vector<std::size_t> pairs;     // numbers of the bodies b
-    std::vector<std::vector<ContactPoint>> found;  // by body_pairs: threads share the work
+        changed_bodies;                 // bodies changed since the oldest cached isolation box
+    std::vector<BodyPairs> body_pairs;  // ascending by id of a
+    std::vector<std::size_t> pairs;     // indices of the bodies b
+    std::vector<std::vector<ContactPoint>>
+        found;  // one list per body_pairs entry: threads share the work
     struct PairResult {
-        std::optional<PairCache::Known> cached;
-        std::size_t count = 0;  // contacts of the pair
+        std::optional<PairCache::Result> cached;
+        std::size_t count = 0;  // number of contacts
         std::optional<Bounds> clear_ws;
     };
-    std::vector<PairResult> pair_results;  // by pairs
-    PairCache memory;
+    std::vector<PairResult> pair_results;  // parallel to pairs
+    PairCache pair_cache;
 };
 
 }  // namespace handhold

@@ -1,5 +1,5 @@
-// Rays, spheres and points against all colliders. Nothing of the world is written: each thread has
-// its own scratch.
+// Ray, sphere and point queries against all colliders. The world is only read; each thread has its
+// own scratch.
 #include <algorithm>
 #include <limits>
 
@@ -10,11 +10,10 @@
 namespace handhold {
 namespace {
 
-// What a query needs and keeps nothing in. One a thread, and not one a call, so that a query
-// allocates nothing once its thread is warm.
+// Scratch per thread, not per call, so that queries allocate nothing once a thread is warm.
 struct QueryScratch {
     BroadphaseScratch near;
-    ConvexPart sphere{Shape{}, Pose{}};  // of cast_sphere
+    ConvexPart sphere{Shape{}, Pose{}};  // for cast_sphere
     TriangleShape triangle;
 };
 
@@ -27,7 +26,7 @@ bool contains(std::span<const std::uint64_t> ids, std::uint64_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// visit(proxy) for the bodies that may meet the box, by rising id.
+// Calls visit(proxy) for bodies whose bounds overlap the box, ascending by id.
 template <typename Visit>
 void visit_bodies(const Broadphase& broadphase, const Bounds& box,
                   std::span<const std::uint64_t> skip, const Visit& visit) {
@@ -43,7 +42,7 @@ void visit_bodies(const Broadphase& broadphase, const Bounds& box,
 
 std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                                std::span<const std::uint64_t> skip) const {
-    const Vec3 way_ws = to_ws - from_ws;
+    const Vec3 displacement_ws = to_ws - from_ws;
     double fraction = std::numeric_limits<double>::infinity();
     std::optional<RayHit> best;
     const auto cast = [&](const ColliderProxy& proxy) {
@@ -54,9 +53,9 @@ std::optional<RayHit> CollisionWorld::cast_ray(const Vec3& from_ws, const Vec3& 
             if (hit && hit->fraction < fraction) {
                 fraction = hit->fraction;
                 const double side = hit->normal.dot(to - from) <= 0.0 ? 1.0 : -1.0;
-                best =
-                    RayHit{proxy.id, from_ws + fraction * way_ws,
-                           proxy.to_ws.rotation * (side * hit->normal), fraction * way_ws.norm()};
+                best = RayHit{proxy.id, from_ws + fraction * displacement_ws,
+                              proxy.to_ws.rotation * (side * hit->normal),
+                              fraction * displacement_ws.norm()};
             }
         };
         offer(triangles ? triangles->cast_ray(from, to)
@@ -77,8 +76,8 @@ std::optional<RayHit> CollisionWorld::cast_sphere(double radius_m, const Vec3& f
     std::optional<RayHit> best;
     const auto cast = [&](const ColliderProxy& proxy) {
         const CollisionShape& shape = impl_->cache[proxy.shape.index];
-        const Vec3 from =
-            inverse_transform_point(proxy.to_ws, from_ws);  // near space lies about it here
+        // Near space lies about it here.
+        const Vec3 from = inverse_transform_point(proxy.to_ws, from_ws);
         const Vec3 along = inverse_transform_point(proxy.to_ws, to_ws) - from;
         const RelativeMotion motion({}, {along, Quat::Identity()});
         const auto offer = [&](const Convex& b) {

@@ -5,10 +5,10 @@
 namespace handhold {
 namespace {
 
-// Below this share of its longest edge, squared, a triangle's area is rounding.
+// A triangle with an area below this times its longest edge squared counts as degenerate.
 constexpr double k_no_area = 1e-13;
 
-// Parameter in [0, 1] of the point on a segment that is closest to `point`.
+// Parameter in [0, 1] of the closest point on a segment.
 double segment_parameter(const Vec3& point, const Vec3& from, const Vec3& direction) {
     const double squared = direction.squaredNorm();
     return squared > 0.0 ? std::clamp((point - from).dot(direction) / squared, 0.0, 1.0) : 0.0;
@@ -30,8 +30,9 @@ Vec3 closest_on_segment(const Vec3& point, const Vec3& from, const Vec3& to) {
 }
 
 Vec3 closest_on_triangle(const Vec3& point, const Corners& corners) {
-    // Inside of all three edges: the foot on the plane. Else the nearest of the edges: slower than
-    // walking the Voronoi regions, but no division by a sliver's area decides where the point is.
+    // If the projection is inside all three edges, the projection is the answer; else the nearest
+    // point of the edges. Slower than classifying Voronoi regions, but nothing is divided by the
+    // area of a sliver to decide the region.
     const Vec3 area = area_vector(corners);
     const double squared_area = area.squaredNorm();
     bool inside = squared_area > 0.0;
@@ -66,7 +67,8 @@ std::pair<Vec3, Vec3> closest_between_segments(const std::array<Vec3, 2>& a,
         on_a = std::clamp((offset.dot(along_a) * bb - offset.dot(along_b) * ab) / determinant, 0.0,
                           1.0);
     }
-    // Once round settles every case: b for a's point, then a for b's.
+    // One alternation is enough: the point of b closest to a's point, then the point of a closest
+    // to that.
     const double on_b = segment_parameter(a[0] + on_a * along_a, b[0], along_b);
     const Vec3 point_b = b[0] + on_b * along_b;
     on_a = segment_parameter(point_b, a[0], along_a);

@@ -9,128 +9,125 @@
 #include "engine/collision/shape_library.hpp"
 #include "engine/math/math.hpp"
 
-// Broadphase, narrowphase and queries behind one interface without a type of the library that does
-// them (Bullet).
+// Broadphase, narrowphase and queries, behind an interface without types of the underlying library
+// (Bullet).
 namespace handhold {
 
-// One collider for the length of one call to find_contacts: where it was when it last touched
-// nothing wrongly, and where it is.
+// One collider as find_contacts and the queries see it.
 struct ColliderProxy {
-    std::uint64_t id = 0;  // persistent id; unique among proxies, not 0
-    ShapeId shape;         // k_no_shape: passed over
-    Pose from_ws;          // last valid pose
-    Pose to_ws;  // present pose: contacts are found here, or where the way from from_ws first meets
-                 // something
-    bool free = false;  // two colliders that are both not free never make contacts
+    std::uint64_t id = 0;  // persistent; unique among proxies, not 0
+    ShapeId shape;         // k_no_shape: the proxy is ignored
+    Pose from_ws;          // last valid (penetration-free) pose: the start of sweeps
+    // Current pose. Contacts are computed here, or at the first impact on the motion from from_ws.
+    Pose to_ws;
+    bool free = false;  // two non-free colliders never make contacts
 };
-// Bit for bit, both.
+// Bitwise equal.
 inline bool same_pose(const Pose& x, const Pose& y) {
     return x.position == y.position && x.rotation.coeffs() == y.rotation.coeffs();
 }
-// True where a pair of them meets as it did.
+// True if replacing one by the other cannot change a contact.
 inline bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
     return a.id == b.id && a.shape == b.shape && a.free == b.free &&
            same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
 }
 
-// A pair of colliders that must not touch each other's bodies: a held rock and its holder's head.
+// A pair of colliders that makes no contacts, e.g. two bodies connected by a joint.
 struct IgnoredPair {
     std::uint64_t id_a = 0;  // id_a < id_b
     std::uint64_t id_b = 0;
     friend auto operator<=>(const IgnoredPair&, const IgnoredPair&) = default;
 };
 
-// One point where two colliders touch or nearly do. Only local data: the separation follows the
-// bodies as separation = normal_ws . (point_a_ws - point_b_ws), negative where they overlap.
+// A contact point of two colliders. Bodies that move rigidly update it by separation = normal_ws .
+// (point_a_ws - point_b_ws); negative: penetration.
 struct ContactPoint {
     std::uint64_t id_a = 0;  // always a free collider
-    std::uint64_t id_b =
-        0;  // the one whose frame holds the normal; where both are free id_a < id_b
+    // The normal is stored in this body's frame. Two free colliders: id_a < id_b.
+    std::uint64_t id_b = 0;
     Vec3 point_a_bs = Vec3::Zero();    // on a's surface, in a's frame
     Vec3 point_b_bs = Vec3::Zero();    // on b's surface, in b's frame
     Vec3 normal_b_bs = Vec3::UnitY();  // unit, from b towards a, in b's frame
-    double separation_m = 0.0;         // at a's and b's to_ws
-    std::uint32_t feature =
-        0;  // rank within the pair, by the point's place: stable for equal input
+    double separation_m = 0.0;         // with both colliders at to_ws
+    // Rank within the pair, ordered by position: the same for equal input.
+    std::uint32_t feature = 0;
 };
 
 struct ContactLimits {
-    double margin_m = 0.02;  // contacts farther apart than this are left out; > 0
-    double sweep_m =
-        0.005;  // colliders that moved farther than this against each other are swept; > 0
+    double margin_m = 0.02;  // contacts with a larger separation are dropped; > 0
+    // Pairs whose relative displacement exceeds this are swept; > 0.
+    double sweep_m = 0.005;
 };
 
 struct RayHit {
     std::uint64_t id = 0;
     Vec3 point_ws = Vec3::Zero();
-    Vec3 normal_ws =
-        Vec3::UnitY();  // unit, towards the side the ray came from, whatever the triangle's winding
+    // Unit, towards the side that the ray came from, whatever the triangle's winding.
+    Vec3 normal_ws = Vec3::UnitY();
     double distance_m = 0.0;  // from the ray's start
 };
 
 struct SurfacePoint {
     std::uint64_t id = 0;
     Vec3 point_ws = Vec3::Zero();
-    Vec3 normal_ws = Vec3::UnitY();  // unit, from the surface point towards the query point
-                                     // (outward where they meet)
-    double distance_m = 0.0;         // 0 inside of a solid; point_ws is on the surface there too
+    // Unit, from the surface point towards the query point; outward if the two coincide or the
+    // query point is inside.
+    Vec3 normal_ws = Vec3::UnitY();
+    double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
-// A cache over proxies, not state: a new one that is given the same proxies answers the same, bit
-// for bit. The const queries may run on any number of threads at the same time; nothing else beside
-// them or itself.
+// The collision state of a set of proxies. A cache, not simulation state: a new world given the
+// same proxies gives bitwise the same answers. The const queries are thread-safe; no other member
+// may run beside any call.
 class CollisionWorld {
   public:
-    // Builds the acceleration structure of every mesh. `shapes` must outlive the world and not
-    // change.
+    // Builds the BVH of every mesh. `shapes` must outlive the world and not change.
     explicit CollisionWorld(const ShapeLibrary& shapes);
     ~CollisionWorld();
     CollisionWorld(const CollisionWorld&) = delete;
     CollisionWorld& operator=(const CollisionWorld&) = delete;
 
-    // Replaces all proxies: sorted by id, ids unique, meshes not free (PreconditionError
-    // otherwise). One whose poses are not valid (is_valid) takes no part until they are. What did
-    // not change costs nothing but the comparison. No allocation once the largest number of proxies
-    // has been seen.
+    // Replaces all proxies. They must be sorted by unique id, and meshes must not be free
+    // (PreconditionError). A proxy with an invalid pose (is_valid) is ignored until its poses are
+    // valid. An unchanged proxy costs only a comparison. No allocation once the largest number of
+    // proxies has been seen.
     void set_proxies(std::span<const ColliderProxy> proxies);
-    // Replaces the pairs that make no contacts; sorted.
+    // Replaces the ignored pairs. `pairs` must be sorted.
     void set_ignored_pairs(std::span<const IgnoredPair> pairs);
 
-    // Contacts between all pairs with at least one free collider. Nothing of an earlier call shows:
-    // what did not move since the last call has, bit for bit, the contacts it would have in a new
-    // world. Replaces `contacts`; sorted by (id_a, id_b, feature). The
-    // bodies are shared out over the threads of parallel_for: the contacts do not depend on how
-    // many.
+    // Computes the contacts of all pairs with at least one free collider. Replaces `contacts`;
+    // sorted by (id_a, id_b, feature). The result does not depend on earlier calls (cached pairs
+    // are bitwise equal to recomputed ones) or on the number of threads of parallel_for, over which
+    // the bodies are distributed.
     //
-    // A pair that moved less than limits.sweep_m against each other is met at to_ws. Else a's way,
-    // relative to b, is swept from from_ws to to_ws, and the contacts are those at the place of
-    // first touch of any of their parts. A touch that leaves a no deeper at the end than a tenth of
-    // sweep_m, or of the thinner body's least half extent, is no stop: what slides along a floor
-    // still meets the wall.
+    // Sweeps: a pair whose relative displacement is below limits.sweep_m is evaluated at to_ws.
+    // Otherwise a's motion relative to b is swept from from_ws to to_ws, and the contacts are those
+    // at the first impact of any of the parts. An impact is ignored if, by the end of the motion, a
+    // would be deeper by less than a tenth of sweep_m or of the thinner body's smallest half
+    // extent: a body that slides along a floor still reaches the wall.
     //
-    // Walls have no inside: where a's centre went through a mesh between from_ws and to_ws
-    // (relative to b), the normals face the side it came from and depth is measured to that side.
-    // Elsewhere they face a's centre. Winding never matters. Of a compound each part has its own
-    // centre.
+    // Meshes: surfaces are two-sided; winding is ignored. Normals face a's centre, unless a's
+    // centre crossed the mesh between from_ws and to_ws (relative to b): then they face the side it
+    // came from, and depth is measured to that side. Each part of a compound has its own centre.
     //
-    // Separations are exact where the bodies are apart, and along the least way out where they
-    // overlap. Of many points with one normal only the corners of their outline, at most 8, and the
-    // deepest are given.
+    // Separations are exact for disjoint bodies and along the shortest exit for overlapping ones.
+    // Contacts that share a normal are reduced to the corners of their outline, at most 8, and the
+    // deepest.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
-    // First surface on the way between two points of the world, from outside or inside, colliders
-    // at to_ws; those with ids in `skip` are passed through.
+    // First surface hit on the segment, from outside or inside. Colliders are at to_ws. Ids in
+    // `skip` are passed through.
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                    std::span<const std::uint64_t> skip = {}) const;
-    // First touch of a sphere moved along a line; distance_m is that of its centre from the start,
-    // 0 where it starts in touch.
+    // First impact of a sphere moving along a segment. distance_m is that of its centre from the
+    // start; 0 if it touches at the start.
     std::optional<RayHit> cast_sphere(double radius_m, const Vec3& from_ws, const Vec3& to_ws,
                                       std::span<const std::uint64_t> skip = {}) const;
-    // Nearest point on any surface within max_distance_m of the point. Exact on triangles (double
-    // precision, closed form).
+    // Nearest surface point within max_distance_m. Exact on triangles (double precision, closed
+    // form).
     std::optional<SurfacePoint> closest_point(const Vec3& point_ws, double max_distance_m,
                                               std::span<const std::uint64_t> skip = {}) const;
-    // The same on the collider with this id alone, however far it is; none where there is none.
+    // The same for the collider `id` alone, at any distance; nullopt if there is no such collider.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
   private:
@@ -138,8 +135,8 @@ class CollisionWorld {
     std::unique_ptr<Impl> impl_;
 };
 
-// The collision library's allocations since the process began (its allocator is hooked when the
-// first world is made): for tests that count them.
+// Number of allocations by the collision library since the process began, for tests. Its allocator
+// is hooked when the first world is created.
 std::uint64_t collision_allocation_count();
 
 }  // namespace handhold

@@ -1,5 +1,6 @@
-// Bullet's persistent manifold keeps four points by their order of arrival and merges those nearer
-// than its breaking threshold (2 cm): over many triangles the corners of a face would get lost.
+// Not Bullet's persistent manifold: it keeps four points, chosen by order of arrival, and merges
+// points within its breaking threshold (2 cm). The corners of a face that rests on many triangles
+// would be lost.
 #include "engine/collision/contact_outline.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace handhold {
 namespace {
 
-bool place_less(const NearContact& a, const NearContact& b) {
+bool position_less(const NearContact& a, const NearContact& b) {
     const auto key = [](const NearContact& c) {
         return std::array<double, 7>{c.point_b_ns.x(), c.point_b_ns.y(), c.point_b_ns.z(),
                                      c.separation_m,   c.normal_ns.x(),  c.normal_ns.y(),
@@ -22,7 +23,7 @@ bool place_less(const NearContact& a, const NearContact& b) {
 
 constexpr double k_same_normal_cosine = 1.0 - 1e-7;
 
-// How far `point` lies to the left of the line from `from` to `to`, seen against the normal.
+// Signed distance of `point` to the left of the line from `from` to `to`, seen against the normal.
 double height_over_line(const NearContact& from, const NearContact& to, const NearContact& point) {
     const Vec3 line = to.point_b_ns - from.point_b_ns;
     const double length = line.norm();
@@ -35,8 +36,8 @@ double distance_between(const NearContact& a, const NearContact& b) {
     return (a.point_b_ns - b.point_b_ns).norm();
 }
 
-// The corner of the group's outline that follows `from` counter-clockwise: nothing lies to the
-// right of the way to it. Points along one line leave the farthest.
+// Gift wrapping step: the next outline corner counter-clockwise after `from`. No point lies to the
+// right of the line to it; of collinear points the farthest is taken.
 const NearContact& next_corner(std::span<const NearContact> group, const NearContact& from) {
     const NearContact* best = &from;
     for (const NearContact& other : group) {
@@ -52,21 +53,21 @@ const NearContact& next_corner(std::span<const NearContact> group, const NearCon
     return *best;
 }
 
-// Leaves out the flattest corners until 8 are left; of equal ones the first, so that of a rim's
-// every other one goes.
+// Removes the flattest corner until 8 are left. Ties go to the first, so that every other corner of
+// a regular polygon is removed.
 void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
     constexpr std::size_t k_max_group = 8;
     constexpr double k_equal_m = 1e-9;
     while (outline.size() - first > k_max_group) {
         const std::size_t count = outline.size() - first;
         std::size_t flattest = 0;
-        double least = std::numeric_limits<double>::infinity();
+        double lowest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < count; ++i) {
             const double height =
                 std::abs(height_over_line(outline[first + (i + count - 1) % count],
                                           outline[first + (i + 1) % count], outline[first + i]));
-            if (height < least - k_equal_m) {
-                least = height;
+            if (height < lowest - k_equal_m) {
+                lowest = height;
                 flattest = i;
             }
         }
@@ -74,8 +75,8 @@ void limit_corners(std::vector<NearContact>& outline, std::size_t first) {
     }
 }
 
-// Appends what bounds one group of contacts with equal normals: its outline by gift wrapping
-// (Jarvis 1973), and its deepest.
+// Appends the outline of one group with equal normals, by gift wrapping (Jarvis 1973), and its
+// deepest point.
 void add_outline(std::span<const NearContact> group, std::vector<NearContact>& result) {
     const Vec3 along = group.front().normal_ns.unitOrthogonal();
     const auto deeper = [](const NearContact& a, const NearContact& b) {
@@ -97,8 +98,8 @@ void add_outline(std::span<const NearContact> group, std::vector<NearContact>& r
     }
     limit_corners(result, first);
     const auto outline = std::span<const NearContact>(result).subspan(first);
-    const double least = std::min_element(outline.begin(), outline.end(), deeper)->separation_m;
-    if (deepest.separation_m < least - k_same_place_m) {
+    const double lowest = std::min_element(outline.begin(), outline.end(), deeper)->separation_m;
+    if (deepest.separation_m < lowest - k_same_place_m) {
         result.push_back(deepest);
     }
 }
@@ -106,22 +107,22 @@ void add_outline(std::span<const NearContact> group, std::vector<NearContact>& r
 }  // namespace
 
 void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch) {
-    std::sort(contacts.begin(), contacts.end(), place_less);
+    std::sort(contacts.begin(), contacts.end(), position_less);
     scratch.clear();
-    // Groups are taken out one after another, each by the first normal left: small numbers, and no
-    // order but that of the places decides.
-    std::span<NearContact> rest = contacts;
-    while (!rest.empty()) {
-        const Vec3 normal = rest.front().normal_ns;
-        const auto end = std::partition(rest.begin(), rest.end(), [&](const NearContact& c) {
-            return c.normal_ns.dot(normal) > k_same_normal_cosine;
-        });
-        const auto count = static_cast<std::size_t>(end - rest.begin());
-        add_outline(rest.first(count), scratch);
-        rest = rest.subspan(count);
+    // Each group is formed around the first remaining normal. The input is sorted by position, so
+    // the result does not depend on the order of insertion.
+    std::span<NearContact> remaining = contacts;
+    while (!remaining.empty()) {
+        const Vec3 normal = remaining.front().normal_ns;
+        const auto end = std::partition(
+            remaining.begin(), remaining.end(),
+            [&](const NearContact& c) { return c.normal_ns.dot(normal) > k_same_normal_cosine; });
+        const auto count = static_cast<std::size_t>(end - remaining.begin());
+        add_outline(remaining.first(count), scratch);
+        remaining = remaining.subspan(count);
     }
     contacts.swap(scratch);
-    std::sort(contacts.begin(), contacts.end(), place_less);
+    std::sort(contacts.begin(), contacts.end(), position_less);
 }
 
 }  // namespace handhold

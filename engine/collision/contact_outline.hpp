@@ -5,24 +5,24 @@
 
 #include "engine/math/math.hpp"
 
-// Of many contact points of one pair those that hold it.
+// Contact reduction: keeps the contacts of one pair that bound all others.
 namespace handhold {
 
-inline constexpr double k_same_place_m = 1e-6;  // points nearer than this are one
+inline constexpr double k_same_place_m = 1e-6;  // points nearer than this are merged
 
-// A contact point of one pair in near space: b's axes about a's place.
+// A contact point of one pair in near space: b's axes with the origin at a's position.
 struct NearContact {
     Vec3 point_a_ns = Vec3::Zero();  // on a's surface
     Vec3 point_b_ns = Vec3::Zero();  // on b's surface
     Vec3 normal_ns = Vec3::UnitY();  // unit, from b towards a
-    double separation_m = 0.0;       // normal . (point_a - point_b)
-    std::uint32_t part = 0;          // of a, where it has several
+    double separation_m = 0.0;       // normal_ns . (point_a_ns - point_b_ns); negative: penetration
+    std::uint32_t part = 0;          // index of a's part, for a compound
 };
 
-// Sorts contacts by place, merges equal ones, and leaves of each group of (nearly) equal normal
-// only what bounds the rest: the corners of its outline, at most 8, and the deepest. The others
-// would be redundant rows: a rigid body that meets the corners meets them. `scratch` is any vector:
-// its content is lost, its memory is reused.
+// Sorts contacts by position, merges duplicates, and reduces each group with (nearly) equal normals
+// to the corners of its outline, at most 8, and the deepest point. The others would be redundant
+// constraint rows: a rigid body that satisfies the corners satisfies them too. `scratch`: its
+// content is lost, its memory is reused.
 void reduce_contacts(std::vector<NearContact>& contacts, std::vector<NearContact>& scratch);
 
 }  // namespace handhold

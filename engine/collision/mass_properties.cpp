@@ -1,6 +1,6 @@
-// Sources: the tetrahedra of a polyhedron: Blow and Binstock, How to Find the Inertia Tensor, 2004;
-// principal axes: Jacobi's rotations, 1846, in plain arithmetic, because Eigen's closed form calls
-// the C library's trigonometry, and poses of bodies are state.
+// Sources: polyhedron: Blow and Binstock, How to Find the Inertia Tensor, 2004. Principal axes:
+// Jacobi rotations, 1846, in plain arithmetic, because Eigen's closed form calls the C library's
+// trigonometry, which differs between platforms, and body poses are part of the state.
 #include "engine/collision/mass_properties.hpp"
 
 #include <array>
@@ -11,12 +11,12 @@
 namespace handhold {
 namespace {
 
-// Second moments of mass become moments of inertia: I = tr(C) 1 - C.
+// Inertia tensor of a second-moment (covariance) matrix C: I = tr(C) 1 - C.
 Mat3 inertia_of_covariance(const Mat3& covariance) {
     return covariance.trace() * Mat3::Identity() - covariance;
 }
 
-// What a mass of 1 kg at `offset` adds (Steiner).
+// Parallel axis term of 1 kg at `offset` (Steiner).
 Mat3 offset_inertia(const Vec3& offset) {
     return inertia_of_covariance(offset * offset.transpose());
 }
@@ -39,24 +39,24 @@ MassProperties of_cylinder(double radius, double half_height) {
             Vec3(across, along, across).asDiagonal()};
 }
 
-// A capsule is a cylinder and the two halves of a sphere. Each half's own moment about its centre
-// of mass, 83/320 m r^2, and its offset h + 3/8 r add up to the closed form below.
+// Cylinder plus two half spheres. A half sphere has transverse inertia 83/320 m r^2 about its own
+// centre of mass, which lies at h + 3/8 r; their sum is the closed form below.
 MassProperties of_capsule(double radius, double half_height) {
     const double r2 = radius * radius;
     const double h = half_height;
-    // Volumes over 2 pi r^2: the common factor cancels in the shares.
-    const double sphere_share = (2.0 / 3.0 * radius) / (2.0 / 3.0 * radius + h);
-    const double cylinder_share = 1.0 - sphere_share;
-    const double along = cylinder_share * r2 / 2.0 + sphere_share * 0.4 * r2;
-    const double across = cylinder_share * (r2 / 4.0 + h * h / 3.0) +
-                          sphere_share * (0.4 * r2 + h * h + 0.75 * h * radius);
+    // Volumes divided by 2 pi r^2; the factor cancels in the mass fractions.
+    const double sphere_fraction = (2.0 / 3.0 * radius) / (2.0 / 3.0 * radius + h);
+    const double cylinder_fraction = 1.0 - sphere_fraction;
+    const double along = cylinder_fraction * r2 / 2.0 + sphere_fraction * 0.4 * r2;
+    const double across = cylinder_fraction * (r2 / 4.0 + h * h / 3.0) +
+                          sphere_fraction * (0.4 * r2 + h * h + 0.75 * h * radius);
     return {2.0 * k_pi * r2 * (h + 2.0 / 3.0 * radius), Vec3::Zero(),
             Vec3(across, along, across).asDiagonal()};
 }
 
-// The tetrahedra from a point inside to the faces' triangles. Of one with edges u, v, w from that
-// point: volume det / 6, and the integral of x x^T is det / 120 times the sum of the edges'
-// products and that of the product of their sum.
+// Sum over tetrahedra from an inner point to the faces' triangles. For edges u, v, w from that
+// point and det = u . (v x w): volume = det / 6, integral of x x^T = det / 120 (u u^T + v v^T + w
+// w^T + s s^T) with s = u + v + w.
 MassProperties of_hull(const ConvexHull& hull) {
     Vec3 inside = Vec3::Zero();
     for (const Vec3& corner : hull.corners) {
@@ -85,42 +85,42 @@ MassProperties of_hull(const ConvexHull& hull) {
 }
 
 MassProperties of_compound(const std::vector<PlacedShape>& parts) {
-    MassProperties whole;
+    MassProperties total;
     double mass = 0.0;
     Mat3 inertia = Mat3::Zero();  // about the shape's origin
     for (const PlacedShape& part : parts) {
         const MassProperties own = mass_properties(part.shape);
-        const double share = part.mass_kg > 0.0 ? part.mass_kg : own.volume_m3;
-        const Mat3 turn = part.pose.rotation.toRotationMatrix();
+        const double weight = part.mass_kg > 0.0 ? part.mass_kg : own.volume_m3;
+        const Mat3 rotation = part.pose.rotation.toRotationMatrix();
         const Vec3 centre = transform_point(part.pose, own.centre_m);
-        whole.volume_m3 += own.volume_m3;
-        whole.centre_m += share * centre;
-        inertia +=
-            share * (turn * own.inertia_per_kg_m2 * turn.transpose() + offset_inertia(centre));
-        mass += share;
+        total.volume_m3 += own.volume_m3;
+        total.centre_m += weight * centre;
+        inertia += weight * (rotation * own.inertia_per_kg_m2 * rotation.transpose() +
+                             offset_inertia(centre));
+        mass += weight;
     }
-    whole.centre_m /= mass;
-    whole.inertia_per_kg_m2 = inertia / mass - offset_inertia(whole.centre_m);
-    return whole;
+    total.centre_m /= mass;
+    total.inertia_per_kg_m2 = inertia / mass - offset_inertia(total.centre_m);
+    return total;
 }
 
-// Turns columns p and q of `axes` so that the matrix, seen along them, has no entry (p, q).
+// Jacobi rotation of axes p and q that zeroes the matrix entry (p, q).
 void rotate_away(Eigen::Index p, Eigen::Index q, Mat3& matrix, Mat3& axes) {
     const double theta = (matrix(q, q) - matrix(p, p)) / (2.0 * matrix(p, q));
     const double tangent =
         std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
     const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
-    Mat3 turn = Mat3::Identity();
-    turn(p, p) = turn(q, q) = cosine;
-    turn(p, q) = tangent * cosine;
-    turn(q, p) = -tangent * cosine;
-    matrix = turn.transpose() * matrix * turn;
-    axes = axes * turn;
+    Mat3 rotation = Mat3::Identity();
+    rotation(p, p) = rotation(q, q) = cosine;
+    rotation(p, q) = tangent * cosine;
+    rotation(q, p) = -tangent * cosine;
+    matrix = rotation.transpose() * matrix * rotation;
+    axes = axes * rotation;
 }
 
-// Columns: eigenvectors of a symmetric matrix, in no order.
+// Eigenvectors of a symmetric matrix as columns, unsorted.
 Mat3 eigenvectors(Mat3 matrix) {
-    constexpr int k_rounds = 12;  // each squares what is left: 5 were ever needed
+    constexpr int k_rounds = 12;  // converges quadratically; at most 5 have been observed
     constexpr double k_rounding = 1e-15;
     constexpr std::array<std::array<Eigen::Index, 2>, 3> k_pairs = {{{0, 1}, {0, 2}, {1, 2}}};
     Mat3 axes = Mat3::Identity();
@@ -135,8 +135,7 @@ Mat3 eigenvectors(Mat3 matrix) {
     return axes;
 }
 
-// The axes in the order and with the signs that turn the least: the entry of the largest size
-// decides first.
+// Reorders and flips the axes to be nearest to the identity; greedy, largest entry first.
 Mat3 nearest_to_identity(const Mat3& axes) {
     Mat3 left = axes.cwiseAbs();
     Mat3 result = Mat3::Identity();

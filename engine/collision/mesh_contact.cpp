@@ -1,6 +1,6 @@
-// Internal edges are told by the normal cone of the surface: nothing can touch a point along a
-// normal above which the surface rises beside it. No adjacency is used: what lies at the point
-// decides, so that cracks between parts, T-junctions and mixed winding need no preparation.
+// Internal edges are detected by the normal cone of the surface: no body can touch a point along a
+// normal above which the surface next to the point rises. No adjacency is needed, so cracks between
+// parts, T-junctions and mixed winding need no preprocessing.
 #include "engine/collision/mesh_contact.hpp"
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 namespace handhold {
 namespace {
 
-constexpr double k_parts_meet_m = 1e-5;  // parts that are modelled to meet do so within this
-constexpr double k_rise_sine = 1e-6;     // the most that a kept normal may be bent: 6e-5 degrees
-constexpr double k_face_sine = 1e-6;     // normals nearer to a face's than this are the face's
+constexpr double k_parts_meet_m = 1e-5;  // tolerance for parts that are modelled to meet
+constexpr double k_rise_sine = 1e-6;     // tolerance of the normal cone: 6e-5 degrees
+constexpr double k_face_sine = 1e-6;     // normals within this of a face normal are snapped to it
 
 bool touches(const NearTriangle& triangle, const Vec3& point) {
     return (closest_on_triangle(point, triangle.corners_ns) - point).norm() <= k_parts_meet_m;
@@ -24,21 +24,21 @@ bool rises_above(const NearTriangle& triangle, const Vec3& point, const Vec3& no
     });
 }
 
-// The side of a triangle's plane on which the body was.
+// The triangle's normal on the side of `centre_from`.
 Vec3 outward_normal(const NearTriangle& triangle, const Vec3& centre_from) {
     return (centre_from - triangle.corners_ns[0]).dot(triangle.normal) >= 0.0
                ? triangle.normal
                : Vec3(-triangle.normal);
 }
 
-// True where the way from one point to another changes sides of the triangle's plane.
+// True if the segment's ends lie on different sides of the triangle's plane.
 bool changes_side(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
     const double before = (from - triangle.corners_ns[0]).dot(triangle.normal);
     const double after = (to - triangle.corners_ns[0]).dot(triangle.normal);
     return (before >= 0.0) != (after >= 0.0);
 }
 
-bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
+bool crosses(const NearTriangle& triangle, const Vec3& from, const Vec3& to) {
     if (!changes_side(triangle, from, to)) {
         return false;
     }
@@ -48,12 +48,11 @@ bool goes_through(const NearTriangle& triangle, const Vec3& from, const Vec3& to
     return (closest_on_triangle(through, triangle.corners_ns) - through).norm() <= k_parts_meet_m;
 }
 
-// A sphere about a's core with the margin misses the triangle: tells most of them apart before
-// anything dear is done.
+// Cheap rejection: a's bounding sphere plus margin misses the triangle.
 bool is_far(const MeshContactIo& io, const NearTriangle& triangle) {
     const double reach_m = io.core_reach_m + io.a.radius_m + io.margin_m;
     const Vec3 centre = io.a.centre_ns();
-    if (!meet(triangle.box_ns, bounds_of(centre, centre).grown(reach_m))) {
+    if (!overlaps(triangle.box_ns, bounds_of(centre, centre).grown(reach_m))) {
         return true;
     }
     if (std::abs((centre - triangle.corners_ns[0]).dot(triangle.normal)) > reach_m) {
@@ -73,8 +72,9 @@ void add_triangle_contacts(const MeshContactIo& io, const NearTriangle& triangle
     if (is_face) {
         separation.normal = cosine > 0.0 ? triangle.normal : Vec3(-triangle.normal);
     } else if (!in_normal_cone(io.triangles, separation.point_b_ns, separation.normal)) {
-        // Beside an internal edge the neighbour is nearer and answers. Sunk across it, no neighbour
-        // need be: then the face itself does.
+        // At an internal edge the neighbouring triangle is nearer and makes the contact. A core
+        // that penetrates across the edge may have no such neighbour: then this triangle's face
+        // makes it.
         if (separation.overlap) {
             add_face_manifold(io.a, b, outward_normal(triangle, io.centre_from_ns), io.margin_m,
                               io.scratch, io.contacts);
@@ -95,12 +95,12 @@ bool in_normal_cone(const NearTriangles& triangles, const Vec3& point, const Vec
 void add_mesh_contacts(const MeshContactIo& io) {
     const Vec3& from = io.centre_from_ns;
     const Vec3 to = io.a.centre_ns();
-    // A plane's side alone does not tell: a body that slides over the brink of a step changes sides
-    // of the step's front without ever touching it. Only a centre that went through the surface is
-    // on its wrong side.
+    // Changing sides of a plane is not enough: a body that slides over the edge of a step changes
+    // sides of the step's front plane without touching it. Only a centre that crossed the surface
+    // itself is on the wrong side.
     const bool crossed =
         std::any_of(io.triangles.all().begin(), io.triangles.all().end(),
-                    [&](const NearTriangle& triangle) { return goes_through(triangle, from, to); });
+                    [&](const NearTriangle& triangle) { return crosses(triangle, from, to); });
     for (const NearTriangle& triangle : io.triangles.all()) {
         if (crossed && changes_side(triangle, from, to)) {
             const Convex b = io.triangle.place(triangle.corners_ns, triangle.normal);

@@ -10,8 +10,8 @@ void PairCache::Pass::clear() {
 }
 
 void PairCache::begin(const ContactLimits& limits) {
-    std::swap(now_, last_);
-    now_.clear();
+    std::swap(current_, last_);
+    current_.clear();
     next_pair_ = 0;
     if (limits.margin_m != limits_.margin_m || limits.sweep_m != limits_.sweep_m) {
         last_.clear();
@@ -19,8 +19,8 @@ void PairCache::begin(const ContactLimits& limits) {
     }
 }
 
-std::optional<PairCache::Known> PairCache::recall(const Seen& a, const Seen& b,
-                                                  const Bounds& reach_ws) {
+std::optional<PairCache::Result> PairCache::recall(const Version& a, const Version& b,
+                                                   const Bounds& reach_ws) {
     const auto ids_of = [](const Pair& pair) { return std::tie(pair.a.id, pair.b.id); };
     const auto wanted = std::tie(a.id, b.id);
     while (next_pair_ < last_.pairs.size() && ids_of(last_.pairs[next_pair_]) < wanted) {
@@ -34,18 +34,19 @@ std::optional<PairCache::Known> PairCache::recall(const Seen& a, const Seen& b,
         return std::nullopt;
     }
     if (pair.a.stamp == a.stamp) {
-        return Known{std::span(last_.contacts).subspan(pair.first, pair.count), pair.clear_ws};
+        return Result{std::span(last_.contacts).subspan(pair.first, pair.count), pair.clear_ws};
     }
-    if (pair.clear_ws && holds(*pair.clear_ws, reach_ws)) {
-        return Known{{}, pair.clear_ws};
+    if (pair.clear_ws && contains(*pair.clear_ws, reach_ws)) {
+        return Result{{}, pair.clear_ws};
     }
     return std::nullopt;
 }
 
-void PairCache::note(const Seen& a, const Seen& b, const Known& known) {
-    now_.pairs.push_back({a, b, static_cast<std::uint32_t>(now_.contacts.size()),
-                          static_cast<std::uint32_t>(known.contacts.size()), known.clear_ws});
-    now_.contacts.insert(now_.contacts.end(), known.contacts.begin(), known.contacts.end());
+void PairCache::record(const Version& a, const Version& b, const Result& result) {
+    current_.pairs.push_back({a, b, static_cast<std::uint32_t>(current_.contacts.size()),
+                              static_cast<std::uint32_t>(result.contacts.size()), result.clear_ws});
+    current_.contacts.insert(current_.contacts.end(), result.contacts.begin(),
+                             result.contacts.end());
 }
 
 }  // namespace handhold

@@ -10,36 +10,36 @@
 
 namespace handhold {
 
-// What the last pass over all pairs found, so that a pair need not be met again of which nothing
-// moved since, as most within one frame, or whose free body stays where the other has nothing. A
-// cache: what it gives back is, bit for bit, what a pair gives that is met afresh. Pairs are asked
-// for by rising (id of a, id of b).
+// Results of the last pass over all pairs. A pair is reused if neither collider changed (common
+// between the passes of one frame), or if a is still inside a box that b does not reach into.
+// Reused results are bitwise equal to recomputed ones. Pairs must be queried in ascending (id of a,
+// id of b).
 class PairCache {
   public:
-    // A collider and when it last changed, in changes of any.
-    struct Seen {
+    // A collider and the change counter at its last change.
+    struct Version {
         std::uint64_t id = 0;
         std::uint64_t stamp = 0;
     };
-    // What a pair has: its contacts, and a box in which b has nothing for as long as it does not
-    // change, where one is known.
-    struct Known {
+    // A pair's contacts, and a box that b does not reach into while b is unchanged, if one is
+    // known.
+    struct Result {
         std::span<const ContactPoint> contacts;
         std::optional<Bounds> clear_ws;
     };
 
     void begin(const ContactLimits& limits);
-    // Nothing where the pair has to be met; else good until the next pass begins. `reach_ws`: a's
-    // whole way and the margin about it.
-    std::optional<Known> recall(const Seen& a, const Seen& b, const Bounds& reach_ws);
-    // What the pair has in this pass, for the next one.
-    void note(const Seen& a, const Seen& b, const Known& known);
+    // nullopt if the pair must be recomputed; otherwise valid until the next begin(). `reach_ws`:
+    // a's swept bounds plus margin.
+    std::optional<Result> recall(const Version& a, const Version& b, const Bounds& reach_ws);
+    // Records the pair's result for the next pass.
+    void record(const Version& a, const Version& b, const Result& result);
 
   private:
     struct Pair {
-        Seen a;
-        Seen b;
-        std::uint32_t first = 0;  // into the contacts found in its pass
+        Version a;
+        Version b;
+        std::uint32_t first = 0;  // index into Pass::contacts
         std::uint32_t count = 0;
         std::optional<Bounds> clear_ws;
     };
@@ -49,9 +49,9 @@ class PairCache {
         void clear();
     };
 
-    Pass now_;
+    Pass current_;
     Pass last_;
-    std::size_t next_pair_ = 0;  // of last_, not yet passed
+    std::size_t next_pair_ = 0;  // cursor into last_.pairs
     ContactLimits limits_;
 };
 

@@ -9,40 +9,42 @@
 namespace handhold {
 namespace {
 
-// A part of b, in near space.
+// A part of b in near space.
 Convex place_b(const PairIo& io, const ConvexPart& part) {
     return part.at({-io.to_bs.position, Quat::Identity()});
 }
 
-// What may be sunk by the end of the way without a stop on it: contacts at the end push that back
-// whole. Small against both bodies, and enough that a body that slides over a floor is not stopped
-// by the floor before it gets to the wall.
-double graze_m(const PairIo& io, const ConvexPart& a, const ConvexPart* b) {
-    double least = std::min(io.limits.sweep_m, a.shape().thinnest_half_m());
+// Grazing tolerance: an impact is ignored if it leads to less penetration than this by the end of
+// the motion; the contacts at the end resolve that much. Small against both bodies, yet large
+// enough that a body sliding over a floor reaches the wall.
+double grazing_tolerance_m(const PairIo& io, const ConvexPart& a, const ConvexPart* b) {
+    double tolerance_m = std::min(io.limits.sweep_m, a.shape().thinnest_half_m());
     if (b != nullptr) {
-        least = std::min(least, b->shape().thinnest_half_m());
+        tolerance_m = std::min(tolerance_m, b->shape().thinnest_half_m());
     }
-    return 0.1 * least;
+    return 0.1 * tolerance_m;
 }
 
-bool stops(const Impact& impact, const RelativeMotion& motion, const Vec3& normal, double graze) {
+bool stops(const Impact& impact, const RelativeMotion& motion, const Vec3& normal,
+           double grazing_m) {
     const double velocity = motion.velocity_at(impact.point_b_ns, impact.fraction).dot(normal);
-    return -velocity * (1.0 - impact.fraction) > graze;
+    return -velocity * (1.0 - impact.fraction) > grazing_m;
 }
 
-void keep_first(const std::optional<Impact>& impact, std::optional<Impact>& first) {
+void keep_earlier(const std::optional<Impact>& impact, std::optional<Impact>& first) {
     if (impact && (!first || impact->fraction < first->fraction)) {
         first = impact;
     }
 }
 
-// Those nearest to a touch first: a heap's top is its greatest.
+// Order of the heap: the smallest fraction on top.
 bool touches_later(const TriangleApproach& x, const TriangleApproach& y) {
     return x.approach.fraction != y.approach.fraction ? x.approach.fraction > y.approach.fraction
                                                       : x.triangle > y.triangle;
 }
 
-// An internal edge's bent normal would stop what only slides over it: there the face decides.
+// At an internal edge replaces the tilted normal by the face's: the edge must not stop a body that
+// slides over it.
 void straighten(const NearTriangles& triangles, const NearTriangle& triangle, const Vec3& from,
                 Impact& impact) {
     if (!in_normal_cone(triangles, impact.point_b_ns, impact.normal)) {
@@ -51,11 +53,12 @@ void straighten(const NearTriangles& triangles, const NearTriangle& triangle, co
     }
 }
 
-// Whichever triangle is nearest to a touch goes one step on: none goes farther than the first stop.
+// Always advances the triangle with the smallest fraction, so no triangle is advanced beyond the
+// first impact.
 std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a,
                                            const NearTriangles& triangles,
                                            const RelativeMotion& motion, double limit) {
-    const double graze = graze_m(io, a, nullptr);
+    const double grazing_m = grazing_tolerance_m(io, a, nullptr);
     const Vec3 from = a.placed(motion.at(0.0)).position;
     const auto place = [&](std::uint32_t index) {
         const NearTriangle& triangle = triangles.all()[index];
@@ -82,7 +85,7 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
         queue.pop_back();
         if (state == ApproachState::touches) {
             straighten(triangles, triangle, from, impact);
-            if (stops(impact, motion, impact.normal, graze)) {
+            if (stops(impact, motion, impact.normal, grazing_m)) {
                 return impact;
             }
         }
@@ -90,16 +93,17 @@ std::optional<Impact> first_impact_on_mesh(const PairIo& io, const ConvexPart& a
     return std::nullopt;
 }
 
-// How far a body's parts reach from its place.
+// Radius about the body's origin that contains all parts.
 double reach_m(std::span<const ConvexPart> parts) {
-    double most = 0.0;
+    double reach = 0.0;
     for (const ConvexPart& part : parts) {
-        most = std::max(most, part.extent().radius_m);
+        reach = std::max(reach, part.extent().radius_m);
     }
-    return most;
+    return reach;
 }
 
-// Of all parts of both: where one is stopped, the whole is.
+// First impact of any part of a with any part of b. nullopt if the displacement is too small to
+// sweep.
 std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motion) {
     const double displacement_m = motion.move().norm() + motion.turn_rad().norm() * reach_m(io.a);
     if (displacement_m <= io.limits.sweep_m) {
@@ -113,24 +117,24 @@ std::optional<Impact> first_impact(const PairIo& io, const RelativeMotion& motio
             auto impact = first_impact_on_mesh(io, a, io.triangles[i], motion, limit);
             if (impact) {
                 impact->part = static_cast<std::uint32_t>(i);
-                keep_first(impact, first);
+                keep_earlier(impact, first);
             }
         }
         for (const ConvexPart& b : io.b) {
             const double limit = first ? first->fraction : 1.0;
             auto impact = time_of_impact(a, motion, place_b(io, b), limit);
-            if (impact && stops(*impact, motion, impact->normal, graze_m(io, a, &b))) {
+            if (impact && stops(*impact, motion, impact->normal, grazing_tolerance_m(io, a, &b))) {
                 impact->part = static_cast<std::uint32_t>(i);
-                keep_first(impact, first);
+                keep_earlier(impact, first);
             }
         }
     }
     return first;
 }
 
-// Two parts whose spheres are farther apart than the margin make no contacts.
-bool are_far(const ConvexPart& a, const Convex& placed_a, const ConvexPart& b,
-             const Convex& placed_b, double margin_m) {
+// True if the bounding spheres are farther apart than the margin.
+bool are_beyond_margin(const ConvexPart& a, const Convex& placed_a, const ConvexPart& b,
+                       const Convex& placed_b, double margin_m) {
     const double reach = a.shape().bounding_radius_m() + b.shape().bounding_radius_m() + margin_m;
     return (placed_a.centre_ns() - placed_b.centre_ns()).norm() > reach;
 }
@@ -148,7 +152,7 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
         }
         for (const ConvexPart& part : io.b) {
             const Convex b = place_b(io, part);
-            if (!are_far(io.a[i], a, part, b, margin_m)) {
+            if (!are_beyond_margin(io.a[i], a, part, b, margin_m)) {
                 add_manifold(a, b, separate(a, b), margin_m, scratch.clip, scratch.contacts);
             }
         }
@@ -158,8 +162,9 @@ void add_contacts_at(const PairIo& io, const Pose& pose_ns, const Pose& from_ns)
     }
 }
 
-// Where a turns on after the touch, as a ball that rolls does, other points of it than those that
-// touched come to lie deepest: of each plane of contact, met at `touch`, the deepest at the end.
+// After a touch a may rotate on, as a rolling ball does, so other points than those that touched
+// become the deepest. For each contact plane found at `touch_ns`, adds the deepest point at
+// `to_ns`.
 void add_deepest_at_end(const PairIo& io, const Pose& touch_ns, const Pose& to_ns) {
     std::vector<NearContact>& contacts = io.scratch.contacts;
     const auto depth_at_end = [&](const NearContact& contact) {
@@ -213,8 +218,7 @@ void find_pair_contacts(const PairIo& io) {
         contact.point_a_bs = inverse_transform_point(pose_ns, near.point_a_ns);
         contact.point_b_bs = near.point_b_ns + io.to_bs.position;
         contact.normal_b_bs = near.normal_ns;
-        // At to_ws, whatever the pose of first touch: the plane of the contact stays where it was
-        // met.
+        // The contact plane stays where it was found; the separation is that at to_ns.
         contact.separation_m =
             near.normal_ns.dot(transform_point(to_ns, contact.point_a_bs) - near.point_b_ns);
         if (contact.separation_m < io.limits.margin_m) {

@@ -7,16 +7,17 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/collision/mesh_contact.hpp"
 
-// Contacts of one pair of colliders: a pure function of the two shapes and a's way relative to b.
+// Narrowphase: contacts of one pair of colliders, as a pure function of the two shapes and a's
+// motion relative to b.
 namespace handhold {
 
-// A triangle that a part is on its way to.
+// Conservative advancement of one part towards one triangle.
 struct TriangleApproach {
     Approach approach;
     std::uint32_t triangle = 0;
 };
 
-// Memory that is reused from pair to pair; its content means nothing between calls.
+// Scratch, reused from pair to pair. The content means nothing between calls.
 struct PairScratch {
     TriangleShape triangle;
     ClipScratch clip;
@@ -28,15 +29,15 @@ struct PairScratch {
 
 struct PairIo {
     std::span<const ConvexPart> a;
-    std::span<const ConvexPart> b;  // empty: a mesh
-    Pose from_bs;                   // a's last valid pose in b's frame as b was then
-    Pose to_bs;                     // a's present pose in b's present frame
-    // For a mesh b, for each part of a: all triangles that come within the margin of it on its way,
-    // about to_bs.position. Not looked at otherwise.
+    std::span<const ConvexPart> b;  // empty if b is a mesh
+    Pose from_bs;                   // a's last valid pose in the frame of b's last valid pose
+    Pose to_bs;                     // a's current pose in the frame of b's current pose
+    // Mesh b only, one entry per part of a: all triangles within the margin of the part's motion,
+    // relative to to_bs.position.
     std::span<const NearTriangles> triangles;
     const ContactLimits& limits;
-    std::vector<ContactPoint>& contacts;  // appended; ids are left 0
-    PairScratch& scratch;                 // `triangles` above may be its own
+    std::vector<ContactPoint>& contacts;  // appended to; ids are left 0
+    PairScratch& scratch;                 // may own `triangles` above
 };
 void find_pair_contacts(const PairIo& io);
 

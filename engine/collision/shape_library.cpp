@@ -14,7 +14,7 @@ namespace {
 constexpr double k_min_size_m = 1e-3;
 constexpr double k_max_size_m = 1e4;
 
-// Written so that NaN is outside too.
+// NaN is outside too.
 bool is_size(double size_m) { return size_m >= k_min_size_m && size_m <= k_max_size_m; }
 
 constexpr double k_min_scale = 1e-3;
@@ -22,7 +22,7 @@ constexpr double k_max_scale = 1e3;
 
 bool is_scale(double factor) { return factor >= k_min_scale && factor <= k_max_scale; }
 
-// The far end of a part from the compound's origin.
+// Radius about the compound's origin that contains the part.
 double farthest_m(const PlacedShape& part) {
     const Vec3& centre = part.pose.position;
     const Shape& shape = part.shape;
@@ -32,11 +32,11 @@ double farthest_m(const PlacedShape& part) {
             return (local.cwiseAbs() + shape.half_m).norm();
         }
         case ShapeKind::hull: {
-            double most = 0.0;
+            double farthest = 0.0;
             for (const Vec3& corner : shape.hull->corners) {
-                most = std::max(most, transform_point(part.pose, corner).norm());
+                farthest = std::max(farthest, transform_point(part.pose, corner).norm());
             }
-            return most;
+            return farthest;
         }
         case ShapeKind::capsule: {
             const Vec3 half = part.pose.rotation * (shape.half_height_m * Vec3::UnitY());
@@ -47,8 +47,8 @@ double farthest_m(const PlacedShape& part) {
     }
 }
 
-// True where the shape's frame is the one that principal_frame would choose, to what rounding and a
-// file's digits leave.
+// True if the shape's frame is at its centre of mass along principal axes, within rounding and a
+// file's digits.
 bool is_centred(const MassProperties& properties, double reach_m) {
     constexpr double k_rounding = 1e-6;
     const Mat3& inertia = properties.inertia_per_kg_m2;
@@ -222,7 +222,7 @@ double bounding_radius(const Shape& shape) {
 }
 
 double thinnest_half_extent(const Shape& shape) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double thinnest_m = std::numeric_limits<double>::infinity();
     switch (shape.kind) {
         case ShapeKind::box:
             return shape.half_m.minCoeff();
@@ -235,9 +235,9 @@ double thinnest_half_extent(const Shape& shape) {
             return 0.5 * shape.hull->width_m;
         case ShapeKind::compound:
             for (const PlacedShape& part : *shape.parts) {
-                least_m = std::min(least_m, thinnest_half_extent(part.shape));
+                thinnest_m = std::min(thinnest_m, thinnest_half_extent(part.shape));
             }
-            return least_m;
+            return thinnest_m;
         case ShapeKind::mesh:
             break;
     }

@@ -17,12 +17,12 @@ struct ShapeId {
     std::uint32_t index = 0;
     friend auto operator<=>(const ShapeId&, const ShapeId&) = default;
 };
-// Of what has no shape: nothing touches it.
+// A collider with this id touches nothing.
 inline constexpr ShapeId k_no_shape = {std::numeric_limits<std::uint32_t>::max()};
 
 struct PlacedShape;
 
-// A shape in its own frame. A free body's frame is at its centre of mass, along its principal
+// A shape in its own frame. A free body's frame must be at its centre of mass, along principal
 // axes: see ShapeLibrary::add_centred.
 struct Shape {
     ShapeKind kind = ShapeKind::sphere;
@@ -32,7 +32,7 @@ struct Shape {
     std::shared_ptr<const ConvexHull> hull;                 // hull
     std::shared_ptr<const std::vector<PlacedShape>> parts;  // compound: at least one
     std::shared_ptr<const Mesh> mesh;  // mesh: only static and kinematic bodies may have one
-    Vec3 scale = Vec3::Ones();         // mesh: along its own axes; applies to all of its positions
+    Vec3 scale = Vec3::Ones();         // mesh: scale along its own axes
 };
 
 // A part of a compound.
@@ -42,42 +42,42 @@ struct PlacedShape {
     double mass_kg = 0.0;
 };
 
-// A part of a compound that is to be.
+// Input of add_compound.
 struct CompoundChild {
     ShapeId shape;  // neither mesh nor compound
     Pose pose;      // in the compound's frame
-    double mass_kg =
-        0.0;  // how much of the whole is here: only the ratios count. 0, for all: by volume
+    // Mass of this part; only ratios count. 0 for all parts: by volume.
+    double mass_kg = 0.0;
 };
 
-// A shape about its centre of mass, and the frame it now has in the old one: a body that stood at
-// `pose` stands at pose * frame.
+// A shape recentred on its centre of mass. `frame` is its new frame in the old one: a body whose
+// old frame was at `pose` is now at pose * frame.
 struct CentredShape {
     ShapeId shape;
     Pose frame;
 };
 
-// The shapes of a scene: an asset, made once before the first frame and never changed while frames
-// run. Ids are given in order from 0. What breaks a rule below throws PreconditionError.
+// The shapes of a scene: an asset, built before the first frame and immutable while frames run. Ids
+// count up from 0. Invalid arguments throw PreconditionError.
 class ShapeLibrary {
   public:
-    // Sizes in metres, in [1e-3, 1e4].
+    // All sizes are in metres, in [1e-3, 1e4].
     ShapeId add_box(const Vec3& half_m);
     ShapeId add_sphere(double radius_m);
     ShapeId add_capsule(double radius_m, double half_height_m);
     ShapeId add_cylinder(double radius_m, double half_height_m);
-    // The convex hull of points that are finite and not in a plane; is_solid. At most
-    // k_max_hull_corners corners: convex_hull.hpp says what more points lose.
+    // Convex hull of finite points that are not coplanar. Must satisfy is_solid. Reduced to
+    // k_max_hull_corners corners; convex_hull.hpp describes the loss.
     ShapeId add_hull(std::span<const Vec3> points);
     ShapeId add_hull(const ConvexHull& hull);
-    // 1 to k_max_parts convex shapes that move as one; they may overlap. Masses: all 0 or all > 0.
+    // 1 to k_max_parts convex shapes that move as one; they may overlap. Masses are all 0 or all >
+    // 0.
     ShapeId add_compound(std::span<const CompoundChild> children);
-    // A mesh of 1 to 2^21 triangles with indices in range and finite positions, stretched along its
-    // axes by factors in [1e-3, 1e3]. Shapes of one mesh share it and its acceleration structure,
-    // whatever their scales.
+    // A mesh of 1 to 2^21 triangles, with indices in range and finite positions. Scale factors are
+    // in [1e-3, 1e3]. Shapes of one mesh share it and its BVH, whatever their scale.
     ShapeId add_mesh(std::shared_ptr<const Mesh> mesh, const Vec3& scale = Vec3::Ones());
-    // The same solid with its frame at the centre of mass, along principal axes. A shape that is
-    // so already is given back as it is. Not for meshes.
+    // The same solid with its frame at the centre of mass, along principal axes. Returns `id` if
+    // the shape is centred already. Not for meshes.
     CentredShape add_centred(ShapeId id);
 
     const Shape& at(ShapeId id) const;
@@ -89,22 +89,22 @@ class ShapeLibrary {
     std::vector<Shape> shapes_;
 };
 
-constexpr std::size_t k_max_parts = 64;  // of a compound
-constexpr std::size_t k_max_triangles = std::size_t{1}
-                                        << 21U;  // of a mesh: what its tree can number
+constexpr std::size_t k_max_parts = 64;  // parts of a compound
+constexpr std::size_t k_max_triangles =
+    std::size_t{1}  // Triangles of a mesh: the limit of the BVH's index.
+    << 21U;
 
-// True where add_hull takes it: 1e-3 to 1e4 m at its thinnest and widest.
+// True if add_hull accepts it: smallest width and largest extent in [1e-3, 1e4] m.
 bool is_solid(const ConvexHull& hull);
 
-// Radius of a sphere about the shape's origin that holds it, metres: the smallest, but of a
-// compound with cylinders.
+// Radius of the sphere about the shape's origin that contains it, metres. The smallest, except for
+// compounds with cylinders.
 double bounding_radius(const Shape& shape);
-// Half the smallest extent, metres: what may pass through a thin wall unnoticed between two frames.
-// Of a compound that of its thinnest part. A mesh has none: 0.
+// Half the smallest extent, metres; a compound's is that of its thinnest part. Bodies this thin may
+// tunnel. Meshes: 0.
 double thinnest_half_extent(const Shape& shape);
-// Principal moments of inertia of the solid, kg m^2, about the local axes. Of a shape whose frame
-// is at its centre of mass, along principal axes (PreconditionError otherwise, and for meshes:
-// they have no inside).
+// Principal moments of inertia of the solid, kg m^2, about the local axes. Throws PreconditionError
+// if the shape is not centred (add_centred) or is a mesh.
 Vec3 solid_inertia(const Shape& shape, double mass_kg);
 
 }  // namespace handhold

@@ -10,7 +10,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_edge = 1e-12;  // share of a triangle or extent by which its edges are widened
+// Relative tolerance by which faces are extended past their edges.
+constexpr double k_edge_tolerance = 1e-12;
 
 struct Ray {
     Vec3 from;
@@ -19,9 +20,10 @@ struct Ray {
     Vec3 at(double fraction) const { return from + fraction * along; }
 };
 
-// Where the line through a ray goes into a convex shape and where it leaves it, of what is offered.
+// The interval in which the line through a ray is inside a convex shape, built from candidate
+// intersections.
 struct Passage {
-    double enter = std::numeric_limits<double>::infinity();  // fractions of the ray
+    double enter = std::numeric_limits<double>::infinity();  // fraction of the ray
     double leave = -std::numeric_limits<double>::infinity();
     Vec3 enter_normal = Vec3::UnitY();
     Vec3 leave_normal = Vec3::UnitY();
@@ -56,14 +58,14 @@ void offer_box(const Ray& ray, const Vec3& half, Passage& passage) {
             const double fraction = (side * half[axis] - ray.from[axis]) / ray.along[axis];
             Vec3 beyond = ray.at(fraction).cwiseAbs() - half;
             beyond[axis] = 0.0;
-            if (beyond.maxCoeff() <= k_edge * half.maxCoeff()) {
+            if (beyond.maxCoeff() <= k_edge_tolerance * half.maxCoeff()) {
                 passage.offer(fraction, side * Vec3::Unit(axis));
             }
         }
     }
 }
 
-// Roots of a f^2 + 2 b f + c = 0 in rising order, without cancellation.
+// Roots of a f^2 + 2 b f + c = 0 in ascending order, without cancellation.
 std::optional<std::pair<double, double>> roots(double a, double b, double c) {
     const double discriminant = b * b - a * c;
     if (!(a > 0.0) || discriminant < 0.0) {
@@ -75,15 +77,15 @@ std::optional<std::pair<double, double>> roots(double a, double b, double c) {
     return std::pair(std::min(first, second), std::max(first, second));
 }
 
-// `cap`: 0 for a whole sphere, +1 or -1 for the half of it beyond the end of a capsule's axis.
+// `cap`: 0 for the whole sphere; +1 or -1 for the half beyond that end of a capsule's axis.
 void offer_sphere(const Ray& ray, const Vec3& centre, double radius, double cap, Passage& passage) {
     const Vec3 offset = ray.from - centre;
-    const auto both = roots(ray.along.squaredNorm(), offset.dot(ray.along),
+    const auto hits = roots(ray.along.squaredNorm(), offset.dot(ray.along),
                             offset.squaredNorm() - radius * radius);
-    if (!both) {
+    if (!hits) {
         return;
     }
-    for (const double fraction : {both->first, both->second}) {
+    for (const double fraction : {hits->first, hits->second}) {
         const Vec3 outward = ray.at(fraction) - centre;
         if (outward.y() * cap >= 0.0) {
             passage.offer(fraction, outward.normalized());
@@ -95,12 +97,12 @@ void offer_barrel(const Ray& ray, double radius, double half_height, Passage& pa
     const Vec3 flat(1.0, 0.0, 1.0);
     const Vec3 along = ray.along.cwiseProduct(flat);
     const Vec3 from = ray.from.cwiseProduct(flat);
-    const auto both =
+    const auto hits =
         roots(along.squaredNorm(), from.dot(along), from.squaredNorm() - radius * radius);
-    if (!both) {
+    if (!hits) {
         return;
     }
-    for (const double fraction : {both->first, both->second}) {
+    for (const double fraction : {hits->first, hits->second}) {
         const Vec3 point = ray.at(fraction);
         if (std::abs(point.y()) <= half_height) {
             passage.offer(fraction, point.cwiseProduct(flat).normalized());
@@ -115,21 +117,21 @@ void offer_caps(const Ray& ray, double radius, double half_height, Passage& pass
     for (const double side : {-1.0, 1.0}) {
         const double fraction = (side * half_height - ray.from.y()) / ray.along.y();
         const Vec3 point = ray.at(fraction);
-        if (std::hypot(point.x(), point.z()) <= radius * (1.0 + k_edge)) {
+        if (std::hypot(point.x(), point.z()) <= radius * (1.0 + k_edge_tolerance)) {
             passage.offer(fraction, side * Vec3::UnitY());
         }
     }
 }
 
-// What of the line is behind all planes.
-Passage pass_hull(const Ray& ray, const ConvexHull& hull) {
+// Clips the line against all face planes.
+Passage clip_to_hull(const Ray& ray, const ConvexHull& hull) {
     Passage inside;
     std::swap(inside.enter, inside.leave);
     for (const HullFace& face : hull.faces) {
         const double height = face.normal.dot(ray.from) - face.offset_m;
         const double rise = face.normal.dot(ray.along);
         if (rise == 0.0) {
-            if (height > k_edge) {
+            if (height > k_edge_tolerance) {
                 return {};
             }
         } else if (const double fraction = -height / rise; rise < 0.0 && fraction > inside.enter) {
@@ -143,8 +145,8 @@ Passage pass_hull(const Ray& ray, const ConvexHull& hull) {
     return inside.any() ? inside : Passage{};
 }
 
-// Of a convex shape.
-Passage pass(const Shape& shape, const Ray& ray) {
+// The passage through a convex shape.
+Passage find_passage(const Shape& shape, const Ray& ray) {
     Passage passage;
     switch (shape.kind) {
         case ShapeKind::box:
@@ -165,7 +167,7 @@ Passage pass(const Shape& shape, const Ray& ray) {
             offer_caps(ray, shape.radius_m, shape.half_height_m, passage);
             break;
         case ShapeKind::hull:
-            return pass_hull(ray, *shape.hull);
+            return clip_to_hull(ray, *shape.hull);
         case ShapeKind::compound:
         case ShapeKind::mesh:
             break;
@@ -173,40 +175,40 @@ Passage pass(const Shape& shape, const Ray& ray) {
     return passage;
 }
 
-Passage pass(const PlacedShape& part, const Ray& ray) {
+Passage find_passage(const PlacedShape& part, const Ray& ray) {
     const Quat back = part.pose.rotation.conjugate();
     Passage passage =
-        pass(part.shape, {inverse_transform_point(part.pose, ray.from), back * ray.along});
+        find_passage(part.shape, {inverse_transform_point(part.pose, ray.from), back * ray.along});
     passage.enter_normal = part.pose.rotation * passage.enter_normal;
     passage.leave_normal = part.pose.rotation * passage.leave_normal;
     return passage;
 }
 
-// First surface of the whole that the parts make together: what lies inside of another part is
-// none. From inside, the way goes on as long as some part holds it.
+// First surface of the union of the parts. From inside, the interval is extended while some part
+// contains its end.
 std::optional<LocalRayHit> cast_on_parts(std::span<const PlacedShape> parts, const Ray& ray) {
-    constexpr double k_seam = 1e-12;  // parts that are placed to meet do, but for rounding
+    constexpr double k_seam = 1e-12;  // tolerance for parts that are placed to touch
     std::optional<LocalRayHit> first;
-    std::optional<LocalRayHit> out;
+    std::optional<LocalRayHit> exit;
     double inside_until = 0.0;
-    for (bool longer = true; longer;) {
-        longer = false;
+    for (bool extended = true; extended;) {
+        extended = false;
         for (const PlacedShape& part : parts) {
-            const Passage passage = pass(part, ray);
+            const Passage passage = find_passage(part, ray);
             const double begins = passage.enter;
             if (begins >= 0.0 && begins <= 1.0 && (!first || begins < first->fraction)) {
                 first = LocalRayHit{begins, passage.enter_normal};
             }
-            const bool goes_on = out ? begins <= inside_until + k_seam : begins < 0.0;
-            if (goes_on && passage.leave > inside_until) {
+            const bool continues = exit ? begins <= inside_until + k_seam : begins < 0.0;
+            if (continues && passage.leave > inside_until) {
                 inside_until = passage.leave;
-                out = LocalRayHit{passage.leave, passage.leave_normal};
-                longer = true;
+                exit = LocalRayHit{passage.leave, passage.leave_normal};
+                extended = true;
             }
         }
     }
-    if (out) {
-        return inside_until <= 1.0 ? out : std::nullopt;
+    if (exit) {
+        return inside_until <= 1.0 ? exit : std::nullopt;
     }
     return first;
 }
@@ -231,7 +233,7 @@ LocalSurfacePoint closest_on_round(const Shape& shape, const Vec3& point) {
                           0.0);
     const Vec3 offset = point - axis_point;
     const double distance = offset.norm();
-    // On the axis every way out is as short.
+    // On the axis every direction is equally near.
     const Vec3 outward = distance > 0.0 ? Vec3(offset / distance) : Vec3(Vec3::UnitX());
     return {axis_point + shape.radius_m * outward, outward,
             std::max(0.0, distance - shape.radius_m)};
@@ -271,7 +273,7 @@ LocalSurfacePoint closest_on_hull(const ConvexHull& hull, const Vec3& point) {
     Vec3 best = hull.corners.front();
     for (const HullFace& face : hull.faces) {
         if (face.normal.dot(point) < face.offset_m) {
-            continue;  // what looks away has nothing nearer than what looks here
+            continue;  // a back face: the nearest point is on a front face
         }
         for (std::size_t i = 1; i + 1 < face.loop.size(); ++i) {
             const Vec3 candidate =
@@ -295,19 +297,19 @@ LocalSurfacePoint closest_on_part(const PlacedShape& part, const Vec3& point) {
     return near;
 }
 
-// True where the point is inside of a part, and not just on its surface.
+// True if the point is strictly inside the part.
 bool is_inside(const PlacedShape& part, const Vec3& point) {
     constexpr double k_on_surface_m = 1e-9;
     const LocalSurfacePoint near = closest_on_part(part, point);
     return near.distance_m == 0.0 && (near.point - point).norm() > k_on_surface_m;
 }
 
-// Of the parts that hold the point, if any does, the one with the shortest way out that does not
-// end inside of another.
+// If parts contain the point: the part with the nearest exit that is not inside another part; else
+// the nearest part.
 LocalSurfacePoint closest_on_parts(std::span<const PlacedShape> parts, const Vec3& point) {
-    using Rank = std::tuple<bool, bool, double>;  // the least is taken
+    using Rank = std::tuple<bool, bool, double>;  // compared lexicographically, the lowest wins
     constexpr double k_far = std::numeric_limits<double>::infinity();
-    Rank least(true, true, k_far);
+    Rank lowest(true, true, k_far);
     LocalSurfacePoint best;
     for (const PlacedShape& part : parts) {
         const LocalSurfacePoint near = closest_on_part(part, point);
@@ -316,8 +318,8 @@ LocalSurfacePoint closest_on_parts(std::span<const PlacedShape> parts, const Vec
             !outside && std::any_of(parts.begin(), parts.end(), [&](const PlacedShape& other) {
                 return &other != &part && is_inside(other, near.point);
             });
-        if (const Rank rank(outside, hidden, (near.point - point).norm()); rank < least) {
-            least = rank;
+        if (const Rank rank(outside, hidden, (near.point - point).norm()); rank < lowest) {
+            lowest = rank;
             best = near;
         }
     }
@@ -329,7 +331,7 @@ LocalSurfacePoint closest_on_parts(std::span<const PlacedShape> parts, const Vec
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to) {
     const Ray ray{from, to - from};
     return shape.kind == ShapeKind::compound ? cast_on_parts(*shape.parts, ray)
-                                             : pass(shape, ray).first();
+                                             : find_passage(shape, ray).first();
 }
 
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
@@ -348,7 +350,8 @@ LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point) {
 }
 
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point) {
-    constexpr double k_on_surface_m = 1e-9;  // nearer than this the way to the point is rounding
+    // Nearer than this the direction to the point is rounding noise.
+    constexpr double k_on_surface_m = 1e-9;
     const Vec3 surface = closest_on_triangle(point, corners);
     const Vec3 along = point - surface;
     const double distance = along.norm();

@@ -5,28 +5,28 @@
 #include "engine/collision/closest_point.hpp"
 #include "engine/collision/shape_library.hpp"
 
-// Rays and points against one shape in the shape's own frame, in closed form.
+// Ray and closest-point queries on one shape, in its own frame, in closed form.
 namespace handhold {
 
 struct LocalRayHit {
-    double fraction = 0.0;        // of the way from `from` to `to`, in [0, 1]
-    Vec3 normal = Vec3::UnitY();  // unit, of the surface, on either side
+    double fraction = 0.0;        // of the segment from `from` to `to`, in [0, 1]
+    Vec3 normal = Vec3::UnitY();  // unit surface normal, of either side
 };
-// First point of the surface on the way; from inside, the point where the ray leaves. Of a compound
-// the surface of the whole: what lies inside of another part is none. Not for meshes.
-// Closed forms, because Bullet sees no surface from inside, and its casts on round shapes stop 1.3
-// mm off (measured: btSubsimplexConvexCast).
+// First surface point on the segment; if `from` is inside, the exit point. A compound is the union
+// of its parts: surfaces inside another part are skipped. Not for meshes. Closed forms, because
+// Bullet's casts miss surfaces hit from inside and are up to 1.3 mm off on round shapes
+// (btSubsimplexConvexCast).
 std::optional<LocalRayHit> cast_ray_on_shape(const Shape& shape, const Vec3& from, const Vec3& to);
 struct LocalSurfacePoint {
-    Vec3 point = Vec3::Zero();    // on the surface, also for a query point inside
-    Vec3 normal = Vec3::UnitY();  // unit: towards the query point, or outward where that is inside
-                                  // or on the surface
-    double distance_m = 0.0;      // 0 inside
+    Vec3 point = Vec3::Zero();  // on the surface, also for a query point inside
+    // Unit: towards the query point; outward if the query point is inside or on the surface.
+    Vec3 normal = Vec3::UnitY();
+    double distance_m = 0.0;  // 0 inside
 };
-// Inside of a compound whose parts overlap, the nearest point of one part's surface that is inside
-// of no other; there may be a nearer one along the seam. Not for meshes.
+// Inside overlapping parts of a compound: the nearest surface point of one part that is inside no
+// other part. A nearer point may exist where part surfaces intersect. Not for meshes.
 LocalSurfacePoint closest_on_shape(const Shape& shape, const Vec3& point);
-// A triangle has no inside; for a point on it the normal is the triangle's own.
+// For a query point on the triangle the normal is the triangle's own.
 LocalSurfacePoint closest_on_triangle_surface(const Corners& corners, const Vec3& point);
 
 }  // namespace handhold

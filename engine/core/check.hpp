@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-// Broken preconditions of an API: a programmer's error, never a player's or a file's.
+// Reports violated API preconditions: a programming error, never bad user input.
 namespace handhold {
 
 class PreconditionError : public std::logic_error {
@@ -18,8 +18,7 @@ class PreconditionError : public std::logic_error {
 
 }  // namespace handhold
 
-// Checks what the caller guarantees. A macro only for the sake of __func__: Clang 14 has no
-// std::source_location.
+// Checks a precondition. A macro because of __func__: Clang 14 has no std::source_location.
 #define HH_CHECK(condition, what, value)                                          \
     do {                                                                          \
         if (!(condition)) [[unlikely]] {                                          \

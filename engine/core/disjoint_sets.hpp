@@ -5,14 +5,14 @@
 
 namespace handhold {
 
-// Disjoint sets of numbers, each by its root: a parent a number, a root is its own. Shortens the
-// way up.
-inline std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t of) {
-    while (parent[of] != of) {
-        parent[of] = parent[parent[of]];
-        of = parent[of];
+// Union-find lookup with path halving. `parent` maps each element to its parent; a root is its own
+// parent.
+inline std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t element) {
+    while (parent[element] != element) {
+        parent[element] = parent[parent[element]];
+        element = parent[element];
     }
-    return of;
+    return element;
 }
 
 }  // namespace handhold

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <string_view>
 
-// Hashes that are equal on every compiler, build and machine: they name entities and compare
+// Hashes that are equal on every compiler, build and machine. They identify entities and compare
 // states.
 namespace handhold {
 
-// Mixes 64 bits so that every input bit moves about half of the output's (finaliser of SplitMix64,
+// Mixes 64 bits so that every input bit flips about half of the output bits (SplitMix64 finaliser,
 // Steele 2014).
 constexpr std::uint64_t mix64(std::uint64_t x) {
     x ^= x >> 30;
@@ -29,8 +29,8 @@ constexpr std::uint64_t hash_text(std::string_view text) {
     return hash;
 }
 
-// An order-dependent hash of a sequence of plain values. -0.0 and 0.0 differ, and so do two NaNs:
-// bits are compared.
+// Order-dependent hash of a sequence of plain values. Compares bits: -0.0 and 0.0 differ, and so
+// may two NaNs.
 class HashStream {
   public:
     void add(std::uint64_t value) { state_ = mix64(state_ ^ mix64(value + 0x9e3779b97f4a7c15ULL)); }

@@ -16,10 +16,9 @@
 namespace handhold {
 namespace {
 
-// Threads are kept between calls; with a count of one there are none and nothing of TBB is ever
-// touched.
+// Threads persist between calls. With a count of one no thread exists and TBB is never touched.
 struct Workers {
-    std::optional<tbb::global_control> limit;  // more threads than cores where the count says so
+    std::optional<tbb::global_control> limit;  // allows more threads than cores
     std::optional<tbb::task_arena> arena;
     int count = 1;
 };
@@ -29,8 +28,8 @@ Workers& workers() {
     return instance;
 }
 
-// Inside a task. A nested call is serial: a thread that waits for it could otherwise begin another
-// of the outer tasks in the midst of its own.
+// True inside a task. Nested calls run serially: a waiting thread could otherwise start another
+// outer task in the middle of its own.
 thread_local bool t_in_task = false;
 
 class InTask {
@@ -41,8 +40,8 @@ class InTask {
     InTask& operator=(const InTask&) = delete;
 };
 
-// One call's work. Every runner claims the next index: what stands first, which callers make the
-// largest, begins first, and no range is cut beforehand that could turn out long.
+// The work of one call. Each runner claims the next index, so the first (largest) tasks start first
+// and no fixed partition can turn out unbalanced.
 struct Job {
     const std::size_t count;
     void* const context;
@@ -97,8 +96,8 @@ void parallel_for(std::size_t count, void* context, IndexedTask task) {
     }
     Job job{count, context, task};
     const std::size_t runners = std::min(count, static_cast<std::size_t>(state.count));
-    // How the captures of these two get to another thread is TBB's matter, which the sanitizer
-    // cannot judge: only run_claimed, which they lead to, is watched again.
+    // The sanitizer cannot follow how TBB passes these two lambdas to other threads.
+    // Instrumentation resumes in run_claimed.
     const auto run = [&](std::size_t) __attribute__((no_sanitize("thread"))) { run_claimed(job); };
     const auto run_all = [&]() __attribute__((no_sanitize("thread"))) {
         tbb::parallel_for(std::size_t{0}, runners, run, tbb::simple_partitioner());

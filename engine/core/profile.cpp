@@ -25,20 +25,20 @@ struct ZoneRecord {
     std::int64_t end_ns;
 };
 
-// What one thread collected. Locked for every zone, but only starting and writing a trace ever
+// Zones of one thread. The mutex is locked for every zone, but only starting and writing a trace
 // contend for it.
 struct ThreadZones {
     std::mutex mutex;
     int tid = 0;
     std::vector<ZoneRecord> zones;
     std::uint64_t dropped = 0;
-    std::size_t max_zones = 0;  // of the present trace
+    std::size_t max_zones = 0;  // of the current trace
     std::int64_t trace_begin_ns = 0;
 };
 
 struct Trace {
     std::atomic<bool> is_on = false;
-    std::mutex mutex;  // of all below
+    std::mutex mutex;  // guards the members below
     std::vector<std::shared_ptr<ThreadZones>> threads;
     std::int64_t begin_ns = 0;
     std::size_t max_zones = 0;
@@ -51,8 +51,7 @@ Trace& trace() {
     return instance;
 }
 
-// Room for all zones at once: none of them pays for a growing array. Pages that stay empty cost
-// nothing.
+// Reserves memory for all zones, so that recording never reallocates. Untouched pages cost nothing.
 void begin_trace(ThreadZones& thread, std::size_t max_zones, std::int64_t trace_begin_ns) {
     thread.zones.clear();
     thread.zones.reserve(max_zones);
@@ -61,7 +60,7 @@ void begin_trace(ThreadZones& thread, std::size_t max_zones, std::int64_t trace_
     thread.trace_begin_ns = trace_begin_ns;
 }
 
-// The calling thread's zones. The trace shares them, so that they outlive the thread.
+// The calling thread's zones, shared with the trace so that they outlive the thread.
 ThreadZones& thread_zones() {
     thread_local const std::shared_ptr<ThreadZones> t_zones = [] {
         auto zones = std::make_shared<ThreadZones>();
@@ -106,8 +105,7 @@ void append_microseconds(std::string& json, std::int64_t duration_ns) {
     json += text;
 }
 
-// Parents before their children: viewers nest zones of one thread in the order of the file where
-// they begin together.
+// Sorts parents before their children: for zones that begin together, viewers nest in file order.
 std::vector<ZoneRecord> sorted_by_begin(std::vector<ZoneRecord> zones) {
     std::stable_sort(zones.begin(), zones.end(), [](const ZoneRecord& a, const ZoneRecord& b) {
         return a.begin_ns != b.begin_ns ? a.begin_ns < b.begin_ns : a.end_ns > b.end_ns;
@@ -166,7 +164,7 @@ void start_trace(std::size_t max_zones) {
     Trace& all = trace();
     const std::lock_guard lock(all.mutex);
     all.is_on = false;
-    // Threads that have ended leave their zones behind until here.
+    // Zones of ended threads are kept until here.
     std::erase_if(all.threads, [](const auto& thread) { return thread.use_count() == 1; });
     all.max_zones = max_zones;
     all.begin_ns = now_ns();

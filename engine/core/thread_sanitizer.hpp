@@ -8,14 +8,14 @@
 #endif
 #endif
 
-// For parallel.cpp. The distribution's task library is not instrumented: a thread sanitizer sees
-// what its headers and our tasks access, but not how it orders them. These two tell it; they are
-// empty in all other builds.
+// For parallel.cpp. The distribution's TBB is not instrumented: the thread sanitizer sees memory
+// accesses in its headers and our tasks, but not their ordering. These two functions declare the
+// ordering; they are empty in other builds.
 namespace handhold {
 
 #ifdef HH_THREAD_SANITIZER
-// All that this thread did so far comes before what others do after acquire_memory of the same
-// address.
+// Everything this thread did before happens before what others do after acquire_memory with the
+// same address.
 void release_memory(const void* address);
 void acquire_memory(const void* address);
 #else

@@ -13,9 +13,9 @@
 
 namespace handhold {
 
-// One component of many entities: rows without gaps, their owners beside them, and a sparse map
-// from an entity's slot to its row. Removing moves the last row into the hole; equal histories give
-// equal orders. References and row numbers hold until the next add or remove.
+// One component of many entities: densely packed elements ("rows" in this API), their owners, and a
+// sparse map from an entity's slot to its row. Removing moves the last row into the gap; equal
+// histories give equal orders. References and row numbers are valid until the next add or remove.
 template <typename T>
 class Column {
     static_assert(!std::is_same_v<T, bool>, "std::vector<bool> has no rows to refer to");
@@ -23,9 +23,9 @@ class Column {
   public:
     using Row = T;
 
-    // The new row. Throws PreconditionError for a null entity, for one that has a row already, and
-    // for one whose slot still has the row of a destroyed predecessor: whoever destroys an entity
-    // removes its rows.
+    // Returns the new row. Throws PreconditionError for a null entity, for an entity that has a row
+    // already, and if the slot still has the row of a destroyed predecessor: code that destroys an
+    // entity has to remove its rows.
     T& add(Entity entity, T value = {}) {
         HH_CHECK(!is_null(entity), "the entity is null", entity.slot);
         if (entity.slot >= row_of_slot_.size()) {
@@ -43,7 +43,7 @@ class Column {
         return rows_.back();
     }
 
-    // False where the entity has no row here, which changes nothing.
+    // Returns false and changes nothing if the entity has no row.
     bool remove(Entity entity) {
         const std::size_t row = find_row(entity);
         if (row == k_npos) {
@@ -65,7 +65,7 @@ class Column {
     }
 
     static constexpr std::size_t k_npos = std::numeric_limits<std::size_t>::max();
-    // The entity's row number, k_npos for null and stale handles and for entities without a row.
+    // The entity's row number; k_npos for null and stale handles and for entities without a row.
     std::size_t find_row(Entity entity) const {
         if (entity.slot >= row_of_slot_.size()) {
             return k_npos;
@@ -82,12 +82,12 @@ class Column {
         return row == k_npos ? nullptr : &rows_[row];
     }
     bool contains(Entity entity) const { return find_row(entity) != k_npos; }
-    // `row` is one of `rows()`.
+    // Precondition: `row` is an element of rows().
     Entity owner_of(const T& row) const {
         return owners_[static_cast<std::size_t>(&row - rows_.data())];
     }
 
-    // The entity's row. Throws PreconditionError where there is none.
+    // The entity's row. Throws PreconditionError if it has none.
     T& at(Entity entity) {
         const std::size_t row = find_row(entity);
         HH_CHECK(row != k_npos, "no row for this entity", entity.slot);
@@ -105,9 +105,9 @@ class Column {
     std::span<const T> rows() const { return rows_; }
     std::span<const Entity> owners() const { return owners_; }
 
-    // Rows [block * k_block_rows, ...) form a block. True only where the block's owners are of one
-    // generation and each slot is its predecessor's plus one: then the first owner tells all. May
-    // be false for a run that came about by removals.
+    // Block b holds the rows [b * k_block_rows, ...). True only if its owners have equal
+    // generations and consecutive slots, so that the first owner determines all. May be false for
+    // such a block after removals.
     static constexpr std::size_t k_block_rows = 256;
     bool is_run(std::size_t block) const { return is_run_[block] != 0; }
 
@@ -131,7 +131,7 @@ class Column {
     std::vector<T> rows_;
     std::vector<Entity> owners_;
     std::vector<std::uint32_t> row_of_slot_;
-    std::vector<std::uint8_t> is_run_;  // a block
+    std::vector<std::uint8_t> is_run_;  // per block
 };
 
 }  // namespace handhold

@@ -9,9 +9,10 @@
 
 namespace handhold {
 
-// The row of `other` from which on its owners are those of the driver's rows [begin, begin +
-// length), a whole block or the last one; k_npos where that is not so. Exact: two runs
-// (Column::is_run) are equal where their first owners are, all else is compared owner by owner.
+// First row of `other` from which its owners equal those of the driver's rows [begin, begin +
+// length), where that range is a block or the last part of one; k_npos if there is none. Exact: two
+// runs (Column::is_run) are equal if their first owners are; other blocks are compared owner by
+// owner.
 template <typename Driver, typename Other>
 std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_t length,
                              const Other& other) {
@@ -31,11 +32,12 @@ std::size_t find_equal_block(const Driver& driver, std::size_t begin, std::size_
 }
 
 // Calls visit(entity, driver_row, other_rows...) for every entity that has a row in all columns, in
-// the order of the driver's rows. Columns may be const; none may gain or lose rows meanwhile.
+// the order of the driver's rows. Columns may be const. No column may gain or lose rows during the
+// call.
 //
-// Columns that were filled together have equal orders: a block of the driver's rows whose owners
-// stand in the same sequence in every other column is walked as plain arrays. In all other blocks
-// every entity is looked up. Orders are compared at each call, never remembered.
+// Columns filled together have equal orders. A block of the driver's rows whose owners appear in
+// the same sequence in every other column is walked as plain arrays. In other blocks every entity
+// is looked up. Orders are compared on each call, never cached.
 template <typename Driver, typename Visit, typename... Others>
 void join(Driver& driver, Visit&& visit, Others&... others) {
     const std::size_t count = driver.size();

@@ -17,13 +17,13 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr double k_widest_seam_m = 1e-3;
-// The shortest edge of a triangle does not limit seams where both others are so many times as long:
-// in a soup that trembles, a triangle without area has one as long as the trembling.
+// An edge shorter than both other edges by this factor does not limit the seam width: in jittered
+// meshes, degenerate triangles have edges as short as the jitter.
 constexpr double k_needle = 8.0;
 
 struct Borders {
-    std::vector<HalfEdge> edges;    // of one triangle alone
-    std::vector<double> reaches_m;  // how far each vertex may be sewn; -1 where on no border
+    std::vector<HalfEdge> edges;    // edges with one triangle
+    std::vector<double> reaches_m;  // per vertex, merge distance; -1 off the borders
 };
 
 double size_of(const std::vector<Vec3>& positions) {
@@ -45,9 +45,9 @@ double widest_seam(const SurfaceGraph& graph, const WeldLimits& limits) {
     return std::max(limits.seam_m, by_size);
 }
 
-// The shortest edge at each vertex that says how fine the mesh is there, times seam_per_edge.
-std::vector<double> fineness(const SurfaceGraph& graph, const WeldLimits& limits, double most_m) {
-    std::vector<double> result(graph.positions.size(), most_m);
+// Seam limit per vertex: seam_per_edge times its shortest incident edge, needle edges excluded.
+std::vector<double> fineness(const SurfaceGraph& graph, const WeldLimits& limits, double max_m) {
+    std::vector<double> result(graph.positions.size(), max_m);
     for (const Triangle& triangle : graph.triangles) {
         std::array<double, 3> lengths = {};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -69,11 +69,11 @@ std::vector<double> fineness(const SurfaceGraph& graph, const WeldLimits& limits
 
 Borders find_borders(const SurfaceGraph& graph, const WeldLimits& limits) {
     Borders borders;
-    const double most_m = widest_seam(graph, limits);
-    if (!(most_m > 0.0)) {
+    const double max_m = widest_seam(graph, limits);
+    if (!(max_m > 0.0)) {
         return borders;
     }
-    const std::vector<double> fine = fineness(graph, limits, most_m);
+    const std::vector<double> fine = fineness(graph, limits, max_m);
     borders.reaches_m.assign(graph.positions.size(), -1.0);
     for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
                   [&](std::span<const HalfEdge> edge) {
@@ -87,11 +87,11 @@ Borders find_borders(const SurfaceGraph& graph, const WeldLimits& limits) {
     return borders;
 }
 
-// A vertex on an open edge of a triangle.
+// A vertex that lies on an open edge of a triangle.
 struct SeamCut {
     std::uint32_t triangle = 0;
     std::uint32_t side = 0;
-    double along = 0.0;  // share of the way from corner `side` to the next
+    double along = 0.0;  // fraction from corner `side` to the next corner
     std::uint32_t vertex = 0;
 };
 
@@ -112,9 +112,10 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
             const Triangle& triangle = graph.triangles[edge.id / 3];
             const std::uint32_t side = edge.id % 3;
             const Vec3& from = graph.positions[triangle[side]];
-            const Vec3 way = graph.positions[triangle[(side + 1) % 3]] - from;
-            const double along = (graph.positions[v] - from).dot(way) / way.squaredNorm();
-            const double end_share = reach / way.norm();  // near an end it would have been sewn
+            const Vec3 edge_m = graph.positions[triangle[(side + 1) % 3]] - from;
+            const double along = (graph.positions[v] - from).dot(edge_m) / edge_m.squaredNorm();
+            // Nearer to an end the vertices would have been merged.
+            const double end_share = reach / edge_m.norm();
             if (along > end_share && along < 1.0 - end_share) {
                 cuts.push_back({edge.id / 3, side, along, v});
             }
@@ -127,7 +128,8 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
     return cuts;
 }
 
-// A part of a triangle; whole[i]: the side of the triangle that its edge i is the rest of.
+// A piece of a split triangle. rest_of[i]: the original side of which edge i is the unsplit rest,
+// or k_no_side.
 struct Piece {
     Triangle corners;
     std::array<std::uint32_t, 3> rest_of;
@@ -139,8 +141,8 @@ Vec3 area_of(const SurfaceGraph& graph, const Triangle& corners) {
         {graph.positions[corners[0]], graph.positions[corners[1]], graph.positions[corners[2]]});
 }
 
-// Cuts the piece that has the rest of the side; cuts of one side come in their order along it.
-// Returns false, and does nothing, where a part would be turned over or have no area.
+// Splits the piece that holds the rest of the cut's side. Cuts of one side must come in ascending
+// order. Returns false and changes nothing if a new piece would be flipped or degenerate.
 bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const SeamCut& cut,
                std::vector<Piece>& pieces) {
     for (std::size_t p = 0; p < pieces.size(); ++p) {

@@ -6,17 +6,16 @@
 
 #include "engine/geometry/surface_graph.hpp"
 
-// Open borders that lie on each other become one edge: vertices that are near are joined, and a
-// border is cut where another border's vertex lies on it (a T-junction). Works on a graph's
-// positions, triangles and source_triangle only, and counts in its report. What is near:
-// WeldLimits.
+// Closes seams between open borders that coincide within WeldLimits. Nearby border vertices are
+// merged, and a border edge is split at another border's vertex that lies on it (a T-junction).
+// Both functions change only positions, triangles and source_triangle, and count in the report.
 namespace handhold {
 
-// Joins vertices of open borders; each comes to lie in the middle of those that it was. May leave
-// triangles without area, with a corner twice, or twice the same.
+// Merges nearby vertices of open borders into their centroid. May leave degenerate or duplicate
+// triangles.
 void sew_borders(SurfaceGraph& graph, const WeldLimits& limits);
 
-// Cuts triangles at vertices on their open edges into triangles that have those as corners.
+// Splits triangles at border vertices that lie on their open edges.
 void cut_borders(SurfaceGraph& graph, const WeldLimits& limits);
 
 }  // namespace handhold

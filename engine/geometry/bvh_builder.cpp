@@ -9,11 +9,11 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_leaf = 4;            // always divided beyond this, and never below
-constexpr std::uint32_t k_planned_depth = 30;  // halved beyond this: the stack of a query ends
-constexpr double k_padding = 0x1p-22;          // of the reach: four times what a float rounds off
+constexpr std::uint32_t k_leaf = 4;            // maximum and minimum size before a set is split
+constexpr std::uint32_t k_planned_depth = 30;  // deeper sets are halved: bounds the query stack
+constexpr double k_padding = 0x1p-22;          // per mesh size: four float roundings
 
-// What it takes to look at so many triangles: four cost what one does.
+// Cost of testing triangles: four cost as much as one.
 std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1) / k_leaf; }
 
 }  // namespace
@@ -41,7 +41,7 @@ BvhBuilder::BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
                        std::span<const std::array<std::uint32_t, 3>> triangles)
     : bvh_(bvh), positions_(positions), triangles_(triangles) {}
 
-// The boxes of all triangles that are finite, about the middle of the whole.
+// Collects the bounding boxes of all finite triangles, relative to the mesh's centre.
 void BvhBuilder::gather() {
     std::vector<std::uint32_t> finite;
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -97,7 +97,7 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
         boxes[bin].join(items_[i].box);
         ++counts[bin];
     }
-    std::array<double, k_bins> upper_cost = {};  // of the bins from here on
+    std::array<double, k_bins> upper_cost = {};  // of this bin and all above
     Box upper = Box::none();
     std::uint32_t upper_count = 0;
     for (std::size_t bin = k_bins - 1; bin > 0; --bin) {
@@ -137,7 +137,7 @@ BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) c
     return best;
 }
 
-// Where the upper side begins once the items are parted.
+// Partitions the items; returns the first item of the upper side.
 std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& middles) {
     const auto first = items_.begin() + work.first;
     const auto last = items_.begin() + work.last;
@@ -147,8 +147,8 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
         });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
-    // Two leaves, one of them full; or all in one place, or the tree is growing into a list:
-    // halves, by place and number.
+    // Two leaves, one of them full; or no useful split, or the tree is too deep: split in halves by
+    // position and index.
     std::size_t widest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis) {
         if (middles.high[axis] - middles.low[axis] > middles.high[widest] - middles.low[widest]) {
@@ -172,7 +172,7 @@ void BvhBuilder::make_leaf(const Work& work) {
     pairs_[work.pair].count = work.last - work.first;
 }
 
-// Each leaf's triangles are made four: what is beyond its count repeats its last one.
+// Each leaf has four slots; unused ones repeat its last triangle.
 void BvhBuilder::fill_leaves() {
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
@@ -198,7 +198,7 @@ void BvhBuilder::fill_leaves() {
     }
 }
 
-// Corners in the order in which the leaves need them.
+// Copies corners in leaf order, for locality.
 std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
     constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
     copied_.resize(positions_.size(), k_not_copied);
@@ -215,8 +215,9 @@ std::array<std::uint32_t, 3> BvhBuilder::copy_corners(std::uint32_t triangle) {
 }
 
 void BvhBuilder::add_four(std::uint32_t first_slot) {
-    constexpr double k_least_area = 1e-8;  // of the longest edge, squared: below it the normal of
-                                           // the corners is off by more than floats are
+    // In units of the longest edge squared. Below it the normal's rounding error is worse than a
+    // float's.
+    constexpr double k_least_area = 1e-8;
     Triangles4 four;
     for (std::uint32_t i = 0; i < k_leaf; ++i) {
         const Corners corners = bvh_.corners_at(first_slot + i);
@@ -270,7 +271,7 @@ void BvhBuilder::divide() {
     }
 }
 
-// Up to four, in the tree's order, in place of one: those that are met most are opened first.
+// Replaces a binary node by up to four descendants in tree order, opening the largest boxes first.
 std::vector<std::uint32_t> BvhBuilder::four_below(std::uint32_t pair) const {
     std::vector<std::uint32_t> below = {pair};
     while (below.size() < 4) {

@@ -8,10 +8,10 @@
 
 namespace handhold {
 
-// Builds the nodes of a TriangleBvh: top down with two children to a node, each time the cheapest
-// of k_bins planes along each axis by the surface area heuristic; then nodes take in those of their
-// children that are met most, until they have four. Order of the triangles within a set decides
-// nothing, so the tree is the same on every compiler and library.
+// Builds a TriangleBvh top-down. Each binary split is the cheapest of k_bins planes along each axis
+// by the surface area heuristic. Binary nodes are then collapsed to four children, largest area
+// first. The order of triangles within a set has no effect, so the tree is the same on every
+// compiler and library.
 class BvhBuilder {
   public:
     BvhBuilder(TriangleBvh& bvh, std::span<const Vec3> positions,
@@ -31,11 +31,11 @@ class BvhBuilder {
         Box box;
         std::uint32_t triangle;
     };
-    // Children of an inner one lie side by side.
+    // A binary node. The children of an inner node are adjacent.
     struct Pair {
         Box box;
-        std::uint32_t first = 0;  // inner: its first child; leaf: its first item, then slot
-        std::uint32_t count = 0;  // of the leaf's; 0: inner
+        std::uint32_t first = 0;  // inner: first child; leaf: first item, later first slot
+        std::uint32_t count = 0;  // leaf: number of items; 0: inner
     };
     struct Work {
         std::uint32_t pair;
@@ -45,8 +45,8 @@ class BvhBuilder {
     };
     struct Split {
         std::size_t axis = 0;
-        std::uint32_t bin = 0;  // the first of the upper side
-        double cost = 0.0;      // in leaves looked at, times half the area of all
+        std::uint32_t bin = 0;  // first bin of the upper side
+        double cost = 0.0;      // number of fours times half the box area, summed
         bool found = false;
     };
     static constexpr std::size_t k_bins = 16;
@@ -69,8 +69,8 @@ class BvhBuilder {
     std::span<const std::array<std::uint32_t, 3>> triangles_;
     float padding_ = 0.0F;
     std::vector<Item> items_;
-    std::vector<Pair> pairs_;            // the root first
-    std::vector<std::uint32_t> copied_;  // by position: where in the tree it is
+    std::vector<Pair> pairs_;            // root first
+    std::vector<std::uint32_t> copied_;  // per position, its index in the tree
 };
 
 }  // namespace handhold

@@ -7,7 +7,7 @@
 namespace handhold {
 namespace {
 
-// In the mesh's frame.
+// The plane's disc in the mesh's frame.
 Disc disc_of(const HingeChain& chain, const Pose& mesh, const ChainFitSettings& settings,
              std::size_t plane) {
     const Pose base = inverse(mesh) * chain.base;
@@ -25,7 +25,7 @@ bool has_start(const ChainSeed& seed) {
     return seed[0].triangle != k_no_triangle || seed[1].triangle != k_no_triangle;
 }
 
-// The chain over cuts that searches find; or over all cuts.
+// Closes the chain over the cuts that the graph searches find, or over all cuts.
 class ChainFitter {
   public:
     ChainFitter(const HingeChain& chain, std::span<const PlacedMesh> meshes,
@@ -69,7 +69,7 @@ class ChainFitter {
         std::ptrdiff_t end = 0;
     };
 
-    // Over what the searches find, or where that does not do over all that is within reach.
+    // Uses the cuts found by search. If they do not suffice, uses all cuts in reach.
     void close_from_open(const ChainSeed& seed) {
         bool is_complete = false;
         if (settings_.searches && has_start(seed)) {
@@ -82,7 +82,7 @@ class ChainFitter {
         }
     }
 
-    // True where it is sunk before it closes: it would hardly turn.
+    // True if the open pose already penetrates: closing would hardly turn a hinge.
     bool starts_penetrating() {
         const ChainDepth depth = depth_of(chain_.open_rad);
         if (depth.depth_m <= settings_.search_depth_m) {
@@ -95,9 +95,9 @@ class ChainFitter {
         return true;
     }
 
-    // What is within reach, and what the planes cut out of it.
+    // Gathers the triangles in reach and cuts them with the planes.
     void gather() {
-        // As much as one chain meets but in the thickest of meshes: then it grows, and stays.
+        // Enough for one chain except on very dense meshes; there the vectors grow once.
         constexpr std::size_t k_usual_segments = 2048;
         scratch_.cuts.reserve(k_usual_segments);
         scratch_.segments.reserve(k_usual_segments);
@@ -120,7 +120,7 @@ class ChainFitter {
         }
     }
 
-    // True where every plane's search found the surface, if there is any to find.
+    // True if every plane that cuts the first mesh was found by its search.
     bool search_cuts(const ChainSeed& seed) {
         scratch_.segments.clear();
         bool is_complete = true;
@@ -137,8 +137,8 @@ class ChainFitter {
         return is_complete;
     }
 
-    // The surface's cut with one plane. The other planes are searched for from where the first
-    // search found the surface: they are a few millimetres beside it.
+    // Finds the first mesh's cut with one plane. Later planes start where the first search found
+    // the surface: they are only millimetres away.
     bool search_cut(std::size_t plane, ChainSeed& start, GraphPoint& contact_start) {
         const GripMesh& mesh = *meshes_.front().mesh;
         const Disc disc = disc_of(chain_, meshes_.front().pose, settings_, plane);
@@ -157,7 +157,7 @@ class ChainFitter {
         return true;
     }
 
-    // From the search detail over to the surface itself.
+    // Moves from the search detail to the contact detail and walks the cut there.
     void walk_contact(const GripMesh& mesh, const Disc& disc, const CrossingSearch& found,
                       GraphPoint& contact_start) {
         if (contact_start.triangle == k_no_triangle) {
@@ -184,7 +184,7 @@ class ChainFitter {
         set_angles(closure.angle_rad);
     }
 
-    // What is sunk there touches.
+    // A chain that penetrates there counts as touching.
     void stay_at(const Angles& angle_rad, const ChainDepth& depth) {
         fit_.angle_rad = angle_rad;
         fit_.depth_m = depth.depth_m;
@@ -209,18 +209,18 @@ class ChainFitter {
         }
     }
 
-    // Poses that it may stay in when it is bent out of what it is sunk in.
+    // Candidates for a chain that penetrates where closing left it.
     struct SamplePoses {
-        std::optional<Angles> touching;  // clear, the nearest to near_rad of those that touch
-        std::optional<Angles> clear;     // the nearest to it of all that are clear
-        std::optional<Angles> least_penetrating;  // where none is clear
-        double min_m = 0.0;                       // how deep that is
+        std::optional<Angles> touching;           // clear and touching, nearest to near_rad
+        std::optional<Angles> clear;              // clear, nearest to near_rad
+        std::optional<Angles> least_penetrating;  // if none is clear
+        double min_m = 0.0;                       // depth of least_penetrating
     };
 
-    // Straight, it reaches into what is before it, or closes onto what it only grazes, and may be
-    // clear when it is bent: at the first hinge, at the others, or at all. Stays where it is clear
-    // and touches something; else it comes back from where it is clear until it touches; where no
-    // pose is clear, it stays where it is sunk least.
+    // A chain that penetrates when straight, or that closed onto a surface it only grazes, may be
+    // clear when the first hinge or the others are bent. Prefers a clear pose that touches. If a
+    // clear pose touches nothing, closes it again until it does. If no pose is clear, takes the one
+    // that penetrates least.
     void depenetrate() {
         const double clear_m = std::min(settings_.open_depth_m, fit_.depth_m);
         const Angles penetrating_rad = fit_.angle_rad;
@@ -250,7 +250,8 @@ class ChainFitter {
                 const double depth_m = depths.depth_m(angle_rad, std::max(poses.min_m, clear_m));
                 if (depth_m <= clear_m && depth_m < fit_.depth_m) {
                     keep_if_nearer(angle_rad, poses.clear);
-                    // Straight it touched as it began, and was sunk as it closed.
+                    // The open pose touched before it closed, and closing made it penetrate: not a
+                    // candidate.
                     const bool is_straight = angle_rad == chain_.open_rad;
                     if (depth_m > 0.0 && !is_straight) {
                         keep_if_nearer(angle_rad, poses.touching);
@@ -297,8 +298,8 @@ class ChainFitter {
         return chain_depth(chain_, angle_rad, scratch_.patch);
     }
 
-    // Opens the hinges up to the deepest link, step by step, as far as that helps; what comes clear
-    // goes back to where it just touches.
+    // Opens the hinges up to the deepest link step by step while that reduces the penetration. A
+    // pose that becomes clear is closed again until it just touches.
     void open() {
         Angles angle_rad = fit_.angle_rad;
         ChainDepth depth = depth_of(angle_rad);
@@ -309,7 +310,7 @@ class ChainFitter {
                 angle_rad[i] = std::max(angle_rad[i] - settings_.open_step_rad, chain_.open_rad[i]);
             }
             if (angle_rad == before_rad) {
-                break;  // it opens no farther
+                break;  // all of these hinges are fully open
             }
             depth = depth_of(angle_rad);
             if (depth.depth_m < fit_.depth_m) {
@@ -325,8 +326,8 @@ class ChainFitter {
         }
     }
 
-    // On the way from a pose that is clear to one that is sunk: where it just touches, or else the
-    // last that is clear.
+    // Bisects between a clear and a penetrating pose. Stops at a pose that just touches, or at the
+    // last clear one.
     void touch_between(Angles clear_rad, Angles penetrating_rad, std::size_t penetrating_link) {
         constexpr int k_halvings = 7;
         constexpr double k_touches_m = 2e-4;
@@ -355,15 +356,17 @@ class ChainFitter {
         fit_.fallback = ChainFallback::rest_pose;
     }
 
-    static constexpr int k_pose_samples = 5;          // of the first hinge, and of the others
-    static constexpr double k_detail_apart_m = 0.02;  // the search detail never errs so much
+    static constexpr int k_pose_samples = 5;  // per axis: first hinge, other hinges
+    // Upper bound on the distance between the two details.
+    static constexpr double k_detail_apart_m = 0.02;
 
     const HingeChain& chain_;
     const DiscChain flat_;
     std::span<const PlacedMesh> meshes_;
     const ChainFitSettings& settings_;
     ChainFitScratch& scratch_;
-    // By plane, of scratch_.cuts: how many are the first mesh's, and where the others' are.
+    // By plane, ranges in scratch_.cuts: number of cuts of the first mesh, and the other meshes'
+    // cuts.
     std::array<std::size_t, k_disc_planes> own_cuts_ = {};
     std::array<CutRange, k_disc_planes> other_cuts_ = {};
     ChainFit fit_;

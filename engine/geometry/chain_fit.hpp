@@ -14,83 +14,87 @@
 
 // Closes a chain of hinged capsules over meshes until it touches them.
 //
-// Three planes cut the meshes: the chain's own and one on each side, where its capsules are
-// thinner; in each a search over the surface finds the cut (disc_trace.hpp), and in all of them at
-// once the chain closes (disc_contact.hpp). What came out is looked at in space, over all that the
-// chain can come to (chain_patch.hpp), and mended where it is sunk: the planes see neither what
-// lies between them nor a second surface that no neighbour leads to.
-// All of one call is in one frame, metres and radians. Sources: talk rows 12 to 15.
+// Three parallel planes cut the meshes: the chain's own and one on each side of it, where the
+// capsules' cross-sections are thinner. A graph search finds the cut in each plane
+// (disc_trace.hpp), and the chain closes against all cuts at once (disc_contact.hpp). The result is
+// then checked in 3D against every triangle in reach (chain_patch.hpp) and depenetrated: the planes
+// miss geometry between them and surfaces that the graph does not connect to the seed.
+// All positions of one call are in one frame. Sources: talk rows 12 to 15.
 namespace handhold {
 
-// Where the searches begin, all at once, on the first mesh's search detail, in that mesh's frame;
-// what has no triangle is no start. With none at all every cut is looked for.
+// Start points of the graph search, on the first mesh's search detail and in that mesh's frame. A
+// point without a triangle is ignored. With no start point at all, every cut is used.
 using ChainSeed = std::array<GraphPoint, 2>;
 
+// Lengths and angles have no defaults of their own: 0 switches a step off or tolerates nothing. The
+// runtime takes them from the tuning.
 struct ChainFitSettings {
-    double plane_offset = 0.62;      // of the outer planes from the middle one, in mean link radii
-    double search_depth_m = 1.2e-3;  // sunk deeper: all cuts are looked for
-    double open_depth_m = 8e-4;      // still sunk deeper: opened
-    double open_step_rad = 0.0436;   // at a time
-    std::int32_t open_steps = 6;
+    double plane_offset = 0.0;    // outer planes' offset from the middle one, in mean link radii
+    double search_depth_m = 0.0;  // a deeper fit uses all cuts, then the sample poses
+    double open_depth_m = 0.0;    // sample poses up to this depth count as clear; deeper fits open
+    double open_step_rad = 0.0;   // opening step of each hinge
+    std::int32_t open_steps = 0;  // maximum number of opening steps
     SearchOrder order = SearchOrder::best_first;
-    // Of several bends that are clear the one nearest to this is taken; none: to the relaxed pose,
-    // which comes first in any case where no bend touches.
+    // Picks the clear sample pose nearest to this one. None: the one nearest to rest_rad. If no
+    // clear sample pose touches anything, a clear rest pose comes first in either case.
     std::optional<ChainAngles> near_rad;
-    bool recloses_to_touch =
-        true;              // of what is bent clear and touches nothing there: until it touches
-    bool searches = true;  // false: all cuts at once, none is searched for, and what is sunk before
-                           // it closes is not closed from there: cheap
-    bool depenetrates = true;  // false: neither bends nor opens what is sunk
+    // Closes a clear sample pose that touches nothing until it touches.
+    bool recloses_to_touch = true;
+    // False: skips the graph search, uses all cuts, and keeps an open pose that already penetrates.
+    // Cheaper.
+    bool searches = true;
+    bool depenetrates = true;  // false: leaves a penetrating fit as it is
 };
 
 enum class ChainFallback : std::uint8_t {
     none,
-    all_cuts,     // the cuts that neighbours lead to did not do: all that a tree finds
-    rest_pose,    // nothing to touch
-    sample_pose,  // sunk where it is straight, or as it closes from there: bent until it is clear,
-                  // or sunk least; it may touch nothing then
-    opened,       // and still sunk: opened a little
+    all_cuts,   // the graph search's cuts did not suffice: used every cut in reach
+    rest_pose,  // nothing to touch
+    // The closed chain penetrated: uses the sample pose that is clear or penetrates least. It may
+    // touch nothing.
+    sample_pose,
+    opened,  // still penetrating after that: opened stepwise
 };
 
 struct ChainFit {
     std::array<double, k_max_disc_links> angle_rad = {};
-    // The last that touches; of what is bent or opened, the deepest. None where nothing is touched,
-    // and of what is relaxed, sunk or not.
+    // Last link that touches; after depenetration, the deepest link. k_none if nothing is touched,
+    // and always for the rest pose.
     std::int32_t contact_link = DiscClosure::k_none;
-    std::uint32_t contact_triangle =
-        k_no_triangle;     // of the first mesh's search detail, where the
-                           // middle plane's search ended: next time's seed
-    double depth_m = 0.0;  // how deep the deepest link is sunk, at least 0; where a surface goes
-                           // through the chain's middle, with what is beyond
+    // Triangle of the first mesh's search detail where the middle plane's search ended: the seed of
+    // the next fit.
+    std::uint32_t contact_triangle = k_no_triangle;
+    // Penetration of the deepest link, >= 0. Includes the chain beyond a surface that crosses its
+    // axis.
+    double depth_m = 0.0;
     ChainFallback fallback = ChainFallback::none;
-    bool is_turn_limited =
-        false;                    // of a refit (chain_refit.hpp): it would turn farther than it may
-    bool has_look_ahead = false;  // of a refit: there was nothing to touch near it
-    bool has_surface_ahead = false;    // then: and there is farther on
-    bool needs_depenetration = false;  // only where ChainFitSettings::mends is off: with it, it
-                                       // would be another
-    std::uint32_t discs = 0;           // planes searched
-    std::uint32_t pops = 0;            // triangles that the searches looked at
-    std::uint32_t walked = 0;  // triangles that the walks passed, and those searched between the
-                               // search detail and the surface itself
+    // Refit only (chain_refit.hpp): max_turn_rad stopped it before it converged.
+    bool is_turn_limited = false;
+    bool has_look_ahead = false;     // refit only: nothing was near, so the whole range was queried
+    bool has_surface_ahead = false;  // result of that query
+    // Only with ChainFitSettings::depenetrates off: the fit would have been depenetrated.
+    bool needs_depenetration = false;
+    std::uint32_t discs = 0;   // planes searched
+    std::uint32_t pops = 0;    // triangles popped by the graph searches
+    std::uint32_t walked = 0;  // triangles visited on the contact detail
 };
 
-// Keeps its memory between calls.
+// Working memory, reused between calls.
 struct ChainFitScratch {
     ChainPatch patch;
     TraceScratch trace;
     DiscScratch disc;
-    std::vector<DiscSegment> cuts;  // all of the patch's
+    std::vector<DiscSegment> cuts;  // all cuts within reach, from the patch
     std::vector<DiscSegment> segments;
 };
 
-// Never fails: where nothing fits, the fit that is sunk least. `meshes` may be empty.
+// Never fails: if no pose is clear, returns the one that penetrates least. `meshes` may be empty.
 ChainFit fit_chain(const HingeChain& chain, std::span<const PlacedMesh> meshes,
                    const ChainSeed& seed, const ChainFitSettings& settings,
                    ChainFitScratch& scratch);
 
-// Of one capsule anywhere: what fit_chain asks its patch, from the beginning. Gathers and allocates
-// anew: for tests and tools.
+// Penetration of a single capsule, as fit_chain computes it. Gathers and allocates on every call:
+// for tests and tools.
 CapsulePenetration find_penetration(const Capsule& capsule, std::span<const PlacedMesh> meshes);
 
 }  // namespace handhold

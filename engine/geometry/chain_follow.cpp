@@ -15,19 +15,19 @@ class ChainFollower {
     std::optional<FollowedChain> run(const ChainAngles& from_rad, const ChainDepth& depth) {
         angle_rad_ = from_rad;
         depth_ = depth;
-        for (int look = 1;; ++look) {
+        for (int query = 1;; ++query) {
             if (is_crossed()) {
                 return std::nullopt;
             }
             const std::size_t deepest = deepest_link();
             const bool is_penetrating = gap_m(deepest) < -settings_.touch_depth_m;
-            kept_ = is_penetrating ? 0 : touching_end();
-            if (!is_penetrating && kept_ > 0 && is_closed_beyond()) {
+            frozen_links_ = is_penetrating ? 0 : touching_end();
+            if (!is_penetrating && frozen_links_ > 0 && is_closed_beyond()) {
                 return FollowedChain{angle_rad_, std::max(0.0, -gap_m(deepest)),
-                                     static_cast<std::int32_t>(kept_) - 1};
+                                     static_cast<std::int32_t>(frozen_links_) - 1};
             }
             points_ds_ = chain_points_ds(chain_, angle_rad_);
-            if (look == settings_.max_queries || !(is_penetrating ? open(deepest) : close())) {
+            if (query == settings_.max_queries || !(is_penetrating ? open(deepest) : close())) {
                 return std::nullopt;
             }
             depth_ =
@@ -41,7 +41,7 @@ class ChainFollower {
                std::ranges::any_of(depth_.beyond_m, [](double beyond_m) { return beyond_m > 0.0; });
     }
 
-    // Below 0 it is sunk; query_gap_m: no surface is as near.
+    // Gap to the nearest surface: < 0 penetrating; query_gap_m if none is nearer than that.
     double gap_m(std::size_t link) const { return depth_.nearest_m[link] - chain_.radius_m[link]; }
 
     std::size_t deepest_link() const {
@@ -63,13 +63,13 @@ class ChainFollower {
     bool is_closed_beyond() const {
         constexpr double k_at_limit_rad = 1e-9;
         bool is_closed = true;
-        for (std::size_t i = kept_; i < chain_.link_count; ++i) {
+        for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
             is_closed = is_closed && angle_rad_[i] >= chain_.closed_rad[i] - k_at_limit_rad;
         }
         return is_closed;
     }
 
-    // Turns hinges from `first` to `last` by a share of their way from open to closed.
+    // Turns hinges `first` to `last` by a fraction of their range from open to closed.
     void turn(std::size_t first, std::size_t last, double share) {
         for (std::size_t i = first; i <= last; ++i) {
             angle_rad_[i] += share * range_rad(i);
@@ -81,7 +81,10 @@ class ChainFollower {
         return chain_.closed_rad[hinge] - chain_.open_rad[hinge];
     }
 
-    // How fast the link's gap opens, by the share that hinges from `first` to its own close.
+    // Rate of change of a link's gap g with the closing fraction s, while hinges first..link turn
+    // together: dg/ds = sum_j range_j * n . perp(p - h_j). n is the unit direction from the surface
+    // to the nearest point p on the link's axis, h_j is hinge j, and perp turns by +90 degrees.
+    // Hinges at their limit towards `side` (1: closing, -1: opening) do not move and are left out.
     double opening_m(std::size_t link, std::size_t first, double side) const {
         double sum_m = 0.0;
         for (std::size_t i = first; i <= link; ++i) {
@@ -94,48 +97,50 @@ class ChainFollower {
         return sum_m;
     }
 
-    // Out of what the link is sunk in, with all hinges up to its own.
+    // Depenetrates the link by opening all hinges up to its own.
     bool open(std::size_t link) {
         const double opening = -opening_m(link, 0, -1.0);
-        if (opening < k_least_opening_m) {
+        if (opening < k_min_opening_m) {
             return false;
         }
         const double share = (settings_.target_gap_m - gap_m(link)) / opening;
-        opened_ += share;
-        if (opened_ > settings_.max_opening) {
+        total_opening_ += share;
+        if (total_opening_ > settings_.max_opening) {
             return false;
         }
         turn(0, link, -share);
         return true;
     }
 
-    // What is beyond the links that touch, until the first of it does.
+    // Closes the links beyond the last touching one until the first of them touches.
     bool close() {
-        double share = std::numeric_limits<double>::infinity();  // until something is touched
-        double unseen = share;  // as far as what no link sees cannot be touched
-        for (std::size_t i = kept_; i < chain_.link_count; ++i) {
-            double arm_m = 0.0;  // how fast its end goes, by the share
-            for (std::size_t j = kept_; j <= i; ++j) {
+        // Closing fraction at the first contact.
+        double share = std::numeric_limits<double>::infinity();
+        double unseen_share = share;  // up to here no surface beyond query_gap_m can be reached
+        for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
+            double arm_m = 0.0;  // bound on the speed of the link's end per closing fraction
+            for (std::size_t j = frozen_links_; j <= i; ++j) {
                 const Vec2 arm = points_ds_[i + 1] - points_ds_[j];
                 arm_m += range_rad(j) * arm.norm();
             }
             const double gap = gap_m(i);
-            const double closing = gap < settings_.query_gap_m ? -opening_m(i, kept_, 1.0) : 0.0;
-            if (closing > k_least_opening_m) {
+            const double closing =
+                gap < settings_.query_gap_m ? -opening_m(i, frozen_links_, 1.0) : 0.0;
+            if (closing > k_min_opening_m) {
                 share = std::min(share, (gap - settings_.target_gap_m) / closing);
             } else {
-                unseen = std::min(unseen, gap / arm_m);
+                unseen_share = std::min(unseen_share, gap / arm_m);
             }
         }
-        closed_ += share;
-        if (share > unseen || closed_ > settings_.max_closing) {
+        total_closing_ += share;
+        if (share > unseen_share || total_closing_ > settings_.max_closing) {
             return false;
         }
-        turn(kept_, chain_.link_count - 1, share);
+        turn(frozen_links_, chain_.link_count - 1, share);
         return true;
     }
 
-    static constexpr double k_least_opening_m = 0.01;  // by the whole way: less is no help
+    static constexpr double k_min_opening_m = 0.01;  // per full range; smaller rates are ignored
 
     const HingeChain& chain_;
     ChainPatch& patch_;
@@ -143,9 +148,9 @@ class ChainFollower {
     ChainAngles angle_rad_ = {};
     ChainDepth depth_;
     std::array<Vec2, k_max_disc_links + 1> points_ds_;
-    std::size_t kept_ = 0;  // links up to there touch: their hinges stay
-    double opened_ = 0.0;
-    double closed_ = 0.0;
+    std::size_t frozen_links_ = 0;  // links before it touch and keep their hinge angles
+    double total_opening_ = 0.0;
+    double total_closing_ = 0.0;
 };
 
 }  // namespace

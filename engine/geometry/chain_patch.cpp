@@ -11,12 +11,12 @@
 namespace handhold {
 namespace {
 
-constexpr std::size_t k_usual_fours = 1024;  // more than one chain meets but on dense meshes
+constexpr std::size_t k_usual_fours = 1024;  // exceeded only on dense meshes
 
 }  // namespace
 
-// How near a capsule's middle comes to triangles: first those that may come near are noted, then
-// they are looked at.
+// Distance from a capsule's axis to triangles. Collects candidates by float lower bounds, then
+// tests them exactly, nearest bound first.
 class ChainPatch::PenetrationSearch {
   public:
     PenetrationSearch(const std::array<Vec2, 2>& middle_ds, double radius_m,
@@ -36,51 +36,53 @@ class ChainPatch::PenetrationSearch {
             along_[i] = splat4(along[axis]);
         }
         length_ = splat4(length_m_);
-        limit();
+        update_limits();
     }
 
-    // Those of four triangles that may come nearer than what was found; the first one's number.
-    void note(const ReachedTriangles4& four, const Int4& is_asked, std::uint32_t number) {
-        Int4 is_near = is_asked & may_be_near(four);
+    // Adds the triangles of a four that may be nearer than the nearest found so far. `number` is
+    // the first one's place.
+    void add_candidates(const ReachedTriangles4& four, const Int4& is_wanted,
+                        std::uint32_t number) {
+        Int4 is_near = is_wanted & is_in_box(four);
         if (!any_of(is_near)) {
             return;
         }
-        is_near &= ~is_off(four);
-        const Corners4 corner = about_middle(four);
-        is_near &= least_squared(corner) <= most_squared_;
+        is_near &= ~is_off_plane(four);
+        const Corners4 corner = to_axis_frame(four);
+        is_near &= bounds_squared(corner) <= max_squared_;
         if (!any_of(is_near)) {
             return;
         }
         const Float4 squared = SegmentDistances4(corner, length_).squared();
-        is_near &= squared <= most_squared_;
+        is_near &= squared <= max_squared_;
         for (std::uint32_t i = 0; i < 4; ++i) {
-            noted_[count_] = {squared[i], number + i};
+            candidates_[count_] = {squared[i], number + i};
             count_ += is_near[i] != 0 ? 1U : 0U;
         }
     }
-    // No room for four more.
-    bool is_full() const { return count_ + 4 > noted_.size(); }
+    // True if fewer than four more candidates fit.
+    bool is_full() const { return count_ + 4 > candidates_.size(); }
 
-    // Of those noted the one that may be nearest, if it still matters.
-    std::optional<std::uint32_t> next() {
+    // Removes and returns the candidate with the smallest bound; none if empty.
+    std::optional<std::uint32_t> pop_nearest() {
         if (count_ == 0) {
             return std::nullopt;
         }
         std::size_t best = 0;
         for (std::size_t i = 1; i < count_; ++i) {
-            best = noted_[i].squared < noted_[best].squared ? i : best;
+            best = candidates_[i].squared < candidates_[best].squared ? i : best;
         }
-        const Noted first = noted_[best];
-        noted_[best] = noted_[--count_];
+        const Candidate first = candidates_[best];
+        candidates_[best] = candidates_[--count_];
         return first.number;
     }
-    void look_at(const Triangle& triangle) {
+    void test(const Triangle& triangle) {
         const SegmentTriangle found = nearest_between(segment_, triangle.corners, triangle.normal);
         if (found.distance_m < nearest_m_) {
             nearest_m_ = found.distance_m;
             nearest_ = found;
-            limit();
-            drop_far();
+            update_limits();
+            drop_far_candidates();
         }
         if (found.distance_m == 0.0 && length_m_ > 0.0) {
             const double share = (found.on_segment - segment_[0]).norm() / length_m_;
@@ -92,34 +94,34 @@ class ChainPatch::PenetrationSearch {
         CapsulePenetration penetration = {radius_m_ - nearest_m_, nearest_m_, crossed_at_};
         penetration.nearest_ds = nearest_.on_segment.head<2>();
         if (nearest_.distance_m > 0.0) {
-            const Vec3 way = nearest_.on_segment - nearest_.on_triangle;
-            penetration.away_ds = way.head<2>() / nearest_.distance_m;
+            const Vec3 offset = nearest_.on_segment - nearest_.on_triangle;
+            penetration.away_ds = offset.head<2>() / nearest_.distance_m;
         }
         return penetration;
     }
 
   private:
-    struct Noted {
-        float squared;  // its distance, but for roundings
+    struct Candidate {
+        float squared;  // lower bound on the squared distance, up to rounding
         std::uint32_t number;
     };
 
-    // What holds the triangles tells of most that they are too far.
-    Int4 may_be_near(const ReachedTriangles4& four) const {
+    // Bounding boxes reject most triangles.
+    Int4 is_in_box(const ReachedTriangles4& four) const {
         const Int4 is_far = (four.low[0] > high_[0]) | (four.low[1] > high_[1]) |
                             (four.high[0] < low_[0]) | (four.high[1] < low_[1]) |
-                            (four.low[2] > most_m_) | (four.high[2] < -most_m_);
+                            (four.low[2] > max_m_) | (four.high[2] < -max_m_);
         return ~is_far;
     }
-    // So does the side of their planes on which the middle is.
-    Int4 is_off(const ReachedTriangles4& four) const {
+    // Rejects triangles whose plane lies farther than max_m_ from the axis.
+    Int4 is_off_plane(const ReachedTriangles4& four) const {
         const Float4 begin = four.line[0] * begin_[0] + four.line[1] * begin_[1] - four.line[2];
         const Float4 end = four.line[0] * end_[0] + four.line[1] * end_[1] - four.line[2];
-        return (lower(begin, end) > most_m_) | (higher(begin, end) < -most_m_);
+        return (lower(begin, end) > max_m_) | (higher(begin, end) < -max_m_);
     }
 
-    // Turned as the middle is.
-    Corners4 about_middle(const ReachedTriangles4& four) const {
+    // Rotates the corners into the axis's frame: origin at its first end, +X along it.
+    Corners4 to_axis_frame(const ReachedTriangles4& four) const {
         Corners4 corner;
         for (std::size_t i = 0; i < 3; ++i) {
             const Float4 x = four.corner[i][0] - begin_[0];
@@ -130,13 +132,13 @@ class ChainPatch::PenetrationSearch {
         }
         return corner;
     }
-    // No more than their distances, squared: those of boxes around them.
-    Float4 least_squared(const Corners4& corner) const {
+    // Lower bound on the squared distance: distance to the triangle's bounding box.
+    Float4 bounds_squared(const Corners4& corner) const {
         const Float4 zero = {};
-        const auto beyond = [&](std::size_t axis, const Float4& most) -> Float4 {
+        const auto beyond = [&](std::size_t axis, const Float4& upper) -> Float4 {
             const Float4 low = lower(lower(corner[0][axis], corner[1][axis]), corner[2][axis]);
             const Float4 high = higher(higher(corner[0][axis], corner[1][axis]), corner[2][axis]);
-            return higher(higher(low - most, -high), zero);
+            return higher(higher(low - upper, -high), zero);
         };
         const Float4 ahead = beyond(0, length_);
         const Float4 aside = beyond(1, zero);
@@ -144,22 +146,22 @@ class ChainPatch::PenetrationSearch {
         return ahead * ahead + aside * aside + across * across;
     }
 
-    // What is farther than what was found is of no use any more.
-    void limit() {
+    // Shrinks the limits to the nearest distance found so far.
+    void update_limits() {
         constexpr double k_rounding = 1e-5;
-        const double most_m = nearest_m_ * (1.0 + k_rounding) + 4.0 * rounding_margin_m_;
-        most_m_ = splat4(most_m);
-        most_squared_ = splat4(most_m * most_m);
+        const double max_m = nearest_m_ * (1.0 + k_rounding) + 4.0 * rounding_margin_m_;
+        max_m_ = splat4(max_m);
+        max_squared_ = splat4(max_m * max_m);
         for (std::size_t i = 0; i < 2; ++i) {
-            low_[i] = lower(begin_[i], end_[i]) - most_m_;
-            high_[i] = higher(begin_[i], end_[i]) + most_m_;
+            low_[i] = lower(begin_[i], end_[i]) - max_m_;
+            high_[i] = higher(begin_[i], end_[i]) + max_m_;
         }
     }
-    void drop_far() {
+    void drop_far_candidates() {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < count_; ++i) {
-            noted_[kept] = noted_[i];
-            kept += noted_[i].squared <= most_squared_[0] ? 1U : 0U;
+            candidates_[kept] = candidates_[i];
+            kept += candidates_[i].squared <= max_squared_[0] ? 1U : 0U;
         }
         count_ = kept;
     }
@@ -171,16 +173,16 @@ class ChainPatch::PenetrationSearch {
     SegmentTriangle nearest_;
     double rounding_margin_m_;
     std::optional<double> crossed_at_;
-    // The middle in the plane, each number four times, and how far around it matters.
+    // The axis and its search limits, each number repeated in all lanes.
     std::array<Float4, 2> begin_;
     std::array<Float4, 2> end_;
     std::array<Float4, 2> along_;
     std::array<Float4, 2> low_;
     std::array<Float4, 2> high_;
     Float4 length_ = {};
-    Float4 most_m_ = {};
-    Float4 most_squared_ = {};
-    std::array<Noted, 64> noted_;  // NOLINT(*-member-init): filled as it grows
+    Float4 max_m_ = {};
+    Float4 max_squared_ = {};
+    std::array<Candidate, 64> candidates_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
 };
 
@@ -235,7 +237,8 @@ void ChainPatch::gather(const ChainReach& reach, std::span<const PlacedMesh> mes
 }
 
 void ChainPatch::gather_mesh(const ChainReach& reach, const PlacedMesh& placed) {
-    constexpr double k_float_rounding_m = 1e-6;  // of what is asked, in floats below 4 m
+    // Rounding of the query itself, for coordinates below 4 m.
+    constexpr double k_float_rounding_m = 1e-6;
     constexpr std::array<Int4, 5> k_first = {Int4{0, 0, 0, 0}, Int4{-1, 0, 0, 0},
                                              Int4{-1, -1, 0, 0}, Int4{-1, -1, -1, 0},
                                              Int4{-1, -1, -1, -1}};
@@ -314,18 +317,18 @@ std::size_t ChainPatch::cut(double offset_m, std::uint32_t plane,
 CapsulePenetration ChainPatch::find_penetration(const std::array<Vec2, 2>& middle_ds,
                                                 double radius_m, std::size_t box) {
     PenetrationSearch search(middle_ds, radius_m, rounding_margin_m_);
-    const auto look_at_noted = [&]() {
-        while (const auto next = search.next()) {
-            search.look_at(exact(*next));
+    const auto test_candidates = [&]() {
+        while (const auto candidate = search.pop_nearest()) {
+            search.test(exact(*candidate));
         }
     };
     for (const Boxed& boxed : boxed_[std::min(box, box_count_ - 1)]) {
-        search.note(fours_[boxed.four], boxed.is_near, 4 * boxed.four);
+        search.add_candidates(fours_[boxed.four], boxed.is_near, 4 * boxed.four);
         if (search.is_full()) {
-            look_at_noted();
+            test_candidates();
         }
     }
-    look_at_noted();
+    test_candidates();
     return search.found();
 }
 

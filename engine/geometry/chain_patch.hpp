@@ -14,48 +14,49 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
-// What of the surfaces one chain can come to, gathered once: whatever is asked after that (cuts,
-// depths) goes through a short list, and through no tree.
+// Triangles within one chain's reach, gathered once. Cuts and depth queries then scan this short
+// list instead of a tree.
 namespace handhold {
 
-// A mesh, and where it is in the frame that a chain is in.
+// A mesh and its pose in the chain's frame.
 struct PlacedMesh {
     const GripMesh* mesh = nullptr;
     Pose pose;
 };
 
-// How deep a capsule is sunk in the surfaces.
+// Penetration of a capsule into the surfaces.
 struct CapsulePenetration {
-    double depth_m = 0.0;    // at least 0: its radius less the distance of its middle
-    double nearest_m = 0.0;  // that distance, where it is less than the radius; else the radius
-    std::optional<double> crossed_at;  // in [0, 1] from its first end: where the first surface goes
-                                       // through its middle
-    // Of the nearest pair of points, where there is one: that on its middle, and the way there from
-    // the surface, unit, what of it lies in the plane. Zero where a surface goes through.
+    double depth_m = 0.0;    // radius minus the axis's distance to the surface, >= 0
+    double nearest_m = 0.0;  // that distance, at most the radius
+    // Smallest fraction of the axis at which a surface crosses it; none: no surface does.
+    std::optional<double> crossed_at;
+    // Nearest point on the axis, and the in-plane part of the unit direction from the surface to
+    // it. Zero if a surface crosses the axis.
     Vec2 nearest_ds = Vec2::Zero();
     Vec2 away_ds = Vec2::Zero();
 };
 
-// Disc space (_ds, disc_contact.hpp) with a third axis, across the plane: base's -Z, -Y and -X.
-// Keeps its memory between gatherings. What floats tell from what is asked is never looked at more
-// closely; of the rest each triangle is once, when it is first asked for.
+// Works in disc space (_ds, disc_contact.hpp) with a third axis across the plane: the base's -Z, -Y
+// and -X. Memory is reused between gatherings. Float tests reject most triangles; the rest are
+// transformed in doubles once, on first use.
 class ChainPatch {
   public:
-    // Every triangle of the meshes' contact detail with a point in reach, and few more.
+    // Gathers every triangle of the meshes' contact detail that reaches into `reach`, and a few
+    // more.
     void gather(const ChainReach& reach, std::span<const PlacedMesh> meshes);
 
-    // What the plane `offset_m` across cuts out of the triangles within the reach, as `plane` in
-    // the segments, which are added to; the first mesh's come before the others'. In floats, the
-    // reach's edge too. Precondition: the plane is within the half width. Returns how many are the
-    // first mesh's.
+    // Cuts the gathered triangles with the plane at `offset_m` and appends the segments, labelled
+    // `plane`; the first mesh's come first. Computed in floats, as is the reach's boundary. Returns
+    // the number of segments from the first mesh. Precondition: |offset_m| <= half width of the
+    // reach.
     std::size_t cut(double offset_m, std::uint32_t plane, std::vector<DiscSegment>& segments);
 
-    // Of a capsule whose middle lies in the plane, within box `box` of the reach that was gathered
-    // for; where that has no boxes, anywhere in it.
+    // For a capsule whose axis lies in the plane and inside box `box` of the gathered reach. If the
+    // reach has no boxes, the axis may lie anywhere in it.
     CapsulePenetration find_penetration(const std::array<Vec2, 2>& middle_ds, double radius_m,
                                         std::size_t box);
 
-    std::size_t size() const;  // triangles
+    std::size_t size() const;  // number of triangles
 
   private:
     struct Triangle {
@@ -63,13 +64,13 @@ class ChainPatch {
         Vec3 normal;  // unit
     };
 
-    // From one mesh into disc space, in doubles.
+    // Transforms one mesh's triangles into disc space, in doubles.
     class Frame {
       public:
         Frame(const GripMesh& mesh, const Pose& base, std::size_t first);
         Triangle triangle(std::uint32_t slot) const;
-        std::uint32_t number(std::uint32_t slot) const;  // the mesh's own
-        std::size_t first() const { return first_; }     // of the fours that are this mesh's
+        std::uint32_t number(std::uint32_t slot) const;  // triangle index in the mesh
+        std::size_t first() const { return first_; }     // index of this mesh's first four
 
       private:
         Vec3 turned(const Vec3& direction) const;
@@ -85,9 +86,9 @@ class ChainPatch {
     class PenetrationSearch;
 
     void gather_mesh(const ChainReach& reach, const PlacedMesh& placed);
-    const Triangle& exact(std::uint32_t place);  // four times the four, and its lane
+    const Triangle& exact(std::uint32_t place);  // place = 4 * index of the four + lane
 
-    // Of four triangles, those in one box.
+    // The triangles of one four that reach into one box.
     struct Boxed {
         Int4 is_near = {};
         std::uint32_t four = 0;
@@ -95,16 +96,16 @@ class ChainPatch {
 
     static constexpr std::uint32_t k_not_placed = ~0U;
 
-    // By four, in the order of the meshes and their trees.
+    // Fours in mesh order, then tree order.
     std::vector<ReachedTriangles4> fours_;
-    std::vector<Int4> is_near_;  // in any box
+    std::vector<Int4> is_near_;  // lanes that reach into any box
     std::vector<std::uint32_t> first_slot_;
-    std::vector<std::array<std::uint32_t, 4>> placed_;  // which of triangles_, or k_not_placed
+    std::vector<std::array<std::uint32_t, 4>> placed_;  // index into triangles_, or k_not_placed
     std::array<std::vector<Boxed>, k_max_disc_links> boxed_;
     std::size_t box_count_ = 1;
-    std::vector<Triangle> triangles_;  // those that were asked for
-    std::vector<Frame> frames_;        // by mesh
-    double rounding_margin_m_ = 0.0;   // more than floats round off
+    std::vector<Triangle> triangles_;  // transformed on first use
+    std::vector<Frame> frames_;        // one per mesh
+    double rounding_margin_m_ = 0.0;   // upper bound on the float rounding error
     double radius_m_ = 0.0;
 };
 

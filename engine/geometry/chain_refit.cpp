@@ -37,7 +37,7 @@ class ChainRefitter {
     }
 
   private:
-    // Hinges up to and with `last`, by a share of their way from open to closed.
+    // Turns the hinges up to and including `last` by a fraction of their range.
     ChainAngles moved_by(const ChainAngles& angle_rad, double share,
                          std::size_t last = k_max_disc_links) const {
         ChainAngles moved_rad = angle_rad;
@@ -56,19 +56,19 @@ class ChainRefitter {
         return limited_rad;
     }
 
-    // What the chain can come to at once.
+    // Gathers what the chain can reach in one opening or closing.
     void gather_near(std::span<const PlacedMesh> meshes) {
         gather_between(moved_by(fit_.angle_rad, -refit_.open_share * refit_.open_steps),
                        moved_by(fit_.angle_rad, refit_.close_share), meshes);
     }
 
-    // And what it can come to until it is closed, or relaxed.
+    // Gathers what it can reach until it is fully closed or at rest.
     void gather_all(std::span<const PlacedMesh> meshes) {
         gather_between(lowest(fit_.angle_rad, chain_.rest_rad),
                        highest(chain_.closed_rad, chain_.rest_rad), meshes);
     }
 
-    // With each hinge anywhere between two angles.
+    // Gathers what it can reach with each hinge anywhere between two angles.
     void gather_between(const ChainAngles& min_rad, const ChainAngles& max_rad,
                         std::span<const PlacedMesh> meshes) {
         ChainReach reach = chain_reach(chain_, min_rad, max_rad, refit_.query_gap_m);
@@ -80,7 +80,7 @@ class ChainRefitter {
         return chain_depth(chain_, angle_rad, scratch_.patch, {.extra_radius_m = extra_radius_m});
     }
 
-    // On the surface where it is near by. False where it has to be closed anew.
+    // Follows a nearby surface. False if it does not converge: the chain has to be closed again.
     bool follow(const ChainDepth& depth) {
         const ChainFollowSettings settings = {
             .touch_gap_m = refit_.touch_gap_m,
@@ -97,8 +97,8 @@ class ChainRefitter {
         return followed.has_value();
     }
 
-    // Opens the hinges up to the deepest link until all is clear; false where it does not come
-    // clear: then as it is sunk least.
+    // Opens the hinges up to the deepest link until the chain is clear. Returns false if it stays
+    // penetrating, and then keeps the pose with the smallest depth.
     bool open(ChainDepth depth) {
         ChainAngles angle_rad = fit_.angle_rad;
         fit_.depth_m = depth.depth_m;
@@ -115,7 +115,7 @@ class ChainRefitter {
         return depth.depth_m <= 0.0;
     }
 
-    // Of the way from open to closed, what no hinge turns farther by than it may.
+    // Largest fraction of the range that no hinge's limit forbids.
     double turn_share() const {
         double max_rad = 0.0;
         for (std::size_t i = 0; i < chain_.link_count; ++i) {
@@ -124,7 +124,7 @@ class ChainRefitter {
         return refit_.max_turn_rad < max_rad ? refit_.max_turn_rad / max_rad : 1.0;
     }
 
-    // Hinges up to and with the last link that touches keep their angles.
+    // Freezes the hinges up to and including the last link that touches.
     void stay(const ChainDepth& depth) {
         fit_.depth_m = std::max(0.0, depth.depth_m - refit_.query_gap_m);
         for (std::size_t i = 0; i < depth.end; ++i) {
@@ -136,7 +136,7 @@ class ChainRefitter {
         fit_.contact_link = static_cast<std::int32_t>(frozen_links_) - 1;
     }
 
-    // Touches with its last link, or with one beyond which all are closed.
+    // True if the last link touches, or if all links beyond the contact are fully closed.
     bool is_done() const {
         constexpr double k_at_limit_rad = 1e-9;
         if (fit_.contact_link == DiscClosure::k_none) {
@@ -149,7 +149,7 @@ class ChainRefitter {
         return is_closed;
     }
 
-    // On from where the chain is clear, or where its first links touch.
+    // Closes from a clear pose, or from one whose first links touch.
     void close_on(std::span<const PlacedMesh> meshes) {
         const double turn = turn_share();
         fit_.contact_link = static_cast<std::int32_t>(frozen_links_) - 1;
@@ -172,7 +172,7 @@ class ChainRefitter {
         }
     }
 
-    // Nothing near is touched: is there anything farther on? Turns by this share of the way.
+    // Nothing near is touched: looks for a surface farther ahead, and turns by `turn` of the range.
     void close_far(std::span<const PlacedMesh> meshes, double turn) {
         gather_all(meshes);
         cut();
@@ -200,7 +200,7 @@ class ChainRefitter {
         flat.open_rad = fit_.angle_rad;
         flat.closed_rad = fit_.angle_rad;
         for (std::size_t i = frozen_links_; i < chain_.link_count; ++i) {
-            // As fast as ever, but no hinge beyond its limit.
+            // Same speed as in a full closing, but clamped at the hinge's limit.
             flat.closed_rad[i] += std::min(chain_.closed_rad[i] - chain_.open_rad[i],
                                            (chain_.closed_rad[i] - fit_.angle_rad[i]) / share);
         }
@@ -217,7 +217,8 @@ class ChainRefitter {
         fit_.fallback = ChainFallback::none;
     }
 
-    // As far as it may turn; stays where that is sunk, and says so.
+    // Turns towards the rest pose as far as max_turn_rad allows. Stays and returns false if that
+    // pose penetrates.
     bool return_to_rest() {
         fit_.fallback = ChainFallback::rest_pose;
         fit_.contact_link = DiscClosure::k_none;
@@ -245,9 +246,9 @@ class ChainRefitter {
     const ChainRefitSettings& refit_;
     ChainFitScratch& scratch_;
     ChainFit fit_;
-    std::size_t unmoved_links_ = 0;  // of these, links that have not moved at all
-    double unmoved_depth_m_ = 0.0;   // how deep the deepest of those is
-    std::size_t frozen_links_ = 0;   // hinges that keep their angles: links up to there touch
+    std::size_t unmoved_links_ = 0;  // links before it have not moved since the depth query
+    double unmoved_depth_m_ = 0.0;   // largest depth among those
+    std::size_t frozen_links_ = 0;   // links before it touch and keep their hinge angles
 };
 
 }  // namespace

@@ -6,17 +6,19 @@
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/math/math.hpp"
 
-// How a chain moves while it closes: disc_contact's alone. Inline, since it is asked in its inner
-// loop.
+// Motion of a closing chain, for disc_contact.cpp only. Inline because it runs in the inner loop.
+//
+// Time is the closing fraction: 0 is fully open, 1 is fully closed. Velocities and accelerations
+// are therefore in metres per full closing.
 namespace handhold {
 
-// The hinges, and the last link's end, in disc space.
+// Hinges and the last link's end, in disc space.
 struct ChainMotion {
     std::array<Vec2, k_max_disc_links + 1> point;
-    std::array<Vec2, k_max_disc_links + 1> velocity_m;  // for the whole closing
+    std::array<Vec2, k_max_disc_links + 1> velocity_m;  // per full closing
 };
 
-// Where the links are while those before `first_free_hinge` keep their angles.
+// Link positions while the hinges before `first_free_hinge` are frozen at their angles.
 class ClosingChain {
   public:
     ClosingChain(const DiscChain& chain, double at) : chain_(chain) {
@@ -39,18 +41,18 @@ class ClosingChain {
         double angle = frozen_angle_rad_;
         for (std::size_t i = first_free_hinge_; i < chain_.link_count; ++i) {
             angle += angle_at(i, at);
-            const Vec2 way = chain_.length_m[i] * direction(angle);
-            motion.point[i + 1] = motion.point[i] + way;
+            const Vec2 link = chain_.length_m[i] * direction(angle);
+            motion.point[i + 1] = motion.point[i] + link;
             motion.velocity_m[i + 1] =
-                motion.velocity_m[i] + turn_rad_[i] * Vec2(-way.y(), way.x());
+                motion.velocity_m[i] + turn_rad_[i] * Vec2(-link.y(), link.x());
         }
         return motion;
     }
 
-    // No point `i` of the motion is accelerated more, metres for the whole closing, squared.
+    // Upper bound on the acceleration of point `point`, metres per full closing squared.
     double acceleration_m(std::size_t point) const { return acceleration_m_[point]; }
 
-    // Hinges up to and with `last` keep the angles they have at `at`.
+    // Freezes the hinges up to and including `last` at their angles at time `at`.
     void freeze(std::size_t last, double at) {
         for (std::size_t i = first_free_hinge_; i <= last; ++i) {
             angle_rad_[i] = angle_at(i, at);
@@ -70,7 +72,7 @@ class ClosingChain {
         return {cosine, sine};
     }
 
-    // What stays the same until the next hinge is frozen.
+    // Computes everything that stays constant until the next hinge is frozen.
     void cache_frozen_links() {
         frozen_angle_rad_ = 0.0;
         frozen_points_[0] = Vec2::Zero();
@@ -91,9 +93,9 @@ class ClosingChain {
     const DiscChain& chain_;
     std::array<double, k_max_disc_links> angle_rad_ = {};
     std::size_t first_free_hinge_ = 0;
-    double frozen_angle_rad_ = 0.0;  // of the last link that is kept
+    double frozen_angle_rad_ = 0.0;  // absolute angle of the last frozen link
     std::array<Vec2, k_max_disc_links + 1> frozen_points_;
-    std::array<double, k_max_disc_links> turn_rad_ = {};  // of each link, for the whole closing
+    std::array<double, k_max_disc_links> turn_rad_ = {};  // per link, turn over a full closing
     std::array<double, k_max_disc_links + 1> acceleration_m_ = {};
 };
 

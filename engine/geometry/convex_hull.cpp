@@ -13,7 +13,7 @@ bool corner_less(const Vec3& a, const Vec3& b) {
     return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
 }
 
-// Sorted and each once: the order in which they were given decides nothing.
+// Sorted and unique: the result does not depend on the input order.
 std::vector<Vec3> sorted(std::span<const Vec3> points) {
     std::vector<Vec3> result(points.begin(), points.end());
     std::sort(result.begin(), result.end(), corner_less);
@@ -31,13 +31,13 @@ double extent_along(const ConvexHull& hull, const Vec3& direction) {
     return high - low;
 }
 
-// A polyhedron is thinnest across one of its faces or across two of its edges (Houle and Toussaint,
-// Computing the Width of a Set, 1988).
+// The minimum width is attained across a face or across two edges (Houle and Toussaint, Computing
+// the Width of a Set, 1988).
 double width_of(const ConvexHull& hull) {
     std::vector<Vec3> edges;
-    double least = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (const HullFace& face : hull.faces) {
-        least = std::min(least, extent_along(hull, face.normal));
+        min_m = std::min(min_m, extent_along(hull, face.normal));
         for (std::size_t i = 0; i < face.loop.size(); ++i) {
             const std::uint32_t from = face.loop[i];
             const std::uint32_t to = face.loop[(i + 1) % face.loop.size()];
@@ -50,11 +50,11 @@ double width_of(const ConvexHull& hull) {
         for (std::size_t j = 0; j < i; ++j) {
             const Vec3 across = edges[i].cross(edges[j]);
             if (across.norm() > 1e-6) {
-                least = std::min(least, extent_along(hull, across.normalized()));
+                min_m = std::min(min_m, extent_along(hull, across.normalized()));
             }
         }
     }
-    return least;
+    return min_m;
 }
 
 }  // namespace

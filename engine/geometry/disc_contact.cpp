@@ -13,17 +13,20 @@
 namespace handhold {
 namespace {
 
-constexpr double k_disc_touch_m = 2e-5;  // nearer counts as touching
-constexpr double k_aim_m = 1e-5;         // so near an advance may come: less than touching, so that
-                                         // what comes near stops there at once
-constexpr double k_disc_clear_m = 1e-4;  // what left an overlap by this much can touch again
-constexpr double k_surely_apart_m = 3e-5;  // from here on the closed form does: Box2D, which has
-                                           // the last word about touches, is 5e-7 m off at most
-constexpr int k_max_rounds = 20000;        // a guard: a few dozen are usual
+constexpr double k_disc_touch_m = 2e-5;  // touching at or below this separation
+// Separation an advance aims for: below k_disc_touch_m, so that an approaching pair touches on
+// arrival.
+constexpr double k_aim_m = 1e-5;
+// Separation at which a pair that moved out of an overlap may touch again.
+constexpr double k_disc_clear_m = 1e-4;
+// Larger separations use the closed form. Smaller ones use Box2D, whose error is at most 5e-7 m and
+// which decides what touches.
+constexpr double k_closed_form_above_m = 3e-5;
+constexpr int k_max_rounds = 20000;  // guard; a few dozen are usual
 constexpr double k_leave_step = 1.0 / 64.0;
 constexpr double k_leave_noise_m = 1e-6;
 
-// A box around points.
+// Axis-aligned box.
 struct DiscBox {
     Vec2 low = Vec2::Zero();
     Vec2 high = Vec2::Zero();
@@ -41,8 +44,9 @@ struct DiscBox {
     }
 };
 
-// The first time at which a point may have come nearer by `room_m`, from now: it approaches at
-// `speed_m` now, and its speed changes by no more than `acceleration_m`.
+// Earliest time at which a point can have approached by `clearance_m` (d), given its approach speed
+// v and a bound a on the rate at which that speed changes: the positive root t of v t + a t^2 / 2 =
+// d. The form for v > 0 avoids cancellation.
 double time_to_cross(double clearance_m, double speed_m, double acceleration_m) {
     const double root = std::sqrt(speed_m * speed_m + 2.0 * acceleration_m * clearance_m);
     if (speed_m > 0.0) {
@@ -62,17 +66,17 @@ struct Touch {
     }
 };
 
-class Closing {
+class ChainCloser {
   public:
-    Closing(const DiscChain& chain, std::span<const DiscSegment> segments, const DiscSweep& sweep,
-            DiscScratch& scratch)
+    ChainCloser(const DiscChain& chain, std::span<const DiscSegment> segments,
+                const DiscSweep& sweep, DiscScratch& scratch)
         : chain_(chain),
           segments_(segments),
           sweep_(sweep),
           scratch_(scratch),
           pairs_(scratch.pairs),
           links_(chain, sweep.from) {
-        look_at_segments();
+        prepare_segments();
     }
 
     DiscClosure run() {
@@ -96,11 +100,11 @@ class Closing {
   private:
     using Pair = DiscScratch::Pair;
 
-    // None is paired yet; bounds around all segments.
-    void look_at_segments() {
+    // Computes the links' largest radii and the bounds of each four segments.
+    void prepare_segments() {
         for (std::size_t link = 0; link < chain_.link_count; ++link) {
             for (std::size_t plane = 0; plane < k_disc_planes; ++plane) {
-                thickest_m_[link] = std::max(thickest_m_[link], chain_.radius_m[plane][link]);
+                max_radius_m_[link] = std::max(max_radius_m_[link], chain_.radius_m[plane][link]);
             }
         }
         scratch_.bounds.resize((segments_.size() + 3) / 4);
@@ -124,35 +128,36 @@ class Closing {
                                    segments_[pair.segment]);
     }
 
-    // Until then a line between the two stays clear of both: the segment is behind it, and each of
-    // the link's ends needs so long to come to it.
-    double next_touch(const Pair& pair, const DiscGap& gap, double free_m,
+    // Lower bound on the pair's contact time (conservative advancement). `gap.away` is a separating
+    // axis with the segment behind it. The pair cannot touch before one of the link's ends has
+    // covered its distance along that axis.
+    double next_touch(const Pair& pair, const DiscGap& gap, double clearance_m,
                       const ChainMotion& motion, double at) const {
         double step = std::numeric_limits<double>::infinity();
         for (std::size_t end = pair.link; end <= pair.link + 1; ++end) {
             const double beyond_m =
                 gap.away.dot(motion.point[end] - gap.on_segment) - gap.distance_m;
-            step = std::min(step, time_to_cross(std::max(beyond_m, 0.0) + free_m - k_aim_m,
+            step = std::min(step, time_to_cross(std::max(beyond_m, 0.0) + clearance_m - k_aim_m,
                                                 -gap.away.dot(motion.velocity_m[end]),
                                                 links_.acceleration_m(end)));
         }
         return at + step;
     }
 
-    // Stretch by stretch: of most pairs, boxes around their ways tell that they stay apart.
+    // Proceeds in intervals of the closing fraction; bounds of the swept links reject most pairs.
     std::optional<Touch> first_touch(double from) {
-        constexpr double k_stretch = 1.0 / 8.0;
+        constexpr double k_interval = 1.0 / 8.0;
         pairs_.clear();
         scratch_.paired.assign(segments_.size(), 0);
         ChainMotion before = links_.motion_at(from);
         double at = from;
         for (;;) {
-            const double end = std::min(at + k_stretch, sweep_.to);
+            const double end = std::min(at + k_interval, sweep_.to);
             const ChainMotion after = links_.motion_at(end);
-            const Ways ways = ways_of(before, after, end - at);
-            const std::size_t near = find_near(ways, end);
+            const LinkSweeps sweeps = sweep_links(before, after, end - at);
+            const std::size_t near = partition_near(sweeps, end);
             const std::size_t known = pairs_.size();
-            add_near(ways, at, at > from);
+            add_near(sweeps, at, at > from);
             const std::optional<Touch> touch =
                 first_touch_of(bring_to_front(near, known), from, end);
             if (touch || end >= sweep_.to) {
@@ -163,51 +168,53 @@ class Closing {
         }
     }
 
-    // Where the links pass in one stretch.
-    struct Ways {
+    // Regions swept by the links in one interval.
+    struct LinkSweeps {
         std::array<DiscBox, k_max_disc_links> box;
-        std::array<double, k_max_disc_links> bulge_m = {};  // of the way beyond the box
+        // Sagitta: excess of the arcs beyond the box.
+        std::array<double, k_max_disc_links> bulge_m = {};
     };
-    Ways ways_of(const ChainMotion& before, const ChainMotion& after, double length) const {
-        Ways ways;
+    LinkSweeps sweep_links(const ChainMotion& before, const ChainMotion& after,
+                           double length) const {
+        LinkSweeps sweeps;
         for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
-            ways.box[link] = {before.point[link], before.point[link + 1]};
-            ways.box[link].add({after.point[link], after.point[link + 1]});
-            ways.bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
+            sweeps.box[link] = {before.point[link], before.point[link + 1]};
+            sweeps.box[link].add({after.point[link], after.point[link + 1]});
+            sweeps.bulge_m[link] = links_.acceleration_m(link + 1) * length * length / 8.0;
         }
-        return ways;
+        return sweeps;
     }
 
-    bool may_touch(const Ways& ways, std::size_t link, std::uint32_t i) const {
+    bool may_touch(const LinkSweeps& sweeps, std::size_t link, std::uint32_t i) const {
         const DiscSegment& segment = segments_[i];
         const double reach_m =
-            chain_.radius_m[segment.plane][link] + k_disc_touch_m + ways.bulge_m[link];
-        return ways.box[link].is_within(reach_m, {segment.a_ds, segment.b_ds});
+            chain_.radius_m[segment.plane][link] + k_disc_touch_m + sweeps.bulge_m[link];
+        return sweeps.box[link].is_within(reach_m, {segment.a_ds, segment.b_ds});
     }
 
-    // Pairs that come near in this stretch for the first time. Those that never do, which are most,
-    // cost no more than a look at the segment's bounds.
-    void add_near(const Ways& ways, double at, bool is_later) {
-        constexpr double k_float_rounding_m = 1e-5;  // of floats below 50 m; fingers are decimetres
+    // Adds the pairs that come near for the first time in this interval. Other pairs, which are
+    // most, cost one test against their four's bounds.
+    void add_near(const LinkSweeps& sweeps, double at, bool is_later) {
+        constexpr double k_float_rounding_m = 1e-5;  // for coordinates below 50 m
         for (std::size_t link = links_.first_free_hinge(); link < chain_.link_count; ++link) {
-            if (thickest_m_[link] < 0.0) {
+            if (max_radius_m_[link] < 0.0) {
                 continue;
             }
             const double m =
-                thickest_m_[link] + k_disc_touch_m + ways.bulge_m[link] + k_float_rounding_m;
-            const DiscBox& box = ways.box[link];
+                max_radius_m_[link] + k_disc_touch_m + sweeps.bulge_m[link] + k_float_rounding_m;
+            const DiscBox& box = sweeps.box[link];
             const Limits limits = {{splat4(box.low.x() - m), splat4(box.low.y() - m)},
                                    {splat4(box.high.x() + m), splat4(box.high.y() + m)}};
             for (std::size_t four = 0; four < scratch_.bounds.size(); ++four) {
                 const Int4 is_near = limits.may_meet(scratch_.bounds[four]);
                 if (any_of(is_near)) {
-                    add_near_of(ways, link, four, is_near, at, is_later);
+                    add_near_of(sweeps, link, four, is_near, at, is_later);
                 }
             }
         }
     }
 
-    // What is beyond them on a side is not near.
+    // Rejects segments that lie entirely beyond one side.
     struct Limits {
         std::array<Float4, 2> low;
         std::array<Float4, 2> high;
@@ -218,14 +225,14 @@ class Closing {
         }
     };
 
-    void add_near_of(const Ways& ways, std::size_t link, std::size_t four, const Int4& is_near,
-                     double at, bool is_later) {
+    void add_near_of(const LinkSweeps& sweeps, std::size_t link, std::size_t four,
+                     const Int4& is_near, double at, bool is_later) {
         const std::uint32_t bit = 1U << link;
         const std::size_t end = std::min(4 * four + 4, segments_.size());
         for (std::size_t s = 4 * four; s < end; ++s) {
             const auto i = static_cast<std::uint32_t>(s);
             if (is_near[i % 4] == 0 || (scratch_.paired[i] & bit) != 0 ||
-                chain_.radius_m[segments_[i].plane][link] < 0.0 || !may_touch(ways, link, i)) {
+                chain_.radius_m[segments_[i].plane][link] < 0.0 || !may_touch(sweeps, link, i)) {
                 continue;
             }
             scratch_.paired[i] |= bit;
@@ -233,12 +240,12 @@ class Closing {
         }
     }
 
-    // Brings the pairs that may touch until `end` to the front; returns how many they are. The
-    // others have their turn after it.
-    std::size_t find_near(const Ways& ways, double end) {
+    // Moves the pairs that may touch before `end` to the front and returns their number. The others
+    // are postponed to `end`.
+    std::size_t partition_near(const LinkSweeps& sweeps, double end) {
         std::size_t near = 0;
         for (Pair& pair : pairs_) {
-            const bool is_near = pair.leaving || may_touch(ways, pair.link, pair.segment);
+            const bool is_near = pair.leaving || may_touch(sweeps, pair.link, pair.segment);
             if (is_near && pair.next <= end) {
                 std::swap(pairs_[near++], pair);
             } else if (!is_near) {
@@ -249,7 +256,7 @@ class Closing {
         return near;
     }
 
-    // And those that were added, from `first` on, to them.
+    // Moves the pairs from `first` on to the front as well.
     std::size_t bring_to_front(std::size_t near, std::size_t first) {
         for (std::size_t i = first; i < pairs_.size(); ++i) {
             std::swap(pairs_[near++], pairs_[i]);
@@ -257,10 +264,10 @@ class Closing {
         return near;
     }
 
-    // Always the pair whose turn is next, and with it those whose turn is nearly there: where the
-    // links are is found once for all of them. Of several that touch at once, the first link's.
+    // Advances to the earliest pair, and evaluates with it all pairs due shortly after: they share
+    // one evaluation of the links' motion. Of simultaneous contacts the first link's wins.
     std::optional<Touch> first_touch_of(std::size_t near, double from, double end) {
-        constexpr double k_together = 0.01;
+        constexpr double k_simultaneous = 0.01;
         const std::span<Pair> pairs = std::span(pairs_).first(near);
         for (int round = 0; round < k_max_rounds && !pairs.empty(); ++round) {
             double at = pairs.front().next;
@@ -274,9 +281,10 @@ class Closing {
             std::optional<Touch> first;
             for (Pair& pair : pairs) {
                 const bool is_early = pair.next > at;
-                if (pair.next <= at + k_together && !(is_early && pair.leaving) &&
+                if (pair.next <= at + k_simultaneous && !(is_early && pair.leaving) &&
                     touches(pair, motion, at)) {
-                    // What comes apart no longer was less deep a step ago; nothing touched between.
+                    // A pair that stops moving apart was shallower one step ago and had no contact
+                    // since.
                     const Touch touch = {pair.leaving ? std::max(at - k_leave_step, from) : at,
                                          pair.link, pair.segment};
                     first = first && !(touch < *first) ? *first : touch;
@@ -289,11 +297,11 @@ class Closing {
         return std::nullopt;
     }
 
-    // What is near is told by Box2D, what is not by the closed form.
+    // Uses GJK near contact and the closed form elsewhere.
     double separation_m(const Pair& pair, const DiscGap& gap, const ChainMotion& motion) {
-        const double free_m = gap.distance_m - radius_m(pair);
-        if (free_m > k_surely_apart_m) {
-            return free_m;
+        const double clearance_m = gap.distance_m - radius_m(pair);
+        if (clearance_m > k_closed_form_above_m) {
+            return clearance_m;
         }
         ++closure_.distances;
         const DiscSegment& segment = segments_[pair.segment];
@@ -307,7 +315,7 @@ class Closing {
         return separation_m(pair, gap_of(pair, later), later) < pair.separation_m;
     }
 
-    // True where the pair touches at `at`; else moves pair.next on to where it may.
+    // True if the pair touches at `at`. Otherwise moves pair.next to the next time it may touch.
     bool touches(Pair& pair, const ChainMotion& motion, double at) {
         const double before_m = pair.separation_m;
         const bool was_seen = pair.seen;
@@ -336,7 +344,7 @@ class Closing {
     DiscScratch& scratch_;
     std::vector<Pair>& pairs_;
     ClosingChain links_;
-    std::array<double, k_max_disc_links> thickest_m_ = {-1.0, -1.0, -1.0};
+    std::array<double, k_max_disc_links> max_radius_m_ = {-1.0, -1.0, -1.0};
     DiscClosure closure_;
 };
 
@@ -346,7 +354,7 @@ DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> seg
                         const DiscSweep& sweep, DiscScratch& scratch) {
     HH_CHECK(chain.link_count >= 1 && chain.link_count <= k_max_disc_links,
              "a chain has one to three links", chain.link_count);
-    return Closing(chain, segments, sweep, scratch).run();
+    return ChainCloser(chain, segments, sweep, scratch).run();
 }
 
 }  // namespace handhold

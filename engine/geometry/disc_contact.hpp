@@ -9,32 +9,32 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
-// A chain of hinged links that closes in a plane until it touches: the 2D half of a finger.
+// A planar chain of hinged links that closes until it touches segments.
 //
-// Disc space (_ds): the first hinge at the origin, +X along the first link at angle 0, positive
-// angles turn from +X towards +Y; metres, radians. Sources: talk rows 12 to 14; conservative
-// advancement after Mirtich 1996 ("Impulse-based Dynamic Simulation", section 2.3), distances by
-// Box2D's GJK (disc_contact_box2d.cpp).
+// Disc space (_ds): the first hinge is the origin, +X is the first link's direction at angle 0, and
+// positive angles turn from +X towards +Y; metres, radians. Sources: talk rows 12 to 14. Contact
+// times come from conservative advancement (Mirtich 1996, "Impulse-based Dynamic Simulation",
+// section 2.3), distances from Box2D's GJK (disc_contact_box2d.cpp).
 namespace handhold {
 
 inline constexpr std::size_t k_max_disc_links = 3;
 inline constexpr std::size_t k_disc_planes = 3;
 
-// A piece of a surface cut by one of the parallel planes that a chain with thickness is cut by.
+// Intersection of a surface with one of the parallel planes that cut the chain.
 struct DiscSegment {
     Vec2 a_ds = Vec2::Zero();
     Vec2 b_ds = Vec2::Zero();
     std::uint32_t plane = 0;     // < k_disc_planes
-    std::uint32_t triangle = 0;  // where it comes from: the caller's, given back with a contact
+    std::uint32_t triangle = 0;  // label chosen by the caller
 };
 
-// Link i lies between hinge i and the next one; while the chain closes, the angle of hinge i goes
-// from open_rad[i] to closed_rad[i], all hinges in step.
+// Link i lies between hinge i and the next one. While the chain closes, every hinge i turns from
+// open_rad[i] to closed_rad[i] at the same fraction.
 struct DiscChain {
     std::uint32_t link_count = 3;  // 1 to k_max_disc_links
     std::array<double, k_max_disc_links> length_m = {};
-    // Half thickness of each link where each plane cuts it: a plane beside a round link's middle
-    // cuts it thinner. Negative: the plane misses the link.
+    // Half thickness of each link in each plane. A plane off a round link's axis cuts it thinner.
+    // Negative: the plane misses the link.
     std::array<std::array<double, k_max_disc_links>, k_disc_planes> radius_m = {};
     std::array<double, k_max_disc_links> open_rad = {};
     std::array<double, k_max_disc_links> closed_rad = {};
@@ -45,45 +45,47 @@ struct DiscClosure {
     std::array<double, k_max_disc_links> angle_rad = {};
     std::int32_t contact_link = k_none;  // the last link that touches
     std::uint32_t touching = 0;          // bit i: link i touches
-    std::uint32_t segment = 0;           // the last contact's, where there is one
-    std::uint32_t distances = 0;         // distance queries that were needed
+    std::uint32_t segment = 0;           // segment of the last contact, if there is one
+    std::uint32_t distances = 0;         // number of GJK distance queries
 };
 
-// How far the closing goes, and where from.
+// Range of the closing fraction: 0 is fully open, 1 is fully closed.
 struct DiscSweep {
-    double from = 0.0;  // 0: fully open, 1: fully closed
+    double from = 0.0;
     double to = 1.0;
 };
 
-// What a call needs beside its result: keeps its memory between calls.
+// Working memory, reused between calls.
 struct DiscScratch {
     struct Pair {
-        double next = 0.0;  // no contact before
+        double next = 0.0;  // earliest closing fraction at which the pair may touch
         double separation_m = 0.0;
         std::uint32_t link = 0;
         std::uint32_t segment = 0;
-        bool leaving = false;  // overlapped when its turn came, and comes apart: ignored until then
+        // Overlapped when first queried and is moving apart: ignored until it is clear.
+        bool leaving = false;
         bool seen = false;
     };
-    // Around four segments, by axis.
+    // Bounds of four segments, by axis.
     struct Bounds4 {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};
     };
-    std::vector<Pair> pairs;            // that came near
-    std::vector<std::uint32_t> paired;  // by segment, a bit for each link: is in `pairs`
-    std::vector<Bounds4> bounds;        // four segments each, the last repeated
+    std::vector<Pair> pairs;            // pairs whose swept bounds came near
+    std::vector<std::uint32_t> paired;  // per segment, bit i: link i is in `pairs`
+    std::vector<Bounds4> bounds;        // per four segments; the last segment is repeated
 };
 
-// Closes the chain from `sweep.from` on. The first link that touches stops its hinge and those
-// before it; the links beyond go on closing, until they touch too or sweep.to is reached. Links
-// that overlap a segment at first and move out of it are let go until they are clear. A contact is
-// found within 0.05 mm, none is missed. No allocation once scratch has grown.
+// Closes the chain from `sweep.from` to at most `sweep.to`. The first link that touches stops its
+// own hinge and all hinges before it. The links beyond go on closing until they touch or the sweep
+// ends. A link that overlaps a segment at the start and moves out of it is ignored until it is
+// clear. Misses no contact and finds each within 0.05 mm. Does not allocate once the scratch has
+// grown.
 DiscClosure close_chain(const DiscChain& chain, std::span<const DiscSegment> segments,
                         const DiscSweep& sweep, DiscScratch& scratch);
 
-// Distance between two segments, metres; 0 where they cross. Within 5e-7 m for coordinates below
-// 1 m.
+// Distance between two segments, metres; 0 if they cross. Error at most 5e-7 m for coordinates
+// below 1 m.
 double disc_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1);
 
 }  // namespace handhold

@@ -2,10 +2,10 @@
 
 #include "engine/geometry/disc_contact.hpp"
 
-// The only file that names Box2D. Its GJK works in float with tolerances made for moving boxes of
-// about a metre: in centimetres a finger is of the size they are made for. b2TimeOfImpact is not
-// used: it takes sinf from libm, whose last bits differ between processors, and these angles are
-// state; close_chain advances with our own rotations instead.
+// The only file that names Box2D. Its GJK uses floats with tolerances for bodies of about one unit,
+// so the segments are passed in centimetres. b2TimeOfImpact is not used: it calls libm's sinf,
+// whose last bits differ between processors, and the resulting angles are state. close_chain
+// advances with the engine's own rotations instead.
 namespace handhold {
 namespace {
 
@@ -17,14 +17,14 @@ b2Vec2 to_box2d(const Vec2& v) {
 
 b2DistanceProxy proxy_of(const b2Vec2* ends) {
     b2DistanceProxy proxy;
-    proxy.Set(ends, 2, 0.0F);  // no skin: shapes would add 10 mm of it
+    proxy.Set(ends, 2, 0.0F);  // no radius: Box2D's shapes would add 10 mm
     return proxy;
 }
 
 }  // namespace
 
 double disc_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1) {
-    // About a's first end: floats are finest near zero.
+    // Relative to a0: floats are finest near zero.
     const std::array<b2Vec2, 2> a = {b2Vec2(0.0F, 0.0F), to_box2d(a1 - a0)};
     const std::array<b2Vec2, 2> b = {to_box2d(b0 - a0), to_box2d(b1 - a0)};
     b2DistanceInput input;

@@ -7,17 +7,17 @@
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/math/math.hpp"
 
-// How far a link is from a segment: disc_contact's alone. Inline, since it is asked in its inner
-// loop.
+// Distance between a link and a segment, for disc_contact.cpp only. Inline because it runs in the
+// inner loop.
 namespace handhold {
 
 inline double disc_cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Where a link and a segment are nearest to each other, in disc space; in closed form.
+// Nearest points of a link and a segment in disc space, in closed form.
 struct DiscGap {
     double distance_m = 0.0;
     Vec2 on_segment = Vec2::Zero();
-    Vec2 away = Vec2::Zero();  // unit, from the segment to the link; zero where they cross
+    Vec2 away = Vec2::Zero();  // unit, from the segment to the link; zero if they cross
 };
 
 class DiscGapFinder {

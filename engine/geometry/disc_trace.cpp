@@ -10,8 +10,9 @@
 namespace handhold {
 namespace {
 
-constexpr double k_prune_m = 0.03;       // beyond the disc's edge nothing leads back in
-constexpr double k_straight_m = 2.5e-4;  // a corner nearer to the line is left out
+// The search does not cross edges farther than this outside the disc.
+constexpr double k_prune_m = 0.03;
+constexpr double k_straight_m = 2.5e-4;  // simplification tolerance
 
 double height(const Disc& disc, const Vec3& point) { return disc.normal.dot(point - disc.center); }
 
@@ -22,7 +23,7 @@ double distance_to_origin(const Vec2& a, const Vec2& b) {
     return (a + t * along).norm();
 }
 
-// One triangle and a disc's plane: the two edges that the plane cuts, where it does.
+// Points at which a disc's plane cuts a triangle's edges.
 struct Cut {
     std::array<std::uint32_t, 2> edge = {};  // from corner i to i + 1
     std::array<Vec3, 2> point;
@@ -48,7 +49,8 @@ std::optional<Cut> cut_triangle(const SurfaceGraph& graph, const Disc& disc,
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t j = (i + 1) % 3;
         if ((heights[i] >= 0.0) != (heights[j] >= 0.0)) {
-            // Always from the same end: neighbours find the very same point on their edge.
+            // Always computed in the same direction: neighbours get bitwise the same point on their
+            // edge.
             const bool forward = corners[i] < corners[j];
             const std::uint32_t a = forward ? i : j;
             const std::uint32_t b = forward ? j : i;
@@ -65,9 +67,9 @@ bool reaches_disc(const Disc& disc, const Cut& cut) {
            disc.radius_m;
 }
 
-// Within this of the disc's middle a search goes on over an edge.
-bool goes_over(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
-               std::uint32_t edge) {
+// True if the edge comes within k_prune_m of the disc's radius.
+bool is_edge_in_reach(const SurfaceGraph& graph, const Disc& disc, std::uint32_t triangle,
+                      std::uint32_t edge) {
     const auto& corners = graph.triangles[triangle];
     const double far_m = disc.radius_m + k_prune_m;
     const Vec3 nearest = closest_on_segment(disc.center, graph.positions[corners[edge]],
@@ -126,7 +128,7 @@ class CrossingSearcher {
         const auto& corners = graph_.triangles[node.triangle];
         for (std::uint32_t i = 0; i < 3; ++i) {
             const std::uint32_t next = graph_.neighbours[node.triangle][i];
-            if (next != k_no_triangle && goes_over(graph_, disc_, node.triangle, i)) {
+            if (next != k_no_triangle && is_edge_in_reach(graph_, disc_, node.triangle, i)) {
                 const Vec3 point = closest_on_segment(node.point, graph_.positions[corners[i]],
                                                       graph_.positions[corners[(i + 1) % 3]]);
                 push(next, point, node.path_m + (point - node.point).norm());
@@ -143,7 +145,7 @@ class CrossingSearcher {
     std::uint32_t pushed_ = 0;
 };
 
-// Everything in the disc's sphere, ring by ring; what is found first is what is nearest by edges.
+// Breadth-first over everything within the disc's reach; keeps the first hit.
 CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
                      std::span<const GraphPoint> starts, TraceScratch& scratch) {
     CrossingSearch found;
@@ -168,7 +170,7 @@ CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
         const auto& corners = graph.triangles[node.triangle];
         for (std::uint32_t i = 0; i < 3; ++i) {
             const std::uint32_t next = graph.neighbours[node.triangle][i];
-            if (goes_over(graph, disc, node.triangle, i)) {
+            if (is_edge_in_reach(graph, disc, node.triangle, i)) {
                 push(next, closest_on_segment(node.point, graph.positions[corners[i]],
                                               graph.positions[corners[(i + 1) % 3]]));
             }
@@ -177,8 +179,8 @@ CrossingSearch flood(const SurfaceGraph& graph, const Disc& disc,
     return found;
 }
 
-// Follows a cut from `triangle` over its cut edge `side`; appends points beyond the first edge.
-// Returns true where it came back to the start.
+// Follows a cut from `start` over its cut edge `side` and appends the points beyond the first edge.
+// Returns true if the cut closed.
 class CutWalk {
   public:
     CutWalk(const SurfaceGraph& graph, const Disc& disc, TraceScratch& scratch)
@@ -194,7 +196,7 @@ class CutWalk {
             }
             const std::optional<Cut> cut = cut_triangle(graph_, disc_, at);
             if (!cut) {
-                break;  // a fold: both triangles lie on one side
+                break;  // both other corners lie on one side: the cut ends here
             }
             const std::size_t in = graph_.neighbours[at][cut->edge[0]] == from ? 0 : 1;
             const std::size_t out = 1 - in;
@@ -221,7 +223,7 @@ class CutWalk {
     std::uint32_t steps_ = 0;
 };
 
-// True where all points between `first` and `last` are nearly on the line between them.
+// True if all points between `first` and `last` lie within k_straight_m of the line between them.
 bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t last) {
     const Vec2 along = line[last] - line[first];
     const double length2 = along.squaredNorm();
@@ -235,9 +237,9 @@ bool is_straight(const std::vector<Vec2>& line, std::size_t first, std::size_t l
     return true;
 }
 
-// `line_triangle[i]` is that of the piece from point i to the next one.
+// `line_triangle[i]` belongs to the piece from point i to point i + 1.
 void add_line(const Disc& disc, const TraceScratch& scratch, std::vector<DiscSegment>& segments) {
-    constexpr std::size_t k_max_merged = 16;  // is_straight looks at all again for every point
+    constexpr std::size_t k_max_merged = 16;  // bounds the cost: is_straight rechecks every point
     std::size_t first = 0;
     for (std::size_t i = 1; i < scratch.line.size(); ++i) {
         const bool goes_on = i + 1 < scratch.line.size() && i + 1 - first <= k_max_merged &&
@@ -266,7 +268,7 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     if (!cut) {
         return 0;
     }
-    // One way out, turned round, then the start's own piece, then the other way.
+    // Order: one direction reversed, the start's own piece, then the other direction.
     scratch.line.clear();
     scratch.line_triangle.clear();
     scratch.line.reserve(k_max_steps + 4);
@@ -280,7 +282,7 @@ std::uint32_t walk_crossing(const SurfaceGraph& graph, const Disc& disc, std::ui
     scratch.line.push_back(to_disc(disc, cut->point[1]));
     scratch.line_triangle.push_back(triangle);
     if (!is_closed) {
-        // The piece from point i to i + 1 belongs to the triangle that point i + 1 was found in.
+        // The piece from point i to i + 1 belongs to the triangle in which point i + 1 was found.
         scratch.line_triangle.pop_back();
         walk.run(triangle, *cut, 1);
         scratch.line_triangle.push_back(triangle);
@@ -297,14 +299,14 @@ void add_segment(const DiscSegment& segment, double radius_m, std::vector<DiscSe
 
 void add_near_part(const DiscSegment& segment, double radius_m,
                    std::vector<DiscSegment>& segments) {
-    const Vec2 way = segment.b_ds - segment.a_ds;
+    const Vec2 along_segment = segment.b_ds - segment.a_ds;
     const double longest = 16.0 * radius_m;
-    if (way.squaredNorm() <= longest * longest) {
+    if (along_segment.squaredNorm() <= longest * longest) {
         segments.push_back(segment);
         return;
     }
-    const double length = way.norm();
-    const Vec2 along = way / length;
+    const double length = along_segment.norm();
+    const Vec2 along = along_segment / length;
     const double middle = std::clamp(-segment.a_ds.dot(along), 0.0, length);
     const double first = std::max(0.0, middle - 0.5 * longest);
     const double last = std::min(length, middle + 0.5 * longest);

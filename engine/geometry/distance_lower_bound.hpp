@@ -11,12 +11,12 @@
 
 namespace handhold {
 
-// No more than the distances of boxes and triangles from a point, squared; in floats.
+// Lower bounds on the squared distances of boxes and triangles from a point, in floats.
 class DistanceLowerBound {
   public:
-    // `point` about the tree's origin; no corner is beyond `reach_m`.
+    // `point` is relative to the tree's origin; no coordinate of the tree exceeds `reach_m`.
     DistanceLowerBound(const Vec3& point, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // more than ten roundings
+        constexpr double k_rounding = 0x1p-20;  // at least ten roundings
         for (std::size_t i = 0; i < 3; ++i) {
             point_[i] = splat4(point[static_cast<Eigen::Index>(i)]);
         }
@@ -34,7 +34,8 @@ class DistanceLowerBound {
         return lower(sum, k_max_float);
     }
 
-    // Above a triangle's plane, and from there, in the plane, to a box around the triangle.
+    // Combines the height above the triangle's plane with the in-plane distance to its bounding
+    // box.
     Float4 squared(const Triangles4& four) const {
         const Float4 zero = {};
         std::array<Float4, 3> low;
@@ -59,7 +60,8 @@ class DistanceLowerBound {
         return lower(sum, k_max_float);
     }
 
-    // The distances themselves, but for roundings: dearer, and for what is left.
+    // Tight bound, equal to the distance up to rounding. More expensive: for the remaining
+    // candidates.
     Float4 squared_tight(const Triangles4& four) const {
         const Float4 zero = {};
         std::array<Vectors4, 3> corner;
@@ -71,26 +73,26 @@ class DistanceLowerBound {
         const Float4 height = dot(four.normal, corner[0]);
         const Float4 clear = higher(higher(height, -height) - rounding_margin_, zero);
         Int4 is_over = dot(four.normal, four.normal) > zero;
-        Float4 least = k_max_float;
+        Float4 min_squared = k_max_float;
         for (std::size_t c = 0; c < 3; ++c) {
             const Vectors4& from = corner[c];
             const Vectors4& to = corner[(c + 1) % 3];
             const Vectors4 edge = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
             is_over &= dot(four.normal, cross(from, edge)) >= zero;
-            least = lower(least, squared_to_edge(from, edge));
+            min_squared = lower(min_squared, squared_to_edge(from, edge));
         }
-        return lower(is_over ? clear * clear : least, k_max_float);
+        return lower(is_over ? clear * clear : min_squared, k_max_float);
     }
 
-    // What is nearer than the root of `squared` is no more than this: where that is infinite,
-    // nothing is.
+    // Largest squared lower bound that an item nearer than sqrt(`squared`) can have. Infinite input
+    // is clamped to the largest float.
     static float limit(double squared) {
         return static_cast<float>(std::min(squared * k_slack, static_cast<double>(k_max_float[0])));
     }
-    static constexpr double k_slack = 1.0 + 1e-5;  // floats round off less
+    static constexpr double k_slack = 1.0 + 1e-5;  // exceeds the float rounding
 
   private:
-    // Nothing is said to be farther: squares of floats are infinite soon.
+    // Bounds are clamped to this: squares of floats overflow easily.
     static constexpr Float4 k_max_float = {
         std::numeric_limits<float>::max(), std::numeric_limits<float>::max(),
         std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
@@ -102,14 +104,14 @@ class DistanceLowerBound {
         const Float4 on_edge = lower(higher(share, zero), splat4(1.0));
         Float4 sum = zero;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Float4 way = from[i] + on_edge * edge[i];
-            const Float4 gap = higher(higher(way, -way) - rounding_margin_, zero);
+            const Float4 offset = from[i] + on_edge * edge[i];
+            const Float4 gap = higher(higher(offset, -offset) - rounding_margin_, zero);
             sum += gap * gap;
         }
         return sum;
     }
 
-    std::array<Float4, 3> point_ = {};  // each coordinate four times
+    std::array<Float4, 3> point_ = {};  // each coordinate in all lanes
     Float4 rounding_margin_ = {};
 };
 

@@ -9,10 +9,10 @@ namespace {
 
 constexpr double k_same_angle_rad = 1e-6;
 
-// A half-edge of a crowded edge by where its triangle lies about it.
+// A half-edge of a non-manifold edge, with the angle of its triangle about the edge.
 struct FaceLeaf {
-    double angle_rad = 0.0;  // [0, 2 pi), from the first triangle's side, counter-clockwise seen
-                             // against the edge
+    // In [0, 2 pi), from the first triangle, counter-clockwise seen against the edge's direction.
+    double angle_rad = 0.0;
     const HalfEdge* half = nullptr;
 };
 
@@ -36,7 +36,7 @@ std::vector<FaceLeaf> sorted_about_edge(std::span<const HalfEdge> edge,
     std::sort(leaves.begin(), leaves.end(), [](const FaceLeaf& a, const FaceLeaf& b) {
         return std::tuple(a.angle_rad, a.half->id) < std::tuple(b.angle_rad, b.half->id);
     });
-    // What lies in one plane counts as at one angle, and there those come first that look back.
+    // Coplanar triangles count as one angle. Backward half-edges come first among them.
     for (std::size_t first = 0; first < leaves.size();) {
         std::size_t last = first + 1;
         while (last < leaves.size() &&
@@ -55,9 +55,9 @@ std::vector<FaceLeaf> sorted_about_edge(std::span<const HalfEdge> edge,
     return leaves;
 }
 
-// A triangle on a forward half-edge looks towards greater angles, one on a backward half-edge
-// towards smaller: as brackets that open and close, matched once round and on to where it began.
-// Takes what was matched out of `leaves`.
+// A forward half-edge faces greater angles and a backward one smaller angles. They are matched like
+// opening and closing brackets, once around the edge and on to the start. Removes the matched
+// half-edges from `leaves`.
 void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     std::vector<std::size_t> open;
     std::vector<bool> taken(leaves.size(), false);
@@ -83,18 +83,19 @@ void pair_opposed(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
     leaves.resize(kept);
 }
 
-// Those that lie most nearly across from each other first.
+// Pairs the flattest first: those whose dihedral angle is nearest to pi.
 void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) {
-    constexpr std::size_t k_crowd = 32;  // beyond, any two will do: no surface is like that
+    // More leaves than this are paired arbitrarily; real surfaces have fewer.
+    constexpr std::size_t k_max_exhaustive = 32;
     while (leaves.size() >= 2) {
         std::size_t best_a = 0;
         std::size_t best_b = 1;
-        double best_bend = 2.0 * k_pi;
-        for (std::size_t a = 0; leaves.size() <= k_crowd && a < leaves.size(); ++a) {
+        double min_fold_rad = 2.0 * k_pi;
+        for (std::size_t a = 0; leaves.size() <= k_max_exhaustive && a < leaves.size(); ++a) {
             for (std::size_t b = a + 1; b < leaves.size(); ++b) {
-                const double bend = std::abs(leaves[b].angle_rad - leaves[a].angle_rad - k_pi);
-                if (bend < best_bend) {
-                    best_bend = bend;
+                const double fold_rad = std::abs(leaves[b].angle_rad - leaves[a].angle_rad - k_pi);
+                if (fold_rad < min_fold_rad) {
+                    min_fold_rad = fold_rad;
                     best_a = a;
                     best_b = b;
                 }
@@ -110,7 +111,7 @@ void pair_flattest(std::vector<FaceLeaf>& leaves, std::vector<EdgePair>& pairs) 
 
 std::vector<HalfEdge> sorted_half_edges(std::size_t vertex_count,
                                         std::span<const std::array<std::uint32_t, 3>> triangles) {
-    // Into buckets by low vertex first: each is a handful to sort.
+    // Bucket sort by low vertex, then sort each small bucket.
     std::vector<std::uint32_t> ends(vertex_count + 1, 0);
     const auto low_of = [](const std::array<std::uint32_t, 3>& t, std::size_t i) {
         return std::min(t[i], t[(i + 1) % 3]);

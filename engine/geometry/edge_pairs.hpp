@@ -7,10 +7,10 @@
 
 #include "engine/math/math.hpp"
 
-// Which triangles of a mesh lie on one edge, and which two of them are each other's neighbours.
+// Groups a mesh's half-edges by edge and pairs neighbouring triangles.
 namespace handhold {
 
-// Edge `id % 3` of triangle `id / 3`: from corner i to corner i + 1.
+// Half-edge of triangle `id / 3` from its corner `id % 3` to the next corner.
 struct HalfEdge {
     std::uint32_t low = 0;    // vertex
     std::uint32_t high = 0;   // vertex, > low
@@ -19,8 +19,8 @@ struct HalfEdge {
     bool forward = false;  // runs from low to high
 };
 
-// All half-edges sorted by edge, then by third vertex and id: those of one edge come one after
-// another. Triangles have three corners that differ.
+// All half-edges sorted by edge, then third vertex, then id; half-edges of one edge are adjacent.
+// Precondition: each triangle has three distinct corners.
 std::vector<HalfEdge> sorted_half_edges(std::size_t vertex_count,
                                         std::span<const std::array<std::uint32_t, 3>> triangles);
 
@@ -39,16 +39,17 @@ void for_each_edge(std::span<const HalfEdge> sorted, const Visit& visit) {
 }
 
 struct EdgePair {
-    std::uint32_t a = 0;  // half-edges
+    std::uint32_t a = 0;  // half-edge ids
     std::uint32_t b = 0;
-    bool opposed = true;  // they run against each other, as where both triangles are wound alike
+    bool opposed = true;  // opposite directions: the triangles are wound alike
 };
 
-// Pairs the half-edges of one edge; appends to `pairs`. Two are neighbours. Of more, first those
-// that run against each other and bound the same open wedge on their outer sides: so that what can
-// be seen from one point hangs together, two solids that touch in an edge included, and of a sheet
-// with two sides each keeps to its own. Then what is left, the flattest first. Half-edges left over
-// are borders. `positions`: of vertices; triangles have an area.
+// Pairs the half-edges of one edge and appends the pairs. Two half-edges are neighbours. Of more
+// than two, opposed half-edges that bound the same open wedge on their outer sides are paired
+// first. So surfaces visible from one point stay connected, also where two solids touch at an edge,
+// and each side of a two-sided sheet keeps to itself. The rest are paired flattest first; an odd
+// one out is a border. `positions` are the vertices' positions. Precondition: triangles are not
+// degenerate.
 void pair_half_edges(std::span<const HalfEdge> edge, std::span<const Vec3> positions,
                      std::vector<EdgePair>& pairs);
 

@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// Keeps the triangles for which keep(t) is true, in their order, and counts the others.
+// Keeps the triangles for which keep(t) is true, in order, and counts the others.
 template <typename Keep>
 void filter(SurfaceGraph& graph, std::uint32_t& dropped, const Keep& keep) {
     std::size_t kept = 0;
@@ -48,7 +48,7 @@ void drop_duplicates(SurfaceGraph& graph) {
     std::vector<bool> duplicate(graph.triangles.size(), false);
     for_each_edge(sorted_half_edges(graph.positions.size(), graph.triangles),
                   [&](std::span<const HalfEdge> edge) {
-                      // Those with one third vertex come one after another, by number.
+                      // Half-edges with the same third vertex are adjacent, in order of id.
                       std::array<bool, 2> seen = {};
                       for (std::size_t i = 0; i < edge.size(); ++i) {
                           if (i == 0 || edge[i].third != edge[i - 1].third) {

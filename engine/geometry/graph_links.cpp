@@ -15,21 +15,21 @@ Vec3 area_of(const SurfaceGraph& graph, std::size_t t) {
     return area_vector({graph.positions[a], graph.positions[b], graph.positions[c]});
 }
 
-// Other corners in their order, so that the first stays; links move with their edges.
-void turn(SurfaceGraph& graph, std::size_t t) {
+// Swaps the last two corners, so that the first stays; neighbours move with their edges.
+void flip(SurfaceGraph& graph, std::size_t t) {
     std::swap(graph.triangles[t][1], graph.triangles[t][2]);
     std::swap(graph.neighbours[t][0], graph.neighbours[t][2]);
     graph.normals[t] = -graph.normals[t];
 }
 
-// True where the triangle runs along the edge from its corner `from` to its corner `to`.
-bool runs(const std::array<std::uint32_t, 3>& triangle, std::uint32_t from, std::uint32_t to) {
+// True if the triangle has the directed edge `from` -> `to`.
+bool has_directed_edge(const std::array<std::uint32_t, 3>& triangle, std::uint32_t from,
+                       std::uint32_t to) {
     return (triangle[0] == from && triangle[1] == to) ||
            (triangle[1] == from && triangle[2] == to) || (triangle[2] == from && triangle[0] == to);
 }
 
-// The one neighbour over each edge of exactly two triangles, as half-edges; k_no_triangle for all
-// others.
+// The neighbour over each edge of exactly two triangles; k_no_triangle elsewhere.
 std::vector<std::array<std::uint32_t, 3>> sheet_neighbours(const SurfaceGraph& graph) {
     std::vector<std::array<std::uint32_t, 3>> sheet(graph.triangles.size(),
                                                     {k_no_triangle, k_no_triangle, k_no_triangle});
@@ -100,7 +100,7 @@ std::uint32_t orient_consistently(SurfaceGraph& graph) {
     if (graph.report.flipped_links == 0) {
         return 0;
     }
-    const std::vector<std::array<std::uint32_t, 3>> near = sheet_neighbours(graph);
+    const std::vector<std::array<std::uint32_t, 3>> sheet_neighbour = sheet_neighbours(graph);
     enum class Side : std::uint8_t { unseen, kept, turned };
     std::vector<Side> sides(graph.triangles.size(), Side::unseen);
     std::vector<std::uint32_t> sheet;
@@ -116,25 +116,25 @@ std::uint32_t orient_consistently(SurfaceGraph& graph) {
             const std::uint32_t t = sheet[i];
             balance += (sides[t] == Side::kept ? 1.0 : -1.0) * area_of(graph, t).norm();
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t n = near[t][k];
+                const std::uint32_t n = sheet_neighbour[t][k];
                 if (n == k_no_triangle || sides[n] != Side::unseen) {
                     continue;
                 }
-                const bool alike = runs(graph.triangles[n], graph.triangles[t][(k + 1) % 3],
-                                        graph.triangles[t][k]);
+                const bool alike = has_directed_edge(
+                    graph.triangles[n], graph.triangles[t][(k + 1) % 3], graph.triangles[t][k]);
                 sides[n] = alike == (sides[t] == Side::kept) ? Side::kept : Side::turned;
                 sheet.push_back(n);
             }
         }
         for (const std::uint32_t t : sheet) {
             if ((sides[t] == Side::turned) == (balance >= 0.0)) {
-                turn(graph, t);
+                flip(graph, t);
                 ++turned;
             }
         }
     }
-    drop_duplicates(graph);  // what was another's other side may look its way now
-    link_graph(graph);       // edges of more triangles were paired by their winding
+    drop_duplicates(graph);  // a flipped triangle may coincide with its former reverse side
+    link_graph(graph);       // non-manifold edges were paired by winding
     return turned;
 }
 
@@ -146,12 +146,12 @@ std::uint32_t orient_outward(SurfaceGraph& graph) {
             const std::uint32_t n = graph.neighbours[t][k];
             const auto& triangle = graph.triangles[t];
             if (n == k_no_triangle ||
-                !runs(graph.triangles[n], triangle[(k + 1) % 3], triangle[k])) {
+                !has_directed_edge(graph.triangles[n], triangle[(k + 1) % 3], triangle[k])) {
                 closed[parts.of_triangle[t]] = false;
             }
         }
     }
-    double volume = 0.0;  // six times; about the first corner, where the mesh is
+    double volume = 0.0;  // six times the volume, relative to the first vertex
     for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
         if (closed[parts.of_triangle[t]]) {
             volume += (graph.positions[graph.triangles[t][0]] - graph.positions[0])
@@ -161,7 +161,7 @@ std::uint32_t orient_outward(SurfaceGraph& graph) {
     std::uint32_t turned = 0;
     for (std::size_t t = 0; volume < 0.0 && t < graph.triangles.size(); ++t) {
         if (closed[parts.of_triangle[t]]) {
-            turn(graph, t);
+            flip(graph, t);
             ++turned;
         }
     }

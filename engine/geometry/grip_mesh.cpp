@@ -37,12 +37,13 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
     if (size_of(full) < settings.flip_below_m) {
         grip.turned += orient_outward(full);
     }
-    // The search detail is made of the contact detail: both are within their limits of it.
+    // The search detail is simplified from the contact detail: its limits hold against that.
     grip.contact = std::move(full);
     if (settings.contact.deviation_m > 0.0) {
         SurfaceGraph coarse = simplify_surface(grip.contact, settings.contact);
-        const double most = settings.contact_share * static_cast<double>(grip.full_triangles);
-        if (static_cast<double>(coarse.triangles.size()) <= most) {
+        const double max_triangles =
+            settings.contact_share * static_cast<double>(grip.full_triangles);
+        if (static_cast<double>(coarse.triangles.size()) <= max_triangles) {
             grip.contact = std::move(coarse);
         }
     }
@@ -56,7 +57,7 @@ GripMesh build_grip_mesh(const Shape& shape, const GripMeshSettings& settings) {
     GripMeshSettings own = settings;
     if (shape.kind != ShapeKind::mesh) {
         own.contact.deviation_m = 0.0;
-        own.weld.seam_m = own.weld.seam_per_size = 0.0;  // surfaces of ours are closed
+        own.weld.seam_m = own.weld.seam_per_size = 0.0;  // tessellated surfaces are closed
     }
     return build_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), own);
 }

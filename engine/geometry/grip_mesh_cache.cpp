@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One more with each change of the format, or of what a build makes of the same input.
+// Increment on every change of the format or of the build's result for the same input.
 constexpr std::uint64_t k_version = 1;
 constexpr std::uint64_t k_cache_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
-constexpr std::size_t k_header_words = 4;                       // magic, key, words, sum
+constexpr std::size_t k_header_words = 4;                       // magic, key, word count, checksum
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
-// Words of eight bytes: nothing is out of line, and the sum runs over all of them.
+// All data are 8-byte words: aligned, and all covered by the checksum.
 class WordWriter {
   public:
     void add(std::uint64_t word) { words_.push_back(word); }
@@ -41,13 +41,13 @@ class WordWriter {
     std::vector<std::uint64_t> words_;
 };
 
-// Gives zeros once it has run out, and says so.
+// Returns zeros after the end of the data; at_end() is then false.
 class WordReader {
   public:
     explicit WordReader(const std::vector<std::uint64_t>& words) : words_(words) {}
     std::uint64_t take() {
-        whole_ = whole_ && next_ < words_.size();
-        return whole_ ? words_[next_++] : 0;
+        is_valid_ = is_valid_ && next_ < words_.size();
+        return is_valid_ ? words_[next_++] : 0;
     }
     Vec3 take_vector() {
         Vec3 v;
@@ -56,18 +56,18 @@ class WordReader {
         }
         return v;
     }
-    // How many rows follow; none where fewer words are left than that many take.
+    // Number of elements that follow; 0 if that many do not fit into the remaining words.
     std::size_t take_count(std::size_t words_each) {
         const std::uint64_t count = take();
-        whole_ = whole_ && count <= (words_.size() - next_) / words_each;
-        return whole_ ? static_cast<std::size_t>(count) : 0;
+        is_valid_ = is_valid_ && count <= (words_.size() - next_) / words_each;
+        return is_valid_ ? static_cast<std::size_t>(count) : 0;
     }
-    bool at_end() const { return whole_ && next_ == words_.size(); }
+    bool at_end() const { return is_valid_ && next_ == words_.size(); }
 
   private:
     const std::vector<std::uint64_t>& words_;
     std::size_t next_ = 0;
-    bool whole_ = true;
+    bool is_valid_ = true;
 };
 
 std::uint64_t pair_of(std::uint32_t low, std::uint32_t high) {
@@ -103,7 +103,7 @@ void write_graph(const SurfaceGraph& graph, WordWriter& out) {
     }
 }
 
-// False where an index is out of range; the sum has said that the words are as written.
+// False if an index is out of range. The checksum has already ruled out damage.
 bool read_graph(WordReader& in, SurfaceGraph& graph) {
     visit_report(graph.report, [&](std::uint32_t& field) { field = low_of(in.take()); });
     graph.positions.resize(in.take_count(3));
@@ -129,7 +129,7 @@ bool read_graph(WordReader& in, SurfaceGraph& graph) {
                 return false;
             }
         }
-        // As link_graph has it, bit for bit.
+        // Bitwise as in link_graph.
         graph.normals[t] =
             area_vector({graph.positions[a], graph.positions[b], graph.positions[c]}).normalized();
     }
@@ -149,7 +149,7 @@ std::string read_whole(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// By a name that nobody else uses, and renamed once it is whole.
+// Writes to a unique temporary name and renames it when complete.
 void write_whole(const fs::path& file, const std::string& bytes) {
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
@@ -165,7 +165,7 @@ void write_whole(const fs::path& file, const std::string& bytes) {
             fs::rename(part, file, error);
         }
     }
-    fs::remove(part, error);  // where it could not be written or renamed
+    fs::remove(part, error);  // if writing or renaming failed
 }
 
 std::string file_name(std::uint64_t key) {
@@ -260,7 +260,7 @@ GripMesh cached_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings,
 
 GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
                           const fs::path& directory) {
-    if (shape.kind != ShapeKind::mesh) {  // built as fast as read
+    if (shape.kind != ShapeKind::mesh) {  // as fast to build as to read
         return build_grip_mesh(shape, settings);
     }
     return cached_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), settings, directory);

@@ -19,7 +19,7 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Round shapes as large as this would be tessellated too roughly for a hand, or into too much.
+// Larger round shapes would be tessellated too coarsely to grip, or into too many triangles.
 bool is_too_large(const Shape& shape) {
     constexpr double k_largest_m = 64.0;
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
@@ -42,16 +42,16 @@ GripMeshLibrary::SurfaceKey GripMeshLibrary::surface_key(const Shape& shape) {
     const auto address = [](const auto& pointer) {
         return static_cast<std::uint64_t>(std::bit_cast<std::uintptr_t>(pointer.get()));
     };
-    SurfaceKey likeness = {static_cast<std::uint64_t>(shape.kind),
-                           address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
-                           std::bit_cast<std::uint64_t>(shape.radius_m),
-                           std::bit_cast<std::uint64_t>(shape.half_height_m)};
+    SurfaceKey key = {static_cast<std::uint64_t>(shape.kind),
+                      address(shape.hull) ^ address(shape.parts) ^ address(shape.mesh),
+                      std::bit_cast<std::uint64_t>(shape.radius_m),
+                      std::bit_cast<std::uint64_t>(shape.half_height_m)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<Eigen::Index>(axis);
-        likeness[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
-        likeness[7 + axis] = std::bit_cast<std::uint64_t>(shape.scale[i]);
+        key[4 + axis] = std::bit_cast<std::uint64_t>(shape.half_m[i]);
+        key[7 + axis] = std::bit_cast<std::uint64_t>(shape.scale[i]);
     }
-    return likeness;
+    return key;
 }
 
 GripMeshLibrary::GripMeshLibrary(const ShapeLibrary& shapes, const GripMeshSettings& settings,
@@ -74,7 +74,7 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
         if (is_too_large(shapes.at(id))) {
             continue;
         }
-        const auto [found, is_new] = known_.try_emplace(
+        const auto [found, is_new] = mesh_of_surface_.try_emplace(
             surface_key(shapes.at(id)), first + static_cast<std::uint32_t>(distinct.size()));
         if (is_new) {
             distinct.push_back(id);

@@ -10,7 +10,7 @@ Vec3 from_disc(const Pose& base, const Vec2& point_ds) {
     return base.position + base.rotation * Vec3(0.0, -point_ds.y(), -point_ds.x());
 }
 
-// Around the unit circle's points from one angle to another.
+// Bounding box of the unit circle's arc between two angles.
 ReachBox arc_box(double from_rad, double to_rad) {
     constexpr double k_piece_rad = 0.5;
     const int pieces = 2 + static_cast<int>((to_rad - from_rad) / k_piece_rad);
@@ -23,7 +23,7 @@ ReachBox arc_box(double from_rad, double to_rad) {
         box.low = box.low.cwiseMin(Vec2(cosine, sine));
         box.high = box.high.cwiseMax(Vec2(cosine, sine));
     }
-    const double bulge = piece_rad * piece_rad / 8.0;  // no arc is farther from its chord
+    const double bulge = piece_rad * piece_rad / 8.0;  // sagitta: no arc is farther from its chord
     box.low.array() -= bulge;
     box.high.array() += bulge;
     return box;
@@ -59,11 +59,11 @@ std::array<Vec2, k_max_disc_links + 1> chain_points_ds(const HingeChain& chain,
 }
 
 double max_radius_m(const HingeChain& chain) {
-    double thickest = 0.0;
+    double radius_m = 0.0;
     for (std::size_t i = 0; i < chain.link_count; ++i) {
-        thickest = std::max(thickest, chain.radius_m[i]);
+        radius_m = std::max(radius_m, chain.radius_m[i]);
     }
-    return thickest;
+    return radius_m;
 }
 
 double reach_m(const HingeChain& chain) {

@@ -10,13 +10,13 @@
 #include "engine/geometry/disc_contact.hpp"
 #include "engine/math/math.hpp"
 
-// A chain of hinged capsules in space, and what it is in its own plane: disc space (_ds,
-// disc_contact.hpp).
+// A chain of hinged capsules. Its hinge axes are parallel, so all links move in one plane: disc
+// space (_ds, disc_contact.hpp).
 namespace handhold {
 
 using ChainAngles = std::array<double, k_max_disc_links>;
 
-// Link i begins at hinge i. At angle 0 all of them lie along the base's -Z; a positive angle turns
+// Link i begins at hinge i. At angle 0 every link lies along the base's -Z; a positive angle turns
 // from -Z towards -Y.
 struct HingeChain {
     Pose base;
@@ -25,7 +25,7 @@ struct HingeChain {
     std::array<double, k_max_disc_links> radius_m = {};
     ChainAngles open_rad = {};
     ChainAngles closed_rad = {};
-    ChainAngles rest_rad = {};  // where nothing is touched
+    ChainAngles rest_rad = {};  // pose taken where nothing is touched
 };
 
 struct Capsule {
@@ -35,66 +35,68 @@ struct Capsule {
 std::array<Capsule, k_max_disc_links> chain_capsules(const HingeChain& chain,
                                                      const ChainAngles& angle_rad);
 
-// The hinges, and the last link's end.
+// Positions of the hinges and of the last link's end.
 std::array<Vec2, k_max_disc_links + 1> chain_points_ds(const HingeChain& chain,
                                                        const ChainAngles& angle_rad);
 
 double max_radius_m(const HingeChain& chain);
-double reach_m(const HingeChain& chain);  // from the first hinge
+// Farthest point of the straight chain from the first hinge, radius included.
+double reach_m(const HingeChain& chain);
 
-// Where a plane lies across the chain: the middle one is plane 0, and of those beside it
-// `plane_offset` is the place in mean link radii.
+// Offset of a cutting plane from the chain's own plane, metres. Plane 0 is the chain's own; planes
+// 1 and 2 lie on either side at `plane_offset` times the mean link radius.
 double plane_offset_m(const HingeChain& chain, double plane_offset, std::size_t plane);
-// Of all that the chain and its planes can meet.
+// Half extent across the chain's plane of everything that the links and the cutting planes can
+// meet.
 double half_width_m(const HingeChain& chain, double plane_offset);
 
-// Where the chain can be with each hinge anywhere between two angles: a box for each link, `more_m`
-// wider than it. As far across as its thickest link. Precondition: no angle of least_rad is above
-// that of most_rad.
+// Region swept by the chain while each hinge takes any angle in [min_rad, max_rad]: one box per
+// link, grown by `extra_radius_m`. The half width is the largest link radius. Precondition:
+// min_rad[i] <= max_rad[i].
 ChainReach chain_reach(const HingeChain& chain, const ChainAngles& min_rad,
                        const ChainAngles& max_rad, double extra_radius_m = 0.0);
-// By hinge.
+// Per-hinge minimum and maximum.
 ChainAngles lowest(const ChainAngles& a, const ChainAngles& b);
 ChainAngles highest(const ChainAngles& a, const ChainAngles& b);
 
-// As its planes cut it; closes from fully open to fully closed.
+// The chain's cross-sections in its cutting planes; closes from open_rad to closed_rad.
 DiscChain flat_chain(const HingeChain& chain, double plane_offset);
 
-// How deep a chain is sunk in what was gathered around it, and which link is sunk deepest. What is
-// beyond the place where a surface goes through the chain is taken for sunk as well: whether it
-// is, only a solid could tell.
+// Penetration of a chain into the gathered surfaces. If a surface crosses a link's axis, the rest
+// of the chain beyond the crossing counts as penetrating: only a closed solid could tell otherwise.
 struct ChainDepth {
     double depth_m = 0.0;
     std::size_t link = 0;
-    // Of each link that was looked at: how near a surface is to its middle, no more than where it
-    // begins to count, and what is beyond a surface that goes through.
+    // Per queried link: distance from its axis to the nearest surface, at most the queried radius;
+    // and the length of chain beyond a surface that crosses the link's axis, 0 if none does.
     std::array<double, k_max_disc_links> nearest_m = {};
     std::array<double, k_max_disc_links> beyond_m = {};
-    // Where on its middle that is, and the way there from the surface (CapsulePenetration).
+    // Per queried link: the nearest point on its axis and the in-plane part of the unit direction
+    // from the surface to it (CapsulePenetration).
     std::array<Vec2, k_max_disc_links> nearest_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
     std::array<Vec2, k_max_disc_links> away_ds = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-    std::size_t end = 0;  // those from here on were not looked at
+    std::size_t end = 0;  // links from this one on were not queried
 };
 struct DepthQuery {
-    double extra_radius_m = 0.0;         // of a chain that is so much thicker
-    std::size_t first = 0;               // links before it are left out
-    std::size_t end = k_max_disc_links;  // and those from here on
-    double sufficient_depth_m = std::numeric_limits<double>::infinity();  // as deep as this, how
-                                                                          // deep is of no interest
+    double extra_radius_m = 0.0;         // queries the chain with all radii larger by this
+    std::size_t first = 0;               // first link queried
+    std::size_t end = k_max_disc_links;  // one past the last link queried
+    // Stops at a link at least this deep; the exact depth beyond it does not matter.
+    double sufficient_depth_m = std::numeric_limits<double>::infinity();
 };
 ChainDepth chain_depth(const HingeChain& chain, const ChainAngles& angle_rad, ChainPatch& patch,
                        const DepthQuery& query = {});
-// ChainDepth::depth_m at these angles, of what the chain can meet there, which `patch` then has.
-// The chain and the meshes are in one frame.
+// ChainDepth::depth_m at these angles. Gathers into `patch` what the chain can meet there. The
+// chain and the meshes are in one frame.
 double posed_depth_m(const HingeChain& chain, const ChainAngles& angle_rad,
                      std::span<const PlacedMesh> meshes, ChainPatch& patch);
-// How deep one chain is in several poses, of which some have their first link in common: that is
-// looked at once.
+// Penetration of one chain in several poses. Poses that share the first hinge's angle share the
+// query of the first link.
 class ChainDepths {
   public:
     ChainDepths(const HingeChain& chain, ChainPatch& patch) : chain_(chain), patch_(patch) {}
 
-    // As ChainDepth::depth_m; as deep as `sufficient_depth_m`, how deep is of no interest.
+    // As ChainDepth::depth_m, but exact only below `sufficient_depth_m`.
     double depth_m(const ChainAngles& angle_rad, double sufficient_depth_m);
 
   private:
@@ -111,7 +113,8 @@ class ChainDepths {
     std::size_t known_count_ = 0;
 };
 
-// What a thicker chain says of the chain itself, of links before `end`.
+// Converts the result for a chain queried with extra radius to the chain's own radii, for links
+// before `end`.
 ChainDepth own_depth(const HingeChain& chain, const ChainDepth& thicker, std::size_t end);
 
 }  // namespace handhold

@@ -7,8 +7,8 @@
 namespace handhold {
 namespace {
 
-// Share of the size below which nothing stands out: far above rounding, so that every triangle has
-// a normal and every point a side; far below what can be seen.
+// Tolerance relative to the hull's size. Far above rounding, so that every triangle has a normal
+// and every point a side; far below anything visible.
 constexpr double k_flat = 1e-6;
 
 }  // namespace
@@ -42,16 +42,17 @@ bool HullBuilder::start() {
     flat_m_ = k_flat * (high - low).norm();
     Eigen::Index axis = 0;
     (high - low).maxCoeff(&axis);
-    const Index a = best([&](const Vec3& p) { return high[axis] - p[axis]; }).first;
-    const Index b = best([&](const Vec3& p) { return (p - points_[a]).norm(); }).first;
+    const Index a = farthest_by([&](const Vec3& p) { return high[axis] - p[axis]; }).first;
+    const Index b = farthest_by([&](const Vec3& p) { return (p - points_[a]).norm(); }).first;
     const Vec3 along = (points_[b] - points_[a]).normalized();
     const auto [c, width_m] =
-        best([&](const Vec3& p) { return along.cross(p - points_[a]).norm(); });
+        farthest_by([&](const Vec3& p) { return along.cross(p - points_[a]).norm(); });
     if (!(width_m > flat_m_)) {
         return false;
     }
     const Plane plane = plane_through(points_[a], points_[b], points_[c]);
-    const auto [d, height_m] = best([&](const Vec3& p) { return std::abs(plane.height(p)); });
+    const auto [d, height_m] =
+        farthest_by([&](const Vec3& p) { return std::abs(plane.height(p)); });
     if (!(height_m > flat_m_)) {
         return false;
     }
@@ -81,14 +82,15 @@ HullBuilder::Index HullBuilder::add_triangle(Index a, Index b, Index c) {
     return static_cast<Index>(triangles_.size() - 1);
 }
 
-// Lists each point with the triangle, of those from first_triangle on, that it stands out of most.
+// Lists each point with the triangle, from first_triangle on, that it is farthest outside of.
 void HullBuilder::assign(std::span<const Index> candidates, Index first_triangle) {
     for (const Index point : candidates) {
         Index best_triangle = k_none;
-        double most = flat_m_;
+        double max_height_m = flat_m_;
         for (Index i = first_triangle; i < triangles_.size(); ++i) {
-            if (const double height = triangles_[i].plane.height(points_[point]); height > most) {
-                most = height;
+            if (const double height = triangles_[i].plane.height(points_[point]);
+                height > max_height_m) {
+                max_height_m = height;
                 best_triangle = i;
             }
         }
@@ -97,8 +99,8 @@ void HullBuilder::assign(std::span<const Index> candidates, Index first_triangle
         }
         Triangle& triangle = triangles_[best_triangle];
         triangle.outside.push_back(point);
-        if (most > triangle.farthest_m) {
-            triangle.farthest_m = most;
+        if (max_height_m > triangle.farthest_m) {
+            triangle.farthest_m = max_height_m;
             triangle.farthest = point;
         }
     }
@@ -106,10 +108,10 @@ void HullBuilder::assign(std::span<const Index> candidates, Index first_triangle
 
 HullBuilder::Index HullBuilder::outermost() const {
     Index best_triangle = k_none;
-    double most = 0.0;
+    double max_height_m = 0.0;
     for (Index i = 0; i < triangles_.size(); ++i) {
-        if (!triangles_[i].gone && triangles_[i].farthest_m > most) {
-            most = triangles_[i].farthest_m;
+        if (!triangles_[i].gone && triangles_[i].farthest_m > max_height_m) {
+            max_height_m = triangles_[i].farthest_m;
             best_triangle = i;
         }
     }
@@ -140,7 +142,7 @@ void HullBuilder::forget_farthest(Triangle& triangle) const {
     }
 }
 
-// All triangles that the point sees, and the edges between them and the others.
+// Finds all triangles that the point sees and their boundary edges.
 void HullBuilder::find_visible(Index face, const Vec3& point) {
     visible_ = {face};
     horizon_.clear();
@@ -157,7 +159,7 @@ void HullBuilder::find_visible(Index face, const Vec3& point) {
     }
 }
 
-// Puts the horizon's edges one after another. False where they are not one loop.
+// Sorts the horizon's edges into a loop. False if they do not form one.
 bool HullBuilder::order_horizon() {
     for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
         const Index to = horizon_[i].to;
@@ -172,7 +174,7 @@ bool HullBuilder::order_horizon() {
     return horizon_.size() >= 3 && horizon_.back().to == horizon_.front().from;
 }
 
-// Triangles from the horizon to the point take the visible ones' place.
+// Replaces the visible triangles by triangles from the horizon to the point.
 void HullBuilder::add_cone(Index point) {
     const auto first = static_cast<Index>(triangles_.size());
     const auto count = static_cast<Index>(horizon_.size());
@@ -196,7 +198,7 @@ void HullBuilder::add_cone(Index point) {
     }
 }
 
-// The triangles about a seed that lie in its plane.
+// Triangles connected to the seed that lie in its plane.
 std::vector<HullBuilder::Index> HullBuilder::flat_group(Index seed,
                                                         std::vector<bool>& taken) const {
     constexpr double k_same_side = 0.99;
@@ -218,7 +220,7 @@ std::vector<HullBuilder::Index> HullBuilder::flat_group(Index seed,
     return group;
 }
 
-// The loop about a group of triangles; empty where there is no single one.
+// Boundary loop of a group of triangles; empty if it is not a single loop.
 std::vector<HullBuilder::Index> HullBuilder::outline(const std::vector<Index>& group) const {
     std::vector<Edge> edges;
     for (const Index i : group) {
@@ -276,8 +278,8 @@ std::vector<HullFace> HullBuilder::flat_faces() const {
     return faces;
 }
 
-// A point on an edge is none of the hull's corners, though the first tetrahedron may have begun
-// there: only two faces have it.
+// Removes points in the interior of an edge, which only two faces share. The initial tetrahedron
+// may contain such points.
 void HullBuilder::drop_edge_points(std::vector<HullFace>& faces) {
     std::map<Index, std::vector<HullFace*>> around;
     for (HullFace& face : faces) {
@@ -297,7 +299,7 @@ ConvexHull HullBuilder::collect() const {
     ConvexHull hull;
     hull.faces = flat_faces();
     drop_edge_points(hull.faces);
-    // Only corners that some face has, numbered by place.
+    // Keeps only used corners, numbered in sorted order.
     std::vector<Index> number(points_.size(), k_none);
     for (const HullFace& face : hull.faces) {
         for (const Index corner : face.loop) {

@@ -12,13 +12,13 @@
 
 namespace handhold {
 
-// Quickhull over triangles, which are merged to faces at the end: what make_convex_hull does. The
-// first tetrahedron grows by the point that stands out most, until none does.
+// Quickhull over triangles, merged into faces at the end. An initial tetrahedron grows by the
+// farthest outside point until none is left.
 class HullBuilder {
   public:
-    // Sorted, each once.
+    // `points`: sorted and unique.
     explicit HullBuilder(std::vector<Vec3> points) : points_(std::move(points)) {}
-    // nullopt where the points have no volume.
+    // nullopt if the points have no volume.
     std::optional<ConvexHull> build();
 
   private:
@@ -36,8 +36,8 @@ class HullBuilder {
         std::array<Index, 3> corner{};
         std::array<Index, 3> neighbour{};  // across the edge from corner i to corner i + 1
         Plane plane;
-        std::vector<Index> outside;  // points that see this face; each point is listed once
-        Index farthest = k_none;     // of them
+        std::vector<Index> outside;  // points that see this triangle; each point is listed once
+        Index farthest = k_none;     // the farthest of `outside`
         double farthest_m = 0.0;
         bool gone = false;
     };
@@ -45,16 +45,16 @@ class HullBuilder {
     struct Edge {
         Index from = 0;
         Index to = 0;
-        Index beyond = 0;  // the triangle on its other side
+        Index beyond = 0;  // triangle on the other side
     };
 
     static Plane plane_through(const Vec3& a, const Vec3& b, const Vec3& c);
-    // A tetrahedron of points that are far apart. False where all lie in a plane.
+    // Builds a large initial tetrahedron. False if all points are coplanar.
     bool start();
-    // The triangle with the point that stands out most; k_none where none does.
+    // Triangle with the farthest outside point; k_none if there is none.
     Index outermost() const;
-    // Adds the farthest point outside of a face. False where that would tear the surface: the point
-    // is then left out.
+    // Adds the face's farthest point. False if the horizon is not one loop: the point is then
+    // dropped.
     bool add_point(Index face);
     void forget_farthest(Triangle& triangle) const;
     void find_visible(Index face, const Vec3& point);
@@ -69,16 +69,16 @@ class HullBuilder {
     std::vector<Index> outline(const std::vector<Index>& group) const;
 
     template <typename Score>
-    std::pair<Index, double> best(const Score& score) const {
+    std::pair<Index, double> farthest_by(const Score& score) const {
         Index at = 0;
-        double most = -1.0;
+        double max_score = -1.0;
         for (Index i = 0; i < points_.size(); ++i) {
-            if (const double value = score(points_[i]); value > most) {
-                most = value;
+            if (const double value = score(points_[i]); value > max_score) {
+                max_score = value;
                 at = i;
             }
         }
-        return {at, most};
+        return {at, max_score};
     }
 
     std::vector<Vec3> points_;

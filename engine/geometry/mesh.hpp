@@ -9,8 +9,8 @@
 
 namespace handhold {
 
-// An indexed triangle soup in its own frame, metres. Counter-clockwise seen from outside where the
-// author kept to it; real levels have mixed winding.
+// An indexed triangle soup in its own frame, metres. Meant to be counter-clockwise from outside,
+// but real levels have mixed winding.
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;

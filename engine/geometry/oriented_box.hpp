@@ -10,20 +10,20 @@
 
 namespace handhold {
 
-// A box that is turned anyhow: `middle` and `half` along its axes.
+// A box in any orientation; `centre` and `half_extents` are along its own axes.
 struct OrientedBox {
-    std::array<Vec3, 3> axis = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  // square, unit
+    std::array<Vec3, 3> axis = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  // orthonormal
     Vec3 centre = Vec3::Zero();
     Vec3 half_extents = Vec3::Zero();
 };
 
-// Tells upright boxes that may meet a turned one from those that surely do not: by its axes alone,
-// in floats with room to spare for what they round off.
+// Conservative test of axis-aligned boxes against an oriented box. Tests only the oriented box's
+// axes, in floats with a rounding margin.
 class OrientedBoxTest {
   public:
-    // `reach_m`: no upright box has a coordinate beyond it.
+    // `reach_m` bounds all coordinates of the axis-aligned boxes.
     OrientedBoxTest(const OrientedBox& box, double reach_m) {
-        constexpr double k_rounding = 0x1p-20;  // sixteen times what one operation rounds off
+        constexpr double k_rounding = 0x1p-20;  // sixteen times the rounding of one operation
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t along = 0; along < 3; ++along) {
                 const double part = box.axis[i][static_cast<Eigen::Index>(along)];
@@ -38,7 +38,7 @@ class OrientedBoxTest {
         }
     }
 
-    // Of four boxes at once.
+    // Tests four boxes at once.
     Int4 may_meet(const Boxes4& boxes) const {
         std::array<Float4, 3> middle_twice;
         std::array<Float4, 3> size;
@@ -48,17 +48,18 @@ class OrientedBoxTest {
         }
         Int4 is_apart = {};
         for (std::size_t i = 0; i < 3; ++i) {
-            const Float4 away = axis_[i][0] * middle_twice[0] + axis_[i][1] * middle_twice[1] +
-                                axis_[i][2] * middle_twice[2] - middle_twice_[i];
-            const Float4 most = steepness_[i][0] * size[0] + steepness_[i][1] * size[1] +
-                                steepness_[i][2] * size[2] + half_twice_[i];
-            is_apart |= higher(away, -away) > most;
+            const Float4 separation = axis_[i][0] * middle_twice[0] +
+                                      axis_[i][1] * middle_twice[1] +
+                                      axis_[i][2] * middle_twice[2] - middle_twice_[i];
+            const Float4 max_separation = steepness_[i][0] * size[0] + steepness_[i][1] * size[1] +
+                                          steepness_[i][2] * size[2] + half_twice_[i];
+            is_apart |= higher(separation, -separation) > max_separation;
         }
         return ~is_apart;
     }
 
   private:
-    // By axis, and by coordinate where there are two; each number four times.
+    // [axis][coordinate]; each number in all lanes.
     std::array<std::array<Float4, 3>, 3> axis_;
     std::array<std::array<Float4, 3>, 3> steepness_;
     std::array<Float4, 3> middle_twice_;

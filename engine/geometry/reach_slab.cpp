@@ -5,7 +5,7 @@
 namespace handhold {
 ReachSlab::ReachSlab(const ChainReach& reach, const Pose& base, const TriangleBvh& bvh)
     : box_count_(reach.box_count) {
-    // Ten roundings lie between a corner and its place, of numbers no larger than these.
+    // At most ten roundings of numbers no larger than these.
     constexpr double k_rounding = 0x1p-20;
     const Vec3 centre = base.position - bvh.origin();
     rounding_margin_m_ = k_rounding * (bvh.reach_m() + centre.norm() + reach.radius_m);
@@ -37,7 +37,7 @@ ReachSlab::ReachSlab(const ChainReach& reach, const Pose& base, const TriangleBv
     rounding_margin_ = splat4(rounding_margin_m_);
     half_width_ = splat4(reach.half_width_m * (1.0 + k_rounding));
     squared_radius_ = splat4(reach.radius_m * reach.radius_m * (1.0 + k_rounding));
-    farthest_ = splat4(2.0 * reach.radius_m);
+    max_coordinate_ = splat4(2.0 * reach.radius_m);
 }
 
 ReachSlab::Extent ReachSlab::extent_of(const ReachBox& box) {
@@ -102,8 +102,8 @@ ReachedTriangles4 ReachSlab::bounds_of(const Triangles4& four, ReachMasks4& is_n
         is_near[i] = ~(is_out | is_apart(reached, boxes_[i]));
     }
     for (std::size_t i = 0; i < 2; ++i) {
-        reached.low[i] = lower(higher(reached.low[i], -farthest_), farthest_);
-        reached.high[i] = lower(higher(reached.high[i], -farthest_), farthest_);
+        reached.low[i] = lower(higher(reached.low[i], -max_coordinate_), max_coordinate_);
+        reached.high[i] = lower(higher(reached.high[i], -max_coordinate_), max_coordinate_);
     }
     return reached;
 }

@@ -9,55 +9,55 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/vec2.hpp"
 
-// Which triangles one chain may come to: told in floats, four triangles at a time.
+// Conservative float test for the triangles within one chain's reach, four at a time.
 namespace handhold {
 
-// An upright box in disc space.
+// An axis-aligned box in disc space.
 struct ReachBox {
     Vec2 low = Vec2::Constant(-std::numeric_limits<double>::infinity());
     Vec2 high = Vec2::Constant(std::numeric_limits<double>::infinity());
 };
 
-// Where a chain's links can be: a disc with a thickness, and of that what is in a box of one of
-// the links.
+// Region that a chain's links can reach: a disc with a thickness, restricted to one box per link.
 struct ChainReach {
-    Pose base;                // the first hinge: links along -Z at angle 0, turning towards -Y
-    double radius_m = 0;      // about the hinge, in the plane
+    Pose base;                // at the first hinge; links along -Z at angle 0, turning towards -Y
+    double radius_m = 0;      // from the hinge, in the plane
     double half_width_m = 0;  // across the plane
     std::array<ReachBox, k_max_disc_links> boxes = {};  // in the plane
-    std::uint32_t box_count = 0;                        // 0: all of the disc
+    std::uint32_t box_count = 0;                        // 0: the whole disc
 };
 
-// Four triangles by axis of disc space (_ds, disc_contact.hpp; the third across the plane): what
-// holds each of them, with room to spare for what floats round off.
+// Four triangles in disc space (_ds, disc_contact.hpp; third axis across the plane). The bounds
+// include a margin for float rounding.
 struct ReachedTriangles4 {
     std::array<Float4, 3> low = {};
     std::array<Float4, 3> high = {};
-    // Where a triangle's plane meets the chain's own: line[0] x + line[1] y = line[2]. All 0 where
-    // its normal is not known.
+    // Intersection of a triangle's plane with the chain's: line[0] x + line[1] y = line[2]. All 0
+    // if the normal is unknown.
     std::array<Float4, 3> line = {};
     Corners4 corner = {};
 };
 
-// By box of the reach, or the only one: which of four triangles may be in reach there.
+// Per box of the reach, or one mask for the whole disc: which of four triangles may reach into it.
 using ReachMasks4 = std::array<Int4, k_max_disc_links>;
 
-// A chain's reach in the frame of a tree of triangles.
+// A chain's reach in the frame of a triangle tree.
 class ReachSlab {
   public:
-    // `base` is the reach's in the mesh's frame.
+    // `base` is reach.base in the mesh's frame.
     ReachSlab(const ChainReach& reach, const Pose& base, const TriangleBvh& bvh);
 
-    const OrientedBox& box() const { return box_; }  // about the tree's origin, around all of it
+    // Encloses the reach, relative to the tree's origin.
+    const OrientedBox& box() const { return box_; }
 
-    // Bounds in the plane are clamped to twice the reach's radius: what is farther out needs no
-    // place of its own, and a float would not know it well.
+    // Bounds in the plane are clamped to twice the reach's radius: floats are inaccurate farther
+    // out, and nothing there is in reach.
     ReachedTriangles4 bounds_of(const Triangles4& four, ReachMasks4& is_near) const;
 
-    double rounding_margin_m() const { return rounding_margin_m_; }  // more than floats round off
+    double rounding_margin_m() const { return rounding_margin_m_; }  // bound on float rounding
 
   private:
-    // An upright box in the plane, each number four times.
+    // An axis-aligned box in the plane, each number repeated in all lanes.
     struct Extent {
         std::array<Float4, 2> low = {};
         std::array<Float4, 2> high = {};
@@ -68,12 +68,12 @@ class ReachSlab {
 
     OrientedBox box_;
     double rounding_margin_m_;
-    std::array<std::array<Float4, 3>, 3> axis_ = {};  // by axis of disc space, coordinate
-    std::array<Float4, 3> base_ = {};                 // about the tree's origin
+    std::array<std::array<Float4, 3>, 3> axis_ = {};  // [disc axis][mesh coordinate]
+    std::array<Float4, 3> base_ = {};                 // relative to the tree's origin
     Float4 rounding_margin_ = {};
     Float4 half_width_ = {};
     Float4 squared_radius_ = {};
-    Float4 farthest_ = {};
+    Float4 max_coordinate_ = {};
     Extent whole_;
     std::array<Extent, k_max_disc_links> boxes_ = {};
     std::uint32_t box_count_;

@@ -5,13 +5,13 @@
 
 #include "engine/math/float4.hpp"
 
-// How far four triangles are from a segment, in floats, side by side: what segment_triangle.hpp
-// tells of one in doubles. For what only has to tell far from near.
+// Distances of four triangles from a segment, in floats: the SIMD counterpart of
+// segment_triangle.hpp, for rejection tests.
 namespace handhold {
 
-// Of triangles about a segment's first end, the segment along the first axis. Squared. Never more
-// than the distances, but for some roundings of the largest coordinate. Source: Ericson, Real-Time
-// Collision Detection, section 5.1.9 (two segments).
+// The triangles are given relative to the segment's first end, with the segment along the first
+// axis. Results are squared and never exceed the true distances by more than a few roundings of the
+// largest coordinate. Source: Ericson, Real-Time Collision Detection, section 5.1.9 (two segments).
 class SegmentDistances4 {
   public:
     SegmentDistances4(const Corners4& corner, const Float4& length)
@@ -29,17 +29,16 @@ class SegmentDistances4 {
     }
 
   private:
-    static Float4 four(float value) { return Float4{value, value, value, value}; }
-    static Float4 size_of(const Float4& value) { return higher(value, -value); }
-    // No less than the length.
-    static Float4 size_of(const Vectors4& v) {
-        return size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
-    }
+    static Float4 splat(float value) { return Float4{value, value, value, value}; }
+    static Float4 abs_of(const Float4& value) { return higher(value, -value); }
+    // Upper bound on the length (1-norm).
+    static Float4 abs_of(const Vectors4& v) { return abs_of(v[0]) + abs_of(v[1]) + abs_of(v[2]); }
     Float4 on_segment(const Float4& along) const { return lower(higher(along, Float4{}), length_); }
 
-    // Where both are lines, then what of that is on the segment, on the edge, on the segment again.
+    // Closest points of two lines, clamped to the segment, then to the edge, then to the segment
+    // again.
     Float4 to_edge(std::size_t i) const {
-        const Float4 tiny = four(1e-30F);
+        const Float4 tiny = splat(1e-30F);
         const Vectors4& from = corner_[i];
         const Vectors4& edge = edge_[i];
         const Float4 across = edge[1] * edge[1] + edge[2] * edge[2];
@@ -47,7 +46,7 @@ class SegmentDistances4 {
         const Float4 met = on_segment(from[0] - beside / higher(across, tiny) * edge[0]);
         const Float4 share =
             ((met - from[0]) * edge[0] - beside) / higher(across + edge[0] * edge[0], tiny);
-        const Float4 on_edge = lower(higher(share, Float4{}), four(1.0F));
+        const Float4 on_edge = lower(higher(share, Float4{}), splat(1.0F));
         const Float4 along = from[0] + on_edge * edge[0];
         const Float4 x = along - on_segment(along);
         const Float4 y = from[1] + on_edge * edge[1];
@@ -55,18 +54,18 @@ class SegmentDistances4 {
         return x * x + y * y + z * z;
     }
 
-    // Of the segment's ends over the triangle's inside; 0 where the segment goes through it. Where
-    // a sliver's normal is not known well, less by what that may be.
+    // Distance from the segment's ends to the triangle's interior; 0 if the segment crosses it.
+    // Reduced by `margin`, the error of a sliver's inexact normal.
     Float4 to_inside() const {
         const Float4 zero = {};
-        const Float4 far = four(1e30F);
+        const Float4 far = splat(1e30F);
         const Vectors4 normal = cross(edge_[0], edge_[1]);
         const Float4 squared_normal = dot(normal, normal);
         const Float4 begin = -dot(normal, corner_[0]);
         const Float4 rise = normal[0] * length_;
         const Float4 end = begin + rise;
-        const Float4 spare =
-            four(0x1p-20F) * size_of(edge_[0]) * size_of(edge_[1]) * size_of(corner_[0]);
+        const Float4 margin =
+            splat(0x1p-20F) * abs_of(edge_[0]) * abs_of(edge_[1]) * abs_of(corner_[0]);
         const Int4 goes_through = (begin > zero) ^ (end > zero);
         const Float4 passage = -begin / (rise != zero ? rise : far) * length_;
         Int4 holds_begin = squared_normal > zero;
@@ -79,8 +78,8 @@ class SegmentDistances4 {
             holds_end &= at_begin + inward[0] * length_ >= zero;
             holds_passage &= at_begin + inward[0] * passage >= zero;
         }
-        const Float4 over_begin = higher(size_of(begin) - spare, zero);
-        const Float4 over_end = higher(size_of(end) - spare, zero);
+        const Float4 over_begin = higher(abs_of(begin) - margin, zero);
+        const Float4 over_end = higher(abs_of(end) - margin, zero);
         const Float4 over = lower(holds_begin ? over_begin : far, holds_end ? over_end : far);
         const Float4 clear = over < far ? over * over / squared_normal : far;
         return holds_passage ? zero : clear;

@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-// A triangle's plane, and the planes that stand on its edges.
+// A triangle's plane and the planes through its edges along the normal.
 class Prism {
   public:
     Prism(const Corners& triangle, const Vec3& normal) : triangle_(triangle), normal_(normal) {
@@ -16,7 +16,7 @@ class Prism {
     }
 
     double height(const Vec3& point) const { return normal_.dot(point - triangle_[0]); }
-    bool holds(const Vec3& point) const {
+    bool is_over(const Vec3& point) const {
         return inward_[0].dot(point - triangle_[0]) >= 0.0 &&
                inward_[1].dot(point - triangle_[1]) >= 0.0 &&
                inward_[2].dot(point - triangle_[2]) >= 0.0;
@@ -34,31 +34,31 @@ SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corner
     return nearest_between(segment, triangle, area_vector(triangle));
 }
 
-// Of a passage, of an end over the triangle's inside, and of the edges, one is the nearest.
+// The nearest pair is a crossing, an end over the triangle's interior, or a pair with an edge.
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
                                 const Vec3& normal) {
     const double squared_normal = normal.squaredNorm();
     const Prism prism(triangle, normal);
     const std::array<double, 2> height = {prism.height(segment[0]), prism.height(segment[1])};
     if ((height[0] > 0.0) != (height[1] > 0.0) && height[0] != height[1]) {
-        const Vec3 passage =
+        const Vec3 crossing =
             segment[0] + height[0] / (height[0] - height[1]) * (segment[1] - segment[0]);
-        if (prism.holds(passage)) {
-            return {passage, passage, 0.0};
+        if (prism.is_over(crossing)) {
+            return {crossing, crossing, 0.0};
         }
     }
     SegmentTriangle best;
-    double least = std::numeric_limits<double>::infinity();
+    double min_squared = std::numeric_limits<double>::infinity();
     const auto take = [&](const Vec3& on_segment, const Vec3& on_triangle) {
         const double squared = (on_segment - on_triangle).squaredNorm();
-        if (squared < least) {
-            least = squared;
+        if (squared < min_squared) {
+            min_squared = squared;
             best.on_segment = on_segment;
             best.on_triangle = on_triangle;
         }
     };
     for (std::size_t i = 0; i < 2; ++i) {
-        if (squared_normal > 0.0 && prism.holds(segment[i])) {
+        if (squared_normal > 0.0 && prism.is_over(segment[i])) {
             take(segment[i], segment[i] - height[i] / squared_normal * normal);
         }
     }
@@ -67,7 +67,7 @@ SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corner
             closest_between_segments(segment, {triangle[i], triangle[(i + 1) % 3]});
         take(on_segment, on_edge);
     }
-    best.distance_m = std::sqrt(least);
+    best.distance_m = std::sqrt(min_squared);
     return best;
 }
 

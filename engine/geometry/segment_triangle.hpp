@@ -7,15 +7,14 @@
 
 namespace handhold {
 
-// The nearest pair of points of a segment and a triangle, and their distance: 0 where the segment
-// passes through.
+// Nearest points of a segment and a triangle; distance 0 if the segment crosses the triangle.
 struct SegmentTriangle {
     Vec3 on_segment = Vec3::Zero();
     Vec3 on_triangle = Vec3::Zero();
     double distance_m = 0.0;
 };
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle);
-// The same where a normal is known: of any length, zero for a triangle without area.
+// With a known normal of any length; zero for a degenerate triangle.
 SegmentTriangle nearest_between(const std::array<Vec3, 2>& segment, const Corners& triangle,
                                 const Vec3& normal);
 

@@ -8,16 +8,17 @@
 namespace handhold {
 namespace {
 
-// A whole number of steps around, a multiple of four so that the axes' ends are corners.
+// Sectors per turn, a multiple of four so that the axes' ends are corners.
 std::uint32_t sectors(double step_rad) {
-    const double wanted = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
-    return static_cast<std::uint32_t>(std::clamp(wanted, 8.0, static_cast<double>(k_max_sectors)));
+    const double rounded_up = std::ceil(2.0 * k_pi / step_rad / 4.0) * 4.0;
+    return static_cast<std::uint32_t>(
+        std::clamp(rounded_up, 8.0, static_cast<double>(k_max_sectors)));
 }
-// A chord over an angle of s leaves its circle by r (1 - cos(s / 2)) < r s^2 / 8.
+// Sagitta of a chord over the angle s: r (1 - cos(s / 2)) < r s^2 / 8.
 std::uint32_t circle_sectors(double radius_m, double tolerance_m) {
     return sectors(std::sqrt(8.0 * tolerance_m / radius_m));
 }
-// A face of s by s leaves its sphere by less than twice that.
+// A face of s by s deviates by less than twice that.
 std::uint32_t sphere_sectors(double radius_m, double tolerance_m) {
     return sectors(std::sqrt(4.0 * tolerance_m / radius_m));
 }
@@ -27,7 +28,7 @@ struct ProfilePoint {
     double y_m = 0.0;
 };
 
-// Turns a profile, from a point on the +y axis down to one on the -y axis, about y.
+// Revolves a profile about y; it runs from a point on +y to a point on -y.
 Mesh turn_profile(const std::vector<ProfilePoint>& profile, std::uint32_t sector_count) {
     Mesh mesh;
     mesh.positions.emplace_back(0.0, profile.front().y_m, 0.0);
@@ -57,7 +58,7 @@ Mesh turn_profile(const std::vector<ProfilePoint>& profile, std::uint32_t sector
     return mesh;
 }
 
-// A sphere, or one cut at its equator with 2 * half_height between the halves.
+// A sphere, or one split at its equator by 2 * half_height.
 Mesh capsule_surface(double radius_m, double half_height_m, double tolerance_m) {
     const std::uint32_t around = sphere_sectors(radius_m, tolerance_m);
     const std::uint32_t quarter = around / 4;

@@ -4,10 +4,10 @@
 
 #include "engine/math/float4.hpp"
 
-// Four of a kind side by side, in floats: for what only has to tell far from near.
+// Four boxes or triangles side by side in floats, for conservative rejection tests.
 namespace handhold {
 
-// Upright boxes, by coordinate.
+// Axis-aligned boxes, by coordinate.
 struct Boxes4 {
     std::array<Float4, 3> low = {};
     std::array<Float4, 3> high = {};
@@ -15,7 +15,7 @@ struct Boxes4 {
 
 struct Triangles4 {
     Corners4 corner = {};
-    std::array<Float4, 3> normal = {};  // by coordinate: unit, or zero where there is none
+    std::array<Float4, 3> normal = {};  // by coordinate: unit, or zero if degenerate
 };
 
 }  // namespace handhold

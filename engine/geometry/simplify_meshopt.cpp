@@ -7,16 +7,15 @@
 namespace handhold {
 namespace {
 
-// What the library reads. This version cannot be told to keep a point, but keeps those at which two
-// open edges or more begin: each locked point gets two triangles of its own, left out of the
-// result.
+// Input of meshoptimizer. This version cannot lock vertices but keeps those where two or more open
+// edges begin. So each locked point gets two extra triangles, which the result leaves out.
 struct LibraryMesh {
     std::vector<float> points;
     std::vector<unsigned> indices;
 };
 
-// Spread over the unit box, no two alike (Roberts, The Unreasonable Effectiveness of Quasirandom
-// Sequences, 2018).
+// Distinct quasirandom points in the unit box (Roberts, The Unreasonable Effectiveness of
+// Quasirandom Sequences, 2018).
 Vec3 scattered(std::size_t i) {
     const auto fraction = [&](double step) -> double {
         const double x = static_cast<double>(i + 1) * step;
@@ -28,7 +27,7 @@ Vec3 scattered(std::size_t i) {
 
 LibraryMesh make_library_mesh(const SimplifyInput& input) {
     LibraryMesh mesh;
-    // Floats about the first point: the library scales what it gets to a unit box.
+    // Floats relative to the first point; the library scales its input to a unit box.
     const Vec3 origin = input.positions[0];
     const auto add_point = [&](const Vec3& point) {
         for (const double coordinate : Vec3(point - origin)) {

@@ -15,19 +15,20 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::size_t k_smallest_part = 8;  // fewer triangles are not worth a look
-constexpr int k_tries = 9;  // each keeps what went astray before, every other with half the error
+constexpr std::size_t k_smallest_part = 8;  // smaller components are kept as they are
+// Each attempt locks what deviated before. Every fourth one also halves the error.
+constexpr int k_max_attempts = 9;
 
-// One part with its own vertices.
+// One connected component with its own vertices.
 struct Part {
     std::vector<Vec3> positions;
-    std::vector<std::uint32_t> vertex;  // in the graph
+    std::vector<std::uint32_t> vertex;  // vertex index in the graph
     std::vector<Triangle> triangles;
 };
 
-// How many equilateral triangles of the wanted size the part would be, each of its own counted as
-// one at most.
-std::size_t wanted_count(const Part& part, double edge_m) {
+// Number of target-size equilateral triangles with the component's area; each source triangle
+// counts as one at most.
+std::size_t target_count(const Part& part, double edge_m) {
     if (!(edge_m > 0.0)) {
         return 0;
     }
@@ -41,7 +42,8 @@ std::size_t wanted_count(const Part& part, double edge_m) {
     return static_cast<std::size_t>(sum);
 }
 
-// Locks what must stay for the coarse surface to come within the limit; false where it is.
+// Locks vertices around deviations. add_where_apart returns false if the coarse surface is within
+// the limit.
 class Locks {
   public:
     explicit Locks(const Part& part)
@@ -55,20 +57,21 @@ class Locks {
         const TriangleBvh coarse_bvh(part_.positions, coarse);
         const TriangleSurface fine_set = {part_.positions, part_.triangles, bvh_};
         const TriangleSurface coarse_set = {part_.positions, coarse, coarse_bvh};
-        const std::vector<Uncovered> lost = find_uncovered(fine_set, coarse_set, limit_m);
-        for (const Uncovered& triangle : lost) {
+        const std::vector<Uncovered> uncovered_fine = find_uncovered(fine_set, coarse_set, limit_m);
+        for (const Uncovered& triangle : uncovered_fine) {
             lock(triangle.triangle);
         }
-        const std::vector<Uncovered> astray = find_uncovered(coarse_set, fine_set, limit_m);
-        for (const Uncovered& triangle : astray) {
+        const std::vector<Uncovered> uncovered_coarse =
+            find_uncovered(coarse_set, fine_set, limit_m);
+        for (const Uncovered& triangle : uncovered_coarse) {
             bvh_.visit_in_sphere(triangle.point, k_around * limit_m,
                                  [&](std::uint32_t near) { lock(near); });
         }
-        return !lost.empty() || !astray.empty();
+        return !uncovered_fine.empty() || !uncovered_coarse.empty();
     }
 
   private:
-    static constexpr double k_around = 2.0;  // limits
+    static constexpr double k_around = 2.0;  // in units of the limit
 
     void lock(std::uint32_t triangle) {
         for (const std::uint32_t corner : part_.triangles[triangle]) {
@@ -86,15 +89,15 @@ class Locks {
 };
 
 std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits) {
-    const std::size_t wanted = wanted_count(part, limits.edge_m);
-    if (part.triangles.size() < k_smallest_part || wanted >= part.triangles.size()) {
+    const std::size_t target = target_count(part, limits.edge_m);
+    if (part.triangles.size() < k_smallest_part || target >= part.triangles.size()) {
         return part.triangles;
     }
     Locks locks(part);
     double error_m = 0.5 * limits.deviation_m;
-    for (int i = 0; i < k_tries; ++i) {
+    for (int i = 0; i < k_max_attempts; ++i) {
         std::vector<Triangle> coarse =
-            simplify({part.positions, part.triangles, locks.points()}, error_m, wanted);
+            simplify({part.positions, part.triangles, locks.points()}, error_m, target);
         if (coarse.size() >= part.triangles.size()) {
             break;
         }
@@ -108,7 +111,7 @@ std::vector<Triangle> coarser_part(const Part& part, const DetailLimits& limits)
     return part.triangles;
 }
 
-// The parts of a graph, each with its triangles in their order.
+// Splits a graph into its connected components; triangles keep their order.
 std::vector<Part> take_apart(const SurfaceGraph& graph) {
     const GraphComponents numbers = find_components(graph);
     std::vector<Part> parts(numbers.count);
@@ -146,7 +149,7 @@ SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& lim
             mesh.triangles.push_back({part.vertex[a], part.vertex[b], part.vertex[c]});
         }
     }
-    // Nothing is welded any more; what collapsed onto a line or another triangle goes.
+    // No welding here. Triangles that collapsed onto a line or a duplicate are dropped.
     SurfaceGraph result = build_surface_graph(mesh, {0.0, 0.0, 0.0, 0.0});
     const TriangleBvh bvh(graph.positions, graph.triangles);
     for (std::size_t t = 0; t < result.triangles.size(); ++t) {

@@ -7,11 +7,12 @@
 namespace handhold {
 namespace {
 
-constexpr int k_max_cuts = 40;  // in a row: halves of the halves of a triangle of 1 km are below
-                                // a millimetre by then
+// Maximum nesting: bisecting a triangle of 1 km this often leaves less than 1 mm.
+constexpr int k_max_cuts = 40;
 
-// Pieces are cut to this share of the limit: what is nearer to it than that counts as beyond.
-constexpr double k_finest = 0.02;
+// Smallest piece as a fraction of the limit. Distances within that margin of the limit count as
+// beyond.
+constexpr double k_min_piece_share = 0.02;
 
 class Cover {
   public:
@@ -39,22 +40,23 @@ class Cover {
         if (hit->distance_m + radius <= limit_m_) {
             return true;
         }
-        if (cuts >= k_max_cuts || radius < k_finest * limit_m_) {
+        if (cuts >= k_max_cuts || radius < k_min_piece_share * limit_m_) {
             far_point_ = middle;
             return false;
         }
         return covers_parts(piece, cuts);
     }
 
-    const Vec3& far_point() const { return far_point_; }  // after covers was false
+    const Vec3& far_point() const { return far_point_; }  // valid after covers() returned false
 
   private:
-    // Cut where the nearest triangle ends: what is above it keeps to it, the rest finds another.
+    // Splits at the edge of the nearest triangle that the piece overhangs most. The part above
+    // that triangle stays near it; the rest finds another.
     bool covers_parts(const Corners& piece, int cuts) {
         const Corners near = corners_of(hint_);
         const Vec3 area = area_vector(near);
-        double most = 0.0;
-        std::array<double, 3> beyond = {};  // of the corners over the edge that most is over
+        double max_out = 0.0;
+        std::array<double, 3> beyond = {};  // corner distances over that edge
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 outward = (near[(k + 1) % 3] - near[k]).cross(area).normalized();
             std::array<double, 3> out = {};
@@ -62,15 +64,15 @@ class Cover {
                 out[i] = outward.dot(piece[i] - near[k]);
             }
             const auto [low, high] = std::minmax_element(out.begin(), out.end());
-            if (*high > most && *low < -k_finest * limit_m_) {
-                most = *high;
+            if (*high > max_out && *low < -k_min_piece_share * limit_m_) {
+                max_out = *high;
                 beyond = out;
             }
         }
-        if (most > k_finest * limit_m_) {
+        if (max_out > k_min_piece_share * limit_m_) {
             return covers_clipped(piece, beyond, cuts);
         }
-        // Across the longest edge: pieces stay round.
+        // Otherwise bisects the longest edge, which keeps pieces compact.
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i) {
             if (squared_edge(piece, i) > squared_edge(piece, longest)) {
@@ -83,9 +85,9 @@ class Cover {
         const Vec3 cut = 0.5 * (from + to);
         return covers({from, cut, apex}, cuts + 1) && covers({cut, to, apex}, cuts + 1);
     }
-    // The part on one side of the cut, and the two triangles on the other.
+    // Splits off the lone corner's part; the other part is two triangles.
     bool covers_clipped(const Corners& piece, const std::array<double, 3>& beyond, int cuts) {
-        std::size_t lone = 0;  // the corner that has a side to itself
+        std::size_t lone = 0;  // the corner alone on its side of the cut
         for (std::size_t i = 1; i < 3; ++i) {
             const bool side = beyond[i] > 0.0;
             if (side != (beyond[(i + 1) % 3] > 0.0) && side != (beyond[(i + 2) % 3] > 0.0)) {
@@ -121,7 +123,7 @@ class Cover {
     const TriangleSurface& target_;
     double limit_m_;
     double squared_limit_;
-    std::uint32_t hint_ = ~0U;  // the triangle last found near: neighbours come one after another
+    std::uint32_t hint_ = ~0U;  // the triangle last found near: consecutive queries are neighbours
     Vec3 far_point_ = Vec3::Zero();
 };
 

@@ -9,24 +9,24 @@
 
 namespace handhold {
 
-// A surface as far as distances to it go. Refers to what it is made of.
+// A surface for distance queries. Holds references only.
 struct TriangleSurface {
     std::span<const Vec3> positions;
     std::span<const std::array<std::uint32_t, 3>> triangles;
-    const TriangleBvh& bvh;  // of these
+    const TriangleBvh& bvh;  // built from `positions` and `triangles`
 };
 
-// A triangle with a point that is not proven to be near.
+// A triangle with a point that is not proven to be within the limit.
 struct Uncovered {
     std::uint32_t triangle = 0;
-    Vec3 point = Vec3::Zero();  // farther off than the limit, or within a fiftieth of it
+    Vec3 point = Vec3::Zero();  // farther than the limit, or within 2 % of it
 };
 
-// The triangles of `a` of which not every point is proven to be as near as limit_m to `b`; none
-// where a's one-sided Hausdorff distance to b is below. By cutting triangles until each piece has
-// its corners near to one triangle of b: the distance to a convex set is convex, so what is between
-// them is near as well. Takes long where the limit is far below the triangles' size and they do not
-// lie on each other.
+// Triangles of `a` that are not proven to lie entirely within limit_m of `b`. Empty if the
+// one-sided Hausdorff distance from a to b is clearly below the limit. Subdivides each triangle
+// until all corners of a piece are near one triangle of b. The distance to a convex set is convex,
+// so the whole piece is then near. Slow if the limit is far below the triangle size and the
+// surfaces do not coincide.
 std::vector<Uncovered> find_uncovered(const TriangleSurface& a, const TriangleSurface& b,
                                       double limit_m);
 

@@ -35,7 +35,7 @@ void replace_corners(SurfaceGraph& graph, const std::vector<std::uint32_t>& by) 
     }
 }
 
-// Vertices that no triangle has are left out; the others keep their order.
+// Removes unused vertices; the others keep their order.
 void compact(SurfaceGraph& graph) {
     constexpr std::uint32_t k_unused = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> place(graph.positions.size(), k_unused);
@@ -68,7 +68,7 @@ SurfaceGraph build_surface_graph(const Mesh& mesh, const WeldLimits& limits) {
     copy_finite(mesh, graph);
     const std::vector<double> reaches(graph.positions.size(), limits.point_m);
     replace_corners(graph, find_representatives(graph.positions, reaches));
-    clean(graph);  // before: what is twice would hide borders
+    clean(graph);  // first: duplicates would hide borders
     sew_borders(graph, limits);
     clean(graph);
     cut_borders(graph, limits);

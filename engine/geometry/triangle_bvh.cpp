@@ -12,25 +12,26 @@
 namespace handhold {
 namespace {
 
-// A segment in the frame of Woop's test: sheared so that it runs along one axis from the origin.
+// A segment in the frame of Woop's test: sheared to run along one axis from the origin.
 struct ShearedRay {
     Vec3 from;
-    std::array<int, 3> axis;      // the last is that along which the ray goes farthest
-    std::array<double, 3> shear;  // the last is one over the way along it
+    std::array<int, 3> axis;      // the last one has the ray's largest component
+    std::array<double, 3> shear;  // the last is the inverse of the displacement along it
 };
 
-ShearedRay shear(const Vec3& from, const Vec3& way) {
+ShearedRay shear(const Vec3& from, const Vec3& displacement) {
     ShearedRay ray;
     ray.from = from;
     int along = 0;
-    way.cwiseAbs().maxCoeff(&along);
+    displacement.cwiseAbs().maxCoeff(&along);
     ray.axis = {(along + 1) % 3, (along + 2) % 3, along};
-    ray.shear = {way[ray.axis[0]] / way[along], way[ray.axis[1]] / way[along], 1.0 / way[along]};
+    ray.shear = {displacement[ray.axis[0]] / displacement[along],
+                 displacement[ray.axis[1]] / displacement[along], 1.0 / displacement[along]};
     return ray;
 }
 
-// Fraction of the way at which the ray meets the triangle; a negative number where it does not.
-// Edge functions of two triangles on one edge are equal but for the sign, so one of them is hit.
+// Fraction of the segment at which it hits the triangle; negative if it misses. Two triangles on a
+// shared edge have edge functions equal but for the sign, so one of them is hit.
 double meet_fraction(const ShearedRay& ray, const Corners& corners) {
     std::array<std::array<double, 3>, 3> p;  // the corners in the ray's frame
     for (std::size_t i = 0; i < 3; ++i) {
@@ -47,33 +48,33 @@ double meet_fraction(const ShearedRay& ray, const Corners& corners) {
     if (!one_side || sum == 0.0) {
         return -1.0;
     }
-    // Shares first: a sliver's sum may be so small that one over it is infinite.
+    // Divides first: a sliver's sum may be so small that its inverse is infinite.
     const double fraction = (u / sum) * p[0][2] + (v / sum) * p[1][2] + (w / sum) * p[2][2];
     return fraction >= 0.0 && fraction <= 1.0 ? fraction : -1.0;
 }
 
 double bounded_inverse(double x) {
-    constexpr double k_huge = 1e290;  // finite, so that no product with zero is a NaN
+    constexpr double k_huge = 1e290;  // finite, so that its product with zero is not a NaN
     const double inverse = 1.0 / x;
     return std::abs(inverse) <= k_huge ? inverse : std::copysign(k_huge, inverse);
 }
 
-// Where a ray comes into boxes.
+// Slab test of a segment against boxes.
 class RayEntry {
   public:
-    // `start` about the tree's origin.
-    RayEntry(const Vec3& start, const Vec3& way) {
+    // `start` is relative to the tree's origin.
+    RayEntry(const Vec3& start, const Vec3& displacement) {
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<Eigen::Index>(i);
             start_[i] = same_four(start[axis]);
-            inverse_[i] = same_four(bounded_inverse(way[axis]));
+            inverse_[i] = same_four(bounded_inverse(displacement[axis]));
         }
     }
 
-    // As a fraction of the way; infinity where it does not come in before `most`.
-    Double4 of(const Boxes4& boxes, double most) const {
+    // Entry as a fraction of the segment; infinity if it does not enter before `max_fraction`.
+    Double4 of(const Boxes4& boxes, double max_fraction) const {
         Double4 enter = zero4();
-        Double4 leave = same_four(most);
+        Double4 leave = same_four(max_fraction);
         for (std::size_t i = 0; i < 3; ++i) {
             const Double4 a =
                 (__builtin_convertvector(boxes.low[i], Double4) - start_[i]) * inverse_[i];
@@ -90,13 +91,13 @@ class RayEntry {
   private:
     static Double4 same_four(double value) { return Double4{value, value, value, value}; }
 
-    Double4 start_[3];    // NOLINT(*-avoid-c-arrays): of vector types, as four.hpp's
+    Double4 start_[3];    // vector types, as in double4.hpp
     Double4 inverse_[3];  // NOLINT(*-avoid-c-arrays)
 };
 
-// What is still to be looked at. Of what was put there together the nearest is taken first.
-template <typename Item, typename Distance, std::size_t KMost>
-class NearestFirst {
+// Stack of pending nodes and leaves; within one node's children the nearest is taken first.
+template <typename Item, typename Distance, std::size_t KMax>
+class NearestFirstStack {
   public:
     struct Open {
         Item item;
@@ -106,7 +107,7 @@ class NearestFirst {
     bool is_empty() const { return count_ == 0; }
     Open take() { return open_[--count_]; }
 
-    // What is put there from now on is put there together.
+    // Items put from now on belong to one node.
     void begin_node() { first_ = count_; }
     void put(const Item& item, Distance distance) {
         std::size_t place = count_++;
@@ -117,27 +118,28 @@ class NearestFirst {
     }
 
   private:
-    std::array<Open, KMost> open_;  // NOLINT(*-member-init): filled as it grows
+    std::array<Open, KMax> open_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
-    std::size_t first_ = 0;  // of those that are put there together
+    std::size_t first_ = 0;  // first item of the current node
 };
 
-// The place of the least of the first `count` of four.
-std::uint32_t least_of(const Float4& values, std::uint32_t count) {
-    std::uint32_t least = 0;
+// Index of the minimum of the first `count` values.
+std::uint32_t index_of_min(const Float4& values, std::uint32_t count) {
+    std::uint32_t min_index = 0;
     for (std::uint32_t i = 1; i < count; ++i) {
-        least = values[i] < values[least] ? i : least;
+        min_index = values[i] < values[min_index] ? i : min_index;
     }
-    return least;
+    return min_index;
 }
 
-// Normals of what looks towards a side, as long as twice the triangles' areas.
-class TowardsSide {
+// Sums the area vectors of triangles that face a side.
+class FacingAreas {
   public:
-    TowardsSide(const Vec3& side, double max_area_m2)
-        : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())}, most_(splat4(max_area_m2)) {}
+    FacingAreas(const Vec3& side, double max_area_m2)
+        : side_{splat4(side.x()), splat4(side.y()), splat4(side.z())},
+          max_area_(splat4(max_area_m2)) {}
 
-    // Of the first `count` of four, those that are wanted.
+    // Uses the first `count` lanes, masked by `is_wanted`.
     Vec3 areas_of(const Triangles4& four, const Int4& is_wanted, std::uint32_t count) const {
         const Float4 zero = {};
         std::array<Float4, 3> b;
@@ -152,7 +154,7 @@ class TowardsSide {
         const Float4 facing =
             side_[0] * four.normal[0] + side_[1] * four.normal[1] + side_[2] * four.normal[2];
         const Int4 counts = is_wanted & (facing > zero);
-        const Float4 area = counts ? lower(higher(size, zero), most_) : zero;
+        const Float4 area = counts ? lower(higher(size, zero), max_area_) : zero;
         Vec3 sum = Vec3::Zero();
         for (std::uint32_t i = 0; i < count; ++i) {
             sum += static_cast<double>(area[i]) * Vec3(static_cast<double>(four.normal[0][i]),
@@ -164,11 +166,10 @@ class TowardsSide {
 
   private:
     std::array<Float4, 3> side_;
-    Float4 most_;
+    Float4 max_area_;
 };
 
-// No more than the triangle's distance from the point, squared, but for rounding: that of a box
-// around it.
+// Squared distance to the triangle's bounding box: a lower bound up to rounding.
 double box_squared(const Vec3& point, const Corners& corners) {
     const Vec3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     const Vec3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
@@ -194,14 +195,15 @@ Vec3 TriangleBvh::areas_in_sphere(const Vec3& center, double radius_m, const Vec
     if (!is_finite(center) || !(radius_m >= 0.0)) {
         return sum;
     }
-    const DistanceLowerBound least(center - origin_, reach_m());
-    const Float4 most = splat4(radius_m * radius_m);
-    const TowardsSide towards(side, max_area_m2);
-    visit_leaves([&](const Boxes4& boxes) -> Int4 { return least.squared(boxes) <= most; },
-                 [&](std::uint32_t first_slot, std::uint32_t count) {
-                     const Triangles4& four = fours_[first_slot / 4];
-                     sum += towards.areas_of(four, least.squared(four) <= most, count);
-                 });
+    const DistanceLowerBound lower_bound(center - origin_, reach_m());
+    const Float4 max_squared = splat4(radius_m * radius_m);
+    const FacingAreas facing_areas(side, max_area_m2);
+    visit_leaves(
+        [&](const Boxes4& boxes) -> Int4 { return lower_bound.squared(boxes) <= max_squared; },
+        [&](std::uint32_t first_slot, std::uint32_t count) {
+            const Triangles4& four = fours_[first_slot / 4];
+            sum += facing_areas.areas_of(four, lower_bound.squared(four) <= max_squared, count);
+        });
     return sum;
 }
 
@@ -218,15 +220,16 @@ bool TriangleBvh::meets_sphere(std::uint32_t slot, const Vec3& center,
 }
 
 std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& to) const {
-    const Vec3 way = to - from;
-    if (nodes_.empty() || !is_finite(from) || !is_finite(way) || way.isZero(0.0)) {
+    const Vec3 displacement = to - from;
+    if (nodes_.empty() || !is_finite(from) || !is_finite(displacement) ||
+        displacement.isZero(0.0)) {
         return std::nullopt;
     }
-    const ShearedRay ray = shear(from, way);
-    const RayEntry entry(from - origin_, way);
+    const ShearedRay ray = shear(from, displacement);
+    const RayEntry entry(from - origin_, displacement);
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t best_number = 0;
-    NearestFirst<Child, double, k_max_open> open;
+    NearestFirstStack<Child, double, k_max_open> open;
     open.put({0, 0}, 0.0);
     while (!open.is_empty()) {
         const auto [next, enters] = open.take();
@@ -235,11 +238,11 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
         }
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
-            const double most = std::min(1.0, best);
-            const Double4 fraction = entry.of(node.box, most);
+            const double max_fraction = std::min(1.0, best);
+            const Double4 fraction = entry.of(node.box, max_fraction);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
-                if (fraction[i] <= most && node.child[i].is_there()) {
+                if (fraction[i] <= max_fraction && node.child[i].is_there()) {
                     open.put(node.child[i], fraction[i]);
                 }
             }
@@ -257,7 +260,7 @@ std::optional<TriangleHit> TriangleBvh::cast_ray(const Vec3& from, const Vec3& t
     if (!(best <= 1.0)) {
         return std::nullopt;
     }
-    return TriangleHit{best_number, from + best * way, best * way.norm()};
+    return TriangleHit{best_number, from + best * displacement, best * displacement.norm()};
 }
 
 std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
@@ -265,46 +268,46 @@ std::optional<TriangleHit> TriangleBvh::closest_point(const Vec3& point,
     if (nodes_.empty() || !is_finite(point) || !(max_distance_m >= 0.0)) {
         return std::nullopt;
     }
-    const DistanceLowerBound least(point - origin_, reach_m());
+    const DistanceLowerBound lower_bound(point - origin_, reach_m());
     double best = max_distance_m * max_distance_m;
     TriangleHit hit;
     bool found = false;
-    float most = DistanceLowerBound::limit(best);
-    NearestFirst<Child, float, k_max_open> open;
+    float max_squared = DistanceLowerBound::limit(best);
+    NearestFirstStack<Child, float, k_max_open> open;
     open.put({0, 0}, 0.0F);
     while (!open.is_empty()) {
-        const auto [next, least_squared] = open.take();
-        if (least_squared > most) {
+        const auto [next, bound_squared] = open.take();
+        if (bound_squared > max_squared) {
             continue;
         }
         if (!next.is_leaf()) {
             const Node& node = nodes_[next.place];
-            const Float4 squared = least.squared(node.box);
+            const Float4 squared = lower_bound.squared(node.box);
             open.begin_node();
             for (std::size_t i = 0; i < 4; ++i) {
-                if (squared[i] <= most && node.child[i].is_there()) {
+                if (squared[i] <= max_squared && node.child[i].is_there()) {
                     open.put(node.child[i], squared[i]);
                 }
             }
             continue;
         }
         const Triangles4& four = fours_[next.place / 4];
-        if (!any_of(least.squared(four) <= splat4(most))) {
+        if (!any_of(lower_bound.squared(four) <= splat4(max_squared))) {
             continue;
         }
-        Float4 squared_least = least.squared_tight(four);
-        for (std::uint32_t tried = 0; tried < next.count; ++tried) {
-            const std::uint32_t i = least_of(squared_least, next.count);
-            if (squared_least[i] > most) {
+        Float4 bounds_squared = lower_bound.squared_tight(four);
+        for (std::uint32_t tested = 0; tested < next.count; ++tested) {
+            const std::uint32_t i = index_of_min(bounds_squared, next.count);
+            if (bounds_squared[i] > max_squared) {
                 break;
             }
-            squared_least[i] = std::numeric_limits<float>::infinity();
+            bounds_squared[i] = std::numeric_limits<float>::infinity();
             const std::uint32_t slot = next.place + i;
             const Vec3 on_triangle = closest_on_triangle(point, corners_at(slot));
             const double squared = (on_triangle - point).squaredNorm();
             if (squared < best || (squared == best && (!found || numbers_[slot] < hit.triangle))) {
                 best = squared;
-                most = DistanceLowerBound::limit(best);
+                max_squared = DistanceLowerBound::limit(best);
                 hit = {numbers_[slot], on_triangle, 0.0};
                 found = true;
             }

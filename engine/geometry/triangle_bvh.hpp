@@ -14,110 +14,108 @@
 #include "engine/math/float4.hpp"
 #include "engine/math/math.hpp"
 
-// Triangles found by ray, by nearness and by sphere. The tree only leaves out what cannot answer:
-// every answer comes from a closed form in double precision on the triangle itself.
-// Sources: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (the build);
-// Dammertz, Hanika, Keller, Shallow Bounding Volume Hierarchies, 2008 (four children to a node);
-// Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013 (rays slip through no shared
-// edge); closest_point.hpp.
+// Ray, nearest-point and sphere queries on triangles. The tree only rejects; every result comes
+// from a closed form on the triangle in doubles.
+// Sources: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (build);
+// Dammertz, Hanika, Keller, Shallow Bounding Volume Hierarchies, 2008 (four children per node);
+// Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, 2013 (no gaps at shared edges);
+// closest_point.hpp.
 namespace handhold {
 
 struct TriangleHit {
-    std::uint32_t triangle = 0;  // as numbered at construction
+    std::uint32_t triangle = 0;  // index at construction
     Vec3 point = Vec3::Zero();   // on the triangle
-    double distance_m = 0.0;     // from the ray's start, or from the query point
+    double distance_m = 0.0;     // from the ray's start or the query point
 };
 
-// Refers to nothing outside of itself, copies what it needs. No query allocates; all may run on any
-// number of threads at once. A query that is not finite meets nothing.
+// Self-contained: copies what it needs. Queries do not allocate and may run on any number of
+// threads at once. A non-finite query hits nothing.
 class TriangleBvh {
   public:
-    TriangleBvh() = default;  // of no triangle
-    // Precondition: indices in range. Triangles with a corner that is not finite are never found.
-    // The same input makes the same tree on every compiler.
+    TriangleBvh() = default;  // empty
+    // Precondition: indices in range. Triangles with a non-finite corner are never found. The same
+    // input gives the same tree on every compiler.
     TriangleBvh(std::span<const Vec3> positions,
                 std::span<const std::array<std::uint32_t, 3>> triangles);
 
-    // The first triangle that the segment meets, whichever of its sides is turned to it. No segment
-    // slips between two triangles with a common edge. What is seen exactly from the edge is missed:
-    // its neighbours are met. Of several at one distance the lowest number.
+    // First triangle that the segment hits, from either side. No segment passes between two
+    // triangles that share an edge. A triangle seen exactly edge-on is missed, but its neighbours
+    // are hit. Ties go to the lowest index.
     std::optional<TriangleHit> cast_ray(const Vec3& from, const Vec3& to) const;
-    // The nearest triangle, of those as near as max_distance_m (infinity: of all). Of several
-    // at one distance the lowest number.
+    // Nearest triangle within max_distance_m (may be infinity). Ties go to the lowest index.
     std::optional<TriangleHit> closest_point(const Vec3& point, double max_distance_m) const;
-    // visit(triangle) for each triangle with a point as near as radius_m: in the tree's order,
-    // neighbours together, ascending within a leaf; always the same order.
+    // Calls visit(triangle) for each triangle within radius_m, in tree order (always the same).
     template <typename Visit>
     void visit_in_sphere(const Vec3& center, double radius_m, Visit&& visit) const;
 
-    // Of triangles as near as radius_m, and a few that are hardly farther, those that look towards
-    // `side`: the sum of their normals, each as long as twice its triangle's area, but no longer
-    // than max_area_m2. In floats: off by roundings of the mesh's reach.
+    // Sums the area vectors of triangles within radius_m that face `side`; a few triangles slightly
+    // farther away may be included. Each vector is twice its triangle's area long, at most
+    // max_area_m2. Computed in floats, so errors scale with the mesh's size.
     Vec3 areas_in_sphere(const Vec3& center, double radius_m, const Vec3& side,
                          double max_area_m2) const;
 
-    // visit(first_slot, count, four) for each leaf that may meet the box, which is about origin(),
-    // as the corners of `four` are: its one to four triangles, the last repeated. More triangles
-    // than would be needed, but the cheapest way to them; always in the tree's order.
+    // Calls visit(first_slot, count, four) for each leaf that may overlap the box, in tree order.
+    // The box and the corners of `four` are relative to origin(). A leaf has one to four triangles,
+    // the last repeated. Includes triangles that do not overlap the box, but costs least.
     template <typename Visit>
     void visit_near_box(const OrientedBox& box, Visit&& visit) const;
     const Vec3& origin() const { return origin_; }
-    // No coordinate of a corner about the origin is beyond.
+    // Bound on all corner coordinates relative to the origin.
     double reach_m() const { return std::max(high_.maxCoeff(), -low_.minCoeff()); }
 
-    // A triangle of a visited leaf: its number at construction, and its corners in doubles.
-    // Precondition: slot < 4 * leaves.
+    // Index at construction and corners of a triangle in a visited leaf. Precondition: slot < 4 *
+    // leaves.
     std::uint32_t number_at(std::uint32_t slot) const { return numbers_[slot]; }
     std::array<Vec3, 3> corners_at(std::uint32_t slot) const {
         const auto& [a, b, c] = slots_[slot];
         return {positions_[a], positions_[b], positions_[c]};
     }
-    // False where surely no triangle is as near as radius_m.
+    // False if certainly no triangle is within radius_m.
     bool may_be_near(const Vec3& point, double radius_m) const {
         const Vec3 local = point - origin_;
         const Vec3 out = (low_ - local).cwiseMax(local - high_).cwiseMax(0.0);
         return triangle_count_ > 0 && out.squaredNorm() <= radius_m * radius_m;
     }
 
-    std::size_t triangle_count() const { return triangle_count_; }  // that can be found
+    std::size_t triangle_count() const { return triangle_count_; }  // finite triangles
     std::size_t memory_bytes() const;
 
   private:
     friend class BvhBuilder;
 
-    // A node of the tree, or a leaf.
+    // An inner node or a leaf.
     struct Child {
-        std::uint32_t place;  // of the node; of the leaf's first slot
-        std::uint32_t count;  // of the leaf's slots; 0: a node
+        std::uint32_t place;  // inner: node index; leaf: first slot
+        std::uint32_t count;  // leaf: number of slots; 0: inner
 
         bool is_there() const { return place != k_no_child.place; }
         bool is_leaf() const { return count > 0; }
     };
     static constexpr Child k_no_child = {0xffffffff, 0};
-    // Up to four children side by side. Boxes are about origin_, with k_padding of the mesh's reach
-    // to spare, so that rounding hides nothing. That of a child that is not there is empty.
+    // Up to four children. Boxes are relative to origin_ and padded against rounding. Missing
+    // children have empty boxes.
     struct Node {
         Boxes4 box;
         std::array<Child, 4> child = {k_no_child, k_no_child, k_no_child, k_no_child};
     };
     static constexpr std::size_t k_max_depth = 64;
-    static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;  // of each node three wait
+    static constexpr std::size_t k_max_open = 3 * k_max_depth + 1;  // three pending per node
 
-    // visit(first_slot, count) for the leaves of nodes that may be met: may_meet(boxes) tells
-    // which. In the tree's order.
+    // Calls visit(first_slot, count) for the leaves of all nodes whose boxes pass may_meet(boxes),
+    // in tree order.
     template <typename MayMeet, typename Visit>
     void visit_leaves(const MayMeet& may_meet, Visit&& visit) const;
     bool meets_sphere(std::uint32_t slot, const Vec3& center, double squared_radius) const;
 
     Vec3 origin_ = Vec3::Zero();
-    Vec3 low_ = Vec3::Zero();  // of the box of all, about origin_
+    Vec3 low_ = Vec3::Zero();  // of the whole tree's box, relative to origin_
     Vec3 high_ = Vec3::Zero();
-    std::vector<Node> nodes_;  // the root first
+    std::vector<Node> nodes_;  // root first
     std::vector<Vec3> positions_;
-    // In leaf order. Each leaf has four slots; those beyond its count repeat its last one.
-    std::vector<std::array<std::uint32_t, 3>> slots_;  // corners of the triangles
-    std::vector<std::uint32_t> numbers_;               // of the triangles
-    std::vector<Triangles4> fours_;                    // of each leaf
+    // In leaf order. Each leaf has four slots; unused ones repeat its last triangle.
+    std::vector<std::array<std::uint32_t, 3>> slots_;  // corner indices
+    std::vector<std::uint32_t> numbers_;               // triangle indices at construction
+    std::vector<Triangles4> fours_;                    // per leaf
     std::size_t triangle_count_ = 0;
 };
 
@@ -159,17 +157,18 @@ void TriangleBvh::visit_in_sphere(const Vec3& center, double radius_m, Visit&& v
     if (!is_finite(center) || !(radius_m >= 0.0)) {
         return;
     }
-    const DistanceLowerBound least(center - origin_, reach_m());
+    const DistanceLowerBound lower_bound(center - origin_, reach_m());
     const double squared_radius = radius_m * radius_m;
-    const Float4 most = splat4(DistanceLowerBound::limit(squared_radius));
-    visit_leaves([&](const Boxes4& boxes) -> Int4 { return least.squared(boxes) <= most; },
-                 [&](std::uint32_t first_slot, std::uint32_t count) {
-                     for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
-                         if (meets_sphere(slot, center, squared_radius)) {
-                             visit(numbers_[slot]);
-                         }
-                     }
-                 });
+    const Float4 max_squared = splat4(DistanceLowerBound::limit(squared_radius));
+    visit_leaves(
+        [&](const Boxes4& boxes) -> Int4 { return lower_bound.squared(boxes) <= max_squared; },
+        [&](std::uint32_t first_slot, std::uint32_t count) {
+            for (std::uint32_t slot = first_slot; slot < first_slot + count; ++slot) {
+                if (meets_sphere(slot, center, squared_radius)) {
+                    visit(numbers_[slot]);
+                }
+            }
+        });
 }
 
 }  // namespace handhold

@@ -9,16 +9,16 @@
 
 namespace handhold {
 
-// The triangles that a search has seen: open addressing over at most `Slots` / 2 of them, so that
-// a search costs no memory for each of a mesh's million. Precondition: no more are inserted.
+// Hash set of visited triangles with open addressing. Its size is independent of the mesh.
+// Precondition: at most Slots / 2 insertions.
 template <std::size_t Slots>
 class TriangleSet {
   public:
-    // Takes the memory of `slots`, which keeps it between searches.
+    // Uses `slots` as its memory, which is kept between searches.
     explicit TriangleSet(std::vector<std::uint32_t>& slots) : slots_(slots) {
         slots_.assign(Slots, k_no_triangle);
     }
-    // False where it is in already.
+    // Returns false if already present.
     bool insert(std::uint32_t triangle) {
         constexpr std::uint32_t k_golden = 2654435769U;  // Knuth's multiplicative hash
         constexpr int k_low_bits = 32 - std::countr_zero(Slots);

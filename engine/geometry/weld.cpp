@@ -13,11 +13,10 @@ namespace handhold {
 namespace {
 
 constexpr std::uint32_t k_no_vertex = std::numeric_limits<std::uint32_t>::max();
-// Cells are so much wider than the longest reach that few points look beyond their own.
+// Cell size in units of the longest reach: few points then query a neighbouring cell.
 constexpr double k_cell_per_reach = 8.0;
 
-// Lists of points by grid cell. Cells that share a slot share a list: what is asked for is checked
-// by distance anyway.
+// Lists of points by hashed grid cell. Cells that collide share a list; callers check distances.
 class CellLists {
   public:
     CellLists(std::size_t points, double cell_m)
@@ -31,7 +30,7 @@ class CellLists {
         next_[index] = head;
         head = index;
     }
-    // visit(index) for every point in the cells that the ball touches, some of them twice.
+    // Calls visit(index) for every point in the cells that the ball touches; may repeat points.
     template <typename Visit>
     void near(const Vec3& point, double reach_m, const Visit& visit) const {
         const Vec3 low = point - Vec3::Constant(reach_m);
@@ -50,7 +49,7 @@ class CellLists {
   private:
     double cell(double coordinate) const { return std::floor(coordinate * per_cell_); }
     std::size_t slot(double x, double y, double z) const {
-        // + 0.0: cell -0 is cell 0.
+        // + 0.0 turns cell -0 into cell 0.
         const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };
         return mix64(mix64(mix64(bits(x)) + bits(y)) + bits(z)) & mask_;
     }
@@ -74,7 +73,7 @@ std::vector<std::uint32_t> find_representatives(std::span<const Vec3> points,
             farthest_m = std::max(farthest_m, points[i].cwiseAbs().maxCoeff());
         }
     }
-    // Cell numbers stay whole numbers that a double can count one by one.
+    // Limits the cell indices to integers that a double represents exactly.
     const double cell_m = std::max(k_cell_per_reach * longest_m, farthest_m * 0x1p-48);
     CellLists cells(points.size(), cell_m);
     std::vector<std::uint32_t> result(points.size());

@@ -6,13 +6,13 @@
 
 #include "engine/math/math.hpp"
 
-// Points that are one point to a tolerance, found over a grid.
+// Merges points within a tolerance, using a grid.
 namespace handhold {
 
-// Places in `points` by nearness: each point joins the nearest earlier representative as near as
-// both their reaches, or becomes one itself: no chain grows, whatever the density. Reaches: one a
-// point, metres, >= 0; NaN or negative: joins nothing. Result: the representative's index, for each
-// point; its own for representatives and for points that are not finite.
+// Each point joins the nearest earlier representative within both points' reaches, or becomes a
+// representative itself. Chains of points therefore never collapse, whatever their density.
+// `reaches_m`: one per point, metres, >= 0; a negative or NaN reach joins nothing. Returns each
+// point's representative; its own index for representatives and non-finite points.
 std::vector<std::uint32_t> find_representatives(std::span<const Vec3> points,
                                                 std::span<const double> reaches_m);
 

@@ -2,13 +2,13 @@
 
 #include "engine/math/math.hpp"
 
-// Four doubles that are added and multiplied at once: vectors with a fourth number that is 0, or
-// quaternions as (x, y, z, w). GCC's and Clang's vector types: with AVX one register, without two,
-// and the same bits: lanes are computed alike, and sums across them have their order. All is
-// inlined, so that a function built for AVX gets it built for AVX.
+// Four doubles processed together: a vector with a fourth component 0, or a quaternion (x, y, z,
+// w). Uses GCC's and Clang's vector types: one register with AVX, two without. Results are bitwise
+// equal either way, because lanes are independent and sums across lanes have a fixed order.
+// Everything is inlined, so that a function compiled for AVX uses AVX.
 namespace handhold {
 
-// GCC gives it less alignment where it does not build for AVX: it must be the same for both.
+// Fixed alignment: GCC's default is smaller without AVX, and both builds must agree.
 using Double4 = double __attribute__((vector_size(32), aligned(32)));
 
 #define HH_INLINE [[gnu::always_inline]] inline
@@ -21,7 +21,7 @@ HH_INLINE Quat to_quat(const Double4& q) { return {q[3], q[0], q[1], q[2]}; }
 HH_INLINE Double4 zero4() { return Double4{0.0, 0.0, 0.0, 0.0}; }
 HH_INLINE Double4 yzx(const Double4& v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
 HH_INLINE Double4 cross(const Double4& a, const Double4& b) { return yzx(a * yzx(b) - yzx(a) * b); }
-// Of the first three.
+// Dot product of the first three components.
 HH_INLINE double dot3(const Double4& a, const Double4& b) {
     const Double4 product = a * b;
     return (product[0] + product[1]) + product[2];
@@ -31,11 +31,11 @@ HH_INLINE double dot3(const Double4& a, const Double4& b) {
 struct Rows3 {
     Double4 row[3];
 };
-// Sum over k of v[k] rows[k]: the transposed matrix times v.
+// Sum of v[k] row[k] over k: the transposed matrix times v.
 HH_INLINE Double4 combine(const Rows3& m, const Double4& v) {
     return (m.row[0] * v[0] + m.row[1] * v[1]) + m.row[2] * v[2];
 }
-// The matrix times v: sums in dot3's order.
+// The matrix times v, summed in dot3's order.
 HH_INLINE Double4 multiply(const Rows3& m, const Double4& v) {
     const Double4 a = m.row[0] * v;
     const Double4 b = m.row[1] * v;

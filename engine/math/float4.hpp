@@ -6,14 +6,14 @@
 
 namespace handhold {
 
-// Four floats that are added, multiplied and compared at once, as four.hpp's doubles: for what only
-// has to tell far from near, with room to spare for what floats round off.
+// Four floats processed together. For rejection tests with a rounding margin; results use
+// double4.hpp.
 using Float4 = float __attribute__((vector_size(16)));
 
-// What comparisons of them give: each 0 or -1.
+// Result of comparisons: each lane is 0 or -1.
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
-// Four vectors side by side, by coordinate; and the corners of four triangles.
+// Four vectors by coordinate, and four triangles by corner.
 using Vectors4 = std::array<Float4, 3>;
 using Corners4 = std::array<Vectors4, 3>;
 
@@ -29,8 +29,8 @@ inline Vectors4 cross(const Vectors4& a, const Vectors4& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-inline bool any_of(const Int4& is_so) {
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(is_so);
+inline bool any_of(const Int4& mask) {
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(mask);
     return (halves[0] | halves[1]) != 0;
 }
 }  // namespace handhold

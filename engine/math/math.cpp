@@ -1,5 +1,5 @@
-// Sources: sine and cosine as trigonometry_series.hpp says; arc tangent by addition from a table
-// and series.
+// Sources: trigonometry_series.hpp for sine and cosine; arc tangent by the addition theorem from a
+// table, and its series.
 #include "engine/math/math.hpp"
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace handhold {
 namespace {
 
-// arctan on [0, 1]: from the nearest sixteenth on, whose angle is known; the rest is below 1/32,
-// where five terms reach full precision.
+// arctan on [0, 1]. Starts at the nearest tabulated sixteenth; the remainder is below 1/32, where
+// five terms reach full precision.
 double arc_tangent_unit(double x) {
     constexpr double k_steps = 16.0;
-    constexpr double k_known[] = {
+    constexpr double k_table[] = {
         0.0,
         0.06241880999595735,
         0.12435499454676144,
@@ -34,7 +34,8 @@ double arc_tangent_unit(double x) {
         0.75315128096219441,
         0.78539816339744828,
     };
-    const double half_way_on = x * k_steps + 0.5;  // x is not negative: cut off it is the nearest
+    // X >= 0, so truncating this rounds x to the nearest step.
+    const double half_way_on = x * k_steps + 0.5;
     const int step = static_cast<int>(half_way_on);
     const double from = step * (1.0 / k_steps);
     const double rest = (x - from) / (1.0 + x * from);
@@ -44,7 +45,7 @@ double arc_tangent_unit(double x) {
     sum = sum * z - 1.4285714285714285e-01;
     sum = sum * z + 2.0000000000000001e-01;
     sum = sum * z - 3.3333333333333331e-01;
-    return k_known[step] + (rest + rest * z * sum);
+    return k_table[step] + (rest + rest * z * sum);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ bool is_valid(const Pose& pose) {
 }
 
 void sin_cos(double angle_rad, double& sine, double& cosine) {
-    if (!(std::abs(angle_rad) < k_largest_reduced_rad)) {  // or NaN: no direction is right
+    if (!(std::abs(angle_rad) < k_largest_reduced_rad)) {  // or NaN
         sine = 0.0;
         cosine = 1.0;
         return;
@@ -94,7 +95,8 @@ double arc_tangent2(double y, double x) {
     if (!(ax + ay > 0.0)) {  // (0, 0), NaN
         return 0.0;
     }
-    double angle = 0.25 * k_pi;  // equal lengths, also two infinities, which have no quotient
+    // Equal magnitudes, including two infinities, which have no quotient.
+    double angle = 0.25 * k_pi;
     if (ay < ax) {
         angle = arc_tangent_unit(ay / ax);
     } else if (ay > ax) {
@@ -116,7 +118,7 @@ Quat rotation_from_vector(const Vec3& vector_rad) {
 }
 
 Vec3 rotation_to_vector(const Quat& rotation) {
-    // The shorter of the two rotations that a quaternion and its negative name.
+    // A quaternion and its negative are the same rotation; takes the shorter way.
     const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
     const Vec3 axis = sign * rotation.vec();
     const double sine = axis.norm();
@@ -152,9 +154,9 @@ Quat rotation_between(const Vec3& from, const Vec3& to) {
     if (cosine > -0.5) {
         return unit_quat(1.0 + cosine, axis.x(), axis.y(), axis.z());
     }
-    // Near opposite directions 1 + cosine and the axis are left with few digits. The half angle's
-    // cosine and sine come from the sum and difference, which keep theirs; the axis may be any, if
-    // only it is square to `from`.
+    // For nearly opposite directions, 1 + cosine and the axis lose digits. The half angle's cosine
+    // and sine are taken from the sum and difference, which keep theirs. The axis may be any
+    // direction perpendicular to `from`.
     if (axis.norm() < 1e-14) {
         axis = from.cross(std::abs(from.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY());
     }

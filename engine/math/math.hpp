@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// The only place where Eigen enters. Right-handed, +Y up, -Z forward, +X right; metres, seconds,
-// radians. Never `auto` an Eigen expression: it would hold references to temporaries.
+// The only file that includes Eigen. Right-handed, +Y up, -Z forward, +X right; metres, seconds,
+// radians. Never use `auto` for an Eigen expression: it would hold references to temporaries.
 namespace handhold {
 
 using Vec3 = Eigen::Vector3d;
@@ -16,10 +16,10 @@ using Quat = Eigen::Quaterniond;
 inline constexpr double k_pi = std::numbers::pi;
 inline constexpr double k_half_pi = 0.5 * k_pi;
 inline constexpr double k_two_pi = 2.0 * k_pi;
-inline constexpr double k_degree = k_pi / 180.0;  // in radians
+inline constexpr double k_degree = k_pi / 180.0;  // radians per degree
 inline constexpr double k_mm_per_m = 1000.0;
 
-// A rigid transform: rotation first, then position. `a * b` applies b, then a.
+// A rigid transform: rotates, then translates. `a * b` applies b first.
 struct Pose {
     Vec3 position = Vec3::Zero();
     Quat rotation = Quat::Identity();  // unit
@@ -39,7 +39,7 @@ inline Pose inverse(const Pose& pose) {
     return {-(rotation * pose.position), rotation};
 }
 
-// x -> linear * x + translation. Unlike a Pose it may scale, shear and mirror.
+// x -> linear * x + translation. Unlike Pose, it may scale, shear and mirror.
 struct Affine {
     Mat3 linear = Mat3::Identity();
     Vec3 translation = Vec3::Zero();
@@ -50,14 +50,14 @@ inline Affine to_affine(const Pose& pose) {
 inline Vec3 transform_point(const Affine& affine, const Vec3& point) {
     return affine.linear * point + affine.translation;
 }
-// A surface's normal where `linear` takes the surface: by the matrix of cofactors, which keeps it
-// square to the surface whatever the scale, and outside where it mirrors. Not of unit length.
+// Normal of a surface transformed by `linear`, not normalised. Uses the cofactor matrix: the normal
+// stays perpendicular under any scale and outward under mirroring.
 Vec3 transform_normal(const Mat3& linear, const Vec3& normal);
 inline Affine operator*(const Affine& a, const Affine& b) {
     return {a.linear * b.linear, transform_point(a, b.translation)};
 }
 
-// [v]x, the matrix with cross_matrix(v) * u == v.cross(u).
+// Cross-product matrix: cross_matrix(v) * u == v.cross(u).
 inline Mat3 cross_matrix(const Vec3& v) {
     Mat3 m;
     m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
@@ -65,12 +65,12 @@ inline Mat3 cross_matrix(const Vec3& v) {
 }
 
 inline bool is_finite(const Vec3& v) { return v.allFinite(); }
-// True where every number is finite and the rotation's length is within 1e-3 of one.
+// True if all components are finite and the rotation's length is within 1e-3 of one.
 bool is_valid(const Pose& pose);
 
-// Sine and cosine of our own: libm picks its code by CPU, so its last bits differ between machines,
-// and these reach state. Absolute error below 1e-15 for |angle| <= 1e3, below 1e-14 up to 1e6. The
-// sine and cosine of 0 for angles of 1e6 and more, infinities and NaN; -0.0 is 0.0.
+// Deterministic sine and cosine: libm chooses its code by CPU, so its last bits differ between
+// machines, and these values reach state. Absolute error below 1e-15 for |angle| <= 1e3 and below
+// 1e-14 up to 1e6. For larger angles, infinities and NaN returns 0 and 1. -0.0 gives 0.0.
 void sin_cos(double angle_rad, double& sine, double& cosine);
 inline double sine(double angle_rad) {
     double s = 0.0;
@@ -78,30 +78,29 @@ inline double sine(double angle_rad) {
     sin_cos(angle_rad, s, c);
     return s;
 }
-// Angle of (x, y) from +X towards +Y in (-pi, pi]; error below 1e-15. Only lengths' ratios count:
-// any of them may be tiny, huge or infinite; -0.0 is 0.0. 0 for (0, 0) and where either is NaN. See
-// sin_cos for why.
+// Angle of (x, y) from +X towards +Y in (-pi, pi], error below 1e-15. Arguments may be tiny, huge
+// or infinite; -0.0 counts as 0.0. Returns 0 for (0, 0) and NaN. Deterministic, like sin_cos.
 double arc_tangent2(double y, double x);
 
-// The rotation about `vector`'s direction by its length (radians), as a unit quaternion, and the
-// inverse: the shortest rotation vector of a unit quaternion, length in [0, pi].
+// Unit quaternion of the rotation about `vector`'s direction by its length (radians). The inverse
+// returns the shortest rotation vector, length in [0, pi].
 Quat rotation_from_vector(const Vec3& vector_rad);
 Vec3 rotation_to_vector(const Quat& rotation);
-// Rotation of `turn` radians about the unit vector `axis`.
+// Rotation by angle_rad about the unit vector `axis`.
 Quat rotation_about(const Vec3& axis, double angle_rad);
-// The shortest rotation that carries unit vector `from` onto unit vector `to`; any half turn where
-// they oppose.
+// Shortest rotation from unit vector `from` to unit vector `to`; an arbitrary half turn if they are
+// opposite.
 Quat rotation_between(const Vec3& from, const Vec3& to);
 
-// -Z along `forward`, +Y as near to `up` as that allows; neither may be zero, they may have any
-// length. Where they lie in one line, any turn about it.
+// Rotation with -Z along `forward` and +Y as near to `up` as possible. Both may have any length but
+// 0. If they are parallel, the roll is arbitrary.
 Quat look_rotation(const Vec3& forward, const Vec3& up);
 
-// Between two poses, t in [0, 1]: positions along the line, rotations along the shorter arc at
+// Interpolates two poses, t in [0, 1]: positions linearly, rotations along the shorter arc at
 // constant speed.
 Pose interpolate(const Pose& a, const Pose& b, double t);
 
-// 0 up to `from`, 1 from `to` on, 3t^2 - 2t^3 of the way t between them; from < to.
+// 0 up to `from`, 1 from `to` on, 3t^2 - 2t^3 in between at fraction t; from < to.
 double smooth_step(double x, double from, double to);
 
 }  // namespace handhold

@@ -2,21 +2,21 @@
 
 #include "engine/math/double4.hpp"
 
-// The series of sine and cosine and their reduction to [-pi/4, pi/4], for one number and for four.
-// Range reduction after Cody and Waite 1980, with pi/2 in three parts; Taylor series with
-// remainders below half a unit in the last place.
+// Series of sine and cosine and their range reduction to [-pi/4, pi/4], for scalars and Double4.
+// Reduction after Cody and Waite 1980 with pi/2 in three parts; Taylor series with remainders below
+// half a unit in the last place.
 namespace handhold {
 
 inline constexpr double k_two_over_pi = 0.63661977236758134308;
-// pi/2 = high + middle + low; the first two have trailing zeros, so that multiples up to 2^20 are
-// exact.
+// pi/2 = high + middle + low. The first two have trailing zero bits, so that their multiples up to
+// 2^20 are exact.
 inline constexpr double k_half_pi_high = 1.57079632673412561417e+00;
 inline constexpr double k_half_pi_middle = 6.07710050630396597660e-11;
 inline constexpr double k_half_pi_low = 2.02226624879595063154e-21;
-// 1.5 * 2^52: where a number's last place is one, a sum has no other. What is added to it is
-// rounded to the nearest whole number, which stands in the sum's last bits.
+// 1.5 * 2^52. Doubles of this size have a spacing of 1: adding it rounds to the nearest integer,
+// which then stands in the sum's low bits.
 inline constexpr double k_last_place_one = 6755399441055744.0;
-// Angles of this size and more have no exact reduction.
+// Larger angles have no exact reduction.
 inline constexpr double k_largest_reduced_rad = 1e6;
 
 template <typename Number>

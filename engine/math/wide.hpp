@@ -11,9 +11,9 @@
 
 #include "engine/math/double4.hpp"
 
-// Four vectors, rotations or matrices side by side: lane i of every number belongs to the i-th of
-// them. What is done to one is done to all four, with no number moved from lane to lane. Sums have
-// four.hpp's order, so that the bits do not depend on the processor.
+// Structure-of-arrays types: four vectors, rotations or matrices, where lane i of each member
+// belongs to item i. All items are processed alike and no number moves between lanes. Sums use
+// double4.hpp's order, so results do not depend on the processor.
 namespace handhold {
 
 struct Wide3 {
@@ -27,7 +27,8 @@ struct WideSymmetric {
     Double4 xx, yy, zz, xy, xz, yz;
 };
 
-// Number by number: of the whole GCC makes copies in memory, in pieces of other sizes.
+// Member by member: assigning the whole struct makes GCC copy through memory in pieces of other
+// sizes.
 HH_INLINE void assign(const Wide3& from, Wide3& to) {
     to.x = from.x;
     to.y = from.y;
@@ -48,7 +49,7 @@ HH_INLINE void assign(const WideSymmetric& from, WideSymmetric& to) {
     to.yz = from.yz;
 }
 
-// One lane's.
+// Access to one lane.
 HH_INLINE void set_lane(std::size_t lane, const Vec3& v, Wide3& out) {
     out.x[lane] = v.x();
     out.y[lane] = v.y();
@@ -60,8 +61,8 @@ HH_INLINE void set_lane(std::size_t lane, const Quat& q, Wide4& out) {
     out.z[lane] = q.z();
     out.w[lane] = q.w();
 }
-// Number by number, too: of a whole Vec3 or Quat Eigen takes two at a time, and where they were
-// just written one by one the processor waits for both to reach the cache.
+// Scalar by scalar, like scalar_rotation.hpp: Eigen would load components in pairs and stall on
+// stores that were just made singly.
 HH_INLINE void get_lane(std::size_t lane, const Wide3& v, Vec3& out) {
     out.x() = v.x[lane];
     out.y() = v.y[lane];
@@ -103,7 +104,7 @@ HH_INLINE Wide3 multiply(const WideSymmetric& m, const Wide3& v) {
             (m.xz * v.x + m.yz * v.y) + m.zz * v.z};
 }
 
-// As std::max: of a number and NaN, `a`.
+// As std::max: returns `a` if one of them is NaN.
 HH_INLINE Double4 larger(const Double4& a, const Double4& b) { return b > a ? b : a; }
 HH_INLINE double largest(const Double4& v) {
     const double low = v[1] > v[0] ? v[1] : v[0];
@@ -111,10 +112,10 @@ HH_INLINE double largest(const Double4& v) {
     return high > low ? high : low;
 }
 
-// Lane by lane: -1, which is all bits, where something is true.
+// Comparison result: each lane is 0 or -1 (all bits set).
 using Mask4 = std::int64_t __attribute__((vector_size(32), aligned(32)));
 
-// By the instruction, not by std::sqrt, which would look at every number's sign for errno.
+// Uses the instruction: std::sqrt would check every sign for errno.
 HH_INLINE Double4 square_root(const Double4& v) {
 #ifdef __SSE2__
     const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]});
@@ -125,7 +126,7 @@ HH_INLINE Double4 square_root(const Double4& v) {
 #endif
 }
 
-// --- Between four vectors one by one and side by side ------------------------------------------
+// --- Conversions between four separate vectors and structure-of-arrays ---------------------------
 
 HH_INLINE Wide4 to_wide4(const Double4& a, const Double4& b, const Double4& c, const Double4& d) {
     const Double4 ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);  // a0 b0 a2 b2
@@ -142,9 +143,9 @@ HH_INLINE Wide3 to_wide3(const Double4& a, const Double4& b, const Double4& c, c
     return {all.x, all.y, all.z};
 }
 
-// The four of them: x, y, z, w of lane 0, of lane 1 ..
+// Transposes: row i holds x, y, z, w of lane i.
 HH_INLINE Wide4 to_rows(const Wide4& v) { return to_wide4(v.x, v.y, v.z, v.w); }
-// With 0 in the fourth place.
+// The fourth component is 0.
 HH_INLINE Wide4 to_rows(const Wide3& v) { return to_wide4(v.x, v.y, v.z, zero4()); }
 
 }  // namespace handhold

@@ -3,10 +3,10 @@
 #include "engine/math/trigonometry_series.hpp"
 #include "engine/math/wide.hpp"
 
-// Four rotations side by side. The same steps as math.cpp's for one.
+// Operations on four rotations; the same steps as math.cpp's for one.
 namespace handhold {
 
-// As math.hpp's, four at a time and with its bits.
+// Four at a time, bitwise equal to math.hpp's sin_cos.
 HH_INLINE void sin_cos(const Double4& angle_rad, Double4& sine, Double4& cosine) {
     const Double4 shifted = angle_rad * k_two_over_pi + k_last_place_one;
     const Double4 x = reduced_angle(angle_rad, shifted - k_last_place_one);
@@ -14,7 +14,7 @@ HH_INLINE void sin_cos(const Double4& angle_rad, Double4& sine, Double4& cosine)
     const Double4 c = cosine_series(x);
     const Mask4 quarters = __builtin_bit_cast(Mask4, shifted);
     const Mask4 is_odd = (quarters & 1) == 1;
-    // Bit 1 of the quarters, and of the next, where the sign of a double is.
+    // Moves bit 1 of the quarter index, and of its successor, to the sign bit of a double.
     const Mask4 sine_sign = (quarters & 2) << 62;
     const Mask4 cosine_sign = ((quarters + 1) & 2) << 62;
     const Mask4 of_sine = __builtin_bit_cast(Mask4, is_odd ? c : s) ^ sine_sign;
@@ -25,7 +25,7 @@ HH_INLINE void sin_cos(const Double4& angle_rad, Double4& sine, Double4& cosine)
     cosine = is_small ? __builtin_bit_cast(Double4, of_cosine) : zero4() + 1.0;
 }
 
-// Columns: where its own axes are.
+// Columns: the rotated coordinate axes.
 struct WideAxes {
     Wide3 x, y, z;
 };
@@ -53,13 +53,15 @@ HH_INLINE Wide3 rotate_back(const WideAxes& axes, const Wide3& v) {
     return {dot(axes.x, v), dot(axes.y, v), dot(axes.z, v)};
 }
 
-// (vector, w) * rotation, of unit length.
+// Normalised product (vector, w) * rotation.
 HH_INLINE Wide4 turned(const Wide3& vector, const Double4& w, const Wide4& rotation) {
     const Wide3 before{rotation.x, rotation.y, rotation.z};
     const Wide3 v = (w * before + rotation.w * vector) + cross(vector, before);
     const Double4 scalar = w * rotation.w - dot(vector, before);
-    const Double4 by = 1.0 / square_root((v.x * v.x + v.y * v.y) + (v.z * v.z + scalar * scalar));
-    return {v.x * by, v.y * by, v.z * by, scalar * by};
+    const Double4 inverse_length =
+        1.0 / square_root((v.x * v.x + v.y * v.y) + (v.z * v.z + scalar * scalar));
+    return {v.x * inverse_length, v.y * inverse_length, v.z * inverse_length,
+            scalar * inverse_length};
 }
 
 }  // namespace handhold

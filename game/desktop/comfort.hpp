@@ -6,8 +6,8 @@
 
 namespace handhold {
 
-// How much the edges of what a player sees are dark, [0, strength]: by how fast he is carried along
-// beside what counts as standing still. Nothing below 1 m/s, all from 4 m/s on.
+// Strength of the vignette (darkened edges of the view), [0, strength]. Follows the player's speed
+// relative to the reference velocity: none below 1 m/s, full from 4 m/s on.
 inline double vignette_of(const World& world, Entity player, double strength) {
     constexpr double k_calm_mps = 1.0;
     constexpr double k_fast_mps = 4.0;

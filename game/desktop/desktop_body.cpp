@@ -8,12 +8,13 @@ namespace handhold {
 namespace {
 
 const Vec3 k_head_place_ps(0.0, 1.6, 0.0);
-const Vec3 k_shoulder_hs(0.18, -0.2, 0.05);  // right; in the head's frame
-constexpr double k_arm_m = 0.78;             // from the shoulder
-constexpr double k_clearance_m = 0.15;       // of a pulling hand from the head
+const Vec3 k_shoulder_hs(0.18, -0.2, 0.05);  // right shoulder, in the head's frame
+constexpr double k_arm_m = 0.78;             // arm's length from the shoulder
+constexpr double k_clearance_m = 0.15;       // minimum distance of a pulling hand from the head
 constexpr double k_steepest_rad = 1.5;
-constexpr double k_look_m = 0.85;       // as far as he reaches for what he looks at
-constexpr double k_near_look_m = 0.08;  // beside the line of sight
+// distance up to which the player reaches for a surface in view
+constexpr double k_look_m = 0.85;
+constexpr double k_near_look_m = 0.08;  // radius around the line of sight
 constexpr double k_no_surface_m = 0.6;
 constexpr double k_reach_mps = 3.5;
 constexpr double k_hand_return_mps = 2.5;
@@ -28,7 +29,7 @@ Vec3 mirrored(Vec3 right, HandSide side) {
     return right;
 }
 
-// What a hand that lies on something points its fingers along: up a wall, ahead on a floor.
+// Finger direction of a hand that lies on a surface: upwards on a wall, forward on a floor.
 Vec3 fingers_on(const Vec3& away, const Quat& head) {
     const Vec3 wanted = head * Vec3(0.0, 1.0, -0.3);
     const Vec3 across = wanted - away * away.dot(wanted);
@@ -38,14 +39,14 @@ Vec3 fingers_on(const Vec3& away, const Quat& head) {
 
 }  // namespace
 
-// Open, at the height of the chest, in sight.
+// Open hand at chest height, in view.
 Pose DesktopBody::rest_ps(HandSide side, const HandTuning& tuning) const {
     const PalmFrame place{mirrored({0.2, -0.24, -0.42}, side),
                           mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
     return head_ps_ * hand_on(place, side, tuning);
 }
 
-// The surface that he looks at, or near which he looks by.
+// Finds the surface on or near the line of sight.
 void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
                       const PlayerEntities& player) {
     const Pose& origin_ws = scene.world.player_origin.at(player.player).pose_ws;
@@ -65,14 +66,14 @@ void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
     }
 }
 
-// On what he looks at; else out in front of him.
+// On the surface in view; without one, in front of the player.
 Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
     const PalmFrame ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
                           head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
     return hand_on(aim_ps_.value_or(ahead), side, tuning);
 }
 
-// Closes where it arrives, or where it has tried for long.
+// Moves towards the target. Closes there, or after a time limit.
 void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     const double distance_m = (target_ps.position - hand.hand_ps.position).norm();
     const double share =
@@ -84,7 +85,8 @@ void DesktopBody::reach(const Pose& target_ps, double dt_s, Hand& hand) {
     }
 }
 
-// Neither out of the arm's reach nor into the face, but for ways back from there.
+// The hand must stay within arm's reach and away from the face, unless the movement reduces the
+// violation.
 bool DesktopBody::may_pull(const Hand& hand, HandSide side, const Vec3& move_ps) const {
     const Vec3 next_ps = hand.hand_ps.position + move_ps;
     const Vec3 shoulder_ps = transform_point(head_ps_, mirrored(k_shoulder_hs, side));
@@ -97,7 +99,7 @@ bool DesktopBody::may_pull(const Hand& hand, HandSide side, const Vec3& move_ps)
     return !out && !in;
 }
 
-// All hands that pull go together: what they hold does not give.
+// All pulling hands move together, because what they hold does not move.
 void DesktopBody::pull(const Vec3& move_ps) {
     for (std::size_t side = 0; side < k_hand_count; ++side) {
         if (uses_[side] == Use::pulls &&
@@ -181,7 +183,8 @@ PlayerCommands DesktopBody::commands(const DesktopInput& input) const {
     commands.brake = input.brake ? 1.0 : 0.0;
     commands.smooth_turn = input.smooth_turn;
     commands.snap_turns = input.snap_turns;
-    commands.thrust_ps = head_ps_.rotation * input.move;  // obeyed where the tuning has jets
+    // has an effect only if the tuning has jets
+    commands.thrust_ps = head_ps_.rotation * input.move;
     return commands;
 }
 

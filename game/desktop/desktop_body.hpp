@@ -7,19 +7,19 @@
 #include "game/scene/scene.hpp"
 #include "game/session/hand_pose.hpp"
 
-// Keyboard, mouse and gamepad as a headset and two controllers: somebody without a headset who
-// looks about, reaches for what he looks at, and pulls himself along by what he grips.
+// Emulates a headset and two controllers with keyboard, mouse and gamepad: the player looks around,
+// reaches for surfaces in view, and pulls on what they grip.
 namespace handhold {
 
-// What keys, mouse and gamepad ask for in one frame.
+// Input of keys, mouse and gamepad in one frame.
 struct DesktopInput {
     double turn_left_rad = 0.0;
     double look_up_rad = 0.0;
     std::array<bool, k_hand_count> grip{};    // by HandSide; held down
-    std::array<bool, k_hand_count> opened{};  // not held down for a moment of it
-    Vec3 move = Vec3::Zero();                 // each in [-1, 1]: right, up, back, as he looks
-    double farther_m = 0.0;                   // what he holds or is held by; negative: nearer
-    bool hurry = false;                       // pulls twice as fast
+    std::array<bool, k_hand_count> opened{};  // released at some time in the frame
+    Vec3 move = Vec3::Zero();                 // each in [-1, 1]: right, up, back in the view
+    double farther_m = 0.0;                   // pushes the held body away; negative: nearer
+    bool hurry = false;                       // doubles the pulling speed
     bool brake = false;
     double smooth_turn = 0.0;  // of the play space, [-1, 1], positive to the left
     int snap_turns = 0;        // to the left; negative: to the right
@@ -27,22 +27,22 @@ struct DesktopInput {
 
 class DesktopBody {
   public:
-    // Moves head and hands on by dt_s to t_s, and says what a headset would say then. `collision`
-    // has every collider where it is now. In play space the head stays over the origin: where he
-    // goes, his hands take him.
+    // Advances head and hands by dt_s to t_s and returns what a headset would report. `collision`
+    // holds the current collider poses. In play space the head stays over the origin: only the
+    // hands move the player.
     TrackingSample advance(const Scene& scene, const CollisionWorld& collision,
                            const PlayerEntities& player, const DesktopInput& input, double t_s,
                            double dt_s);
 
-    // Sticks and buttons of the same frame.
+    // The commands of sticks and buttons of the same frame.
     PlayerCommands commands(const DesktopInput& input) const;
-    // What he looks at is near enough to reach for; as of the last frame.
+    // Whether a surface in view was within reach in the last frame.
     bool can_reach() const { return aim_ps_.has_value(); }
 
   private:
     struct Hand {
         Pose hand_ps;
-        Pose carried_hs;  // in the head's frame, when it began to go with the head
+        Pose carried_hs;  // in the head's frame, when it started to move with the head
         double reaches_s = 0.0;
         bool closed = false;
     };
@@ -58,10 +58,10 @@ class DesktopBody {
     double yaw_rad_ = 0.0;
     double pitch_rad_ = 0.0;
     Pose head_ps_;
-    std::optional<PalmFrame> aim_ps_;  // what he looks at
+    std::optional<PalmFrame> aim_ps_;  // on the surface in view
     std::array<Hand, k_hand_count> hands_;
     std::array<Use, k_hand_count> uses_{};
-    bool has_hands_ = false;  // in play space: not before the first frame
+    bool has_hands_ = false;  // hands have poses in play space: not before the first frame
 };
 
 }  // namespace handhold

@@ -24,7 +24,7 @@ void DesktopSession::step(const DesktopInput& input) {
     place_scene(scene_, caches_);
     const double start_s = scene_.world.clock.t_s;
     samples_.clear();
-    if (scene_.world.clock.frame == 0) {  // a recording begins with its session
+    if (scene_.world.clock.frame == 0) {  // a recording starts with its session
         samples_.push_back(body_.advance(scene_, caches_.collision, player_, {}, start_s, 1e-9));
     }
     samples_.push_back(
@@ -36,7 +36,7 @@ void DesktopSession::step(const DesktopInput& input) {
     }
     PlayerCommands commands = body_.commands(input);
     if (scene_.tuning.locomotion.thruster_mps2 == 0.0) {
-        commands.thrust_ps.setZero();  // nobody would obey, but commands are state
+        commands.thrust_ps.setZero();  // has no effect without jets, but commands are state
     }
     used_sticks_ = used_sticks_ || input.brake || input.smooth_turn != 0.0 ||
                    input.snap_turns != 0 || !commands.thrust_ps.isZero();
@@ -52,7 +52,7 @@ DesktopState DesktopSession::save(const SnapshotAssets& assets) const {
 
 void DesktopSession::restore(const DesktopState& state, const SnapshotAssets& assets) {
     const auto error = restore_snapshot(state.world, assets, scene_.world);
-    HH_CHECK(!error, "the state is another session's", state.world.size());
+    HH_CHECK(!error, "the state belongs to another session", state.world.size());
     body_ = state.body;
     recording_.samples.resize(std::min(recording_.samples.size(), state.recorded));
     used_sticks_ = state.used_sticks;

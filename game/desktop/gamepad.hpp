@@ -5,10 +5,10 @@
 #include "game/desktop/desktop_body.hpp"
 #include "game/desktop/play_settings.hpp"
 
-// A gamepad as what keys and mouse are: input of the emulated head and hands.
+// Reads a gamepad as input of the emulated head and hands.
 namespace handhold {
 
-// As the device says; sticks are positive to the right and down.
+// Raw device state; sticks are positive to the right and down.
 struct GamepadState {
     std::array<double, 2> left_stick{};   // each [-1, 1]
     std::array<double, 2> right_stick{};  // each [-1, 1]
@@ -19,19 +19,20 @@ struct GamepadState {
     bool hurry = false;                   // the left stick pressed
 };
 
-// What is remembered from one reading to the next.
+// State kept between readings.
 struct GamepadMemory {
     std::array<bool, 2> grips{};
-    bool turned = false;  // one snap turn a press
+    bool turned = false;  // limits snap turns to one per press
 };
 
-// Left stick: pulls right and back; shoulders: down, up. Right stick: looks about. Triggers: each
-// hand grips from 55 % on until it is below 35 %. Pad: up and down push what is held away and pull
-// it near, left and right turn. Sticks count from 18 % of their way on.
+// Left stick: pulls right and back; shoulders: down, up. Right stick: looks around. Triggers: each
+// hand grips above 55 % until the trigger is below 35 %. Pad: up and down move a held body away and
+// nearer, left and right turn. Sticks have a dead zone of 18 %.
 DesktopInput read_gamepad(const GamepadState& state, const PlaySettings& settings, double dt_s,
                           GamepadMemory& memory);
 
-// Two devices at once: what either holds is held, and motions add up to full speed at most.
+// Combines two devices: a button is held if either holds it, and motions add up to full speed at
+// most.
 DesktopInput combine(const DesktopInput& a, const DesktopInput& b);
 
 }  // namespace handhold

@@ -14,13 +14,13 @@ std::optional<FileError> check_folder(const std::filesystem::path& file) {
     const std::filesystem::path folder = file.parent_path();
     std::error_code ignored;
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
-        return FileError{file.string(), "", "expected a folder that is there"};
+        return FileError{file.string(), "", "expected an existing folder"};
     }
     return std::nullopt;
 }
 
-// How `run` is told to play it again bit for bit.
-void say_replay(const PlayOptions& options, const EndedPlay& play) {
+// Prints the command that replays the session bit for bit.
+void print_replay(const PlayOptions& options, const EndedPlay& play) {
     constexpr double k_default_hz = 90.0;
     std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
                 play.recording.samples.size(),
@@ -31,7 +31,7 @@ void say_replay(const PlayOptions& options, const EndedPlay& play) {
     if (play.hz != k_default_hz) {
         std::printf(" --hz %.17g", play.hz);
     }
-    if (!options.models.controllers.empty()) {  // its joint is how samples became hands
+    if (!options.models.controllers.empty()) {  // its joint converts samples to hand poses
         std::printf(" --controllers %s", options.models.controllers.c_str());
     }
     std::printf(options.distance_grab ? " --distance-grab\n" : "\n");
@@ -88,7 +88,7 @@ std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& 
         if (auto error = save_recording(options.record, play.recording)) {
             return error;
         }
-        say_replay(options, play);
+        print_replay(options, play);
     }
     if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
         return FileError{options.picture, "", "expected a file that can be written"};

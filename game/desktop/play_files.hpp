@@ -11,23 +11,23 @@
 #include "game/scene/scene.hpp"
 #include "game/session/recording.hpp"
 
-// The files of a play: what it begins with and what it leaves, at a desk or in a headset.
+// Files of a session that is played on the desktop or in a headset: its scene and its outputs.
 namespace handhold {
 
 struct PlayedScene {
     Scene scene;
-    SceneSpawnPoint place;  // the origin where the scene names none
+    SceneSpawnPoint place;  // the origin if the scene has none
 };
 Result<PlayedScene> load_played_scene(const PlayOptions& options);
 
-// Said before anything is played: a session that cannot be kept is not begun.
+// Checks the output files before playing, so no session is played that cannot be saved.
 std::optional<FileError> check_play_files(const PlayOptions& options);
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
-// Null where none is asked for.
+// Null if the options request none.
 Result<OpenFile> open_status(const PlayOptions& options);
 
 struct EndedPlay {
@@ -37,7 +37,7 @@ struct EndedPlay {
     bool used_sticks = false;
     double hz = 90.0;
 };
-// What the options ask to keep: the recording, the last picture, the report.
+// Writes the outputs that the options request: recording, last picture, report.
 std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& play,
                                    const PlayTally& tally, const Image& image);
 

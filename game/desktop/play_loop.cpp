@@ -16,15 +16,15 @@
 namespace handhold {
 namespace {
 
-constexpr double k_max_behind_s = 0.1;  // then time goes slower
+constexpr double k_max_behind_s = 0.1;  // beyond this, simulated time runs slower
 constexpr double k_status_s = 0.1;
 
 double us_since(std::int64_t begin_ns) { return 1e-3 * static_cast<double>(now_ns() - begin_ns); }
 
-// Real time into steps of the simulation: input that happened between two of them waits.
+// Divides real time into simulation steps. Input between two steps waits for the next one.
 class Clock {
   public:
-    // Steps that are due.
+    // Number of steps that are due.
     int advance() {
         const std::int64_t now = now_ns();
         behind_s_ += last_ns_ != 0 ? 1e-9 * static_cast<double>(now - last_ns_) : 0.0;
@@ -40,13 +40,13 @@ class Clock {
     double behind_s_ = 0.0;
 };
 
-// What came with one look at the window goes into the first of several steps, but for what is held.
-void spend(DesktopInput& input) {
+// Input of one poll applies to the first of several steps, except for held buttons.
+void clear_momentary_input(DesktopInput& input) {
     input.turn_left_rad = input.look_up_rad = input.farther_m = 0.0;
     input.snap_turns = 0;
     input.opened = {};
 }
-void gather(const DesktopInput& now, DesktopInput& input) {
+void accumulate_input(const DesktopInput& now, DesktopInput& input) {
     const DesktopInput before = input;
     input = now;
     input.turn_left_rad += before.turn_left_rad;
@@ -134,7 +134,7 @@ class Loop {
         viewpoint_ = viewpoint;
     }
 
-    // Not const: cameras in the room look where its walls are now.
+    // Not const: outside cameras update the walls they avoid.
     Pose camera_ws() {
         const RenderPose& render = world().render_pose.at(stage_.session.player().player);
         switch (viewpoint_) {
@@ -175,13 +175,13 @@ class Loop {
             now = combine(now, read_gamepad(*events.gamepad, stage_.settings, dt_s, gamepad_));
         }
         held_.grip = now.grip;
-        gather(now, input_);
+        accumulate_input(now, input_);
     }
 
     void step() {
         const std::int64_t begin_ns = now_ns();
         history_.step(stage_.session, input_);
-        spend(input_);
+        clear_momentary_input(input_);
         stage_.tally.add_frame(world(), stage_.session.player(), stage_.session.stats(),
                                us_since(begin_ns), DesktopSession::k_dt_s);
         if (stage_.status != nullptr && world().clock.t_s >= next_status_s_) {
@@ -202,7 +202,7 @@ class Loop {
         if (rewinds_) {
             paused_ = true;
             rewound_ += history_.rewind(stage_.session, static_cast<std::size_t>(due));
-            spend(input_);
+            clear_momentary_input(input_);
             return;
         }
         const int steps = paused_ ? std::exchange(steps_, 0) : due;
@@ -212,7 +212,7 @@ class Loop {
             ends_ = stage_.end_s > 0.0 && world().clock.t_s >= stage_.end_s;
         }
         if (paused_) {
-            spend(input_);
+            clear_momentary_input(input_);
         }
     }
 
@@ -294,10 +294,10 @@ class Loop {
     FreeCamera free_;
     PlayerViewpoint viewpoint_;
     InspectorMemory inspector_;
-    std::vector<Line> marks_;  // reused
+    std::vector<Line> marks_;  // reused memory
     Clock clock_;
     DesktopInput input_;
-    DesktopInput held_;  // what is held down as of the last look at the window: grips
+    DesktopInput held_;  // grips held at the last poll
     GamepadMemory gamepad_;
     double gamepad_s_ = 0.0;
     UiInput ui_;

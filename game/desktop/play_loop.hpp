@@ -22,7 +22,7 @@ struct PlayPanels {
     bool menu = false;
 };
 
-// One scene, played in a window from its beginning until somebody leaves it.
+// One scene, played in a window until the user leaves it.
 struct PlayStage {
     DesktopSession& session;
     Window& window;
@@ -34,21 +34,21 @@ struct PlayStage {
     PlayTally& tally;
     Image& picture;                                     // the last one
     std::array<int, 2> picture_size;                    // width and height in pixels
-    GizmoSet gizmos;                                    // that are on when it begins
-    std::string page;                                   // of the inspector; empty: its first
-    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // when it begins; not free
+    GizmoSet gizmos;                                    // on at the start
+    std::string page;                                   // page of the inspector; empty: its first
+    PlayerViewpoint viewpoint = PlayerViewpoint::eyes;  // at the start; not free
     double end_s = 0.0;                                 // of the scene's clock; 0: never
-    std::FILE* status = nullptr;  // a line every tenth of a second; none: null
+    std::FILE* status = nullptr;  // gets a line every tenth of a second; may be null
 };
 
-// How it ended.
+// How the session ended.
 struct PlayEnd {
-    bool leaves = true;  // else: plays `scene` next
-    std::string scene;   // may be the same again
+    bool leaves = true;  // else `scene` is played next
+    std::string scene;   // may be the same scene
 };
 
-// Real time into steps of the simulation; where a picture takes longer than a tenth of a second,
-// time goes slower: what is played does not depend on how fast pictures come.
+// Plays in real time. If a picture takes longer than a tenth of a second, simulated time runs
+// slower, so the result does not depend on the frame rate of the pictures.
 PlayEnd play(PlayStage& stage);
 
 }  // namespace handhold

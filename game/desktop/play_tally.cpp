@@ -39,7 +39,8 @@ const char* name_of_grip(GripKind kind) {
 
 }  // namespace
 
-// Whoever moves his second hand while the first still holds has changed hands; who flies has not.
+// A hand change: the second hand grips while the first still holds. Flying from grip to grip is
+// none.
 void PlayTally::add_grips(const World& world, const PlayerEntities& player) {
     const std::array<bool, k_hand_count> before = grips_;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -116,7 +117,7 @@ std::string PlayTally::summary() const {
     const TimeFigures show = summarize_times(show_us_);
     char text[400];
     std::snprintf(text, sizeof text,
-                  "%.1f s played: %.2f m, of which %.2f m climbed with %llu grips, %llu of them "
+                  "%.1f s played: %.2f m, of which %.2f m climbed, with %llu grips, %llu of them "
                   "hand over hand\n"
                   "cost, median (p99): runtime %.2f (%.2f) ms a frame; drawing %.1f (%.1f) ms and "
                   "showing %.1f (%.1f) ms a picture\n",

@@ -10,40 +10,40 @@
 #include "components/world.hpp"
 #include "game/headset/headset_reading.hpp"
 
-// What a session at a window comes to: how far the player's hands carried him, and what the runtime
-// and the renderer cost, each for itself.
+// Statistics of a session at a window: distances that the player moved by their hands, and the
+// costs of runtime and renderer.
 namespace handhold {
 
 struct PlayFigures {
     std::uint64_t frames = 0;
     double played_s = 0.0;
-    double path_m = 0.0;          // of the play space, against the scene's reference velocity
-    double climbed_m = 0.0;       // the part of it during which a hand gripped something that holds
-    Vec3 moved_m = Vec3::Zero();  // from where he began to where he is, reference velocity included
+    // path of the play space, relative to the scene's reference velocity
+    double path_m = 0.0;
+    double climbed_m = 0.0;       // part of it during which a hand gripped a surface
+    Vec3 moved_m = Vec3::Zero();  // from start to end, including the reference velocity
     std::uint64_t grips = 0;      // of surfaces
-    // Hand over hand: times that the next grip was the other hand's, begun while the one before
-    // still held.
+    // Hand over hand: the next grip was the other hand's, and began while the previous one held.
     std::uint64_t hand_changes = 0;
     StageStats totals;  // counters and fallbacks only
 };
 
 class PlayTally {
   public:
-    // After a frame of the world; `runtime_us` is what the frame took.
+    // Call after each frame of the world. `runtime_us`: cost of the frame.
     void add_frame(const World& world, const PlayerEntities& player, const StageStats& stats,
                    double runtime_us, double dt_s);
-    // After a picture: what drawing took, and what showing it did.
+    // Call after each picture, with the costs of drawing and of showing it.
     void add_picture(double draw_us, double show_us);
 
     const PlayFigures& figures() const { return figures_; }
-    // The last ones, for a display that is read while it plays.
+    // Latest values, for a live display.
     double runtime_us() const { return runtime_us_.empty() ? 0.0 : runtime_us_.back(); }
     double draw_us() const { return draw_us_.empty() ? 0.0 : draw_us_.back(); }
 
-    // report.json's text: the figures, times (median, p99, max in microseconds) of the runtime, of
-    // drawing and of showing, fallbacks by name. `state_hash` as format_hash writes it.
+    // The text of report.json: figures, fallbacks by name, and times (median, p99, max in
+    // microseconds) of runtime, drawing and showing. `state_hash` as format_hash writes it.
     std::string report_json(const std::string& scene, const std::string& state_hash) const;
-    // Two lines for a terminal: what was climbed, and frame costs.
+    // Two lines for a terminal: distances climbed and frame costs.
     std::string summary() const;
 
   private:
@@ -52,23 +52,23 @@ class PlayTally {
     PlayFigures figures_;
     std::optional<Vec3> start_ws_;
     Vec3 last_ws_ = Vec3::Zero();
-    std::array<bool, k_hand_count> grips_{};  // in the frame before
-    std::optional<std::size_t> last_hand_;    // whose grip was begun last
+    std::array<bool, k_hand_count> grips_{};  // in the previous frame
+    std::optional<std::size_t> last_hand_;    // hand whose grip began last
     std::vector<double> runtime_us_, draw_us_, show_us_;
 };
 
-// What a headset has to say beside that.
+// Additional figures of a session in a headset.
 struct HeadsetFigures {
     HeadsetReading reading;  // the last one
     bool has_focus = false;
     bool shows_panel = false;
-    std::uint64_t losses = 0;                          // of the runtime, each found again
+    std::uint64_t losses = 0;                          // of the XR runtime, each recovered
     std::uint64_t pictures = 0;                        // of both eyes
     std::array<std::uint64_t, k_hand_count> shakes{};  // by HandSide
 };
 
-// One line (JSON) of how it stands: time, head, hands with what they hold, metres climbed. For
-// whoever drives the game from outside and cannot see its pictures.
+// One JSON line with the current state: time, head, hands with what they hold, metres climbed. For
+// programs that control the game without seeing its pictures.
 std::string status_line(const World& world, const PlayerEntities& player,
                         const PlayFigures& figures, bool can_reach,
                         const HeadsetFigures* headset = nullptr);

@@ -28,15 +28,15 @@ enum class UiKey : std::uint8_t {
     count
 };
 
-// What panels are worked with, as of now. Positions in pixels of the picture.
+// Current input for the panels. Positions in pixels of the picture.
 struct UiInput {
-    std::array<float, 2> mouse_px = {-1e6F, -1e6F};  // far away: none
+    std::array<float, 2> mouse_px = {-1e6F, -1e6F};  // far away: no mouse
     std::array<bool, 3> buttons{};                   // left, right, middle
-    float wheel = 0.0F;                              // notches since the last time
+    float wheel = 0.0F;                              // notches since the last call
     std::array<bool, static_cast<std::size_t>(UiKey::count)> keys{};
     bool ctrl = false;
     bool shift = false;
-    std::string text;  // typed since the last time, UTF-8
+    std::string text;  // typed since the last call, UTF-8
 };
 
 }  // namespace handhold

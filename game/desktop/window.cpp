@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_wheel_m = 0.04;  // a notch
+constexpr double k_wheel_m = 0.04;  // per notch
 
 constexpr std::array<std::pair<SDL_Scancode, PlayKey>, 8> k_play_keys = {{
     {SDL_SCANCODE_F1, PlayKey::help},
@@ -45,7 +45,7 @@ struct Window::Impl {
     int texture_width = 0;
     int texture_height = 0;
     bool holds_mouse = false;
-    UiInput ui;  // what lasts: the mouse's place and buttons
+    UiInput ui;  // persistent part: mouse position and buttons
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -72,7 +72,7 @@ void Window::Impl::take_window_event(const SDL_WindowEvent& event, WindowEvents&
         case SDL_WINDOWEVENT_CLOSE:
             events.quit = true;
             break;
-        case SDL_WINDOWEVENT_FOCUS_LOST:  // whoever looks elsewhere wants his mouse
+        case SDL_WINDOWEVENT_FOCUS_LOST:  // release the mouse for other windows
             SDL_SetRelativeMouseMode(SDL_FALSE);
             ui.buttons = {};
             break;
@@ -213,19 +213,19 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
         why_not = SDL_GetError();
         return nullptr;
     };
-    // Pictures come from a renderer of our own; a second OpenGL context, the window's, would get in
-    // its way on this thread.
+    // The pictures come from our own renderer. A second OpenGL context, the window's, would
+    // conflict with it on this thread.
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) {
         return failed();
     }
-    // Without a display SDL plays for nobody, unless it is told to.
+    // Without a display SDL falls back to a driver without output, unless it was requested.
     const std::string_view driver = SDL_GetCurrentVideoDriver();
     if (SDL_getenv("SDL_VIDEODRIVER") == nullptr && (driver == "offscreen" || driver == "dummy")) {
         why_not = "no display";
         return nullptr;
     }
-    SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without gamepads: played without one
+    SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // if this fails, there are no gamepads
     impl->window = SDL_CreateWindow(title.c_str(), k_anywhere, k_anywhere, width_px, height_px,
                                     SDL_WINDOW_RESIZABLE);
     if (impl->window == nullptr) {

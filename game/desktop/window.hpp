@@ -15,24 +15,24 @@
 
 namespace handhold {
 
-// Keys that mean something besides moving, in the order in which they were pressed.
+// Keys with a function other than movement, in the order in which they were pressed.
 enum class PlayKey : std::uint8_t { help, inspector, menu, view, free_mouse, pause, step, leave };
 
-// What was done at a window since it was last asked.
+// Events at a window since the last poll.
 struct WindowEvents {
-    DesktopInput input;  // of keyboard and, while the window holds it, mouse
+    DesktopInput input;  // keyboard and, while the window holds it, mouse
     UiInput ui;
-    std::optional<GamepadState> gamepad;  // the first one that is plugged in
+    std::optional<GamepadState> gamepad;  // the first connected one
     std::vector<PlayKey> pressed;
     bool rewinds = false;  // held down
     bool quit = false;
 };
 
-// A window that shows pictures, with the keyboard, the mouse and a gamepad. Pictures keep their
-// shape whatever the window's. The only place that names SDL. One at a time.
+// A window that shows pictures, with keyboard, mouse and a gamepad. Pictures keep their aspect
+// ratio. The only class that uses SDL. One at a time.
 class Window {
   public:
-    // Nothing, with the reason, where there is no display.
+    // Null, with the reason in `why_not`, if there is no display.
     static std::unique_ptr<Window> open(const std::string& title, int width_px, int height_px,
                                         std::string& why_not);
     ~Window();
@@ -41,7 +41,8 @@ class Window {
 
     WindowEvents poll(const PlaySettings& settings);
     void show(const Image& picture);
-    // Held: it looks about and grips, unseen, from whenever the window is in front. Else it points.
+    // Held: the hidden mouse controls view and grips while the window has focus. Else it is a
+    // pointer.
     void hold_mouse(bool held);
     void set_title(const std::string& title);
 

@@ -10,11 +10,11 @@
 namespace handhold {
 namespace {
 
-// Its handle lies where a real one's does: along the same line through the fist. Its head is
+// The handle lies in the fist like a real controller's, along the same line. The wand's head is
 // longer, so the hand is lower on it.
 constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_rad, -0.015};
 
-// Pictures have no textures: a material that leaves its colour to one would be white.
+// Pictures have no textures; without this, a material whose colour is in a texture would be white.
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
 constexpr Color k_white = {1.0F, 1.0F, 1.0F};
 
@@ -49,7 +49,7 @@ Result<ControllerModel> load_controller(const ControllerSide& side,
     return model;
 }
 
-// From rest about a point of the wand.
+// A rotation about a point of the wand, from its rest pose.
 ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from_rad,
                          const Vec3& to_rad) {
     const Pose rest{about_ms, Quat::Identity()};
@@ -59,7 +59,7 @@ ControlMove turn_of_wand(Control control, const Vec3& about_ms, const Vec3& from
             {about_ms, rotation_from_vector(to_rad)}};
 }
 
-// Its trigger swings on a pin, its squeeze goes in, its pad tilts.
+// The trigger rotates on a pin, the squeeze button moves in, the pad tilts.
 void add_wand(ControllerModel& model) {
     constexpr double k_trigger_rad = 0.35;
     constexpr double k_tilt_rad = 0.2;
@@ -107,7 +107,7 @@ ControllerModels builtin_controllers(const HandTuning& tuning) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         ControllerModel& model = models.sides[index_of(side)];
         add_wand(model);
-        // The model lies in the fist; where it is tracked follows from the joint.
+        // The model is placed in the fist; the joint then gives its tracked pose.
         const Pose joint = default_controller_to_hand(side, tuning);
         model.fit.hand_in_grip = joint;
         model.fit.grip_ms = inverse(joint * handle_in_hand(side, k_wand_grip, tuning));

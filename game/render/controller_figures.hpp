@@ -9,29 +9,30 @@
 #include "game/render/hand_figures.hpp"
 #include "game/render/level_meshes.hpp"
 
-// Controllers as they are drawn in hands that hold nothing else.
+// Drawing of controllers in hands that hold nothing else.
 namespace handhold {
 
 struct ControllerModel {
-    std::vector<LevelMesh> meshes;                // at rest
+    std::vector<LevelMesh> meshes;                // leading to each mesh, the outermost first
     std::vector<std::vector<ControlMove>> moves;  // of each mesh, the outermost first
     ControllerFit fit;
 };
 struct ControllerModels {
     std::string name;
     std::array<ControllerModel, k_hand_count> sides;  // by HandSide
-    bool has_own_joint = false;                       // else the hands' is Tuning's
+    bool has_own_joint = false;                       // else Tuning's joint applies
     std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
 
     std::array<Pose, k_hand_count> joints() const;
 };
 
-// The project's own: a wand in the fist, held by Tuning's joint.
+// The built-in model: a wand in the fist, placed by Tuning's joint.
 ControllerModels builtin_controllers(const HandTuning& tuning);
-// "builtin", or a profile with its models. Errors name the file, the place, and what was expected.
+// "builtin", or the file of a profile with its models. Errors name the file, the place, and what
+// was expected.
 Result<ControllerModels> choose_controllers(const std::string& name_or_file);
 
-// A rig's fingers closed on the controller as far as it lets them.
+// A rig's fingers closed on the controller until they touch.
 std::array<FingerAngles, k_finger_count> fingers_around(const ControllerModel& model,
                                                         const HandRig& rig);
 
@@ -42,7 +43,7 @@ class ControllerFigures {
 
     void add(HandSide side, const Pose& wrist_ws, const ControlValues& values,
              RenderFrame& frame) const;
-    // Of the hand that holds it.
+    // Fingers of the hand that holds the controller.
     const std::array<FingerAngles, k_finger_count>& fingers(HandSide side) const {
         return sides_[index_of(side)].fingers;
     }

@@ -7,30 +7,30 @@
 
 #include "game/render/loft.hpp"
 
-// What the robot's figures are built with: solids sorted by what they are made of.
+// Building kit of the robot's figures: solids grouped by material.
 namespace handhold {
 
 enum class FigureMaterial { shell, joint, accent, metal };
 inline constexpr std::size_t k_figure_material_count = 4;
 
-// One step of a loft along +Z: a rounded rectangle about (x, y). Precondition: the corner is below
-// both halves.
+// One section of a loft along +Z: a rounded rectangle centred at (x, y). Precondition: the corner
+// radius is below both half sizes.
 struct LoftSection {
     double z_m, half_x_m, half_y_m, corner_m, x_m, y_m;
 };
 Mesh loft_sections(std::span<const LoftSection> sections);
 
-// Collects the solids of one figure, a mesh a material.
+// Collects the solids of one figure, one mesh per material.
 class FigureKit {
   public:
     void add(FigureMaterial material, const Mesh& solid, const Pose& at = {});
     void mirror();  // through x = 0
-    // All parts, turned and moved.
+    // All parts, transformed by `at`.
     FigureKit placed(const Pose& at) const;
 
     // The meshes that have triangles, welded, coloured and named "<name>/shell", ...
     std::vector<Mesh> finish(const std::string& name) const;
-    // Of one material; it may be empty.
+    // The mesh of one material; may be empty.
     Mesh finish(FigureMaterial material, const std::string& name) const;
 
   private:

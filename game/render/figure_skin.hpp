@@ -7,19 +7,19 @@
 #include "engine/io/gltf_skin_writer.hpp"
 #include "game/render/figure_kit.hpp"
 
-// Figures of rigid parts as a skinned file: a surface for each material.
+// Writes figures of rigid parts as a skinned file, with one surface per material.
 namespace handhold {
 
 class FigureSkin {
   public:
     explicit FigureSkin(std::string name) : name_(std::move(name)) {}
 
-    // A part that stands at `at` in the figure's frame, rigid on one joint.
+    // Adds a part with pose `at` in the figure's frame, rigidly bound to one joint.
     void add(FigureMaterial material, const Mesh& part, const Pose& at, std::uint16_t joint);
     // All parts of a kit.
     void add(const FigureKit& kit, const Pose& at, std::uint16_t joint, const std::string& name);
 
-    // The skin on these joints, and what its surfaces name as materials, for write_skinned_glb.
+    // The skin on these joints and the surfaces' materials, for write_skinned_glb.
     GltfSkin finish(std::vector<SkinJoint> joints) const;
     static std::vector<GltfMaterial> materials();
 

@@ -4,18 +4,18 @@
 
 #include "game/render/figure_kit.hpp"
 
-// The robot's head, and what it holds: pictures only, no colliders. Its hands are in
-// robot_hand.hpp, the rest of it in robot_body.hpp.
+// The robot's head and the controller that it holds, for rendering only (no colliders). Its hands
+// are in robot_hand.hpp, the other parts in robot_body.hpp.
 namespace handhold {
 
 // Helmet with visor. Origin between the eyes, -Z forward, +Y up.
 FigureKit build_head();
-// Controller of the wand kind. Origin in the middle of the grip, -Z where it points, +Y its pad.
+// A wand controller. Origin at the grip's centre, -Z the pointing direction, +Y the pad's side.
 struct WandMeshes {
-    std::vector<Mesh> body, trigger, squeeze, pad;  // what moves, apart
+    std::vector<Mesh> body, trigger, squeeze, pad;  // moving parts are separate
 };
 WandMeshes make_wand();
-inline const Vec3 k_wand_pin_m(0.0, -0.006, -0.058);  // its trigger's
-inline const Vec3 k_wand_pad_m(0.0, 0.0175, -0.058);  // its pad's middle
+inline const Vec3 k_wand_pin_m(0.0, -0.006, -0.058);  // pivot of the trigger
+inline const Vec3 k_wand_pad_m(0.0, 0.0175, -0.058);  // centre of the pad
 
 }  // namespace handhold

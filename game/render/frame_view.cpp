@@ -61,8 +61,8 @@ std::array<double, 4> to_clip(const FrameView& view, const Vec3& point_cs) {
 bool sees_sphere(const FrameView& view, const Vec3& center_cs, double radius_m) {
     const Vec3 c = view.from_view.conjugate() * center_cs;
     const double ahead = -c.z();
-    // Distance outside of both side planes through the eye, for a picture from middle - half to
-    // middle + half at distance 1.
+    // Distance outside both side planes through the eye, for a picture from middle - half to middle
+    // + half at distance 1.
     const auto outside = [ahead](double across, double middle, double half) {
         const double above = middle + half;
         const double below = middle - half;
@@ -91,7 +91,8 @@ ShadowView make_shadow_view(const KeyLight& key, const FrameView& view, int size
         in_light[axis] = std::floor(in_light[axis] / shadow.texel_m) * shadow.texel_m;
     }
     shadow.center_cs = shadow.axes_ws * in_light - view.eye_ws;
-    // Receivers lie up to the region's diameter below, casters up to reach_m above.
+    // Receivers are up to the region's diameter below its centre plane, casters up to reach_m
+    // above.
     const double depth = shadow.reach_m + 2.0 * shadow.radius_m;
     Eigen::Matrix4d to_clip = Eigen::Matrix4d::Identity();
     to_clip.row(0).head<3>() = shadow.axes_ws.col(0).transpose() / shadow.radius_m;
@@ -165,7 +166,7 @@ void build_line_vertices(const RenderFrame& frame, const FrameView& view,
         }
         const std::array<double, 4> clip_a = to_clip(view, a);
         const std::array<double, 4> clip_b = to_clip(view, b);
-        // Across the line on the picture, half a width long, in pixels and then in clip units.
+        // Offset of half the line's width, perpendicular to it: in pixels, then in clip units.
         const double dx = (clip_b[0] / clip_b[3] - clip_a[0] / clip_a[3]) * size_px[0];
         const double dy = (clip_b[1] / clip_b[3] - clip_a[1] / clip_a[3]) * size_px[1];
         const double length = std::max(std::sqrt(dx * dx + dy * dy), 1e-9);

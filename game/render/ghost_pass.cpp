@@ -63,7 +63,7 @@ int GhostPass::draw(const RenderFrame& frame, const FrameView& view,
     return drawn;
 }
 
-// Those that one's own body hides, or those that it does not.
+// Draws the ghosts with the given Ghost::own_hides.
 int GhostPass::draw_alike(const Picture& picture, bool own_hides) const {
     const FrameView& view = picture.view;
     int drawn = 0;
@@ -110,7 +110,7 @@ int GhostPass::draw_alike(const Picture& picture, bool own_hides) const {
     return drawn;
 }
 
-// Only where they are what one sees: an arm in a wall hides nothing of its hand there.
+// Only where they are visible: an arm inside a wall hides nothing of its hand there.
 int GhostPass::draw_own_depths(const Picture& picture) const {
     int drawn = 0;
     glUseProgram(own_program_);

@@ -9,18 +9,17 @@
 
 namespace handhold {
 
-// Draws a frame's ghosts over what is drawn already: the nearest of their surfaces at each pixel
-// and no more, so that no fingers shimmer through a palm; behind what hides them too. Their depths
-// lie in a texture of their own, and the scene's say how far behind it they are. Those with
-// Ghost::own_hides are not drawn behind what is_own: an arm seen lengthwise is no wall before its
-// hand. What the scene's depths are used for afterwards sees no ghosts. Costs nothing while there
-// are none.
+// Draws a frame's ghosts over the finished scene. Per pixel only the nearest ghost surface is
+// drawn, so fingers do not show through a palm. Ghosts also show through geometry: their depths go
+// to a separate texture and are compared with the scene's. Ghosts with Ghost::own_hides do not show
+// through instances with is_own (an arm seen lengthwise is no wall in front of its hand). Later
+// passes that read the scene's depths see no ghosts. Costs nothing without ghosts.
 class GhostPass {
   public:
-    // False, and the reason, where the card refuses.
+    // False, with the reason in `why_not`, if the graphics driver cannot create the resources.
     bool create(GlApi api, std::string& why_not);
-    // Leaves the scene's target bound. Returns how many meshes it drew, in both passes.
-    // Precondition: the ghosts' meshes lie in `meshes`, and the depth test is on.
+    // Leaves the scene's target bound. Returns the number of meshes drawn, in both passes.
+    // Precondition: the ghosts' meshes are in `meshes`, and the depth test is on.
     int draw(const RenderFrame& frame, const FrameView& view, std::span<const GpuMesh> meshes,
              const PicturePasses& passes);
 
@@ -35,8 +34,8 @@ class GhostPass {
     int draw_own_depths(const Picture& picture) const;
 
     GlProgram depth_program_, own_program_, ghost_program_;
-    GlTexture depth_;       // made with the first ghost
-    GlFramebuffer target_;  // the scene's colours over it
+    GlTexture depth_;       // created with the first ghost
+    GlFramebuffer target_;  // the scene's colours with depth_
 };
 
 }  // namespace handhold

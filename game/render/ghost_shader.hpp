@@ -2,8 +2,8 @@
 
 namespace handhold::shaders {
 
-// A ghost's surface over the finished scene, in display space: edges bright, faces clear, as of
-// thin glass. With the vertices of meshes.
+// A ghost's surface over the finished scene, in display space: bright edges and clear faces, like
+// thin glass. Used with the mesh vertex shader.
 inline constexpr const char* k_ghost_fragment = R"(
 in vec3 position_cs;
 in vec3 normal_cs;
@@ -29,8 +29,8 @@ void main() {
 }
 )";
 
-// Depths of what is seen itself, and of nothing that something hides. The scene's are of the same
-// vertices, rounded to 24 bits.
+// Writes the depths of visible surfaces only. The scene's depths come from the same vertices,
+// rounded to 24 bits.
 inline constexpr const char* k_own_depth_fragment = R"(
 uniform sampler2D scene_depth;
 void main() {

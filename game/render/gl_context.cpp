@@ -11,17 +11,17 @@ namespace {
 EGLDisplay open_display(std::string& why_not) {
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base") ||
         !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-        why_not = "EGL has no surfaceless platform";
+        why_not = "EGL does not support the surfaceless platform";
         return EGL_NO_DISPLAY;
     }
     EGLDisplay display =
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
-        why_not = "EGL's surfaceless display does not start";
+        why_not = "EGL's surfaceless display cannot be initialised";
         return EGL_NO_DISPLAY;
     }
     if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context")) {
-        why_not = "EGL has no contexts without a surface";
+        why_not = "EGL does not support contexts without a surface";
         return EGL_NO_DISPLAY;
     }
     return display;
@@ -82,7 +82,7 @@ bool GlContext::try_api(GlApi api) {
 }
 
 bool GlContext::make_current() {
-    // The bound API is per thread and decides which current context eglMakeCurrent replaces.
+    // The bound API is per thread and determines which current context eglMakeCurrent replaces.
     eglBindAPI(api_ == GlApi::desktop_33 ? EGL_OPENGL_API : EGL_OPENGL_ES_API);
     return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
 }

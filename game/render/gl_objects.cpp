@@ -94,7 +94,7 @@ GlProgram make_program(GlApi api, std::string_view vertex, std::string_view frag
     GLint is_linked = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &is_linked);
     if (is_linked != GL_TRUE) {
-        why_not = "the shader program does not link";
+        why_not = "the shader program failed to link";
         return {};
     }
     return program;

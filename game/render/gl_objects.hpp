@@ -9,11 +9,12 @@
 
 #include "game/render/gl_context.hpp"
 
-// Owners of OpenGL names. Included by sources of game/render only: no other header shows an OpenGL
-// type.
+// RAII owners of OpenGL names. Only included by sources of game/render: no other header exposes an
+// OpenGL type.
 namespace handhold {
 
-// Owns one name and frees it with `Free`. The context that made it must be current when it goes.
+// Owns one name and frees it with `Free`. The context that created it must be current on
+// destruction.
 template <auto Free>
 class GlName {
   public:
@@ -50,7 +51,7 @@ using GlProgram = GlName<free_program>;
 GlBuffer make_buffer();
 GlVertexArray make_vertex_array();
 
-// How a texture is stored and read.
+// Storage format and filter of a texture.
 struct TextureKind {
     GLint internal_format = GL_RGBA8;
     GLenum format = GL_RGBA;
@@ -62,16 +63,17 @@ inline constexpr TextureKind k_depth_texture{GL_DEPTH_COMPONENT24, GL_DEPTH_COMP
                                              GL_UNSIGNED_INT, GL_NEAREST};
 GlTexture make_texture(int width_px, int height_px, const TextureKind& kind);
 
-// A framebuffer over what is given; 0 leaves that part out.
+// A framebuffer with these attachments; 0 omits one.
 GlFramebuffer make_framebuffer(GLuint color_texture, GLuint depth_texture);
-// Of the framebuffer that is bound for drawing.
+// Checks the current draw framebuffer.
 bool is_framebuffer_complete();
 
-// Sources without their version line. Name 0, and the compiler's words, where they do not compile.
+// `vertex` and `fragment` have no version line. On failure returns name 0 and the compiler's
+// message.
 GlProgram make_program(GlApi api, std::string_view vertex, std::string_view fragment,
                        std::string& why_not);
 
-// Uniforms by name of the program in use; a name that the compiler removed is ignored.
+// Sets uniforms of the program in use by name; names that the compiler removed are ignored.
 void set_uniform(GLuint program, const char* name, float value);
 void set_uniform(GLuint program, const char* name, int value);
 void set_uniform(GLuint program, const char* name, const std::array<float, 2>& value);

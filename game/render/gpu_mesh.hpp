@@ -10,14 +10,14 @@
 
 namespace handhold {
 
-// A mesh on the graphics card. Included by sources of game/render only.
+// A mesh on the graphics card. Only included by sources of game/render.
 struct GpuMesh {
     GlVertexArray layout;
     GlBuffer vertices;
     GlBuffer indices;
     GLsizei index_count = 0;
-    std::uint32_t vertices_named = 0;  // of a moving mesh: how many its triangles need
-    GLsizei moving_index_count = 0;    // of a moving mesh: once it has vertices
+    std::uint32_t vertices_named = 0;  // moving mesh: number of vertices that its triangles use
+    GLsizei moving_index_count = 0;    // moving mesh: index count once it has vertices
     Vec3 center = Vec3::Zero();
     double radius_m = 0.0;
     Color color{};
@@ -27,10 +27,10 @@ inline std::array<float, 3> to_floats(const Vec3& v) {
     return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-// The context that is to own it must be current, as for everything below.
+// The context that shall own the mesh must be current, here and below.
 GpuMesh make_gpu_mesh(const ShadingMesh& shading, const Color& color);
-// New vertices for a moving mesh; `scratch` is only reused. Precondition: as many normals, and at
-// least GpuMesh::vertices_named of them.
+// Sets the vertices of a moving mesh. `scratch` is only reused memory. Precondition: as many
+// normals as positions, at least GpuMesh::vertices_named.
 void move_gpu_mesh(std::span<const Vec3> positions, std::span<const Vec3> normals,
                    std::vector<float>& scratch, GpuMesh& gpu);
 

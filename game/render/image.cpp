@@ -7,7 +7,7 @@
 
 #include "engine/core/check.hpp"
 
-// Static: the glTF library carries its own copy of both, and two would meet at link time.
+// Static: the glTF library carries its own copy of both, which would clash at link time.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>

@@ -8,7 +8,8 @@
 
 namespace handhold {
 
-// A picture: rows from the top, four bytes a pixel (sRGB red, green, blue, then alpha), no padding.
+// A picture: rows from the top, four bytes per pixel (sRGB red, green, blue, then alpha), no
+// padding.
 struct Image {
     int width_px = 0;
     int height_px = 0;
@@ -20,12 +21,12 @@ struct Image {
 
 // The picture as a PNG file in memory; empty for an empty picture.
 std::vector<std::uint8_t> encode_png(const Image& image);
-// The picture in a PNG file; nothing where the bytes are not one.
+// Decodes a PNG file; nullopt if the bytes are not one.
 std::optional<Image> decode_png(std::span<const std::uint8_t> bytes);
-// Writes through a temporary name: `path` is either whole or untouched. False where it cannot be
-// written.
+// Writes to a temporary name and renames, so `path` is either whole or untouched. False if the file
+// cannot be written.
 bool save_png(const Image& image, const std::string& path);
-// RFC 4648, with padding: for pictures inside an HTML page.
+// RFC 4648 with padding, for pictures inside an HTML page.
 std::string encode_base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace handhold

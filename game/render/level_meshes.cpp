@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-// Copies a run of triangles; `places` maps the part's vertices to the mesh's.
+// Copies a run of triangles. `places` maps the part's vertices to the mesh's.
 void copy_run(const Mesh& from, std::size_t first, std::size_t end, Mesh& to,
               std::map<std::uint32_t, std::uint32_t>& places) {
     for (std::size_t t = first; t < end; ++t) {

@@ -12,9 +12,8 @@ struct LevelMesh {
     Look look;
 };
 
-// A loaded level as the renderer takes it: one mesh for each part and kind of surface, in order of
-// first use, without the vertices that it does not need. Parts and triangles keep their frame and
-// winding.
+// A loaded level as meshes for the renderer: one mesh per part and kind of surface, in order of
+// first use, without unused vertices. Parts and triangles keep their frame and winding.
 std::vector<LevelMesh> make_level_meshes(const GltfLevel& level);
 
 }  // namespace handhold

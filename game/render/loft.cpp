@@ -12,7 +12,7 @@
 namespace handhold {
 namespace {
 
-// Skin between the rings that start at vertices `low` and `high`; either may be one point.
+// Triangles between the rings that start at vertices `low` and `high`; either may be one point.
 void add_band(Mesh& mesh, std::pair<std::uint32_t, std::size_t> low,
               std::pair<std::uint32_t, std::size_t> high) {
     const std::size_t count = std::max(low.second, high.second);

@@ -7,17 +7,16 @@
 
 namespace handhold {
 
-// As triangles name a vertex.
+// A vertex index in the type that triangles use.
 inline std::uint32_t index_of(std::size_t vertex) { return static_cast<std::uint32_t>(vertex); }
 
-// Adds a copy of `part`, moved by `at`, to `into`; name and colour of `into` stay.
+// Appends a copy of `part`, transformed by `at`. `into` keeps its name and colour.
 void append(Mesh& into, const Mesh& part, const Pose& at = {});
-// Through the plane x = 0; the winding is turned so that outside stays outside.
+// Mirrors through x = 0 and reverses the winding, so that outside stays outside.
 void mirror_x(Mesh& mesh);
-// Scales each axis; factors above 0.
+// Scales each axis; factors must be above 0.
 void stretch(Mesh& mesh, const Vec3& factors);
-// Makes vertices at bitwise equal positions one, in order of first use, and drops what no triangle
-// uses.
+// Merges vertices at bitwise equal positions, in order of first use, and drops unused vertices.
 void weld(Mesh& mesh);
 
 }  // namespace handhold

@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr int k_occlusion_part = 2;  // of the picture's width and height: a half
+constexpr int k_occlusion_part = 2;  // divisor of the picture's width and height
 constexpr int k_glow_part = 4;
 constexpr float k_occlusion_radius_m = 0.16F;
 constexpr float k_glow_strength = 0.55F;
@@ -19,7 +19,7 @@ void bind_texture(int unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-// Runs the program in use over the whole of a target; its picture is on unit 0.
+// Runs the current program over a whole target; its input picture is on unit 0.
 void fill(GLuint target, int width_px, int height_px) {
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, width_px, height_px);
@@ -52,7 +52,7 @@ bool PicturePasses::create(GlApi api, const PictureSize& size, std::string& why_
     make_target(composed_, composed_target_, 1);
     make_target(final_, final_target_, 1);
     if (!is_complete) {
-        why_not = "the graphics card refuses a target of this size";
+        why_not = "the graphics driver does not support a target of this size";
         return false;
     }
     const auto compile = [&](GlProgram& program, const char* fragment) {
@@ -69,7 +69,7 @@ bool PicturePasses::create(GlApi api, const PictureSize& size, std::string& why_
            compile(edges_program_, shaders::k_edges_fragment);
 }
 
-// Without them: corners as bright as anything, nothing glows.
+// Without effects: no occlusion and no glow.
 void PicturePasses::clear_effects() {
     for (const auto& [target, brightness] :
          {std::pair{GLuint{smooth_target_}, 1.0F}, std::pair{GLuint{glow_target_}, 0.0F}}) {
@@ -180,7 +180,7 @@ void PicturePasses::copy_into(GLuint texture) {
     copied_ = true;
 }
 
-// As bytes lie in rows from the top: what was finished is upside down already.
+// Rows are read from the top, because the finished picture is upside down.
 void PicturePasses::read(Image& out) const {
     out.width_px = size_.width_px;
     out.height_px = size_.height_px;
@@ -194,7 +194,7 @@ void PicturePasses::read(Image& out) const {
         const auto top = out.rgba.begin() + y * row;
         std::swap_ranges(top, top + row, out.rgba.end() - (y + 1) * row);
     }
-    // Alpha carried brightness for the edge filter.
+    // Alpha held the brightness for the edge filter.
     for (std::size_t i = 0; i < pixels; ++i) {
         out.rgba[4 * i + 3] = 255;
     }

@@ -10,40 +10,39 @@
 
 namespace handhold {
 
-// The size of the finished picture, and how many samples it takes each way of a pixel (1 or 2).
+// Size of the finished picture, and samples per pixel along each axis (1 or 2).
 struct PictureSize {
     int width_px = 0;
     int height_px = 0;
     int samples_across = 1;
-    bool effects = true;  // darkened corners and glow
+    bool effects = true;  // ambient occlusion and glow
 };
 
-// Everything that happens to a picture once its triangles are drawn: corners darken (ambient
-// occlusion), lamps glow, the samples of a pixel become one or, where there is one only, edges are
-// smoothed, panels are drawn on top, and the bytes come back. Supersampling and not the card's
-// multisampling: the software rasteriser shades hidden fragments too once a target is multisampled,
-// and 2 x 2 samples then cost half of what four multisamples do.
+// The passes after a picture's triangles are drawn: ambient occlusion, glow, resolving the samples
+// of a pixel (or smoothing edges if there is one sample), panels, and read-back. Uses supersampling
+// instead of the card's multisampling: the software rasteriser also shades hidden fragments of a
+// multisampled target, and 2 x 2 samples then cost half of four multisamples.
 class PicturePasses {
   public:
-    // False, and the reason, where the card refuses.
+    // False, with the reason in `why_not`, if the graphics driver cannot create the resources.
     bool create(GlApi api, const PictureSize& size, std::string& why_not);
-    // Binds the target that the scene is drawn into.
+    // Binds and clears the target that the scene is drawn into.
     void begin() const;
-    // The same again, after another target.
+    // Binds it again after another target was bound.
     void bind_scene() const;
-    // What it is made of, and its size.
+    // Textures and size of the scene target.
     GLuint color() const { return color_; }
     GLuint depth() const { return depth_; }
     std::array<int, 2> scene_size_px() const {
         return {size_.width_px * size_.samples_across, size_.height_px * size_.samples_across};
     }
-    // Makes what begin()'s target holds the finished picture, with panels where there are, in the
-    // world and over all. Needs any vertex array bound.
+    // Produces the finished picture from the scene target, with panels in the world and on top, if
+    // any. Needs any vertex array bound.
     void finish(const FrameView& view, const Sheet* sheet, const UiPicture* ui);
-    // The finished picture's bytes as they are, into a texture of the same size, rows from the
-    // bottom: a texture in sRGB is not encoded again.
+    // Copies the finished bytes unchanged into a texture of the same size, rows from the bottom. A
+    // texture in sRGB is not encoded again.
     void copy_into(GLuint texture);
-    // The finished picture, or the texture that it was copied into since.
+    // Reads the finished picture, or the texture it was last copied into.
     void read(Image& out) const;
 
   private:

@@ -10,7 +10,7 @@
 #include "game/render/hand_figures.hpp"
 #include "game/view/ghost_hands.hpp"
 
-// What players look like.
+// The models that players are drawn with.
 namespace handhold {
 
 struct PlayerModels {
@@ -20,14 +20,14 @@ struct PlayerModels {
     GhostSettings ghosts;
     std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
 
-    // How the hands hold the controllers, by HandSide, where a profile says so; else Tuning does.
+    // Controller poses in the hand, by HandSide, if a profile defines them; else Tuning does.
     std::optional<std::array<Pose, k_hand_count>> controller_joints() const {
         return controllers && controllers->has_own_joint ? std::optional(controllers->joints())
                                                          : std::nullopt;
     }
 };
 
-// Of a command line; what is empty is the robot's.
+// Files from a command line; an empty one selects the robot.
 struct PlayerModelFiles {
     std::vector<std::string> hands;  // two skins, left and right
     std::string body;                // a figure

@@ -20,13 +20,13 @@ void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std
     mesh.triangles.push_back({a, c, d});
 }
 
-// An axis-aligned box corner's sign triple, bit 0 for x.
+// Signs of an axis-aligned box's corner, bit 0 for x.
 Vec3 corner_sign(unsigned corner) {
     return {(corner & 1U) != 0U ? 1.0 : -1.0, (corner & 2U) != 0U ? 1.0 : -1.0,
             (corner & 4U) != 0U ? 1.0 : -1.0};
 }
 
-// Turns every triangle of a convex mesh about the origin so that it faces away from it.
+// Flips every triangle of a convex mesh around the origin that faces inwards.
 void face_outward(Mesh& mesh) {
     for (Triangle& t : mesh.triangles) {
         const Vec3& a = mesh.positions[t[0]];
@@ -37,12 +37,12 @@ void face_outward(Mesh& mesh) {
     }
 }
 
-// Carries +Z onto the line from a to b.
+// The pose at `a` whose +Z points to `b`.
 Pose along(const Vec3& a, const Vec3& b) {
     return {a, rotation_between(Vec3::UnitZ(), (b - a).normalized())};
 }
 
-// Cuts every triangle of a unit sphere into four; the new vertices lie on the sphere.
+// Subdivides every triangle of a unit sphere into four; new vertices lie on the sphere.
 void quarter_on_sphere(Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -64,7 +64,7 @@ void quarter_on_sphere(Mesh& mesh) {
     mesh.triangles = std::move(finer);
 }
 
-// Smooth noise in [-1, 1] over space, cells of 1 m: random values at lattice points, blended.
+// Value noise in [-1, 1] with cells of 1 m: random values at lattice points, blended smoothly.
 double lattice_noise(const Vec3& point, unsigned seed) {
     const Vec3 cell(std::floor(point.x()), std::floor(point.y()), std::floor(point.z()));
     double sum = 0.0;
@@ -101,8 +101,8 @@ Mesh make_box(const Vec3& half_m) {
 Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
     HH_CHECK(bevel_m > 0.0 && bevel_m < half_m.minCoeff(), "bevel out of range", bevel_m);
     Mesh mesh;
-    // Vertex 3 * corner + axis: the corner drawn in along both other axes, so it lies on the face
-    // across `axis`.
+    // Vertex 3 * corner + axis: the corner moved inwards along both other axes, so it lies on the
+    // face across `axis`.
     for (unsigned corner = 0; corner < 8; ++corner) {
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 extent = half_m - Vec3::Constant(bevel_m);
@@ -118,7 +118,7 @@ Mesh make_bevelled_box(const Vec3& half_m, double bevel_m) {
             add_quad(mesh, 3 * side + axis, 3 * (side | u) + axis, 3 * (side | u | v) + axis,
                      3 * (side | v) + axis);
         }
-        // The four edges along `axis`: between the faces across the other two axes.
+        // The four edges along `axis`, each between the faces across the other two axes.
         const unsigned first = (axis + 1) % 3;
         const unsigned second = (axis + 2) % 3;
         for (const unsigned edge : {0U, u, v, u | v}) {
@@ -196,17 +196,18 @@ Mesh make_tube(std::span<const Vec3> path, double radius_m, int segments) {
     HH_CHECK(path.size() >= 2, "a tube needs two points", path.size());
     std::vector<Ring> rings;
     Vec3 direction = (path[1] - path[0]).normalized();
-    // Carried along by the shortest turn from piece to piece: a bar that does not twist.
+    // Parallel transport: the shortest rotation from piece to piece, so the bar does not twist.
     Quat frame = rotation_between(Vec3::UnitZ(), direction);
     for (std::size_t i = 0; i < path.size(); ++i) {
         const Vec3 next =
             i + 1 < path.size() ? Vec3((path[i + 1] - path[i]).normalized()) : direction;
         const Vec3 tangent = (direction + next).normalized();
         const Quat tilt = rotation_between(direction, tangent);
-        const Vec3 bend = direction.cross(next);
+        const Vec3 corner_axis = direction.cross(next);
         const double stretch_at_mitre = 1.0 / std::max(direction.dot(tangent), 0.5);
-        const Vec3 outward =
-            bend.norm() > 1e-9 ? Vec3(tangent.cross(bend).normalized()) : Vec3(Vec3::Zero());
+        const Vec3 outward = corner_axis.norm() > 1e-9
+                                 ? Vec3(tangent.cross(corner_axis).normalized())
+                                 : Vec3(Vec3::Zero());
         Ring ring;
         for (int j = 0; j < segments; ++j) {
             double sine = 0.0;
@@ -226,7 +227,8 @@ Mesh make_tube(std::span<const Vec3> path, double radius_m, int segments) {
 Mesh make_torus(double radius_m, double bar_radius_m, int segments, int bar_segments) {
     std::vector<Ring> rings;
     for (int i = 0; i < bar_segments; ++i) {
-        // Backwards round the bar: inner side first, then down and out, as a loft with a hole goes.
+        // Backwards around the bar (inner side first, then down and out), the order of a looped
+        // loft.
         double sine = 0.0;
         double cosine = 1.0;
         sin_cos(k_two_pi * i / bar_segments, sine, cosine);
@@ -254,7 +256,7 @@ Mesh make_icosphere(double radius_m, int levels) {
             mesh.positions.emplace_back(point.normalized());
         }
     }
-    // The twenty triples of vertices that are each other's neighbours.
+    // The twenty triples of mutually adjacent vertices.
     const double reach = 1.01 * 2.0 / std::sqrt(golden * golden + 1.0);
     const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
         return (mesh.positions[a] - mesh.positions[b]).norm() < reach;

@@ -21,7 +21,7 @@ constexpr int k_shadow_size_px = 1024;
 constexpr std::size_t k_max_lamps = 12;  // as in the mesh shader
 constexpr int k_shadow_unit = 3;         // texture unit; the picture passes use 0 to 2
 
-// An instance that has something to draw, seen from the camera.
+// An instance with triangles, and its position relative to the camera.
 struct Visible {
     const Instance* instance = nullptr;
     const GpuMesh* mesh = nullptr;
@@ -36,7 +36,7 @@ float to_srgb(float x) {
 }  // namespace
 
 struct Renderer::Impl {
-    std::unique_ptr<GlContext> context;  // first: it must outlive every name below
+    std::unique_ptr<GlContext> context;  // first: it must outlive every OpenGL name below
     int width_px = 0;
     int height_px = 0;
     bool casts_shadows = true;
@@ -49,7 +49,7 @@ struct Renderer::Impl {
     PicturePasses passes;
     GhostPass ghosts;
     RenderCounters counters;
-    std::vector<LineVertex> line_vertices;  // reused
+    std::vector<LineVertex> line_vertices;  // reused memory
     std::vector<Visible> visible;
     std::vector<float> moving_vertices;
 
@@ -107,7 +107,7 @@ void Renderer::Impl::create_line_layout() {
                           reinterpret_cast<const void*>(offsetof(LineVertex, color)));
 }
 
-// Everything finite, nearest first: what is near hides what is far before it is shaded.
+// Collects finite instances, nearest first, so that near surfaces hide far ones before shading.
 void Renderer::Impl::collect(const RenderFrame& frame, const FrameView& view) {
     visible.clear();
     for (const Instance& instance : frame.instances) {
@@ -197,7 +197,7 @@ void Renderer::Impl::draw_surface(const Visible& item) {
     draw_mesh(mesh_program, item);
 }
 
-// Depth first: shading is what costs, and so no pixel is shaded that something nearer covers.
+// Depth pass first: shading dominates the cost, and hidden pixels are then not shaded.
 void Renderer::Impl::draw_opaque(const FrameView& view) {
     const auto is_drawn = [&](const Visible& item) {
         return item.instance->look.opacity >= 1.0F &&
@@ -333,7 +333,7 @@ MeshId Renderer::add_moving_mesh(std::span<const std::array<std::uint32_t, 3>> t
         shading.indices.empty()
             ? 0
             : *std::max_element(shading.indices.begin(), shading.indices.end()) + 1;
-    gpu.index_count = 0;  // until there are vertices
+    gpu.index_count = 0;  // until move_mesh
     impl_->meshes.push_back(std::move(gpu));
     return MeshId{static_cast<std::uint32_t>(impl_->meshes.size() - 1)};
 }
@@ -345,7 +345,7 @@ void Renderer::move_mesh(MeshId mesh, std::span<const Vec3> positions,
     GpuMesh& gpu = impl_->meshes[index];
     HH_CHECK(gpu.vertices_named > 0 && positions.size() >= gpu.vertices_named &&
                  positions.size() == normals.size(),
-             "a vertex and a normal for every index of a moving mesh", positions.size());
+             "too few vertices or normals for a moving mesh", positions.size());
     impl_->context->make_current();
     move_gpu_mesh(positions, normals, impl_->moving_vertices, gpu);
 }

@@ -1,4 +1,4 @@
-// Every part is built in the frame of its bone: arms from their joint along -Z with +Y to the
+// Every part is built in its bone's frame: arms from their joint along -Z with +Y towards the
 // elbow's side, legs along -Z with +Y to the front, trunk and head upright.
 #include "game/render/robot_body.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using enum FigureMaterial;
 
-// Where the joints are, right side; metres, origin on the floor below the pelvis.
+// Joint positions, right side; metres, origin on the floor below the pelvis.
 const Vec3 k_hip_ms(0.09, 0.90, 0.0);
 const Vec3 k_knee_ms(0.09, 0.50, 0.0);
 const Vec3 k_ankle_ms(0.09, 0.11, 0.0);
@@ -32,12 +32,12 @@ const Vec3 k_shoulder_ms(0.19, 1.42, 0.0);
 const Vec3 k_elbow_ms(0.49, 1.42, 0.0);
 const Vec3 k_wrist_ms(0.77, 1.42, 0.0);
 
-const Quat& upright() {  // sections along +Z go up, their +Y to the front
+const Quat& upright() {  // rotates sections along +Z upright, their +Y to the front
     static const Quat turn = rotation_about(Vec3::UnitX(), -k_half_pi);
     return turn;
 }
 
-// Across the bone, as knees and elbows have: a drum with a bolt's head on either side.
+// A drum across a knee or elbow, with a bolt's head on either side.
 void add_drum(FigureKit& kit, const Vec3& at, double half_m, double radius_m) {
     const Vec3 out(half_m, 0.0, 0.0);
     kit.add(joint, make_cylinder(at - out, at + out, radius_m, 28));
@@ -64,7 +64,7 @@ FigureKit build_pelvis() {
     return kit;
 }
 
-// Rings of rubber about a core; they may sink into each other as the trunk bends.
+// Rubber rings around a core; they may overlap as the trunk bends.
 FigureKit build_bellows(double height_m, double half_x_m, double half_y_m) {
     FigureKit kit;
     constexpr int k_rings = 3;
@@ -94,7 +94,7 @@ FigureKit build_chest() {
     FigureKit kit;
     kit.add(shell, loft_sections(k_ribs), {Vec3::Zero(), upright()});
     kit.add(metal, make_torus(0.060, 0.009, 36, 10), {Vec3(0.0, 0.150, 0.005), upright()});
-    // A lamp in the breast, seams beside it.
+    // A lamp in the chest with seams beside it.
     kit.add(joint, make_cylinder(Vec3(0.0, 0.030, -0.105), Vec3(0.0, 0.030, -0.126), 0.034, 32));
     kit.add(accent, make_cylinder(Vec3(0.0, 0.030, -0.126), Vec3(0.0, 0.030, -0.129), 0.025, 32));
     for (const double side : {-1.0, 1.0}) {
@@ -103,7 +103,7 @@ FigureKit build_chest() {
         kit.add(joint, make_bevelled_box(Vec3(0.030, 0.006, 0.006), 0.003),
                 {Vec3(side * 0.082, -0.014, -0.110), rotation_about(Vec3::UnitY(), -side * 0.22)});
     }
-    // The pack, with two nozzles.
+    // The backpack with two nozzles.
     kit.add(shell, make_bevelled_box(Vec3(0.098, 0.105, 0.042), 0.020),
             {Vec3(0.0, 0.010, 0.128), Quat::Identity()});
     kit.add(accent, make_bevelled_box(Vec3(0.060, 0.006, 0.004), 0.003),
@@ -129,14 +129,14 @@ FigureKit build_clavicle(double length_m) {
     FigureKit kit;
     kit.add(joint,
             make_capsule(Vec3(0.0, 0.0, -0.25 * length_m), Vec3(0.0, 0.0, -length_m), 0.040, 20));
-    // The shoulder's cap, over the ball that the arm turns about.
+    // The shoulder's cap over the ball joint of the arm.
     Mesh cap = make_sphere(1.0, 32);
     stretch(cap, Vec3(0.060, 0.056, 0.062));
     kit.add(shell, cap, {Vec3(0.0, 0.016, -length_m), Quat::Identity()});
     return kit;
 }
 
-// A limb's shell between two hinges: `waist` is how much it thins to its end.
+// A limb's shell between two hinges. `waist`: how much it narrows towards its end.
 Mesh limb_shell(double from_m, double to_m, double half_m, double deep_m, double waist) {
     const double length = to_m - from_m;
     const std::array<LoftSection, 7> sections = {
@@ -196,7 +196,7 @@ FigureKit build_thigh(double length_m) {
     kit.add(shell, limb_shell(0.050, length_m - 0.046, 0.072, 0.076, 0.22), forward);
     kit.add(accent, limb_band(0.70 * length_m, 0.0645, 0.068), forward);
     add_drum(kit, Vec3(0.0, 0.0, -length_m), 0.042, 0.046);
-    kit.add(shell, make_bevelled_box(Vec3(0.030, 0.012, 0.034), 0.010),  // the knee's guard
+    kit.add(shell, make_bevelled_box(Vec3(0.030, 0.012, 0.034), 0.010),  // knee guard
             {Vec3(0.0, 0.048, -length_m), Quat::Identity()});
     return kit;
 }
@@ -212,7 +212,7 @@ FigureKit build_shin(double length_m) {
     return kit;
 }
 
-// At the ankle, upright; -Z to the toes.
+// At the ankle, upright; -Z towards the toes.
 FigureKit build_foot() {
     constexpr std::array<LoftSection, 8> k_boot = {{{-0.085, 0.024, 0.026, 0.018, 0.0, -0.070},
                                                     {-0.078, 0.034, 0.038, 0.026, 0.0, -0.066},
@@ -236,7 +236,7 @@ Vec3 on_side(HandSide side, const Vec3& right) {
     return side == HandSide::right ? right : Vec3(-right.x(), right.y(), right.z());
 }
 
-// Joints and what hangs on each.
+// Joints and the parts on each.
 class BodyBuilder {
   public:
     std::string build() {
@@ -295,7 +295,7 @@ class BodyBuilder {
         const Vec3 hip = on_side(side, k_hip_ms);
         const Vec3 knee = on_side(side, k_knee_ms);
         const Vec3 ankle = on_side(side, k_ankle_ms);
-        // The bone's frame is upright; its parts are built along -Z and turned downwards.
+        // The bone's frame is upright; its parts are built along -Z and rotated downwards.
         const Pose down{Vec3::Zero(),
                         look_along(Vec3::Zero(), -Vec3::UnitY(), -Vec3::UnitZ()).rotation};
         const std::int32_t thigh =
@@ -323,7 +323,7 @@ std::string make_robot_body_glb() { return BodyBuilder().build(); }
 
 SkinnedMesh make_robot_body() {
     Result<SkinnedMesh> body = parse_gltf_figure(make_robot_body_glb(), "robot_body.glb");
-    HH_CHECK(body.ok(), "the robot's own file is sound", body.ok());
+    HH_CHECK(body.ok(), "the robot's own file is valid", body.ok());
     return std::move(body.value());
 }
 

@@ -18,7 +18,7 @@ void add_hinge(FigureKit& kit, double r) {
     kit.add(metal, make_cylinder(-bolt, -drum, 0.42 * r, 16));
 }
 
-// Over the back and the sides, from behind the hinge's drum to before the next one's.
+// A shell over the back and sides, from this hinge's drum to the next one.
 void add_shell(FigureKit& kit, double length, double r) {
     const double from = 0.62 * r;
     const double to = length - 0.66 * r;
@@ -32,7 +32,7 @@ void add_shell(FigureKit& kit, double length, double r) {
     kit.add(shell, loft_sections(sections));
 }
 
-// What touches: rubber below the shell, as low as the capsule.
+// The contact side: rubber below the shell, flush with the capsule.
 void add_pad(FigureKit& kit, double length, double r) {
     const double from = 0.58 * r;
     const double to = length - 0.60 * r;
@@ -45,7 +45,7 @@ void add_pad(FigureKit& kit, double length, double r) {
     kit.add(joint, loft_sections(sections));
 }
 
-// The rounded end: a rubber tip in a shell that covers it from above.
+// The rounded end: a rubber tip, covered by a shell from above.
 void add_tip(FigureKit& kit, double length, double r) {
     const double from = 0.62 * r;
     const std::array<LoftSection, 7> cap = {
@@ -68,7 +68,7 @@ void add_tip(FigureKit& kit, double length, double r) {
     kit.add(joint, loft_sections(pad));
 }
 
-// A coloured band about a finger's first link.
+// A coloured band around a finger's first link.
 void add_band(FigureKit& kit, double length, double r) {
     const double z = 0.5 * length;
     const double half = 0.10 * r;

@@ -1,6 +1,6 @@
-// The palm of the robot's hand: a body between the knuckles and the wrist, a ridge over each
-// metacarpal, pads below, a socket for the thumb, and the wrist's cuff. Built in hand space turned
-// half about Y: fingers along +Z, a right hand's thumb at +X.
+// The palm of the robot's hand: a body between knuckles and wrist, a ridge over each metacarpal,
+// pads below, a socket for the thumb, and the wrist's cuff. Built in hand space rotated half a turn
+// about Y: fingers along +Z, a right hand's thumb at +X.
 #include <algorithm>
 
 #include "game/render/primitives.hpp"
@@ -13,14 +13,14 @@ using enum FigureMaterial;
 
 Vec3 turned(const Vec3& in_hand) { return {-in_hand.x(), in_hand.y(), -in_hand.z()}; }
 
-// What the palm is built to, in its turned frame.
+// The palm's dimensions, in the rotated frame.
 struct PalmFigures {
     std::vector<Vec3> knuckles;
     std::vector<double> radii;
     double low_x = -0.03, high_x = 0.03;  // outer sides of the row of knuckles
-    double end_z = 0.08;                  // where the body ends: before the knuckles' drums
-    double below = -0.014;                // the skin of the palm
-    double above = 0.011;                 // the body's back
+    double end_z = 0.08;                  // end of the body, in front of the knuckles' drums
+    double below = -0.014;                // palm surface
+    double above = 0.011;                 // back surface
 };
 
 PalmFigures measure(const HandRig& rig) {
@@ -68,7 +68,7 @@ void add_body(FigureKit& kit, const PalmFigures& palm) {
 
 // A plate over each metacarpal that ends in a fork around the knuckle's drum.
 void add_ridge(FigureKit& kit, const Vec3& knuckle, double r, const PalmFigures& palm) {
-    // Along the body's back, and down to the drum where its knuckle lies lower.
+    // Along the body's back, then down to the drum if its knuckle lies lower.
     const double back = palm.above - 0.0012;
     const Vec3 root(0.52 * knuckle.x(), back, 0.30 * palm.end_z);
     const Vec3 end(knuckle.x(), std::min(back, knuckle.y() + 0.80 * r), knuckle.z() - 0.72 * r);
@@ -107,7 +107,7 @@ void add_back(FigureKit& kit, const PalmFigures& palm) {
     kit.add(joint, loft_sections(inlay));
 }
 
-// Rubber in the palm: across below the knuckles, at the heel, and on the two sides between.
+// Rubber pads in the palm: below the knuckles, at the heel, and on the two sides between.
 void add_pads(FigureKit& kit, const PalmFigures& palm) {
     const double x = 0.5 * (palm.low_x + palm.high_x);
     const double half = 0.5 * (palm.high_x - palm.low_x);
@@ -132,10 +132,10 @@ void add_thumb_socket(FigureKit& kit, const FingerRig& thumb, const PalmFigures&
     const double r = thumb.radius_m[0];
     kit.add(joint, make_sphere(1.06 * r, 20), {base, Quat::Identity()});
     const Vec3 inner(0.35 * base.x(), 0.5 * (palm.above + palm.below), base.z() + 0.004);
-    const Vec3 way = (base - inner).normalized();
+    const Vec3 axis = (base - inner).normalized();
     kit.add(shell, make_torus(1.00 * r, 0.26 * r, 28, 10),
-            {base - 0.42 * r * way, rotation_between(Vec3::UnitZ(), way)});
-    kit.add(shell, make_capsule(inner, base - 0.45 * r * way, 0.96 * r, 18));
+            {base - 0.42 * r * axis, rotation_between(Vec3::UnitZ(), axis)});
+    kit.add(shell, make_capsule(inner, base - 0.45 * r * axis, 0.96 * r, 18));
 }
 
 void add_wrist(FigureKit& kit) {

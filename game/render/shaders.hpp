@@ -1,11 +1,10 @@
 #pragma once
 
-// The programs of the renderer, in the common subset of GLSL 3.30 and GLSL ES 3.00 (the version
-// line is added when they are compiled). All positions are relative to the camera, with the world's
-// axes (suffix _cs). Sources: shadow maps after Williams 1978 with percentage closer filtering
-// (Reeves et al. 1987); ambient occlusion after McGuire et al. 2011 ("The Alchemy Screen-Space
-// Ambient Obscurance Algorithm"), half resolution;
-// the edge filter is of the kind of Lottes 2009 (FXAA).
+// The renderer's programs, in the common subset of GLSL 3.30 and GLSL ES 3.00 (the version line is
+// added at compilation). All positions are relative to the camera, in the world's axes (suffix
+// _cs). Sources: shadow maps after Williams 1978 with percentage closer filtering (Reeves et al.
+// 1987); ambient occlusion at half resolution after McGuire et al. 2011 ("The Alchemy Screen-Space
+// Ambient Obscurance Algorithm"); the edge filter follows Lottes 2009 (FXAA).
 namespace handhold::shaders {
 
 inline constexpr const char* k_mesh_vertex = R"(
@@ -26,8 +25,8 @@ void main() {
 }
 )";
 
-// Alpha of the opaque pass is what of the pixel takes ambient occlusion: 1 for surfaces, 0 for what
-// glows.
+// In the opaque pass, alpha is the weight of ambient occlusion: 1 for surfaces, 0 for emissive
+// ones.
 inline constexpr const char* k_mesh_fragment = R"(
 const int k_max_lamps = 12;
 in vec3 position_cs;
@@ -61,7 +60,7 @@ float hash(vec3 p) {
     return fract(p.x * p.y * p.z * (p.x + p.y + p.z));
 }
 
-// Blotches in [-1, 1]: keeps large plain surfaces from looking like paper.
+// Noise in [-1, 1]: keeps large plain surfaces from looking flat.
 float blotches(vec3 p) {
     vec3 cell = floor(p);
     vec3 f = p - cell;
@@ -77,7 +76,7 @@ float key_visibility(vec3 n) {
     vec3 at = (cs_to_shadow * vec4(position_cs + n * shadow_bias_m, 1.0)).xyz;
     vec2 from_edge = min(at.xy, 1.0 - at.xy);
     if (min(from_edge.x, from_edge.y) < 0.0 || at.z > 1.0) return 1.0;
-    // Nine taps a texel apart, each of them bilinear: a soft edge four texels wide.
+    // Nine bilinear taps, one texel apart: a soft edge four texels wide.
     float sum = 0.0;
     for (int i = 0; i < 9; ++i) {
         vec2 offset = vec2(float(i % 3) - 1.0, float(i / 3) - 1.0) * shadow_texel;
@@ -106,7 +105,7 @@ void main() {
     float rim = pow(1.0 - max(dot(n, view), 0.0), 4.0);
     vec3 ambient = mix(ground_ambient, sky_ambient, height);
     vec3 sum = ambient * (albedo + vec3(0.5 * gloss * rim));
-    // Highlights cost a power each: one for all lamps, from their mean direction.
+    // Highlights cost a power each, so one highlight serves all lamps, from their mean direction.
     vec3 lamp_light = vec3(0.0);
     vec3 mean_towards = vec3(0.0);
     for (int i = 0; i < lamp_count; ++i) {
@@ -161,7 +160,7 @@ out vec4 color;
 void main() { color = vec4(pow(tint, vec3(1.0 / 2.2)), strength); }
 )";
 
-// Panels; the picture's first row is the target's lowest.
+// Panels. The picture's first row is the target's lowest.
 inline constexpr const char* k_ui_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;
@@ -183,8 +182,8 @@ out vec4 color;
 void main() { color = tint * texture(glyphs, uv); }
 )";
 
-// The same on a sheet in the world. The target's first row is the picture's highest, the scene's is
-// its lowest.
+// Panels on a sheet in the world. The target's first row is the picture's top; the scene's first
+// row is its bottom.
 inline constexpr const char* k_sheet_vertex = R"(
 layout(location = 0) in vec2 place_px;
 layout(location = 1) in vec2 glyph_uv;
@@ -223,7 +222,7 @@ void main() {
 }
 )";
 
-// One triangle that covers the picture; depth at the far end.
+// One triangle that covers the picture, with depth at the far end.
 inline constexpr const char* k_screen_vertex = R"(
 out vec2 uv;
 void main() {
@@ -294,24 +293,24 @@ void main() {
 }
 )";
 
-// Ambient obscurance and distance, from the depth of the picture.
+// Ambient obscurance and distance, computed from the picture's depth.
 inline constexpr const char* k_occlusion_fragment = R"(
 in vec2 uv;
 uniform sampler2D depth_map;
 uniform vec2 depth_terms;   // P22, P32 of the projection
 uniform vec2 half_extent;   // of the picture at distance 1
-uniform vec2 middle;        // of the picture there
+uniform vec2 middle;        // of the picture at distance 1
 uniform vec2 texel;         // of depth_map
 uniform float radius_m;
 out vec4 color;
 
-// The middle of the pixel that `at` lies in: between two pixels, rounding would choose one or the other in stripes.
+// Centre of the pixel that contains `at`: between two pixels, rounding would pick either one in stripes.
 vec3 view_at(vec2 at) {
     at = (floor(at / texel) + 0.5) * texel;
     float d = depth_terms.y / (2.0 * texture(depth_map, at).r - 1.0 + depth_terms.x);
     return vec3(((2.0 * at - 1.0) * half_extent + middle) * d, -d);
 }
-// The shorter of the steps to both neighbours: does not reach across an edge.
+// The shorter of the steps to both neighbours, so the slope does not cross an edge.
 vec3 slope(vec3 p, vec2 pixel, vec2 step_uv) {
     vec3 ahead = view_at(pixel + step_uv) - p;
     vec3 behind = p - view_at(pixel - step_uv);
@@ -327,8 +326,8 @@ void main() {
         return;
     }
     vec3 n = normalize(cross(slope(p, pixel, vec2(texel.x, 0.0)), slope(p, pixel, vec2(0.0, texel.y))));
-    // Sixteen turns in every square of 4 x 4 pixels, each once: what smooths the occlusion averages exactly these, and
-    // on an even surface nothing of the pattern is left.
+    // Sixteen rotations in every 4 x 4 pixel block, each once. The smoothing pass averages exactly these, so no pattern
+    // remains on an even surface.
     ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
     float turn = 6.2831853 * (float((7 * (4 * cell.y + cell.x)) & 15) + 0.5) / 16.0;
     float reach_uv = clamp(0.5 * radius_m / (distance_m * half_extent.y), 0.006, 0.16);
@@ -345,11 +344,11 @@ void main() {
         sum += fade * max(dot(v, n) - 0.004 * distance_m, 0.0) / (v2 + 0.0006);
     }
     float open = max(1.0 - radius_m * 1.7 * sum / float(k_taps), 0.0);
-    color = vec4(open, distance_m / (distance_m + 2.0), 0.0, 1.0);  // eight bits: fine where near
+    color = vec4(open, distance_m / (distance_m + 2.0), 0.0, 1.0);  // eight bits: more resolution near the camera
 }
 )";
 
-// Light of what glows, at a quarter of the resolution.
+// Light of emissive surfaces, at a quarter of the resolution.
 inline constexpr const char* k_glow_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -382,7 +381,7 @@ void main() {
 }
 )";
 
-// Averages the occlusion over the 4 x 4 pixels that its noise repeats in, staying on one surface.
+// Averages the occlusion over the 4 x 4 block in which its noise repeats, within one surface.
 inline constexpr const char* k_smooth_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -404,8 +403,8 @@ void main() {
 }
 )";
 
-// Puts the picture together, upside down: rows are read back from the top. Where the scene has four
-// samples a pixel, the linear filter reads their mean.
+// Composes the picture upside down, because rows are read back from the top. With four samples per
+// pixel, the linear filter reads their mean.
 inline constexpr const char* k_composite_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -416,7 +415,7 @@ out vec4 color;
 void main() {
     vec2 at = vec2(uv.x, 1.0 - uv.y);
     vec4 c = texture(picture, at);
-    // The picture is already in display space, where a factor on the light is its 2.2nd root.
+    // The picture is in display space already, where a factor on light becomes its 2.2nd root.
     float open = pow(texture(occlusion, at).r, 0.4545);
     vec3 rgb = c.rgb * mix(1.0, open, c.a);
     rgb = 1.0 - (1.0 - rgb) * (1.0 - glow_strength * texture(glow, at).rgb);
@@ -424,9 +423,9 @@ void main() {
 }
 )";
 
-// Softens stairs: where brightness (in alpha) jumps, averages along the edge, up to four pixels
-// each way. A long average that leaves the range of the neighbourhood has crossed another edge; the
-// short one stands in.
+// Anti-aliasing: where brightness (in alpha) jumps, averages along the edge, up to four pixels each
+// way. If the long average leaves the range of the neighbourhood, it has crossed another edge, and
+// the short average is used.
 inline constexpr const char* k_edges_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture;
@@ -442,8 +441,8 @@ void main() {
     float high = max(here.a, max(max(a, b), max(c, d)));
     vec2 gradient = vec2(b + d - a - c, c + d - a - b);
     vec2 along = vec2(-gradient.y, gradient.x);
-    float least = max(min(abs(along.x), abs(along.y)), 0.03 * (a + b + c + d) + 0.004);
-    along = clamp(along / least, -4.0, 4.0) * texel;
+    float min_slope = max(min(abs(along.x), abs(along.y)), 0.03 * (a + b + c + d) + 0.004);
+    along = clamp(along / min_slope, -4.0, 4.0) * texel;
     vec4 near = 0.5 * (texture(picture, uv - 0.17 * along) + texture(picture, uv + 0.17 * along));
     vec4 far = 0.5 * (texture(picture, uv - 0.5 * along) + texture(picture, uv + 0.5 * along));
     vec4 wide = 0.5 * (near + far);

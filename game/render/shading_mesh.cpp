@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_smooth_cosine = 0.81915204428899178968;  // of 35 degrees
+constexpr double k_smooth_cosine = 0.81915204428899178968;  // cosine of 35 degrees
 
 struct Corner {
     Vec3 normal;  // unit, of the corner's triangle
@@ -20,13 +20,13 @@ struct Corner {
 std::uint64_t place_key(const Vec3& p) {
     HashStream hash;
     for (int axis = 0; axis < 3; ++axis) {
-        hash.add(p[axis] + 0.0);  // -0.0 and 0.0 are one place
+        hash.add(p[axis] + 0.0);  // -0.0 and 0.0 are the same position
     }
     return hash.value();
 }
 
-// Sum of the normals around one place that are close enough to `own`, whichever way they were
-// wound.
+// Sum of the normals at one position that are within the smoothing angle of `own`, for either
+// winding.
 Vec3 smooth_normal(const std::vector<Corner>& around, const Vec3& own) {
     Vec3 sum = Vec3::Zero();
     for (const Corner& corner : around) {
@@ -77,7 +77,7 @@ ShadingMesh make_shading_mesh(const Mesh& mesh) {
                           .first->second;
     }
     std::vector<std::vector<Corner>> around(place_ids.size());
-    std::vector<Vec3> normals(mesh.triangles.size(), Vec3::Zero());  // zero: dropped
+    std::vector<Vec3> normals(mesh.triangles.size(), Vec3::Zero());  // zero: triangle dropped
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& corners = mesh.triangles[t];
         const Vec3& a = mesh.positions[corners[0]];

@@ -7,19 +7,19 @@
 
 namespace handhold {
 
-// A mesh as the graphics card takes it: float positions about a centre of their own, one normal a
+// A mesh prepared for the graphics card: float positions relative to a centre, one normal per
 // vertex.
 struct ShadingMesh {
     Vec3 center = Vec3::Zero();   // of the bounding box, in the mesh's frame
-    double radius_m = 0.0;        // of the sphere about the centre that holds every vertex
-    std::vector<float> vertices;  // position, normal: six a vertex
+    double radius_m = 0.0;        // of the bounding sphere around the centre
+    std::vector<float> vertices;  // position, normal: six floats per vertex
     std::vector<std::uint32_t> indices;
 };
 
 // Splits vertices where neighbouring triangles meet at more than 35 degrees. Vertices at bitwise
-// equal positions count as one, and a neighbour of opposite winding counts as turned, so split and
-// mixed-up meshes are smooth too; each normal follows its own triangle's winding. Triangles without
-// area and with vertices that are not finite are dropped.
+// equal positions count as one, and a neighbour of opposite winding counts as flipped, so meshes
+// with split vertices or mixed winding are smooth too. Each normal follows its own triangle's
+// winding. Drops triangles without area or with vertices that are not finite.
 ShadingMesh make_shading_mesh(const Mesh& mesh);
 
 }  // namespace handhold

@@ -10,14 +10,14 @@
 
 namespace handhold {
 
-// Draws panels over whatever target is bound, whose rows go from the top as our pictures' do.
+// Draws panels over the bound target, whose rows go from the top.
 class UiPainter {
   public:
-    // False, and the compiler's words, where the card refuses.
+    // False, with the compiler's message, if the programs do not compile.
     bool create(GlApi api, std::string& why_not);
     void draw(const UiPicture& ui, std::array<int, 2> size_px);
-    // Panels on a sheet in the world, where the scene's depths (as many samples across a pixel) do
-    // not hide it. Precondition: it has panels, and its pose is valid.
+    // Draws panels on a sheet in the world where the scene's depths (`samples_across` samples per
+    // pixel along each axis) do not hide it. Precondition: the sheet has panels and a valid pose.
     void draw_sheet(const Sheet& sheet, const FrameView& view, GLuint scene_depth,
                     std::array<int, 2> size_px, int samples_across);
 

@@ -8,7 +8,7 @@
 
 namespace handhold {
 
-// Panels over the finished picture, as triangles in its pixels, (0, 0) its upper left corner.
+// Panels over the finished picture, as triangles in pixels; (0, 0) is the upper left corner.
 struct UiVertex {
     std::array<float, 2> place_px;
     std::array<float, 2> glyph_uv;
@@ -24,7 +24,7 @@ struct UiPicture {
     std::vector<std::uint32_t> indices;
     std::vector<UiCommand> commands;
     Image glyphs;                       // white, shapes in alpha
-    std::uint32_t glyphs_revision = 0;  // another number where `glyphs` has changed
+    std::uint32_t glyphs_revision = 0;  // changes whenever `glyphs` changes
 };
 
 }  // namespace handhold

@@ -16,13 +16,14 @@
 namespace handhold {
 namespace {
 
-// What a child sees as its standard input and output; -1: nothing (/dev/null).
+// Standard input and output of a child process; -1: /dev/null.
 struct ChildStreams {
     int input = -1;
     int output = -1;
 };
 
-// Starts a program found on PATH; its errors go nowhere. The process, or -1 and the reason.
+// Starts a program found on PATH; discards its standard error. Returns the process, or -1 and the
+// reason.
 int start_program(const std::vector<std::string>& arguments, const ChildStreams& streams,
                   std::string& why_not) {
     std::vector<char*> argv;
@@ -53,7 +54,7 @@ int start_program(const std::vector<std::string>& arguments, const ChildStreams&
     return process;
 }
 
-// True where the process ended by itself with status 0.
+// True if the process exited by itself with status 0.
 bool wait_for(int process) {
     int status = 0;
     while (waitpid(process, &status, 0) < 0) {
@@ -64,7 +65,7 @@ bool wait_for(int process) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// Everything a program prints; empty, and the reason, where it cannot be started or fails.
+// Everything a program prints; empty, with the reason, if it cannot be started or fails.
 std::string output_of(const std::vector<std::string>& arguments, std::string& why_not) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -98,13 +99,14 @@ std::vector<std::string> encoder_arguments(const VideoSettings& settings, bool h
     std::vector<std::string> arguments = {
         settings.program, "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgba",
         "-video_size", size, "-framerate", std::to_string(settings.frames_per_s), "-i", "pipe:0",
-        // yuv420p, the one format that every player reads, halves both sides: they must be even.
+        // yuv420p, the one format that every player supports, halves both sides, so they must be
+        // even.
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
     const std::vector<std::string> codec =
         has_h264 ? std::vector<std::string>{"-c:v", "libx264", "-preset", "fast", "-crf", "20"}
                  : std::vector<std::string>{"-c:v", "mpeg4", "-q:v", "4"};
     arguments.insert(arguments.end(), codec.begin(), codec.end());
-    // "file:" keeps ffmpeg from reading a colon or a leading dash in the name as something else.
+    // "file:" keeps ffmpeg from interpreting a colon or a leading dash in the name.
     arguments.insert(arguments.end(), {"-f", "mp4", "file:" + path});
     return arguments;
 }
@@ -115,7 +117,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
                                                const VideoSettings& settings,
                                                std::string& why_not) {
     if (settings.width_px <= 0 || settings.height_px <= 0 || !(settings.frames_per_s > 0.0)) {
-        why_not = "a video needs a size and a rate above 0";
+        why_not = "a video needs a size and a frame rate above 0";
         return nullptr;
     }
     const std::string encoders =
@@ -123,7 +125,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
     if (encoders.empty()) {
         return nullptr;
     }
-    // A socket instead of a pipe: a write to an encoder that died is then an error and not a
+    // A socket instead of a pipe: writing to a dead encoder then gives an error instead of a
     // signal.
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -178,16 +180,16 @@ bool VideoWriter::add(const Image& image) {
 }
 
 bool VideoWriter::wait_for_encoder() {
-    close(socket_);  // the encoder's end of file
+    close(socket_);  // signals end of file to the encoder
     socket_ = -1;
-    const bool ended_well = wait_for(process_);
+    const bool succeeded = wait_for(process_);
     process_ = -1;
-    return ended_well;
+    return succeeded;
 }
 
 bool VideoWriter::finish(std::string& why_not) {
     if (process_ < 0) {
-        why_not = "the video was finished before";
+        why_not = "the video is already finished";
         return false;
     }
     const bool encoded = wait_for_encoder() && !failed_;

@@ -11,25 +11,26 @@ struct VideoSettings {
     int width_px = 0;
     int height_px = 0;
     double frames_per_s = 30.0;
-    std::string program = "ffmpeg";  // looked for on PATH
+    std::string program = "ffmpeg";  // searched on PATH
 };
 
-// An .mp4 by way of ffmpeg, which runs beside us and is fed raw pictures: H.264, or MPEG-4 part 2
-// where libx264 is missing. A video is a nicety: every failure is a sentence, none stops a session.
+// Writes an .mp4 with ffmpeg, which runs as a child process and receives raw pictures: H.264, or
+// MPEG-4 part 2 if libx264 is missing. Videos are optional: a failure is reported as text and never
+// stops a session.
 class VideoWriter {
   public:
-    // Nothing, and the reason, where the program is missing or cannot be started. The program is
-    // started without a shell; `path` may hold any character.
+    // Null, with the reason in `why_not`, if the program is missing or cannot be started. It is
+    // started without a shell, so `path` may hold any character.
     static std::unique_ptr<VideoWriter> open(const std::string& path, const VideoSettings& settings,
                                              std::string& why_not);
     ~VideoWriter();
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // False once the encoder has gone, or for a picture of another size; what follows is dropped.
+    // False if the encoder has ended or the picture has another size; later pictures are dropped.
     bool add(const Image& image);
-    // Waits for the encoder and gives the file its name. False, the reason, and no file where
-    // something failed. Without it, the destructor abandons the video.
+    // Waits for the encoder and renames the file to its final name. On failure: false, the reason,
+    // and no file. If not called, the destructor discards the video.
     bool finish(std::string& why_not);
 
   private:

@@ -14,8 +14,8 @@ void help_line(const char* control, const char* what) {
 
 }  // namespace
 
-// Of one size and without a table: what is laid out anew for each picture has no frame before it to
-// take its widths from.
+// Fixed size and no table: the layout starts from scratch for each picture, so no widths are known
+// from a previous frame.
 void show_headset_help(const HeadsetHelp& help) {
     ImGui::SetNextWindowPos(ImVec2(0.0F, 0.0F));
     ImGui::SetNextWindowSize(
@@ -23,7 +23,7 @@ void show_headset_help(const HeadsetHelp& help) {
     ImGui::SetNextWindowBgAlpha(0.88F);
     ImGui::Begin("headset help", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs);
-    help_line("Squeeze or trigger", "close the hand: it grips what the palm is on");
+    help_line("Squeeze or trigger", "close the hand: it grips what the palm touches");
     help_line("Pull, push", "move yourself by what you grip; let go to drift");
     if (help.pulls) {
         help_line("Close on nothing", "pulls what the palm points at");
@@ -33,7 +33,7 @@ void show_headset_help(const HeadsetHelp& help) {
         help_line("Left stick", "jets, where you look");
     }
     help_line("X, A, trackpad", "brake");
-    help_line("Y, B, menu: left", "this sheet, and away with it");
+    help_line("Y, B, menu: left", "show or hide this sheet");
     help_line("Y, B, menu: both", "measure me: hold a T-pose for a second");
     if (!help.notice.empty()) {
         ImGui::Separator();

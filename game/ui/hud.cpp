@@ -17,7 +17,7 @@ struct HelpLine {
     const char* what;
 };
 constexpr std::array<HelpLine, 13> k_help = {{
-    {"Mouse", "look about; the mark is green where a hand can reach"},
+    {"Mouse", "look around; the mark is green where a hand can reach"},
     {"Left, right button", "that hand reaches, and grips while you hold it"},
     {"W A S D  Q E", "pull yourself by what you grip"},
     {"Wheel", "farther, nearer"},
@@ -27,7 +27,7 @@ constexpr std::array<HelpLine, 13> k_help = {{
     {"F1", "this help"},
     {"F2", "inspector: what the runtime does, and its numbers"},
     {"F3", "scenes and settings"},
-    {"F4", "see yourself: from before, from behind, flying"},
+    {"F4", "see yourself: from the front, from behind, flying"},
     {"Tab, Esc", "free the mouse, leave"},
     {"Gamepad", "triggers grip, left stick pulls, right stick looks"},
 }};
@@ -41,10 +41,11 @@ void show_mark(bool can_reach) {
     list.AddCircleFilled(middle, radius, can_reach ? k_lit : k_ink, 20);
 }
 
-// Dark towards the edges: what moves there makes people sick, what stays in the middle does not.
+// Darkens the edges: movement in the periphery causes motion sickness, movement in the centre does
+// not.
 void show_vignette(double strength) {
     constexpr int k_parts = 48;
-    constexpr float k_inner = 0.62F;  // of the half diagonal
+    constexpr float k_inner = 0.62F;  // fraction of the half diagonal
     constexpr float k_outer = 1.02F;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -101,7 +102,7 @@ void show_help() {
 }  // namespace
 
 const char* help_text() {
-    return "Look about with the mouse. The mark is green where a hand can reach.\n"
+    return "Look around with the mouse. The mark is green where a hand can reach.\n"
            "Left, right button: that hand reaches, and grips while you hold it.\n"
            "W A S D, Q E: pull yourself by what you grip. F1 shows all keys.";
 }
@@ -127,9 +128,9 @@ void show_hud(const Hud& hud) {
     if (hud.paused) {
         begin_note("paused", ImVec2(0.5F * size.x, 0.06F * size.y), ImVec2(0.5F, 0.0F));
         if (hud.rewound_s > 0.0) {
-            ImGui::Text("paused, %.2f s back: P goes on from here, O one step", hud.rewound_s);
+            ImGui::Text("paused, %.2f s back: P continues from here, O one step", hud.rewound_s);
         } else {
-            ImGui::TextUnformatted("paused: P goes on, O one step, R rewinds");
+            ImGui::TextUnformatted("paused: P continues, O one step, R rewinds");
         }
         ImGui::End();
     }

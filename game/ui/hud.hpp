@@ -4,21 +4,21 @@
 
 namespace handhold {
 
-// What lies over the picture while one plays.
+// Content of the overlay while somebody plays.
 struct Hud {
-    bool can_reach = false;  // lights the mark in the middle
+    bool can_reach = false;  // highlights the mark in the centre
     bool shows_mark = true;
     bool shows_help = true;
     bool paused = false;
-    double rewound_s = 0.0;  // behind the last frame that was played
-    double vignette = 0.0;   // [0, 1]; how much the edges are dark
-    std::string footer;      // one line, what it costs
+    double rewound_s = 0.0;  // time before the last played frame
+    double vignette = 0.0;   // [0, 1]; darkness of the edges
+    std::string footer;      // one line of costs
 };
 void show_hud(const Hud& hud);
-// One line at the foot of a film's picture.
+// One line at the bottom of a film's picture.
 void show_caption(const std::string& caption);
 
-// Of the keys, the mouse and a gamepad: a line each. The help that is shown.
+// The help text: one line each for keys, mouse and gamepad.
 const char* help_text();
 
 }  // namespace handhold

@@ -27,7 +27,7 @@ void show_stage_times(const InspectorView& view) {
     double total_us = 0.0;
     double longest_us = 1e-6;
     for (std::size_t i = 0; i < memory.smooth_us.size(); ++i) {
-        constexpr double k_share = 0.1;  // of the newest
+        constexpr double k_share = 0.1;  // weight of the newest value
         memory.smooth_us[i] += k_share * (stats.stage_us[i] - memory.smooth_us[i]);
         total_us += memory.smooth_us[i];
         longest_us = std::fmax(longest_us, memory.smooth_us[i]);
@@ -66,11 +66,11 @@ void show_work(const InspectorView& view) {
     show_figure("drawing", "%.1f ms", 1e-3 * view.tally.draw_us());
     show_figure("history", "%.1f MB", 1e-6 * static_cast<double>(view.history.bytes()));
     ImGui::EndTable();
-    ImGui::TextColored(k_soft, "R goes back by up to %.1f s",
+    ImGui::TextColored(k_soft, "R rewinds by up to %.1f s",
                        static_cast<double>(view.history.frames()) * DesktopSession::k_dt_s);
 }
 
-// Newly counted ones stand out for a while.
+// Highlights recently counted fallbacks for a while.
 void show_fallbacks(const InspectorView& view) {
     InspectorMemory& memory = view.memory;
     const auto& counts = view.tally.figures().totals.fallbacks;
@@ -95,7 +95,7 @@ void show_fallbacks(const InspectorView& view) {
         ImGui::PopTextWrapPos();
     }
     if (!any) {
-        ImGui::TextColored(k_soft, "None yet: all that was asked for was done.");
+        ImGui::TextColored(k_soft, "None yet.");
     }
 }
 
@@ -123,7 +123,7 @@ void show_frame_page(const InspectorView& view) {
     ImGui::Separator();
     show_work(view);
     ImGui::Separator();
-    ImGui::TextUnformatted("What was done instead of what was asked (fallbacks)");
+    ImGui::TextUnformatted("Fallbacks (requests that could not be met)");
     show_fallbacks(view);
 }
 

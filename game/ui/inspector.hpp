@@ -11,31 +11,31 @@
 
 namespace handhold {
 
-// What the inspector remembers from one picture to the next. Not state of the world.
+// UI state that persists between pictures. Not state of the world.
 struct InspectorMemory {
     GizmoSet gizmos = k_no_gizmos;
-    std::string turn_to;  // a page by its name, once; empty: none
+    std::string turn_to;  // name of a page to switch to once; empty: none
     Entity selected = k_no_entity;
     std::array<char, 64> filter{};
     std::array<char, 256> tuning_file{'t', 'u', 'n', 'i', 'n', 'g', '.', 'j', 's', 'o', 'n'};
-    std::string tuning_message;  // what became of the last change, of saving or of loading
+    std::string tuning_message;  // result of the last change, save or load
     std::array<double, static_cast<std::size_t>(Stage::count)> smooth_us{};
     std::array<double, static_cast<std::size_t>(Fallback::count)> counted_at_s{};
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> counted{};
-    std::optional<Entity> pointed_hand;  // the one that was last pointed at
+    std::optional<Entity> pointed_hand;  // the hand last pointed at
 };
 
-// What the inspector shows, and what it may change: tuning, between frames.
+// What the inspector shows, and the tuning that it may change between frames.
 struct InspectorView {
     DesktopSession& session;
     const SessionHistory& history;
     const PlayTally& tally;
     InspectorMemory& memory;
 };
-// A panel with a page each for the frame, the hands, tuning, entities and gizmos.
+// A panel with pages for the frame, the hands, tuning, entities and gizmos.
 void show_inspector(const InspectorView& view);
 
-// Its pages.
+// The pages.
 void show_frame_page(const InspectorView& view);
 void show_hands_page(const InspectorView& view);
 void show_tuning_page(const InspectorView& view);

@@ -14,7 +14,7 @@ namespace {
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
 const ImVec4 k_lit(0.27F, 1.0F, 0.43F, 1.0F);
 
-// Made once: to say what a scene shows it has to be built.
+// Created once, because a scene must be built to get its description.
 const std::vector<std::pair<std::string, std::string>>& scenes_with_texts() {
     static const std::vector<std::pair<std::string, std::string>> scenes = [] {
         std::vector<std::pair<std::string, std::string>> list;
@@ -58,9 +58,9 @@ void show_scenes(const std::string& playing, MenuChoice& choice) {
 void show_settings(PlaySettings& settings, MenuChoice& choice) {
     constexpr double k_thousand = 1e3;
     double mouse = k_thousand * settings.mouse_rad_per_px;
-    slider("mouse, mrad a pixel", mouse, 0.2, 20.0, "%.1f");
+    slider("mouse, mrad/pixel", mouse, 0.2, 20.0, "%.1f");
     settings.mouse_rad_per_px = mouse / k_thousand;
-    slider("gamepad's look, rad/s", settings.stick_look_radps, 0.2, 8.0, "%.1f");
+    slider("gamepad look, rad/s", settings.stick_look_radps, 0.2, 8.0, "%.1f");
     slider("field of view, rad", settings.fov_rad, 0.6, 2.0, "%.2f");
     slider("comfort vignette", settings.vignette, 0.0, 1.0, "%.2f");
     int turn = static_cast<int>(settings.turn);

@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// Debian's fonts-dejavu-core; without it panels have ImGui's own small letters.
+// Debian's fonts-dejavu-core; without it, panels use ImGui's small default font.
 constexpr const char* k_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 constexpr std::array<ImGuiKey, static_cast<std::size_t>(UiKey::count)> k_keys = {
@@ -55,11 +55,11 @@ struct Overlay::Impl {
 };
 
 Overlay::Overlay(int width_px, int height_px) : impl_(std::make_unique<Impl>()) {
-    HH_CHECK(ImGui::GetCurrentContext() == nullptr, "there is an overlay already", 1);
+    HH_CHECK(ImGui::GetCurrentContext() == nullptr, "only one overlay may exist", 1);
     IMGUI_CHECKVERSION();
     impl_->context = ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // a game leaves no files where it was started
+    io.IniFilename = nullptr;  // writes no settings file into the working directory
     io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     for (std::size_t i = 0; i < k_keys.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 const ImVec4 k_soft(0.62F, 0.66F, 0.70F, 1.0F);
 const ImVec4 k_changed(1.0F, 0.75F, 0.25F, 1.0F);
 
-// As many digits as a number of this size is read with.
+// A number format with enough digits for this range.
 const char* format_of(double low, double high) {
     constexpr double k_tiny = 1e-3;
     constexpr double k_many_decades = 1e4;
@@ -62,7 +62,7 @@ T default_of(const TuningInfo& info) {
     return value;
 }
 
-// One number: its name, the number, unit and range; a click on its name takes the default back.
+// One value: name, field, unit and range. A click on its name restores the default.
 template <typename T>
 bool show_number(const TuningInfo& info, T& field) {
     const T standard = default_of<T>(info);
@@ -84,7 +84,7 @@ bool show_number(const TuningInfo& info, T& field) {
     }
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s%s", info.what,
-                          is_default ? "" : "\n(changed; click to have the default back)");
+                          is_default ? "" : "\n(changed; click to restore the default)");
     }
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1.0F);
@@ -96,7 +96,7 @@ bool show_number(const TuningInfo& info, T& field) {
     return changed;
 }
 
-// Columns of one width in all groups.
+// Columns have the same width in all groups.
 bool begin_group(const std::string& name) {
     if (!ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen) ||
         !ImGui::BeginTable(name.c_str(), 3)) {
@@ -108,7 +108,7 @@ bool begin_group(const std::string& name) {
     return true;
 }
 
-// Every number of Tuning, in groups by the first part of its name.
+// Every value of Tuning, grouped by the first part of its name.
 bool show_numbers(Tuning& tuning) {
     std::string_view group;
     bool open = false;
@@ -167,19 +167,19 @@ void show_tuning_page(const InspectorView& view) {
     ImGui::SameLine();
     if (ImGui::Button("Defaults")) {
         tuning = Tuning{};
-        memory.tuning_message = "all numbers have their defaults";
+        memory.tuning_message = "all values are at their defaults";
     }
     ImGui::PushTextWrapPos(0.0F);
     ImGui::TextColored(k_soft, "%s",
                        memory.tuning_message.empty()
-                           ? "Drag a number, or double-click to type it. Changes count from the "
-                             "next frame on; head.radius_m counts only in a scene file."
+                           ? "Drag a number, or double-click to type it. Changes apply from the "
+                             "next frame on; head.radius_m applies only in a scene file."
                            : memory.tuning_message.c_str());
     ImGui::PopTextWrapPos();
     ImGui::BeginChild("numbers");
     Tuning wanted = tuning;
     if (show_numbers(wanted)) {
-        // The rules of files: a number that they would refuse is not taken.
+        // The rules of tuning files apply: a value that they refuse is not used.
         const Result<Tuning> checked = parse_tuning(tuning_to_json(wanted), "tuning");
         if (checked) {
             tuning = wanted;

@@ -9,18 +9,19 @@
 
 namespace handhold {
 
-// Why a hand holds what it holds, or nothing: in words, with the figures that decided it.
+// Explains in words, with the deciding figures, why a hand grips what it grips, or nothing.
 struct HandStory {
     std::string headline;
     std::vector<std::string> reasons;
 };
-// Precondition: `hand` is a player's hand. `collision` has the colliders where they are.
+// Precondition: `hand` is a player's hand. `collision` holds the current collider poses.
 HandStory explain_hand(const Scene& scene, const CollisionWorld& collision, Entity hand);
 
-// The hand that is nearest to a line of sight, within about 5 degrees of it.
+// The hand nearest to a line of sight, within about 5 degrees of it; none: nullopt.
 std::optional<Entity> hand_pointed_at(const World& world, const Vec3& eye_ws, const Vec3& look_ws);
 
-// A body's name in its scene, a player's or hand's as "player" and "left hand"; else its id.
+// A body's name in its scene; a player is "player", a hand "left hand" or "right hand". Else its
+// id.
 std::string name_of_entity(const Scene& scene, Entity entity);
 
 }  // namespace handhold

@@ -7,12 +7,12 @@ namespace handhold {
 namespace {
 
 constexpr double k_fly_mps = 1.5;
-constexpr double k_camera_hurry = 4.0;  // times as fast
+constexpr double k_camera_hurry = 4.0;  // speed factor
 constexpr double k_camera_turn_radps = 1.5;
 constexpr double k_camera_snap_rad = 30.0 * k_degree;
 constexpr double k_camera_steepest_rad = 85.0 * k_degree;
 
-// How far above level it looks.
+// Pitch of the view above level.
 double pitch_of(const Pose& camera_ws, const Vec3& up_ws) {
     const double sine = (camera_ws.rotation * -Vec3::UnitZ()).dot(up_ws);
     return std::asin(std::clamp(sine, -1.0, 1.0));

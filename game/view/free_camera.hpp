@@ -6,15 +6,15 @@
 
 namespace handhold {
 
-// A camera that flies where keys and mouse send it, through walls too, while the player stays where
-// he is and keeps hold of what he grips.
+// A camera that the user flies with keys and mouse, also through walls. The player stays in place
+// and keeps their grips meanwhile.
 class FreeCamera {
   public:
-    // From a camera on, level with `up_ws`; the player's hands stay as `input` has them.
+    // Starts at `camera_ws`, levelled with `up_ws`. Grips stay as `input` has them.
     void begin(const Pose& camera_ws, const Vec3& up_ws, const DesktopInput& input);
-    // What is asked of the player now goes to the camera, for dt_s.
+    // Moves the camera by `input` (instead of the player) for dt_s.
     void fly(const DesktopInput& input, double dt_s);
-    // What is left for the player: his grips.
+    // The input to give to the player meanwhile: only the grips.
     DesktopInput held() const;
 
     const Pose& pose_ws() const { return pose_ws_; }

@@ -20,8 +20,8 @@ constexpr Color k_joint = {0.1F, 0.9F, 0.8F};
 constexpr Color k_bone = {1.0F, 0.6F, 0.15F};
 constexpr Color k_pole = {0.3F, 0.6F, 1.0F};
 constexpr Color k_residual = {1.0F, 0.1F, 0.3F};
-constexpr double k_residual_scale = 1000.0;   // a millimetre is shown as a metre,
-constexpr double k_longest_residual_m = 0.5;  // and cut off
+constexpr double k_residual_scale = 1000.0;   // a millimetre is drawn as a metre,
+constexpr double k_longest_residual_m = 0.5;  // and clamped
 
 void add_cross(const Vec3& at_ws, double size_m, const Color& color, std::vector<Line>& out) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -40,7 +40,7 @@ void add_axes(const Pose& pose_ws, double size_m, std::vector<Line>& out) {
     }
 }
 
-// Colours that differ from one island to the next, whatever their number.
+// A distinct colour for each island, for any number of islands (golden ratio hues).
 Color island_color(std::size_t island) {
     const auto part = [&](double shift) {
         const double turn = 0.618034 * static_cast<double>(island) + shift;
@@ -114,7 +114,7 @@ void add_spine(const SpinePose& pose, std::vector<Line>& out) {
 }
 
 void add_velocities(const World& world, std::vector<Line>& out) {
-    constexpr double k_shown_s = 0.25;  // where it will be
+    constexpr double k_shown_s = 0.25;  // look-ahead of the drawn velocity
     constexpr double k_min_mps = 1e-3;
     for (std::size_t row = 0; row < world.body_velocity.size(); ++row) {
         const BodyVelocity& velocity = world.body_velocity.rows()[row];
@@ -156,10 +156,10 @@ void add_joint(const FrameGraph& graph, const RowBlock& block, std::vector<Line>
     }
 }
 
-// How far what shall meet is apart, a thousand times as long as it is.
+// The residual of a block, drawn a thousand times as long.
 void add_residual(const FrameGraph& graph, const RowBlock& block, std::vector<Line>& out) {
     const Vec3 point_ws = transform_point(graph.graph.bodies[block.b].pose_ws, block.point_b_bs);
-    // Free coordinates do not count as errors: only the length is the block's own.
+    // Free coordinates are not errors: the residual is the block's own length only.
     const double error_m = block_error_m(graph.graph.bodies, block);
     const Vec3 towards =
         is_contact(block) ? Vec3(graph.graph.bodies[block.b].pose_ws.rotation * block.normal_b_bs)
@@ -193,37 +193,38 @@ void add_islands(const ConstraintGraph& graph, std::vector<Line>& out) {
 GizmoInfo info_of(Gizmo gizmo) {
     switch (gizmo) {
         case Gizmo::tracked_hands:
-            return {"tracked hands", "read_tracking", "where the controllers say that hands are"};
+            return {"tracked hands", "read_tracking", "where the controllers report the hands"};
         case Gizmo::palm_rays:
-            return {"palm rays", "update_grabs", "what a palm looks for; green while it grips"};
+            return {"palm rays", "update_grabs", "where each palm searches; green while it grips"};
         case Gizmo::grips:
-            return {"grips", "anchor_grabs", "the point and the normal that each hand holds"};
+            return {"grips", "anchor_grabs", "anchor point and normal of each grip"};
         case Gizmo::velocities:
-            return {"velocities", "predict_bodies", "where bodies will be in a quarter second"};
+            return {"velocities", "predict_bodies", "where bodies will be in 0.25 s"};
         case Gizmo::contacts:
             return {"contacts", "find_contacts", "points and normals; red where they overlap"};
         case Gizmo::joints:
-            return {"joints", "build_constraints", "bodies to joints; axes of hinges and slides"};
+            return {"joints", "build_constraints", "bodies to joints; axes of hinges and sliders"};
         case Gizmo::islands:
-            return {"islands", "build_constraints", "what is solved together, in one colour"};
+            return {"islands", "build_constraints", "bodies solved together, one colour each"};
         case Gizmo::residuals:
-            return {"residuals", "solve_phases", "what is still apart, a thousand times as long"};
+            return {"residuals", "solve_phases",
+                    "remaining constraint errors, drawn 1000 times as long"};
         case Gizmo::search:
             return {"search", "search_grip",
-                    "triangles looked at, bright first; green: the palm's"};
+                    "visited triangles, first ones brightest; green: the palm's"};
         case Gizmo::palm_limits:
-            return {"palm limits", "constrain_palms", "how low, how high, how aslant it may be"};
+            return {"palm limits", "constrain_palms", "allowed height and tilt of the palm"};
         case Gizmo::cuts:
             return {"cuts", "sweep_fingers",
-                    "from the palm to where each finger's disc cuts the surface, and the cut"};
+                    "from the palm to each finger disc's cut through the surface, and the cut"};
         case Gizmo::snap_zones:
             return {"snap zones", "update_grabs", "where a closing hand snaps to an authored grip"};
         case Gizmo::fingers:
-            return {"fingers", "sweep_fingers", "the disc each turns in; green where it touches"};
+            return {"fingers", "sweep_fingers", "disc of each finger; green where it touches"};
         case Gizmo::arms:
-            return {"arms", "pose_arms", "their bones, and where each elbow points"};
+            return {"arms", "pose_arms", "arm bones, and the direction of each elbow"};
         case Gizmo::spine:
-            return {"spine and legs", "propagate_spine", "the chain that trails; chest and pelvis"};
+            return {"spine and legs", "propagate_spine", "the trailing chain; chest and pelvis"};
         case Gizmo::count:
             break;
     }

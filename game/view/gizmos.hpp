@@ -9,10 +9,10 @@
 #include "game/scene/scene.hpp"
 #include "systems/frame.hpp"
 
-// What the stages of a frame found and did, as lines over the picture.
+// Debug lines over the picture: what the stages of a frame found and did.
 namespace handhold {
 
-// In the order of the stages that they show.
+// In the order of the stages.
 enum class Gizmo : std::uint8_t {
     tracked_hands,  // read_tracking
     palm_rays,      // update_grabs
@@ -37,13 +37,13 @@ inline constexpr GizmoSet k_no_gizmos = {};
 struct GizmoInfo {
     const char* name;
     const char* stage;
-    const char* what;  // what is to be seen
+    const char* what;  // description of the lines
 };
 GizmoInfo info_of(Gizmo gizmo);
 
-// Adds the lines of those that are on, as of the last frame. Contacts, joints, islands, residuals
-// and what hands have around them are in the caches only, and so absent where a world has just been
-// restored.
+// Appends the lines of the gizmos that are on, for the last frame. Contacts, joints, islands,
+// residuals and the hands' surroundings exist only in the caches, so they are absent right after a
+// restore.
 void add_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                 const GizmoSet& on, std::vector<Line>& out);
 

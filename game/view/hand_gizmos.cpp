@@ -30,7 +30,7 @@ Color blend(const Color& a, const Color& b, float share) {
     return color;
 }
 
-// An arc from `x` towards `y`, which are as long as its radius.
+// An arc from `x` towards `y`; both have the radius as their length.
 void add_arc(const Vec3& center_ws, const Vec3& x, const Vec3& y, double angle_rad,
              const Color& color, std::vector<Line>& out) {
     const auto point = [&](int i) {
@@ -44,10 +44,10 @@ void add_arc(const Vec3& center_ws, const Vec3& x, const Vec3& y, double angle_r
     }
 }
 
-// The triangles that the search came to, from bright to dark; the last one chosen is green.
+// The triangles that the search visited, from bright to dark; the chosen one is green.
 void add_search(const HandSurroundings& hand, const GripSurface& chosen, const Tuning& tuning,
                 std::vector<Line>& out) {
-    constexpr double k_shown_m = 1e-3;  // off the surface
+    constexpr double k_shown_m = 1e-3;  // offset from the surface
     if (hand.meshes.empty()) {
         return;
     }
@@ -69,7 +69,7 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
         }
     };
     const std::size_t count = scratch.found.size();
-    for (std::size_t i = count; i-- > 0;) {  // earlier ones over later ones
+    for (std::size_t i = count; i-- > 0;) {  // draw earlier ones over later ones
         const float share =
             static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(count, 2) - 1);
         outline(scratch.found[i].triangle, blend(k_first_visited, k_last_visited, share), 1.5);
@@ -79,7 +79,7 @@ void add_search(const HandSurroundings& hand, const GripSurface& chosen, const T
     }
 }
 
-// How high the palm may be over the surface, and how far its normal may lean.
+// The palm's allowed height over the surface, and its allowed tilt.
 void add_palm_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& palm_ws,
                      const PalmTuning& tuning, std::vector<Line>& out) {
     constexpr double k_cone_m = 0.06;
@@ -101,7 +101,7 @@ void add_palm_limits(const HandSurroundings& hand, const GripSurface& surface, c
     out.push_back({point_ws, palm_center_ws, k_limit, 1.5});
 }
 
-// What is nearest to a point in the hand's surroundings, of what is nearer than so much.
+// The point of the hand's surroundings nearest to `point_ws`, within `within_m`.
 std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_ws,
                                double within_m) {
     std::optional<Vec3> nearest;
@@ -117,13 +117,12 @@ std::optional<Vec3> nearest_ws(const HandSurroundings& hand, const Vec3& point_w
     return nearest;
 }
 
-// The way from where a cold search begins, under the palm or before the finger, to where the
-// finger's disc cuts the surface, and that cut: a search of its own with the stage's function, for
-// the open finger's middle plane, on the search detail of what is gripped. The stage itself may
-// have kept last frame's answer.
+// A line from the start of a cold search to the finger disc's cut through the surface, and the cut
+// itself. Runs the stage's search again for the open finger's middle plane on the gripped body's
+// search detail. The stage itself may have reused last frame's result.
 void add_cut(const HandSurroundings& hand, const GripSurface& surface, const FingerRig& finger,
              const Pose& palm_ws, TraceScratch& scratch, std::vector<Line>& out) {
-    constexpr double k_shown_m = 1.5e-3;  // off the surface
+    constexpr double k_shown_m = 1.5e-3;  // offset from the surface
     const PlacedMesh& placed = hand.meshes.front();
     const SurfaceGraph& graph = placed.mesh->search;
     const Pose mesh_ws = hand.body_ws * placed.pose;
@@ -145,11 +144,11 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     if (found.triangle == k_no_triangle) {
         return;
     }
-    const auto way_m = [&](const GraphPoint& start) {
+    const auto distance_m = [&](const GraphPoint& start) {
         return start.triangle == k_no_triangle ? std::numeric_limits<double>::infinity()
                                                : (start.point - found.point).norm();
     };
-    const Vec3& from = starts[way_m(starts[0]) <= way_m(starts[1]) ? 0 : 1].point;
+    const Vec3& from = starts[distance_m(starts[0]) <= distance_m(starts[1]) ? 0 : 1].point;
     const Vec3 off = k_shown_m * graph.normals[found.triangle];
     out.push_back({transform_point(mesh_ws, from + off),
                    transform_point(mesh_ws, found.point + off), k_first_visited, 2.5});
@@ -164,7 +163,7 @@ void add_cut(const HandSurroundings& hand, const GripSurface& surface, const Fin
     }
 }
 
-// A ball of the zone's radius about where the palm would be.
+// A sphere of the zone's radius around the palm's place in the grip.
 void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>& out) {
     for (std::size_t row = 0; row < world.authored_grips.size(); ++row) {
         const AuthoredGrips& grips = world.authored_grips.rows()[row];
@@ -185,7 +184,7 @@ void add_snap_zones(const World& world, const Tuning& tuning, std::vector<Line>&
     }
 }
 
-// The disc that a finger turns in, from open to closed; its links, and where they touch.
+// The disc that a finger flexes in, from open to closed; its links and contact points.
 void add_finger(const HandSurroundings& hand, const FingerRig& finger, const FingerAngles& angles,
                 const Pose& palm_ws, std::vector<Line>& out) {
     constexpr double k_touch_m = 1.5e-3;
@@ -230,7 +229,7 @@ void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning
     TraceScratch scratch;
     for (const HandSurroundings& hand : caches.hands.surroundings) {
         const GripSurface* const surface = world.grip_surface.find(hand.hand);
-        if (!hand.grips || hand.rig == nullptr || surface == nullptr ||
+        if (!hand.is_gripping || hand.rig == nullptr || surface == nullptr ||
             surface->triangle == GripSurface::k_none) {
             continue;
         }

@@ -8,8 +8,8 @@
 
 namespace handhold {
 
-// What the stages of the hands did with every hand that grips, as lines in the world: after a
-// frame, of that frame. The search is done once more for its order; nothing is changed by it.
+// Appends debug lines of the hand stages for every gripping hand, for the last frame. Repeats the
+// search to get its order of visits; changes nothing.
 void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning& tuning,
                      const GizmoSet& on, std::vector<Line>& out);
 

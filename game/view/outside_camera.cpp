@@ -26,20 +26,20 @@ void OutsideCamera::place_walls() {
 Pose OutsideCamera::look_from(std::span<const Offset> offsets, const Vec3& head_ws,
                               const Vec3& target_ws, const Vec3& ahead_ws) {
     constexpr double k_camera_radius_m = 0.08;
-    constexpr double k_worth_m = 0.15;
+    constexpr double k_min_gain_m = 0.15;
     const Vec3 up = scene_->up_ws;
     const Vec3 side = ahead_ws.cross(up);
     place_walls();
     const auto reach = [&](const Vec3& wanted) {
-        const Vec3 way = wanted - head_ws;  // of which the head's end is free
+        const Vec3 sweep = wanted - head_ws;  // the sweep starts at the head, which is free
         const auto hit = walls_.cast_sphere(k_camera_radius_m, head_ws, wanted);
-        const double share = hit ? hit->distance_m / way.norm() : 1.0;
-        return Vec3(head_ws + std::max(0.0, share - 0.02) * way);
+        const double share = hit ? hit->distance_m / sweep.norm() : 1.0;
+        return Vec3(head_ws + std::max(0.0, share - 0.02) * sweep);
     };
     Vec3 best = reach(head_ws - 0.3 * ahead_ws);
     for (const auto& [forward, height, sideways] : offsets) {
         const Vec3 place = reach(target_ws + forward * ahead_ws + height * up + sideways * side);
-        if ((place - target_ws).norm() > (best - target_ws).norm() + k_worth_m) {
+        if ((place - target_ws).norm() > (best - target_ws).norm() + k_min_gain_m) {
             best = place;
         }
     }
@@ -55,22 +55,23 @@ Vec3 OutsideCamera::level_ahead(const RenderPose& render) const {
 }
 
 Pose OutsideCamera::behind(const RenderPose& render) {
-    constexpr std::array<Offset, 5> k_tries = {{{-1.3, 0.45, 0.75},
-                                                {-1.3, 0.45, -0.75},
-                                                {-1.4, 0.2, 0.0},
-                                                {0.9, 0.3, 0.9},
-                                                {0.9, 0.3, -0.9}}};
+    constexpr std::array<Offset, 5> k_offsets = {{{-1.3, 0.45, 0.75},
+                                                  {-1.3, 0.45, -0.75},
+                                                  {-1.4, 0.2, 0.0},
+                                                  {0.9, 0.3, 0.9},
+                                                  {0.9, 0.3, -0.9}}};
     const Vec3 ahead = level_ahead(render);
     const Vec3& head_ws = render.head_ws.position;
-    return look_from(k_tries, head_ws, head_ws - 0.25 * scene_->up_ws + 0.25 * ahead, ahead);
+    return look_from(k_offsets, head_ws, head_ws - 0.25 * scene_->up_ws + 0.25 * ahead, ahead);
 }
 
 Pose OutsideCamera::before(const RenderPose& render) {
-    constexpr std::array<Offset, 3> k_tries = {
+    constexpr std::array<Offset, 3> k_offsets = {
         {{1.5, 0.15, 0.0}, {1.3, 0.2, 0.7}, {1.3, 0.2, -0.7}}};
     constexpr double k_min_m = 0.6;
     const Vec3 target_ws = render.head_ws.position - 0.3 * scene_->up_ws;
-    const Pose camera = look_from(k_tries, render.head_ws.position, target_ws, level_ahead(render));
+    const Pose camera =
+        look_from(k_offsets, render.head_ws.position, target_ws, level_ahead(render));
     return (camera.position - target_ws).norm() < k_min_m ? behind(render) : camera;
 }
 

@@ -73,7 +73,7 @@ void PlayerView::add_hand(HandSide side, const RenderPose::Hand& hand,
     }
 }
 
-// Where the tracking has the hand, where that is not where it is shown.
+// A ghost at the tracked pose, if the hand is shown elsewhere.
 void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_lost,
                            RenderFrame& frame) {
     const auto share = static_cast<float>(ghost_share(hand, ghosts_));
@@ -93,7 +93,7 @@ void PlayerView::add_ghost(HandSide side, const RenderPose::Hand& hand, bool is_
                  frame);
 }
 
-// How an empty hand would sit in the authored grip that it is near.
+// Shows how an empty hand would sit in the authored grip nearby.
 void PlayerView::add_snap_hint(Entity hand, RenderFrame& frame) {
     const std::optional<SnapHint> hint = find_snap_hint(scene_->world, hand, scene_->tuning.hand);
     if (!hint) {
@@ -125,7 +125,7 @@ void PlayerView::add_ghost_of(HandSide side, const Pose& wrist_ws,
     }
 }
 
-// A hand that pulls something: from palm to body.
+// A line from the palm of a pulling hand to the pulled body.
 void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFrame& frame) const {
     const HandPull* const pull = scene_->world.hand_pull.find(hand);
     const BodyPose* const body =
@@ -135,17 +135,17 @@ void PlayerView::add_pull(Entity hand, const RenderPose::Hand& shown, RenderFram
     }
 }
 
-// What was added since `first`, where something hides it that is not his own.
+// Instances since `first` also shine through geometry that is not the player's own.
 void PlayerView::add_penetrating_hands(std::size_t first, RenderFrame& frame) const {
     for (std::size_t i = first; i < frame.instances.size(); ++i) {
         const Instance& part = frame.instances[i];
-        frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.sunk,
+        frame.ghosts.push_back({part.mesh, part.pose_ws, ghosts_.tracked, 0.0F, ghosts_.penetrating,
                                 ghosts_.fade_start_m, ghosts_.fade_full_m, true});
     }
 }
 
 void PlayerView::add_player(std::size_t row, BodyFigures::Seen seen, RenderFrame& frame) {
-    constexpr std::size_t k_who_plays = 0;  // hints are for him, from wherever he is seen
+    constexpr std::size_t k_who_plays = 0;  // hints are for this player, in every view
     const World& world = scene_->world;
     const Entity player = world.render_pose.owners()[row];
     const RenderPose& render = world.render_pose.rows()[row];

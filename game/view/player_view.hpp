@@ -13,35 +13,35 @@
 
 namespace handhold {
 
-// A scene with its players as a renderer draws them: their bodies and hands, what their palms point
-// at, and what holds them.
+// Draws a scene with its players: bodies and hands, palm rays, and lines to what holds them.
 class PlayerView {
   public:
-    // Nothing, with the reason, where nothing can be drawn on this machine. `scene` must outlive
-    // the view.
+    // Nothing, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` must
+    // outlive the view.
     static std::optional<PlayerView> open(const Scene& scene, PlayerModels models, int width_px,
                                           int height_px, std::string& why_not,
                                           PictureQuality quality = PictureQuality::quick);
 
-    // As it stands now, from a camera; `without_head`: the row of the player whose eyes it is.
-    // `marks` are drawn as well, and panels where there are.
+    // Draws the current state. `without_head`: element of the player whose eyes the camera is at;
+    // their head is not drawn. `marks`: extra lines. `ui`: panels, may be null.
     void draw(const Pose& camera_ws, double vertical_fov_rad,
               std::optional<std::size_t> without_head, Image& out, std::span<const Line> marks = {},
               const UiPicture* ui = nullptr);
-    // The same as a headset's eye sees it, into a texture of the runtime's (Renderer::draw_into).
+    // The same for one eye of a headset, into a texture of the XR runtime (Renderer::draw_into).
     void draw_eye(const Camera& eye, std::size_t whose, std::uint32_t texture, Image* copy,
                   const UiPicture* ui = nullptr);
-    // Palms' rays and what holds whom, as lines. On at first.
+    // Shows palm rays and grip lines. Default: on.
     void show_hand_lines(bool shows) { shows_hand_lines_ = shows; }
     // RenderFrame::hidden_lines.
     void set_hidden_lines(float strength) { hidden_lines_ = strength; }
-    // How far the controls are of whoever has this row; others' are as far as their hands close.
+    // Sets the controls' values of the player at element `row`. Other players' controls follow how
+    // far their hands are closed.
     void show_controls(std::size_t row, const std::array<ControlValues, k_hand_count>& values) {
         controls_ = PlayerControls{row, values};
     }
-    // A sheet of panels in the world; none: nothing.
+    // Shows a sheet of panels in the world; nullopt: none.
     void show_sheet(const std::optional<Sheet>& sheet) { sheet_ = sheet; }
-    // Lives as long as the view.
+    // Valid as long as the view.
     const GlContext& context() const { return renderer_.context(); }
     const RenderCounters& counters() const { return renderer_.counters(); }
 
@@ -67,7 +67,7 @@ class PlayerView {
     };
 
     const Scene* scene_;
-    Renderer renderer_;            // each has its own meshes
+    Renderer renderer_;            // each renderer has its own meshes
     std::vector<MeshId> visuals_;  // by Scene::visuals
     HandFigures hands_;
     BodyFigures body_;

@@ -11,7 +11,7 @@
 namespace handhold {
 namespace {
 
-// Those of the scene; a list that asks for none of it is refused.
+// The shots of the scene; fails if the list has none.
 Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
     Result<std::vector<Shot>> shots = load_shots(options.shots);
     if (!shots) {
@@ -25,7 +25,7 @@ Result<std::vector<Shot>> choose_shots(const RunOptions& options) {
     return shots;
 }
 
-// The first shot of something that the scene does not have.
+// The first shot that names something the scene lacks.
 std::optional<FileError> check_names(const RunOptions& options, const std::vector<Shot>& shots,
                                      const World& world) {
     for (const Shot& shot : shots) {

@@ -8,18 +8,18 @@
 
 namespace handhold {
 
-// A session that is about to be played.
+// A session that is ready to be played.
 struct ReadySession {
     Scene& scene;
     FrameCaches& caches;
     const std::vector<PlayerEntities>& players;
-    const Recording* recording = nullptr;  // none: nobody plays
+    const Recording* recording = nullptr;  // null: nobody plays
     RunSettings settings;
 };
 
-// `run --shots`: plays it until its last shot, and saves the shots. Returns the exit status: 0, or
-// 2 after one line on standard error where the list is refused, asks for none of this scene, or
-// something cannot be drawn or written.
+// `run --shots`: plays the session until its last shot and saves the shots. Returns the exit
+// status: 0, or 2 after one line on standard error if the list is invalid, has no shot of this
+// scene, or something cannot be drawn or written.
 int draw_shots(const RunOptions& options, ReadySession session, PlayerModels models);
 
 }  // namespace handhold

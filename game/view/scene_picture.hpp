@@ -7,10 +7,10 @@
 
 namespace handhold {
 
-// The scene's meshes in a renderer, by Scene::visuals.
+// Adds the scene's meshes to a renderer; indexed like Scene::visuals.
 std::vector<MeshId> add_scene_meshes(const Scene& scene, Renderer& renderer);
 
-// The scene as it stands now: bodies, lamps and backdrop; camera and players are the caller's.
+// The current state of the scene: bodies, lamps and backdrop. The caller adds camera and players.
 RenderFrame make_scene_frame(const Scene& scene, const std::vector<MeshId>& meshes);
 
 }  // namespace handhold

@@ -20,13 +20,13 @@ constexpr double k_shot_palm_m = 0.08;  // from the wrist towards the fingers
 struct ShotFilm::Impl {
     const Scene& scene;
     const FrameCaches& caches;
-    std::vector<Shot> shots;  // by when they begin
+    std::vector<Shot> shots;  // by start time
     ShotFilmSettings settings;
     PlayerView view;
     OutsideCamera outside;
     Overlay overlay;
-    std::unique_ptr<VideoWriter> video;  // of the shot that is running
-    std::size_t now = 0;                 // the shot that is running, or the next
+    std::unique_ptr<VideoWriter> video;  // of the running shot
+    std::size_t now = 0;                 // index of the running shot, or of the next
     double next_frame_s = 0.0;
     std::size_t saved = 0;
     std::string failure;
@@ -143,7 +143,7 @@ struct ShotFilm::Impl {
         video.reset();
     }
 
-    // True once the running shot is done.
+    // True if the running shot is complete.
     bool advance(const Shot& shot, double t_s) {
         constexpr double k_rounding_s = 1e-6;
         if (t_s + k_rounding_s < shot.at_s) {

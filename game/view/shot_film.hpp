@@ -18,7 +18,7 @@ struct ShotFilmSettings {
     int height_px = 540;
     double video_fps = 30.0;
     PictureQuality quality = PictureQuality::fine;
-    std::filesystem::path out;  // a folder that is there
+    std::filesystem::path out;  // an existing folder
     PlayerModels models;
 };
 
@@ -26,18 +26,18 @@ struct ShotFilmSettings {
 // Only reads the world.
 class ShotFilm {
   public:
-    // Null, with the reason, where nothing can be drawn on this machine. Scene and caches, which
-    // gizmos are read from, must outlive it.
+    // Null, with the reason in `why_not`, if nothing can be drawn on this machine. `scene` and
+    // `caches` (the source of the gizmos) must outlive the film.
     static std::unique_ptr<ShotFilm> open(const Scene& scene, const FrameCaches& caches,
                                           std::vector<Shot> shots, const ShotFilmSettings& settings,
                                           std::string& why_not);
     ~ShotFilm();
 
-    // When the last shot ends.
+    // End of the last shot, seconds of the session.
     double length_s() const;
-    // After each frame.
+    // Call after each frame.
     void watch(double t_s);
-    // How many shots were drawn and saved; `why_not` is the first reason where one was not.
+    // Returns the number of shots saved. `why_not`: the reason of the first failure, if any.
     std::size_t finish(std::string& why_not);
 
   private:

@@ -34,7 +34,7 @@ ShotView read_view(const JsonValue& value) {
     return found->second;
 }
 
-// Their names as the inspector has them, or "all".
+// Gizmo names as in the inspector, or "all".
 void read_gizmos(const JsonValue& list, GizmoSet& gizmos) {
     for (const JsonValue& item : list.optional_items()) {
         const std::string name = item.text();
@@ -50,7 +50,7 @@ void read_gizmos(const JsonValue& list, GizmoSet& gizmos) {
     }
 }
 
-// A file's name and nothing that leads elsewhere.
+// A file name without any path.
 bool is_plain_name(const std::string& name) {
     return std::ranges::all_of(name, [](char letter) {
         return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
@@ -89,12 +89,12 @@ Shot read_shot(const JsonValue& value) {
     return shot;
 }
 
-// One is drawn at a time.
+// Only one clip is drawn at a time.
 bool overlap(const Shot& a, const Shot& b) {
     return a.scene == b.scene && a.at_s < b.until_s && b.at_s < a.until_s;
 }
 
-// A list has shots of many scenes: one of none would never be asked for, and not be missed.
+// A list covers many scenes, so a misspelt scene would never be played and nobody would notice.
 bool is_scene(const std::string& scene) {
     const std::vector<std::string_view> built_in = built_in_scenes();
     std::error_code ignored;
@@ -116,7 +116,7 @@ Result<std::vector<Shot>> parse_shots(std::string_view text, const std::string& 
     for (const JsonValue& value : root["shots"].items()) {
         const Shot shot = read_shot(value);
         if (std::ranges::any_of(shots, [&](const Shot& other) { return overlap(shot, other); })) {
-            value["at_s"].refuse("a time outside the scene's other pieces of film");
+            value["at_s"].refuse("a time outside the scene's other clips");
         }
         shots.push_back(shot);
         shots.back().number = shots.size() - 1;

@@ -9,46 +9,46 @@
 #include "engine/io/result.hpp"
 #include "game/view/gizmos.hpp"
 
-// Pictures and pieces of film of a scene's session, asked for in a file: what documents show is
-// made by the game and never by hand (docs/reference/shots.md).
+// Pictures and film clips of a scene's session, requested in a file. All pictures in the documents
+// are made this way (docs/reference/shots.md).
 namespace handhold {
 
 // Where a shot's camera is.
 enum class ShotView : std::uint8_t {
-    eyes,    // the first player's
-    behind,  // behind and above him, as walls allow
-    before,  // before him, looking back
-    hand,    // `from_m` from the palm of one of his hands, looking at it
-    chest,   // the same of his chest,
-    pelvis,  // and of his pelvis
-    player,  // of another player's head
-    body,    // of a body of the scene
+    eyes,    // at the first player's eyes
+    behind,  // behind and above the first player, as far as walls allow
+    before,  // in front of the first player, looking back
+    hand,    // at `from_m` from the palm of a hand of the first player, looking at it
+    chest,   // at `from_m` from the first player's chest
+    pelvis,  // at `from_m` from the first player's pelvis
+    player,  // at `from_m` from another player's head
+    body,    // at `from_m` from a body of the scene
     place    // at `from_m` in the world, looking at `target_m`
 };
 
 struct Shot {
-    std::size_t number = 0;  // in the list, from 0
-    std::string name;        // of the file, without folder and extension
+    std::size_t number = 0;  // place in the list, from 0
+    std::string name;        // file name, without folder and extension
     std::string scene;       // whose session it is of
-    std::string caption;     // over a piece of film, one line; may be empty
-    double at_s = 0.0;       // of the session
-    double until_s = 0.0;    // a piece of film where later than at_s, else a picture
+    std::string caption;     // one line over a clip; may be empty
+    double at_s = 0.0;       // session time
+    double until_s = 0.0;    // end of a clip if later than at_s; else a picture
     ShotView view = ShotView::eyes;
     HandSide side = HandSide::right;  // ShotView::hand
-    std::string body;                 // ShotView::body; ShotView::player: a player's name
-    // To the right, up and back, as the first player's play space stands; of a place in the world's
-    // axes.
+    // ShotView::body: its name; ShotView::player: the player's name
+    std::string body;
+    // Right, up and back in the first player's play space; ShotView::place: in the world's axes.
     Vec3 from_m = Vec3(0.3, 0.2, 0.3);
-    Vec3 target_m = Vec3::Zero();  // what is looked at, beside what the view names; the same axes
+    Vec3 target_m = Vec3::Zero();  // Added to the point that the view looks at; same axes.
     double fov_deg = 60.0;         // vertical
-    bool marks = true;             // the lines of palms, grips and heads
-    double through = 0.22;         // how much of lines is seen through what hides them
+    bool marks = true;             // lines of palms, grips and heads
+    double through = 0.22;         // [0, 1]; opacity of lines behind geometry
     GizmoSet gizmos = k_no_gizmos;
 };
 
 // Errors name the file, the JSON pointer, and what was expected.
 Result<std::vector<Shot>> parse_shots(std::string_view text, const std::string& file);
-// The same; every scene is one that is built in, or a file that is there.
+// The same from a file. Every scene must be built in or an existing file.
 Result<std::vector<Shot>> load_shots(const std::filesystem::path& file);
 
 }  // namespace handhold

@@ -6,20 +6,21 @@
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 
-// Authored grips that an empty hand would snap to if it closed where it is: what pictures hint at.
-// Only reads the world; nothing of it is read by the simulation.
+// The authored grip that an empty hand would snap to if it closed now, for rendering a hint. Only
+// reads the world; the simulation reads nothing of this.
 namespace handhold {
 
 struct SnapHint {
-    Pose wrist_ws;           // of the hand in the grip
-    AuthoredHand hand;       // how its fingers are then
-    double nearness = 0.0;   // (0, 1]; 1: exactly in the grip
-    bool is_within = false;  // the zone; else it is near it
+    Pose wrist_ws;           // wrist of the hand in the grip
+    AuthoredHand hand;       // finger pose in the grip
+    double nearness = 0.0;   // (0, 1]; 1: exactly at the grip's pose
+    bool is_within = false;  // inside the zone; else near it
 };
 
-// Of the grips whose zone the hand is in, or near: the one of highest priority, then the nearest to
-// its middle by its own radius and angle (update_grabs goes by the palm's way), whatever sits in it
-// or stands before. None for a hand that holds something.
+// Considers the grips whose zone the hand is in or near. Returns the one with the highest priority,
+// then the one nearest to its centre relative to its radius and angle. Ignores obstacles and
+// whether the grip is taken (update_grabs also uses the palm's travel). None if the hand holds
+// something.
 std::optional<SnapHint> find_snap_hint(const World& world, Entity hand, const HandTuning& tuning);
 
 }  // namespace handhold

@@ -17,9 +17,8 @@ Pose mover_pose(const Mover& mover, double t_s) {
         pose.position += velocity * t_s;
         return pose;
     }
-    // The integral of the turning velocity: its part along the axis goes straight, the rest runs
-    // round a circle. From half the angle, since 1 - cosine loses its digits where the spin is
-    // slow.
+    // Integral of the rotating velocity: the component along the axis is linear, the rest moves on
+    // a circle. Uses half angles, because 1 - cosine loses precision for slow spins.
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(0.5 * rate * t_s, sine, cosine);

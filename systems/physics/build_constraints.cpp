@@ -72,26 +72,29 @@ RowBlock hand_block(const Grab& grab, const Quat& play_space, std::uint64_t hand
     return block;
 }
 
-// A hand on a player's head: the head's place in his play space, which is what the solver moves,
-// and the head's own motion there, which is not the play space's.
+// A hand that grips a player's head. The solver moves the gripped player's play space, so the
+// anchor is the head's tracked pose in it. The head's own tracked motion is subtracted from the
+// drive velocity, because it does not move the play space.
 void hold_head(const Grab& grab, const HeadTracking& head, const Quat& play_space, double dt_s,
                RowBlock& block) {
     const Pose anchor_ps = head.pose_ps * grab.anchor_bs;
-    const Vec3 way = anchor_ps.position - transform_point(head.start_ps, grab.anchor_bs.position);
+    const Vec3 displacement =
+        anchor_ps.position - transform_point(head.start_ps, grab.anchor_bs.position);
     block.point_b_bs = anchor_ps.position;
     block.rotation_b_bs = anchor_ps.rotation;
-    block.drive_velocity_ws_mps -= play_space * (way / dt_s);
+    block.drive_velocity_ws_mps -= play_space * (displacement / dt_s);
 }
 
-// Where a hand's target was at the start of the frame, by its mean velocity.
+// The hand's target at the start of the frame, from its mean velocity.
 Pose target_before(const Grab& grab, double dt_s) {
     return {grab.target_ps.position - dt_s * grab.target_velocity_ps_mps,
             (rotation_from_vector(-dt_s * grab.target_spin_ps_radps) * grab.target_ps.rotation)
                 .normalized()};
 }
 
-// The second of two hands turns the body; the rotation and its rate follow from both hands. The
-// block keeps the hand's points: how far it slid counts as its error.
+// Two-handed hold: the second hand controls the body's rotation, whose target and rate follow from
+// both hands. The block keeps the second hand's points, because its error is how far that hand
+// slid.
 void set_direction(const Grab& first, const Grab& second, const SolverBody& player,
                    const SolverBody& body, double dt_s, RowBlock& block) {
     const Quat near = player.pose_ws.rotation.conjugate() * body.pose_ws.rotation;
@@ -108,8 +111,9 @@ void set_direction(const Grab& first, const Grab& second, const SolverBody& play
         player.pose_ws.rotation * (rotation_to_vector(now * before.conjugate()) / dt_s);
 }
 
-// Of two hands that share a free body the first holds its point and the second turns it; where they
-// are too close for that, the second follows. False where the hand has no rows.
+// Splits the rows of two hands that hold one free body: the first holds its point, the second the
+// direction. If the hands are too close for that, the first has all rows. False if this hand has no
+// rows.
 bool share_rows(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
     const std::size_t other = find_other_hand(io.owner, io.grab, row);
     const Grab& grab = io.grab.rows()[row];
@@ -141,7 +145,7 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         const std::size_t a = find_body(frame.graph, io.persistent_id.at(player).value);
         const std::size_t b = find_body(frame.graph, io.persistent_id.at(grab.body).value);
         if (a == frame.graph.bodies.size() || b == frame.graph.bodies.size()) {
-            continue;  // a body that is gone holds nothing
+            continue;  // the gripped body was destroyed
         }
         RowBlock block = hand_block(grab, frame.graph.bodies[a].pose_ws.rotation,
                                     io.persistent_id.at(hand).value);
@@ -158,8 +162,8 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
         frame.hand_blocks.push_back(block);
         frame.phase[b].held = grab.kind == GripKind::held;
         if (grab.kind == GripKind::held && !grab.jointed) {
-            // 1/kappa: 0 for what is light, 1 where momentum is exchanged exactly. The heaviest
-            // thing held counts.
+            // 1/kappa: 0 for light objects, 1 for objects heavy enough for exact momentum exchange.
+            // The heaviest held object counts.
             const double share =
                 smooth_step(frame.graph.bodies[b].mass_kg, tuning.kappa_light_kg,
                             std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
@@ -168,12 +172,13 @@ void write_hands(const BuildConstraintsIo& io, const PhaseTuning& tuning) {
             frame.phase[a].grips_surface = true;
         }
         if (grab.kind == GripKind::player) {
-            frame.phase[b].grips_surface = true;  // he holds his holder as much as he is held
+            frame.phase[b].grips_surface = true;  // the grip is symmetric
         }
     }
 }
 
-// The world as a body, last by its id; made by the first joint that hangs on it.
+// Index of the solver body of the world, added when the first joint needs it. Its id is the
+// largest, so it is last.
 std::size_t world_body(FrameGraph& frame) {
     constexpr std::uint64_t k_world_id = std::numeric_limits<std::uint64_t>::max();
     std::vector<SolverBody>& bodies = frame.graph.bodies;
@@ -200,15 +205,16 @@ RowKind row_kind(JointKind kind) {
     return RowKind::distance;
 }
 
-// A detent pulls towards the nearest multiple of its spacing, no faster than it would get there in
-// this time.
+// Time constant of detents: a detent drives towards the nearest multiple of its spacing, no faster
+// than reaching it in this time.
 constexpr double k_detent_s = 0.05;
 
 void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, JointRows& rows) {
     rows.limited = joint.limited || joint.kind == JointKind::distance;
     rows.lower = joint.lower;
     rows.upper = joint.upper;
-    rows.previous = state.coordinate + state.speed * dt_s;  // as predicted: it may turn fast
+    // Predicted, because the joint may rotate fast.
+    rows.previous = state.coordinate + state.speed * dt_s;
     rows.friction_impulse = joint.friction * dt_s;
     rows.motor_target = rows.motor_time_s = rows.motor_max_impulse = 0.0;
     rows.lock_limit_impulse = rows.lock_impulse = 0.0;
@@ -226,7 +232,7 @@ void write_joint_rows(const Joint& joint, const JointState& state, double dt_s, 
     }
 }
 
-// The block of a joint; false where it ties nothing that moves, or what is gone.
+// Writes a joint's block. False if it connects no movable body, or a body was destroyed.
 bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block) {
     ConstraintGraph& graph = io.frame.graph;
     const auto body_index = [&](Entity entity) {
@@ -259,9 +265,9 @@ bool write_joint(const BuildConstraintsIo& io, std::size_t row, RowBlock& block)
     return true;
 }
 
-// Both over the blocks of the frame before, in the order that they were sorted into: as long as
-// nothing is tied anew they are sorted again, and need not be moved. False where these are not the
-// joints, or the hands, that there are.
+// Both overwrite the blocks of the last frame in place. Those are sorted by island, so as long as
+// the joints and grips are the same, they stay sorted. False if the set of joints, or of hand
+// blocks, has changed.
 bool rewrite_joints(const BuildConstraintsIo& io) {
     std::size_t rewritten = 0;
     for (RowBlock& block : io.frame.graph.blocks) {
@@ -273,7 +279,7 @@ bool rewrite_joints(const BuildConstraintsIo& io) {
         }
         ++rewritten;
     }
-    // Each has another row: so these are all rows.
+    // Sources are distinct, so all joints were rewritten.
     return rewritten == io.joint.size();
 }
 bool rewrite_hands(FrameGraph& frame) {
@@ -316,8 +322,8 @@ void place_hands(FrameGraph& frame) {
     blocks.insert(blocks.end(), frame.hand_blocks.begin(), frame.hand_blocks.end());
 }
 
-// What hangs on joints with something held is held too.
-void spread_held(const BuildConstraintsIo& io) {
+// Bodies that joints connect to a held body count as held.
+void propagate_held(const BuildConstraintsIo& io) {
     const JointGroups& groups = io.frame.joint_groups;
     if (groups.of_body.empty()) {
         return;
@@ -343,7 +349,7 @@ void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning) {
     write_joints(io);
     write_hands(io, tuning.phases);
     place_hands(io.frame);
-    spread_held(io);
+    propagate_held(io);
     replace_contact_rows(io.frame.contacts, io.frame.graph);
 }
 

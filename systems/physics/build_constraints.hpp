@@ -9,27 +9,32 @@
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
+// Builds the solver's model of the frame: one solver body per body and player, constraint rows for
+// grips, joints and contacts, and islands.
+// Talk rows 4 (inside the step) and 5 (arbitrary chains). Stage 5.
+//
+// Rows of a grip: surface or player: three (the point). Held object: six (a weld), three if it is
+// jointed to something immovable. Two hands on one object: three for the first hand's point, and
+// three for the direction between the hands and the rotation about it.
+// Fallbacks counted: none.
 namespace handhold {
 
 struct BuildConstraintsIo {
-    double dt_s = 0.0;                              // in
+    double dt_s = 0.0;                              // in: s
     const Column<PersistentId>& persistent_id;      // in
-    const Column<RigidBody>& body;                  // in
-    const Column<BodyPose>& body_pose;              // in: predicted
-    const Column<BodyVelocity>& body_velocity;      // in
-    const Column<Joint>& joint;                     // in
-    const Column<JointState>& joint_state;          // in
-    const Column<PlayerBody>& player;               // in
-    const Column<PlayerOrigin>& origin;             // in: predicted
-    const Column<PlayerVelocity>& player_velocity;  // in
-    const Column<HeadTracking>& head;               // in
+    const Column<RigidBody>& body;                  // in: kg, kg m^2
+    const Column<BodyPose>& body_pose;              // in: world, predicted
+    const Column<BodyVelocity>& body_velocity;      // in: world, m/s and rad/s, start of the frame
+    const Column<Joint>& joint;                     // in: body frames, rad or m
+    const Column<JointState>& joint_state;          // in: rad or m, of the last frame
+    const Column<PlayerBody>& player;               // in: kg
+    const Column<PlayerOrigin>& origin;             // in: world, predicted
+    const Column<PlayerVelocity>& player_velocity;  // in: world, m/s, start of the frame
+    const Column<HeadTracking>& head;               // in: play space
     const Column<HandOwner>& owner;                 // in
-    const Column<Grab>& grab;                       // in: settled
-    FrameGraph& frame;  // in: proxies, entities, contacts; out: graph, phase
+    const Column<Grab>& grab;  // in: anchors in body frames, targets in play space
+    FrameGraph& frame;         // in: proxies, entities, contacts; out: graph, phase
 };
-
-// Stage 5. The frame as the solver sees it: one solver body a body or player, hand rows for what is
-// gripped, rows of joints, contact rows, islands.
 void build_constraints(const BuildConstraintsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

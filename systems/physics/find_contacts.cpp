@@ -5,7 +5,7 @@
 namespace handhold {
 namespace {
 
-// Held, or tied by joints to what is held.
+// True if the player holds the body, or a body that joints connect to it.
 bool is_held_by(const FindContactsIo& io, Entity player, Entity body) {
     const std::size_t body_row = io.body.find_row(body);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
@@ -30,7 +30,7 @@ bool touches(const std::vector<ContactPoint>& contacts, const IgnoredPair& pair)
     });
 }
 
-// Adds the pairs of a head with a body and with all that joints tie to it.
+// Adds the pairs of a player's head with a body and with all bodies that joints connect to it.
 void ignore_group(const FindContactsIo& io, std::uint64_t player_id, Entity body) {
     const JointGroups& groups = io.frame.joint_groups;
     if (groups.of_body.empty()) {
@@ -57,7 +57,8 @@ bool touches_group(const FindContactsIo& io, std::uint64_t player_id, Entity bod
     return touched;
 }
 
-// Drops what is apart; what stays is added to frame.ignored.
+// Removes bodies that are released and clear of the head; the others' pairs are added to
+// frame.ignored.
 void update_ignores(const FindContactsIo& io) {
     for (std::size_t row = 0; row < io.head_ignores.size(); ++row) {
         const Entity player = io.head_ignores.owners()[row];
@@ -77,7 +78,7 @@ void update_ignores(const FindContactsIo& io) {
     std::sort(io.frame.ignored.begin(), io.frame.ignored.end());
 }
 
-// Bodies that a joint ties together do not touch, unless it says so.
+// Jointed bodies do not touch each other, unless Joint::collides.
 void ignore_jointed(const FindContactsIo& io) {
     io.frame.ignored.clear();
     for (const Joint& joint : io.joint.rows()) {

@@ -9,14 +9,13 @@
 namespace handhold {
 namespace {
 
-// --- What is sunk into surfaces
-// ------------------------------------------------------------------------------------
+// --- Restoring penetrating bodies ----------------------------------------------------------------
 
-// As far as an arm jumps: what has been dragged along sunk for longer stays where it is.
+// About the length of an arm's jump. A body that was dragged farther while penetrating stays.
 constexpr double k_max_restore_distance_m = 2.0;
-constexpr double k_max_error_ratio = 0.5;  // of its error must be gone
+constexpr double k_max_error_ratio = 0.5;  // of the error before the restore
 
-// The worst error of a body's own rows, hands excepted; or of its contacts alone.
+// The worst error of a body's own rows without grips, or of its contacts only.
 double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_contacts) {
     double worst = 0.0;
     for (const RowBlock& block : graph.blocks) {
@@ -28,7 +27,7 @@ double own_error_m(const ConstraintGraph& graph, std::uint32_t body, bool only_c
     return worst;
 }
 
-// What is fixed or driven that a body overlaps most, if anything.
+// The fixed or kinematic body that `body` penetrates most by its contacts; nullopt if none.
 std::optional<std::uint32_t> deepest_fixed_contact(const ConstraintGraph& graph,
                                                    std::uint32_t body) {
     std::optional<std::uint32_t> wall;
@@ -51,7 +50,7 @@ double hidden_overlap_m(const FrameGraph& frame, std::uint32_t body) {
     return frame.hidden_overlaps.of_body[body].depth_m;
 }
 
-// The same, or where no contact says so what it is sunk into unseen.
+// The same; if no contact shows one, the body of a hidden overlap.
 std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std::uint32_t body) {
     const std::optional<std::uint32_t> wall = deepest_fixed_contact(frame.graph, body);
     const Overlap& hidden = frame.hidden_overlaps.of_body[body];
@@ -60,7 +59,7 @@ std::optional<std::uint32_t> overlapped_fixed_body(const FrameGraph& frame, std:
     return wall || !is_wall ? wall : std::optional(hidden.with);
 }
 
-// The deepest overlap in an island.
+// The deepest overlap in an island, hidden overlaps included.
 double worst_overlap_m(const FrameGraph& frame, const Island& island) {
     const ConstraintGraph& graph = frame.graph;
     double worst = 0.0;
@@ -87,8 +86,8 @@ void add_if_penetrating(double restore_depth_m, std::uint32_t index, std::uint32
     }
 }
 
-// Lists free bodies that are sunk, as they are: by island, then those that no row holds, for
-// themselves.
+// Lists the penetrating free bodies, grouped by island; a body without rows makes a group of its
+// own.
 void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
     frame.penetrating_bodies.clear();
@@ -101,21 +100,21 @@ void find_penetrating_bodies(double restore_depth_m, FrameGraph& frame) {
         }
     }
     for (std::uint32_t index = 0; index < graph.bodies.size(); ++index) {
-        const auto holds_it = [index](const RowBlock& block) {
+        const auto involves_body = [index](const RowBlock& block) {
             return block.a == index || block.b == index;
         };
         if (hidden_overlap_m(frame, index) >= restore_depth_m &&
-            std::ranges::none_of(graph.blocks, holds_it)) {
+            std::ranges::none_of(graph.blocks, involves_body)) {
             add_if_penetrating(restore_depth_m, index, islands + index, frame);
         }
     }
 }
 
-// To where it last overlapped nothing, carried along by the wall it is sunk into.
-void restore_last_valid_pose(const FrameGraph::PenetratingBody& sunk, FrameGraph& frame) {
-    SolverBody& body = frame.graph.bodies[sunk.body];
-    Pose valid_ws = frame.proxies[sunk.body].from_ws;
-    if (const std::optional<std::uint32_t> found = overlapped_fixed_body(frame, sunk.body)) {
+// Moves a body to its last valid pose, carried along by the fixed or kinematic body it penetrates.
+void restore_last_valid_pose(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[penetrating.body];
+    Pose valid_ws = frame.proxies[penetrating.body].from_ws;
+    if (const std::optional<std::uint32_t> found = overlapped_fixed_body(frame, penetrating.body)) {
         const SolverBody& wall = frame.graph.bodies[*found];
         const ColliderProxy& proxy = frame.proxies[*found];
         valid_ws = proxy.to_ws * (inverse(proxy.from_ws) * valid_ws);
@@ -126,20 +125,20 @@ void restore_last_valid_pose(const FrameGraph::PenetratingBody& sunk, FrameGraph
     body.pose_ws = valid_ws * Pose{-body.collider_offset_bs, Quat::Identity()};
 }
 
-void undo_restore(const FrameGraph::PenetratingBody& sunk, FrameGraph& frame) {
-    SolverBody& body = frame.graph.bodies[sunk.body];
-    body.pose_ws = sunk.pose_ws;
-    body.velocity_mps = sunk.velocity_mps;
-    body.spin_radps = sunk.spin_radps;
+void undo_restore(const FrameGraph::PenetratingBody& penetrating, FrameGraph& frame) {
+    SolverBody& body = frame.graph.bodies[penetrating.body];
+    body.pose_ws = penetrating.pose_ws;
+    body.velocity_mps = penetrating.velocity_mps;
+    body.spin_radps = penetrating.spin_radps;
 }
 
-// What was found inside of things says nothing about where they are now.
+// Contacts found at the penetrating poses are dropped; those at the restored poses are found again.
 void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats) {
     FrameGraph& frame = io.frame;
     const auto is_penetrating = [&frame](std::uint64_t id) {
         return std::ranges::any_of(frame.penetrating_bodies,
-                                   [&](const FrameGraph::PenetratingBody& sunk) {
-                                       return frame.graph.bodies[sunk.body].id == id;
+                                   [&](const FrameGraph::PenetratingBody& penetrating) {
+                                       return frame.graph.bodies[penetrating.body].id == id;
                                    });
     };
     std::erase_if(frame.contacts, [&](const ContactPoint& contact) {
@@ -155,23 +154,25 @@ void rebuild_contacts(const FinishPositionsIo& io, const ContactTuning& tuning, 
     }
 }
 
-// The sunk bodies of one island stay put back, which is counted, or are all sunk again. True where
-// any are.
+// For each island: keeps the restores of all its bodies (counted), or undoes them all. True if any
+// were undone.
 bool undo_failed_restores(FrameGraph& frame, StageStats& stats) {
-    const auto is_better = [&frame](const FrameGraph::PenetratingBody& sunk) {
+    const auto is_improved = [&frame](const FrameGraph::PenetratingBody& penetrating) {
         const double moved_m =
-            (frame.graph.bodies[sunk.body].pose_ws.position - sunk.pose_ws.position).norm();
+            (frame.graph.bodies[penetrating.body].pose_ws.position - penetrating.pose_ws.position)
+                .norm();
         return moved_m < k_max_restore_distance_m &&
-               own_error_m(frame.graph, sunk.body, false) < k_max_error_ratio * sunk.error_m;
+               own_error_m(frame.graph, penetrating.body, false) <
+                   k_max_error_ratio * penetrating.error_m;
     };
-    const std::vector<FrameGraph::PenetratingBody>& sunk = frame.penetrating_bodies;
+    const std::vector<FrameGraph::PenetratingBody>& penetrating = frame.penetrating_bodies;
     bool undone = false;
-    for (auto first = sunk.begin(); first != sunk.end();) {
+    for (auto first = penetrating.begin(); first != penetrating.end();) {
         const auto last =
-            std::find_if(first, sunk.end(), [&](const FrameGraph::PenetratingBody& other) {
+            std::find_if(first, penetrating.end(), [&](const FrameGraph::PenetratingBody& other) {
                 return other.island != first->island;
             });
-        if (std::all_of(first, last, is_better)) {
+        if (std::all_of(first, last, is_improved)) {
             stats.count(Fallback::restored_last_valid_pose);
             std::for_each(first, last, [&](const FrameGraph::PenetratingBody& body) {
                 frame.hidden_overlaps.of_body[body.body] = {0.0, body.body};
@@ -197,8 +198,8 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
     if (frame.penetrating_bodies.empty()) {
         return;
     }
-    for (const FrameGraph::PenetratingBody& sunk : frame.penetrating_bodies) {
-        restore_last_valid_pose(sunk, frame);
+    for (const FrameGraph::PenetratingBody& penetrating : frame.penetrating_bodies) {
+        restore_last_valid_pose(penetrating, frame);
     }
     rebuild_contacts(io, tuning, stats);
     if (undo_failed_restores(frame, stats)) {
@@ -206,8 +207,7 @@ void restore_penetrating_bodies(const FinishPositionsIo& io, const ContactTuning
     }
 }
 
-// --- Results
-// ------------------------------------------------------------------------------------
+// --- Results -------------------------------------------------------------------------------------
 
 void write_poses(const FinishPositionsIo& io) {
     FrameGraph& frame = io.frame;
@@ -235,12 +235,13 @@ void write_hand_error(const FinishPositionsIo& io, const RowBlock& block, StageS
     io.grab.rows()[block.source].error_m = error;
 }
 
-void take_worst(const JointError& error, StageStats& stats) {
+void add_worst(const JointError& error, StageStats& stats) {
     stats.joint_error_m = std::max(stats.joint_error_m, error.point_m);
     stats.joint_error_rad = std::max(stats.joint_error_rad, error.angle_rad);
 }
 
-// What the island's last solve left of its joints, if it told and nothing was moved since.
+// The joint errors of the island's last solve, if that solve reported them and no body was restored
+// since.
 std::optional<JointError> cached_joint_error(const FrameGraph& frame, std::size_t island) {
     const bool is_cached = frame.penetrating_bodies.empty() && frame.island_errors[island];
     return is_cached ? frame.island_errors[island]->joints : std::nullopt;
@@ -249,7 +250,7 @@ std::optional<JointError> cached_joint_error(const FrameGraph& frame, std::size_
 void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageStats& stats) {
     const ConstraintGraph& graph = io.frame.graph;
     const std::optional<JointError> cached = cached_joint_error(io.frame, island);
-    take_worst(cached.value_or(JointError{}), stats);
+    add_worst(cached.value_or(JointError{}), stats);
     for (const std::uint32_t i : graph.blocks_of(graph.islands[island])) {
         const RowBlock& block = graph.blocks[i];
         if (is_drive(block)) {
@@ -261,7 +262,7 @@ void write_island_errors(const FinishPositionsIo& io, std::size_t island, StageS
                 stats.count(Fallback::contacts_unresolved);
             }
         } else if (!cached) {
-            take_worst(joint_error(graph.bodies, block), stats);
+            add_worst(joint_error(graph.bodies, block), stats);
         }
     }
 }

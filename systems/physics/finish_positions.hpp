@@ -9,25 +9,25 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 
+// Restores bodies that still penetrate to their last valid pose, then writes poses and errors.
+// Stage 8, after solve_phases.
+//
+// A free body that penetrates by contact.restore_depth_m or more is restored, at most 2 m far, if
+// that at least halves its error: a hand that jumps through clutter carries no body into a wall.
+// Overlaps that its contacts do not show, because it moved farther than sweeps cover
+// (find_missed_overlaps), count too; such a pose does not become the last valid one. A body
+// restored next to a fixed or kinematic body moves with it and enters the velocity solve at its
+// velocity. The bodies of one island are restored together or not at all. Fallbacks counted:
+// restored_last_valid_pose (per island), contacts_unresolved.
 namespace handhold {
 
 struct FinishPositionsIo {
-    CollisionWorld& collision;     // in/out: proxies follow what is put back
-    FrameGraph& frame;             // in/out
-    Column<BodyPose>& body_pose;   // out: free bodies
-    Column<PlayerOrigin>& origin;  // out
-    Column<Grab>& grab;            // out: error
+    CollisionWorld& collision;     // in/out: proxies of restored bodies, world
+    FrameGraph& frame;             // in/out: graph, contacts; out: phase (push_back_m)
+    Column<BodyPose>& body_pose;   // out, free bodies: world, end of the frame
+    Column<PlayerOrigin>& origin;  // out: world, position only
+    Column<Grab>& grab;            // out: error_m, m
 };
-
-// Stage 8, after the phases: writes poses and what is left of errors.
-//
-// Free bodies that no phase could take out of what they are sunk into (contact.penetration_m) go
-// back to where they last overlapped nothing, no more than two metres, if that halves their error:
-// a hand's jump through clutter carries nothing into a wall. What moved farther than is swept is
-// looked at where it is (find_missed_overlaps): overlaps that its contacts do not show count too,
-// put it back, and keep the place from becoming one to go back to. What is sunk into something
-// fixed or driven rides along with it and starts the velocity solve at its speed. Bodies of one
-// island go back together or not at all; counted by island.
 void finish_positions(const FinishPositionsIo& io, const ContactTuning& tuning, StageStats& stats);
 
 }  // namespace handhold

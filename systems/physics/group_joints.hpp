@@ -6,16 +6,17 @@
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
+// Groups free bodies that joints connect, and marks the groups that are anchored: connected to
+// something a hand cannot move (the world, or a fixed, kinematic or heavy body).
+// Talk row 5 (arbitrary chains). Stage 1b, before update_grabs.
+// Fallbacks counted: none.
 namespace handhold {
 
 struct GroupJointsIo {
     const Column<Joint>& joint;     // in
-    const Column<RigidBody>& body;  // in
-    FrameGraph& frame;              // out: joint_groups
+    const Column<RigidBody>& body;  // in: kind, kg
+    FrameGraph& frame;              // out: joint_groups, by row of `body`
 };
-
-// Before stage 2. Which free bodies hang together by joints, and which of these groups hang on
-// something that a hand cannot move: the world, a fixed, kinematic or heavy body.
 void group_joints(const GroupJointsIo& io, const PhaseTuning& tuning);
 
 }  // namespace handhold

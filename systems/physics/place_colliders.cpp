@@ -21,7 +21,7 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         proxy.from_ws = valid.known ? valid.pose_ws : proxy.to_ws;
         proxy.free = true;
         if (io.head.at(entity).state == TrackingState::never) {
-            // Not anywhere yet: an invalid pose takes no part in collision.
+            // No pose yet: proxies with an invalid pose take no part in collision.
             proxy.to_ws.position.setConstant(std::numeric_limits<double>::quiet_NaN());
         }
         return proxy;

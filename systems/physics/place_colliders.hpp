@@ -8,24 +8,25 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/column.hpp"
 
+// Lists all bodies and players by persistent id and gives their colliders to the collision world.
+// Runs before stages 2 and 4. A proxy goes from the last valid pose to the current pose; fixed and
+// kinematic bodies from their pose at the start of the frame. A player's collider is the sphere of
+// the head, at the end of the frame; a head that was never tracked takes no part.
+// Fallbacks counted: none.
 namespace handhold {
 
 struct PlaceCollidersIo {
     const Column<PersistentId>& persistent_id;  // in
     const Column<Collider>& collider;           // in
     const Column<RigidBody>& body;              // in
-    const Column<BodyPose>& body_pose;          // in
-    const Column<BodyStart>& body_start;        // in
-    const Column<PlayerOrigin>& origin;         // in
-    const Column<HeadTracking>& head;           // in
-    const Column<LastValidPose>& last_valid;    // in
-    CollisionWorld& collision;                  // out
+    const Column<BodyPose>& body_pose;          // in: world, current
+    const Column<BodyStart>& body_start;        // in: world, start of the frame
+    const Column<PlayerOrigin>& origin;         // in: world, current
+    const Column<HeadTracking>& head;           // in: play space, end of the frame
+    const Column<LastValidPose>& last_valid;    // in: world
+    CollisionWorld& collision;                  // out: proxies, world
     FrameGraph& frame;                          // out: proxies, entities
 };
-
-// Lists all bodies and players by persistent id and brings their colliders to the collision world:
-// from the last valid pose to the present one. Players are the spheres of their heads, at the end
-// of the frame.
 void place_colliders(const PlaceCollidersIo& io, const HeadTuning& tuning);
 
 }  // namespace handhold

@@ -9,10 +9,10 @@
 namespace handhold {
 namespace {
 
-// Twice the solver's tolerance, and never less than this: what a solved phase leaves, and rounding,
-// is no violation.
+// Smallest violation that starts another phase, at least twice the solver's tolerance: below lie
+// rounding and the residual of a solved phase.
 constexpr double k_violated_m = 2e-7;
-constexpr double k_touching_m = 1e-5;  // contacts closer than this may be what holds something up
+constexpr double k_touching_m = 1e-5;  // closer contacts may support a body
 
 enum class Phase : std::uint8_t { reach, forward, backward, contradiction };
 
@@ -26,38 +26,35 @@ struct Solve {
     FrameGraph::PhaseBody& phase_of(std::uint32_t body) const { return io.frame.phase[body]; }
 };
 
-// --- What each island looks like
-// -------------------------------------------------------------------------------------
+// --- Islands -------------------------------------------------------------------------------------
 
 bool has_role(const Solve& s, const Island& island, BodyRole role) {
     return std::ranges::any_of(s.graph().bodies_of(island),
                                [&](std::uint32_t i) { return s.graph().bodies[i].role == role; });
 }
 
-std::optional<IslandErrors>& kept_errors(const Solve& s, const Island& island) {
+std::optional<IslandErrors>& cached_errors(const Solve& s, const Island& island) {
     return s.io.frame.island_errors[static_cast<std::size_t>(&island - s.graph().islands.data())];
 }
-// Found once after the island's last solve.
+// Cached per island until its next solve.
 const IslandErrors& errors_of(const Solve& s, const Island& island) {
-    std::optional<IslandErrors>& errors = kept_errors(s, island);
+    std::optional<IslandErrors>& errors = cached_errors(s, island);
     if (!errors) {
         errors = island_errors(s.graph(), island);
     }
     return *errors;
 }
-void forget_errors(const Solve& s, const Island& island) { kept_errors(s, island).reset(); }
-// Of all, when the islands are new.
-void forget_errors(const Solve& s) {
-    s.io.frame.island_errors.assign(s.graph().islands.size(), {});
-}
+void clear_errors(const Solve& s, const Island& island) { cached_errors(s, island).reset(); }
+// For all islands, after they were rebuilt.
+void clear_errors(const Solve& s) { s.io.frame.island_errors.assign(s.graph().islands.size(), {}); }
 
 bool has_hand_or_joint(const Solve& s, const Island& island) {
     return std::ranges::any_of(s.graph().blocks_of(island),
                                [&](std::uint32_t i) { return !is_contact(s.graph().blocks[i]); });
 }
 
-// True where the island has two players, or holds on to, hangs on or presses against something that
-// the forward phase cannot move.
+// True if the backward phase may push a player of this island: it has two players, or an active row
+// with a body that the forward phase cannot move.
 bool may_push(const Solve& s, const Island& island) {
     const auto players = std::ranges::count_if(s.graph().bodies_of(island), [&](std::uint32_t i) {
         return s.graph().bodies[i].role == BodyRole::translating;
@@ -77,10 +74,9 @@ bool may_push(const Solve& s, const Island& island) {
            });
 }
 
-// --- Masses of a phase
-// -----------------------------------------------------------------------------------------------
+// --- Masses of a phase ---------------------------------------------------------------------------
 
-// How much of 1/mass a body has in a phase.
+// Factor on a body's inverse mass in a phase, in [0, 1].
 double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase phase) {
     const SolverBody& body = s.graph().bodies[index];
     const FrameGraph::PhaseBody& info = s.phase_of(index);
@@ -104,7 +100,7 @@ double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase
         case Phase::contradiction:
             break;
     }
-    // Without hands only his own collider moves him.
+    // Without grips only their own collider moves a player.
     const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = s.graph().blocks[i];
         return is_contact(block) && (block.a == index || block.b == index);
@@ -124,8 +120,7 @@ void set_masses(const Solve& s, const Island& island, Phase phase) {
     }
 }
 
-// --- Solving many islands
-// --------------------------------------------------------------------------------------------
+// --- Solving many islands ------------------------------------------------------------------------
 
 NewtonSettings settings_of(const Solve& s, Phase phase) {
     const SolverTuning& tuning = s.tuning.solver;
@@ -137,7 +132,7 @@ NewtonSettings settings_of(const Solve& s, Phase phase) {
             .regularisation = {hand, tuning.contact_regularisation, tuning.joint_regularisation},
             .geometric_stiffness_from_m = tuning.geometric_stiffness_from_m,
             .load_stepping_from_m = tuning.load_stepping_from_m,
-            // Softest is never harder than hardest, or than what contacts begin with.
+            // max_* is never below min_*, or below the contacts' initial regularisation.
             .schedule = {std::max(tuning.max_drive_regularisation, tuning.min_drive_regularisation),
                          tuning.min_drive_regularisation,
                          std::max(tuning.max_contact_regularisation, tuning.contact_regularisation),
@@ -157,7 +152,7 @@ BlockFilter filter_of(Phase phase) {
     }
 }
 
-// What a solve tells of the island's errors: all are below its residual where it met every block.
+// The errors known from a solve: if it converged with every block, none exceeds its residual.
 std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonResult& result) {
     const auto counts = [&island](std::uint32_t i) { return takes_part(island, island.blocks[i]); };
     if (!result.converged || !std::ranges::all_of(island.island_blocks, counts)) {
@@ -167,7 +162,7 @@ std::optional<IslandErrors> errors_after(const IslandView& island, const NewtonR
 }
 
 // Solves the islands for which `wanted` is true, largest first, on all threads. Islands share no
-// body: who solves which never shows.
+// body, so the result does not depend on the distribution. Returns how many were solved.
 template <typename Wanted>
 std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     FrameGraph& frame = s.io.frame;
@@ -211,7 +206,7 @@ std::size_t solve_islands(const Solve& s, Phase phase, Wanted&& wanted) {
     return frame.island_order.size();
 }
 
-// True where contacts found on the phase's result overlap.
+// Sweeps colliders to the solved poses. True if contacts found there overlap.
 bool refresh_contacts(const Solve& s, OldPoints old_points) {
     FrameGraph& frame = s.io.frame;
     const FoundContacts found = refresh_contacts(
@@ -219,12 +214,12 @@ bool refresh_contacts(const Solve& s, OldPoints old_points) {
         {s.tuning.contact.margin_m, s.tuning.contact.sweep_m}, old_points);
     if (found != FoundContacts::unchanged) {
         ++s.stats.contact_rounds;
-        forget_errors(s);
+        clear_errors(s);
     }
     return found == FoundContacts::overlapping;
 }
 
-// Solves a phase until no new contact overlaps; counts where the rounds did not suffice.
+// Repeats a phase until no new contact overlaps; counts if the rounds are exhausted.
 template <typename Wanted>
 void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     for (int round = 0; round < s.tuning.contact.max_rounds; ++round) {
@@ -236,8 +231,7 @@ void solve_rounds(const Solve& s, Phase phase, Wanted&& wanted) {
     s.stats.count(Fallback::contact_rounds_exhausted);
 }
 
-// --- The phases
-// ------------------------------------------------------------------------------------------------------
+// --- Phases --------------------------------------------------------------------------------------
 
 void reach(const Solve& s) {
     HH_DETAIL_ZONE("reach");
@@ -261,8 +255,8 @@ bool wants_backward(const Solve& s, const Island& island) {
     return errors_of(s, island).worst_m() > s.violated_m() && may_push(s, island);
 }
 
-// Marks the islands to push, and puts players and held objects back to where the hands want them.
-// False where there are none.
+// Marks the islands to push, and restores players and held objects to their reach poses. False if
+// there are none.
 bool prepare_backward(const Solve& s) {
     bool any = false;
     for (const Island& island : s.graph().islands) {
@@ -278,7 +272,7 @@ bool prepare_backward(const Solve& s) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
         }
-        forget_errors(s, island);
+        clear_errors(s, island);
     }
     return any;
 }
@@ -297,8 +291,8 @@ void backward(const Solve& s) {
         return is_pushed(s, island) && errors_of(s, island).worst_m() > s.violated_m();
     };
     solve_rounds(s, Phase::backward, wanted);
-    // The contacts of the way that forward found may all be met where the hands want things: what
-    // else is there has been looked for only if something was solved.
+    // The contacts that forward found may all be satisfied at the reach poses, so that nothing was
+    // solved and swept. Sweep once more for other obstacles.
     if (refresh_contacts(s, OldPoints::kept)) {
         solve_rounds(s, Phase::backward, wanted);
     }
@@ -325,7 +319,7 @@ void contradiction(const Solve& s) {
 
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats) {
     const Solve s{io, tuning, stats};
-    forget_errors(s);
+    clear_errors(s);
     reach(s);
     forward(s);
     backward(s);

@@ -5,29 +5,31 @@
 #include "components/tuning.hpp"
 #include "engine/collision/collision_world.hpp"
 
+// Solves the positions of the frame in phases: designer physics, in which players move objects
+// freely and are pushed only by what cannot give way.
+// Talk rows 4 (inside the step), 7 (forward and backward phase) and 8 (one-frame convergence).
+// Stages 6 to 8. Each phase is a Newton solve of every island:
+//
+// - reach: grips and joints without contacts. A player who grips something fixed is moved; a player
+//   who holds a light object has infinite mass.
+// - forward: contacts too, players with infinite mass. Only islands with a free body.
+// - backward: true masses. Runs where forward left a violation and the island touches something
+//   immovable or another player: the player is pushed. Players and held objects start from their
+//   reach poses, so the push equals the violation, whatever the object's mass (decision 5).
+// - contradiction: resolves contacts that still overlap, without grips.
+//
+// After each phase colliders are swept from their last valid pose to the solved pose. New contacts
+// are added and the phase repeats, at most contact.max_rounds times. An island that no contact
+// violates never reaches the forward phase: the origin of a player who waves a rock is bitwise
+// unchanged.
+// Fallbacks counted: active_set_not_converged, hands_load_stepped, load_stepping_failed,
+// contact_rounds_exhausted, contacts_contradict.
 namespace handhold {
 
 struct SolvePhasesIo {
-    CollisionWorld& collision;  // in/out: proxies follow the phases
-    FrameGraph& frame;          // in/out: poses of the graph's bodies
+    CollisionWorld& collision;  // in/out: proxies follow the solved poses, world
+    FrameGraph& frame;          // in: rows; in/out: poses (world), contacts, phase
 };
-
-// Stages 6 to 8: the player as designer's physics sees him (talk rows 4, 7). Each phase is a Newton
-// solve of every island:
-//
-// - reach: hands and joints, the world as the hands want it. A player who holds on to something
-// fixed
-//   is moved; one who holds a light object is not, he is infinitely heavy.
-// - forward: contacts too, the player infinitely heavy. What is free gives way to what is not. Only
-//   islands with a free object.
-// - backward: true masses, contacts hard. Where forward left something violated, and the island
-//   touches something fixed or another player, the player is pushed. Held objects begin where the
-//   hand wants them: pushed back by exactly the violation, whatever their mass (decision 5).
-// - contradiction: what contacts still overlap is taken apart without the hands.
-//
-// After each phase colliders are swept from their last valid pose to the solved one; new contacts
-// join and the phase repeats. An island that no contact violates never reaches the second phase:
-// the origin of a player who waves a rock is bitwise unchanged.
 void solve_phases(const SolvePhasesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

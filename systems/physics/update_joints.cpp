@@ -10,20 +10,21 @@ bool handle_is_turned(const UpdateJointsIo& io, const JointLatch& latch) {
     return handle != nullptr && std::abs(handle->coordinate) >= latch.handle_at;
 }
 
-// The lock takes no more than its strength: where it took all of it, it gave way.
+// A latch's lock impulse is limited to its strength. At the limit the latch opens.
 bool stays_latched(const UpdateJointsIo& io, const JointLatch& latch, double lock_impulse) {
-    constexpr double k_all = 1.0 - 1e-9;
-    const bool torn = latch.strength > 0.0 && lock_impulse >= k_all * latch.strength * io.dt_s;
-    return !torn && !handle_is_turned(io, latch);
+    constexpr double k_limit_ratio = 1.0 - 1e-9;
+    const bool broken =
+        latch.strength > 0.0 && lock_impulse >= k_limit_ratio * latch.strength * io.dt_s;
+    return !broken && !handle_is_turned(io, latch);
 }
 
-// Only what comes nearer, or rests, is caught: what was just pulled out is not.
+// A latch catches only an approaching or resting coordinate, not one that was just pulled out.
 bool catches(const UpdateJointsIo& io, const JointLatch& latch, const JointState& state) {
     constexpr double k_still = 1e-6;  // m or rad
-    const double away = state.coordinate - latch.at;
-    const bool comes_nearer = std::abs(away) > k_still && away * state.speed < 0.0;
+    const double offset = state.coordinate - latch.at;
+    const bool approaches = std::abs(offset) > k_still && offset * state.speed < 0.0;
     const bool rests = std::abs(state.speed) * io.dt_s < k_still;
-    return std::abs(away) <= latch.catch_range && (comes_nearer || rests) &&
+    return std::abs(offset) <= latch.catch_range && (approaches || rests) &&
            !handle_is_turned(io, latch);
 }
 
@@ -38,7 +39,7 @@ void update_joints(const UpdateJointsIo& io) {
             state.speed = joint_speed(graph.bodies, block);
         }
     }
-    // Latches look at other joints' coordinates: after all of them are known.
+    // Second pass: latches read the coordinates of other joints.
     for (const RowBlock& block : graph.blocks) {
         const JointLatch* const latch =
             is_joint(block) ? &io.joint.rows()[block.source].latch : nullptr;

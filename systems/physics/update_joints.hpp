@@ -4,17 +4,18 @@
 #include "components/joint.hpp"
 #include "engine/ecs/column.hpp"
 
+// Writes where every joint is, and closes and opens latches.
+// Talk row 5 (arbitrary chains). Stage 9b. A latch whose strength was exceeded opens after that
+// frame.
+// Fallbacks counted: none.
 namespace handhold {
 
 struct UpdateJointsIo {
-    double dt_s = 0.0;           // in: > 0
-    const FrameGraph& frame;     // in: solved
-    const Column<Joint>& joint;  // in
-    Column<JointState>& state;   // out: of joints that take part
+    double dt_s = 0.0;           // in: s, > 0
+    const FrameGraph& frame;     // in: solved poses, velocities and impulses
+    const Column<Joint>& joint;  // in: rad or m, N or N m
+    Column<JointState>& state;   // out, joints with a row block: rad or m, rad/s or m/s
 };
-
-// After stage 9. Where every joint's coordinate is, and which latches have caught or opened. A
-// latch that gives way does so after the frame whose impulse was too strong.
 void update_joints(const UpdateJointsIo& io);
 
 }  // namespace handhold

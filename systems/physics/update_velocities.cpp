@@ -12,8 +12,8 @@
 namespace handhold {
 namespace {
 
-constexpr double k_valid_overlap_m =
-    1e-4;  // colliders deeper in something are not where the next sweep may begin
+// A pose that overlaps by more than this is not a last valid pose.
+constexpr double k_valid_overlap_m = 1e-4;
 
 bool has_hand_or_joint(const ConstraintGraph& graph, const Island& island) {
     return std::ranges::any_of(graph.blocks_of(island),
@@ -25,8 +25,8 @@ bool joint_has_force(const JointRows& joint) {
            joint.lock_limit_impulse > 0.0;
 }
 
-// True where who is pushed shares momentum with somebody or something: another player, a heavy
-// body, what touches, or joints that rub, snap or lock by so much force.
+// True if a pushed player shares momentum with another body: a second player, a heavy body, a
+// touching contact, or a joint with friction, a detent or a locked latch.
 bool shares_momentum(const FrameGraph& frame, const Island& island) {
     int players = 0;
     for (const std::uint32_t i : frame.graph.bodies_of(island)) {
@@ -53,20 +53,22 @@ double heaviest_free_kg(const FrameGraph& frame, const Island& island) {
     return heaviest_kg;
 }
 
-// How much of 1/mass a pushed player has who shares momentum with nobody. What he hangs on pushes
-// him alike whatever he weighs; light things that he moves meanwhile do not shake him, as in the
-// forward phase: to them he is so many times heavier.
+// Factor on the inverse mass of a pushed player who shares momentum with no other body. An
+// immovable support pushes players alike, whatever their mass. Light objects that they move must
+// not shake them, as in the forward phase: against those, a player counts as k_times_heaviest times
+// the heaviest.
 double pushed_share(double heaviest_kg, double mass_kg, const PhaseTuning& tuning) {
-    constexpr double k_times_heaviest = 1000.0;  // heavier still, and regularisation would show
+    constexpr double k_times_heaviest = 1000.0;  // with a larger ratio regularisation would show
     const double exchanged =
         smooth_step(heaviest_kg, tuning.kappa_light_kg,
                     std::max(tuning.kappa_heavy_kg, tuning.kappa_light_kg + 1e-9));
-    const double least = mass_kg / std::max(k_times_heaviest * heaviest_kg, mass_kg);
-    return std::max(exchanged, least);
+    const double min_share = mass_kg / std::max(k_times_heaviest * heaviest_kg, mass_kg);
+    return std::max(exchanged, min_share);
 }
 
-// Momentum is exchanged by the masses of the phase that moved the island: true ones where it was
-// pushed by what moves or gives way, holds on to something fixed or hangs on joints.
+// Momentum is exchanged with the masses of the phase that moved the island. Players have their true
+// mass if they grip a surface, or were pushed by something that shares momentum. Heavy bodies have
+// theirs if pushed or in an island with a grip or joint.
 void set_masses(FrameGraph& frame, const Island& island, const PhaseTuning& tuning) {
     const bool reached = has_hand_or_joint(frame.graph, island);
     const bool shares = shares_momentum(frame, island);
@@ -140,7 +142,7 @@ bool is_object(const SolverBody& body) {
     return body.role != BodyRole::translating && body.inverse_mass > 0.0;
 }
 
-// One side of a row's impulse, by who takes it.
+// Books one side of a row's impulse, by receiver.
 void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impulse,
                   const Vec3& couple, MomentumLedger& ledger) {
     const Vec3 angular = point_ws.cross(impulse) + couple;
@@ -149,8 +151,8 @@ void book_impulse(const SolverBody& body, const Vec3& point_ws, const Vec3& impu
                angular);
         return;
     }
-    // The play space cannot turn and may be heavier than its player: what does not become his own
-    // momentum is the virtual player's.
+    // The play space cannot rotate, and may be heavier than its player in this phase. What does not
+    // become the player's own momentum goes to the virtual player.
     const Vec3 own = (body.inverse_mass * body.mass_kg) * impulse;
     const Vec3 own_angular = body.pose_ws.position.cross(own);
     add_to(ledger, MomentumLedger::players, own, own_angular);
@@ -162,9 +164,9 @@ void book_impulses(const ConstraintGraph& graph, MomentumLedger& ledger) {
         const SolverBody& a = graph.bodies[block.a];
         const SolverBody& b = graph.bodies[block.b];
         if (is_object(a) && is_object(b)) {
-            continue;  // what one gets the other gives
+            continue;  // both are objects: the sum is zero
         }
-        // Both sides at one point, as the rows have it: a's point for contacts, else b's.
+        // Both sides act at one point, as in the rows: a's point for contacts, else b's.
         const Vec3 point_ws = is_contact(block) ? transform_point(a.pose_ws, block.point_a_bs)
                                                 : transform_point(b.pose_ws, block.point_b_bs);
         book_impulse(a, point_ws, block.impulse_ws_ns, block.angular_impulse_ws_nms, ledger);
@@ -176,7 +178,7 @@ bool is_slower(const Vec3& velocity_mps, double limit_mps) {
     return velocity_mps.squaredNorm() < limit_mps * limit_mps;
 }
 
-// At most `limit` against the reference; true where it was faster.
+// Limits the speed relative to the reference. True if it was exceeded.
 bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps) {
     const Vec3 relative = velocity_mps - reference_mps;
     const double speed = relative.norm();
@@ -187,7 +189,7 @@ bool clamp_speed(const Vec3& reference_mps, double limit_mps, Vec3& velocity_mps
     return true;
 }
 
-// What rows give and take may be far out of proportion for something thin.
+// Limits the spin of free bodies: impulses on a thin body can spin it without bound.
 Vec3 clamp_spin(const SolverBody& body, double limit_radps, StageStats& stats) {
     const double square = body.spin_radps.squaredNorm();
     if (body.role != BodyRole::free || square <= limit_radps * limit_radps) {
@@ -211,8 +213,8 @@ void write_velocities(const UpdateVelocitiesIo& io, const LocomotionTuning& tuni
     }
 }
 
-// The fastest that the island's own motion explains, against a reference: what drives it or is too
-// heavy to be thrown.
+// The highest speed, relative to the reference, at the rows of the island's kinematic and heavy
+// bodies: up to there a body's velocity is explained by what drives it.
 double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& reference_mps) {
     double fastest = 0.0;
     for (const std::uint32_t i : frame.graph.blocks_of(island)) {
@@ -231,9 +233,9 @@ double driven_speed(const FrameGraph& frame, const Island& island, const Vec3& r
     return fastest;
 }
 
-// What pushes or pulls a player may be a jump of his tracking: it must not shoot him away, neither
-// now nor when the grip breaks in the next frame. Where he is does not change, and speed that he
-// had or that a moving thing gave him stays.
+// A push or pull on a player may come from a tracking jump. It must not launch them, neither now
+// nor when the grip breaks in the next frame. Poses stay; speed they had before, or got from a
+// moving support, is kept.
 void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
                    StageStats& stats) {
     for (const Island& island : io.frame.graph.islands) {
@@ -256,8 +258,8 @@ void clamp_players(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
     }
 }
 
-// What hands hold or push may be torn out of them in the next frame by a jump of the tracking: it
-// must not fly off as fast as that. Where a held thing is, its hand says.
+// A held or pushed body may be torn from the hand in the next frame by a tracking jump, and must
+// not leave at that speed. A held body's pose still follows its hand.
 void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& tuning,
                           StageStats& stats) {
     const FrameGraph& frame = io.frame;
@@ -270,14 +272,14 @@ void clamp_handled_bodies(const UpdateVelocitiesIo& io, const LocomotionTuning& 
         }
         const Entity player = frame.entities[frame.graph.blocks[*hand].a];
         const Vec3& reference = io.reference.at(player).linear_mps;
-        std::optional<double> driven;  // found once, and only where something is fast
+        std::optional<double> driven;  // computed once, and only if a body is fast
         for (const std::uint32_t i : frame.graph.bodies_of(island)) {
             if (frame.graph.bodies[i].role != BodyRole::free) {
                 continue;
             }
             Vec3& velocity_mps = io.body_velocity.at(frame.entities[i]).linear_mps;
             if (is_slower(velocity_mps - reference, tuning.object_speed_max_mps)) {
-                continue;  // as nearly all are
+                continue;  // the common case
             }
             const double before = (frame.phase[i].velocity_before_mps - reference).norm();
             if (!driven) {
@@ -305,7 +307,7 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
             clamped = clamp_speed(reference, tuning.release_speed_max_mps,
                                   io.player_velocity.at(player).linear_mps);
         } else if (!grab.jointed) {
-            // What hangs on joints may hang on a ship: clamp_handled_bodies knows how fast that is.
+            // Jointed bodies may be on a moving ship: clamp_handled_bodies accounts for its speed.
             clamped = clamp_speed(reference, tuning.object_speed_max_mps,
                                   io.body_velocity.at(grab.body).linear_mps);
         }
@@ -316,13 +318,13 @@ void finish_releases(const UpdateVelocitiesIo& io, const LocomotionTuning& tunin
     }
 }
 
-// For each body its deepest contact's other body; its own index where none is too deep.
+// For each body, the other body of its deepest overlap; its own index if no overlap is too deep.
 void find_overlaps(FrameGraph& frame) {
     const ConstraintGraph& graph = frame.graph;
     frame.overlap_m.assign(graph.bodies.size(), k_valid_overlap_m);
     frame.overlaps_with.resize(graph.bodies.size());
     std::iota(frame.overlaps_with.begin(), frame.overlaps_with.end(), 0U);
-    const auto note = [&frame](std::uint32_t body, std::uint32_t other, double depth_m) {
+    const auto update = [&frame](std::uint32_t body, std::uint32_t other, double depth_m) {
         if (depth_m > frame.overlap_m[body]) {
             frame.overlap_m[body] = depth_m;
             frame.overlaps_with[body] = other;
@@ -331,13 +333,13 @@ void find_overlaps(FrameGraph& frame) {
     for (const RowBlock& block : graph.blocks) {
         if (is_contact(block)) {
             const double depth_m = block_error_m(graph.bodies, block);
-            note(block.a, block.b, depth_m);
-            note(block.b, block.a, depth_m);
+            update(block.a, block.b, depth_m);
+            update(block.b, block.a, depth_m);
         }
     }
     for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
         const Overlap& hidden = frame.hidden_overlaps.of_body[i];
-        note(i, hidden.with, hidden.depth_m);
+        update(i, hidden.with, hidden.depth_m);
     }
 }
 
@@ -357,7 +359,7 @@ void write_last_valid(const UpdateVelocitiesIo& io) {
             valid->pose_ws = collider_pose(body);
             continue;
         }
-        // Stuck: keep the way back, and let it ride along where what the body is stuck in moves.
+        // Penetrating: keep the last valid pose, carried along if the obstacle moves.
         const ColliderProxy& other = frame.proxies[frame.overlaps_with[i]];
         if (frame.graph.bodies[frame.overlaps_with[i]].role == BodyRole::fixed) {
             valid->pose_ws = other.to_ws * (inverse(other.from_ws) * valid->pose_ws);

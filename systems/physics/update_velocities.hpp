@@ -9,22 +9,25 @@
 #include "components/tuning.hpp"
 #include "engine/ecs/column.hpp"
 
+// Solves the velocities of the frame, applies releases and speed limits, books momentum, and
+// records last valid poses. Talk row 7. Stage 9.
+//
+// One solve over the frame's rows: hands move at their tracked velocities, contacts do not
+// approach. The displacement that depenetration needed never becomes velocity. Fallbacks counted:
+// active_set_not_converged, friction_wedged, friction_not_converged, release_speed_clamped,
+// object_speed_clamped.
 namespace handhold {
 
 struct UpdateVelocitiesIo {
     const Column<HandOwner>& owner;              // in
-    const Column<ReferenceVelocity>& reference;  // in
-    const Column<HeadTracking>& head;     // in: a head that was never tracked has no valid place
-    FrameGraph& frame;                    // in/out: velocities, impulses
-    Column<BodyVelocity>& body_velocity;  // out: free bodies
-    Column<PlayerVelocity>& player_velocity;  // out
-    Column<Grab>& grab;  // in/out: hands that let go in this frame are free from here on
-    Column<LastValidPose>& last_valid;  // out
+    const Column<ReferenceVelocity>& reference;  // in: world, m/s
+    const Column<HeadTracking>& head;         // in: a head that was never tracked has no valid pose
+    FrameGraph& frame;                        // in: rows, phase; out: velocities, impulses
+    Column<BodyVelocity>& body_velocity;      // out, free bodies: world, m/s and rad/s
+    Column<PlayerVelocity>& player_velocity;  // out: world, m/s
+    Column<Grab>& grab;                       // in/out: grips released in this frame are cleared
+    Column<LastValidPose>& last_valid;        // out: world
 };
-
-// Stage 9. One solve over the rows of the frame gives all velocities: hands move as they are
-// tracked, contacts do not approach; what positions needed to come apart never becomes speed. Then
-// clamps of those who let go, the ledger, and last valid poses.
 void update_velocities(const UpdateVelocitiesIo& io, const Tuning& tuning, StageStats& stats);
 
 }  // namespace handhold

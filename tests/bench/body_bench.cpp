@@ -1,4 +1,4 @@
-// What the bodies that follow players' heads and hands cost.
+// Cost of the bodies that follow players' heads and hands.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double k_dt_s = 1.0 / 90.0;
 
-// Players who sway and turn, each at a time of his own, with both hands going round beside them.
+// Players who sway and turn with individual phases, both hands circling beside them.
 struct Bodies {
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
@@ -40,7 +40,7 @@ struct Bodies {
     double t_s = 0.0;
 
     explicit Bodies(std::size_t count) {
-        // As add_player has them: a player, then his hands.
+        // In add_player's order: a player, then both hands.
         for (std::uint32_t i = 0; i < count; ++i) {
             const Entity player{3 * i, 1};
             origin.add(player);
@@ -93,8 +93,8 @@ double thread_s() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The time of `run` a frame, in the thread's processor time, by the number of players: moving them
-// is outside of it. With one player the clock's own 0.3 us would count: see body/one_*.
+// Thread CPU time per frame and player, without moving the players. With one player, the clock's
+// own 0.3 us would matter: see body/one_*.
 template <typename Run>
 void players(benchmark::State& state, Run run) {
     const std::size_t count = 100;
@@ -139,7 +139,7 @@ BENCHMARK_CAPTURE(players, whole,
     ->UseManualTime()
     ->MinTime(0.004);
 
-// One player alone, moving him included; what that costs stands beside it.
+// One player, including the cost of moving the player, which one_moving_him measures alone.
 template <typename Run>
 void one_player(benchmark::State& state, Run run) {
     Bodies body(1);

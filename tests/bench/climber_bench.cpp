@@ -1,4 +1,4 @@
-// What scripted climbers cost: looking, deciding and moving, without the frames between.
+// Cost of scripted climbers: looking, deciding and moving, without the frames between.
 #include <benchmark/benchmark.h>
 
 #ifdef HANDHOLD_BENCH_GAME

@@ -1,7 +1,7 @@
-// What rows in columns cost against the plain arrays that they stand for. Read the ratios of one
-// run: ecs/column_rows to ecs/raw_array at most 1.05, ecs/join_three to ecs/raw_three_arrays at
-// most 1.25. join_three_churned: equal orders that are no runs of slots any more, after removals
-// and additions.
+// Cost of iterating columns compared with plain arrays. Compare ratios within one run:
+// ecs/column_rows to ecs/raw_array at most 1.05, ecs/join_three to ecs/raw_three_arrays at most
+// 1.25. join_three_churned: equal orders that are no longer runs of slots, after removals and
+// additions.
 #include <algorithm>
 #include <cstdint>
 #include <random>
@@ -45,7 +45,7 @@ struct BenchColumns {
 
 enum class Order { equal, churned, shuffled };
 
-// Every seventh entity loses its row and gains another at the end.
+// Every seventh entity loses its element and gets a new one at the end.
 template <typename T>
 void churn(Column<T>& column, const std::vector<Entity>& entities) {
     for (std::size_t i = 0; i < entities.size(); i += 7) {

@@ -1,4 +1,4 @@
-// Whole frames of a built-in session, and its stages: what the runtime costs a player.
+// Cost of whole frames and of each stage, in a built-in session.
 #include <benchmark/benchmark.h>
 
 #ifdef HANDHOLD_BENCH_GAME
@@ -27,7 +27,7 @@ bool grip_with_both_hands(const FrameLog& frame) {
     });
 }
 
-// Of the times, which it sorts.
+// Sorts the times.
 void add_percentiles(const std::string& name, std::vector<double>& times_us,
                      benchmark::State& state) {
     std::ranges::sort(times_us);
@@ -41,8 +41,8 @@ void add_percentiles(const std::string& name, std::vector<double>& times_us,
     }
 }
 
-// The scene's session over and over; time is that of step_frame alone. Percentiles are of the
-// processor's time, whatever else runs beside it.
+// Repeats the scene's session; measures only step_frame. Percentiles are of thread CPU time,
+// independent of other load.
 void run_frames(benchmark::State& state, const char* name) {
     const auto players = static_cast<std::size_t>(state.range(0));
     set_stage_clock(StageClock::thread_cpu);

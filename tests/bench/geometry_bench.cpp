@@ -1,5 +1,5 @@
-// What hands need of meshes: building (per mesh; items are triangles) and asking. `detail` builds
-// with both details; full: graph and tree only. Counters: triangles kept, memory.
+// Mesh operations for hands: building (per mesh; items are triangles) and queries. `detail` builds
+// with both levels of detail; full: graph and tree only. Counters: triangles kept, memory.
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -17,7 +17,7 @@
 namespace handhold::geometry_bench {
 namespace {
 
-// A wavy sheet of 2 n^2 triangles with edges of 7 mm, as dense as a scan; hills of 2 cm.
+// A wavy sheet of 2 n^2 triangles with edges of 7 mm, as dense as a scan, with hills of 2 cm.
 Mesh make_hills(std::uint32_t n) {
     constexpr double k_edge_m = 5e-3;
     Mesh mesh;
@@ -100,7 +100,7 @@ void build_grip(benchmark::State& state) {
 void load_grip(benchmark::State& state) {
     const Mesh mesh = make_hills(side_for(state.range(0)));
     const std::string bytes = write_grip_mesh(build_grip_mesh(mesh), grip_mesh_key(mesh, {}));
-    for (auto _ : state) {  // all that a cached load does but reading the disk
+    for (auto _ : state) {  // a cached load without reading the disk
         benchmark::DoNotOptimize(read_grip_mesh(bytes, grip_mesh_key(mesh, {})));
     }
     state.counters["file_MB"] = static_cast<double>(bytes.size()) / 1e6;

@@ -1,5 +1,5 @@
-// A held crate shoved at 1.5 m/s into a cube of crates that stand 5 mm apart before a wall: the
-// largest islands of contacts that play makes.
+// A held crate pushed at 1.5 m/s into a cube of crates 5 mm apart in front of a wall: the largest
+// contact islands of ordinary play.
 #include <algorithm>
 #include <string>
 #include <vector>

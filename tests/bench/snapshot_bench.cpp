@@ -1,4 +1,4 @@
-// What a rollback costs beside its frames: saving into warm bytes, restoring, and the state hash.
+// Cost of a rollback without its frames: saving into reused memory, restoring, and the state hash.
 #include <benchmark/benchmark.h>
 
 #ifdef HANDHOLD_BENCH_GAME

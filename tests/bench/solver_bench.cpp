@@ -1,5 +1,5 @@
-// One island through a whole step: predict, solve positions, solve velocities. The graph is made
-// once; what the frame pays to make it is not counted.
+// One island through a whole step: predict, solve positions, solve velocities. The graph is built
+// once; building it is not measured.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +60,7 @@ struct Step {
             const IslandView view{BlockFilter::all, graph.bodies, graph.blocks,
                                   graph.bodies_of(island), graph.blocks_of(island)};
             NewtonSettings settings;
-            settings.tolerance_m = 1e-7;  // the game's
+            settings.tolerance_m = 1e-7;  // the game's tolerance
             const NewtonResult result = solve_positions(view, settings, scratch);
             iterations += result.iterations;
             residual_m = std::max(residual_m, result.residual_m);
@@ -70,12 +70,12 @@ struct Step {
     }
 };
 
-// One end on the world, the other on a hand that swings by 30 cm, up to 1.5 m/s.
+// One end on the world, the other on a hand that swings by 30 cm at up to 1.5 m/s.
 Step chain(std::uint32_t links) {
     Step step;
     std::vector<SolverBody>& bodies = step.graph.bodies;
     for (std::uint32_t i = 0; i < links; ++i) {
-        // Every other link to a side: half as long as it could be.
+        // Zigzag: half as long as the stretched chain.
         bodies.push_back(link(i + 1, 1.0, Vec3(0.0, 0.0, 0.0)));
         const double angle = i % 2 == 0 ? 1.0 : -1.0;
         SolverBody& body = bodies.back();
@@ -106,7 +106,7 @@ Step chain(std::uint32_t links) {
     return step;
 }
 
-// Bodies around one, each on a ball joint at its rim.
+// Bodies around a central one, each on a ball joint at its rim.
 Step hub(std::uint32_t spokes) {
     Step step;
     step.graph.bodies.push_back(link(1, 20.0, Vec3::Zero()));

@@ -19,7 +19,7 @@ thread_local std::size_t t_bytes = 0;
 }  // namespace
 
 #ifndef HH_SANITIZER_OPERATORS
-// The library's other forms (arrays, nothrow, sized) call these.
+// The standard library's other forms (array, nothrow, sized) call these.
 void* operator new(std::size_t size) {
     ++t_allocations;
     t_bytes += size;

@@ -4,12 +4,11 @@
 
 namespace handhold {
 
-// How often the calling thread has called operator new, in any form, since it began. The whole test
-// executable counts: allocation_count.cpp, which all of them have, replaces the global operators.
-// Only equality of two counts means anything, and nothing where counts_allocations() is false: the
-// sanitizers bring operators of their own.
+// Number of operator new calls (all forms) by the calling thread so far. allocation_count.cpp
+// replaces the global operators in every test executable. Only compare counts for equality, and
+// only if counts_allocations() is true: sanitizers have their own operators.
 std::size_t allocation_count();
-// How many bytes it has asked for so; what was given back counts too.
+// Total bytes requested by those calls, including freed ones.
 std::size_t allocated_bytes();
 bool counts_allocations();
 

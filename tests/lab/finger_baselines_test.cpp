@@ -1,4 +1,4 @@
-// The fingers that ours are compared with, against closed forms: planes, tangents of circles.
+// The baselines for closing fingers, against closed forms: planes and tangents of circles.
 #include "tools/lab/finger_baselines.hpp"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// At the origin, along -Z, closing towards -Y: down.
+// A finger at the origin along -Z that closes towards -Y (down).
 HingeChain make_chain(double height_m, std::uint32_t links = 3) {
     HingeChain chain;
     chain.base.position = Vec3(0.0, height_m, 0.0);
@@ -31,7 +31,7 @@ GripMesh as_it_is(const Mesh& mesh) {
     return build_grip_mesh(mesh, settings);
 }
 
-// A rectangle about the origin in the plane y = 0, of two triangles.
+// A rectangle of two triangles around the origin in the plane y = 0.
 GripMesh make_floor(double half_x_m = 1.0, double half_z_m = 1.0, double z_m = 0.0) {
     Mesh mesh;
     mesh.positions = {Vec3(-half_x_m, 0, z_m - half_z_m), Vec3(half_x_m, 0, z_m - half_z_m),
@@ -40,7 +40,7 @@ GripMesh make_floor(double half_x_m = 1.0, double half_z_m = 1.0, double z_m = 0
     return as_it_is(mesh);
 }
 
-// A tube about an axis along x.
+// A tube around an axis along x.
 GripMesh make_tube(const Vec3& middle, double radius_m, int sides) {
     Mesh mesh;
     for (int i = 0; i < sides; ++i) {
@@ -68,7 +68,7 @@ double sum_of_lengths(const HingeChain& chain) {
     return chain.length_m[0] + chain.length_m[1] + chain.length_m[2];
 }
 
-TEST(CloseOnCrossings, StraightFingerComesDownOnALineAtTheArcSineOfHeightOverReach) {
+TEST(CloseOnCrossings, StraightFingerStopsOnALineAtAsinOfHeightOverReach) {
     const HingeChain chain = make_chain(0.0);
     for (const double height_m : {0.01, 0.05, 0.1}) {
         const std::array<Vec2, 2> line = {Vec2(-1.0, height_m), Vec2(1.0, height_m)};
@@ -80,7 +80,7 @@ TEST(CloseOnCrossings, StraightFingerComesDownOnALineAtTheArcSineOfHeightOverRea
     }
 }
 
-TEST(CloseOnCrossings, LineOutOfReachLeavesTheFingerRelaxed) {
+TEST(CloseOnCrossings, LineOutOfReachGivesRestPose) {
     const HingeChain chain = make_chain(0.0);
     const double height_m = sum_of_lengths(chain) + 1e-6;
     const std::array<Vec2, 2> line = {Vec2(-1.0, height_m), Vec2(1.0, height_m)};
@@ -89,7 +89,7 @@ TEST(CloseOnCrossings, LineOutOfReachLeavesTheFingerRelaxed) {
     EXPECT_EQ(closed.angle_rad, chain.rest_rad);
 }
 
-TEST(CloseOnCrossings, HighestCrossingStopsTheFingerAndWhatItBeganBeyondDoesNot) {
+TEST(CloseOnCrossings, FirstCrossingBelowTheStartStopsTheFinger) {
     const HingeChain chain = make_chain(0.0, 1);
     const auto at = [](double angle_rad) {
         return Vec2(0.03 * std::cos(angle_rad), 0.03 * std::sin(angle_rad));
@@ -99,8 +99,9 @@ TEST(CloseOnCrossings, HighestCrossingStopsTheFingerAndWhatItBeganBeyondDoesNot)
     EXPECT_NEAR(closed.angle_rad[0], 0.6, 1e-12);
 }
 
-// Where the tangent from the first hinge touches before the link ends, the next link turns to the
-// circle's other tangent through its hinge: by pi - 2 atan(R / s), s from the touch to the hinge.
+// If the tangent from the first hinge touches before the link ends, the next link lies along the
+// other tangent through its hinge. It turns by pi - 2 atan(R / s), s: distance from the touch to
+// the hinge.
 TEST(CloseOnCrossings, LinksWrapACircleAlongItsTangents) {
     const HingeChain chain = make_chain(0.0);
     const double radius_m = 0.02;
@@ -123,7 +124,7 @@ TEST(CloseOnCrossings, LinksWrapACircleAlongItsTangents) {
     EXPECT_EQ(closed.contact_link, 2);
 }
 
-TEST(CloseByTalk, TipLiesOnAFloorAndItsSkinUnderIt) {
+TEST(CloseByTalk, TipAxisLiesOnAFloor) {
     const HingeChain chain = make_chain(0.04);
     const ClosedFinger closed = close_by_talk(chain, make_floor());
     EXPECT_NEAR(closed.angle_rad[0], std::asin(0.04 / sum_of_lengths(chain)), 1e-7);
@@ -134,7 +135,7 @@ TEST(CloseByTalk, TipLiesOnAFloorAndItsSkinUnderIt) {
     EXPECT_NEAR(capsules[2].ends[1].y(), 0.0, 1e-7);
 }
 
-TEST(CloseByTalk, FirstLinkLiesAlongTheTangentOfATube) {
+TEST(CloseByTalk, FirstLinkIsTangentToATube) {
     const HingeChain chain = make_chain(0.0);
     const Vec3 middle(0.0, -0.035, -0.03);
     const double radius_m = 0.02;
@@ -143,12 +144,12 @@ TEST(CloseByTalk, FirstLinkLiesAlongTheTangentOfATube) {
     const double away_m = middle.norm();
     const double expected = std::atan2(-middle.y(), -middle.z()) - std::asin(radius_m / away_m);
     const double touch_m = std::sqrt(away_m * away_m - radius_m * radius_m);
-    const double inside_m = radius_m * (1.0 - std::cos(k_pi / sides));  // a side's middle
+    const double inside_m = radius_m * (1.0 - std::cos(k_pi / sides));  // centre of a side
     EXPECT_NEAR(closed.angle_rad[0], expected, inside_m / touch_m);
     EXPECT_GE(closed.contact_link, 0);
 }
 
-TEST(CloseByTalk, StripIsTouchedAtTheEdgeThatIsHighestInTheDisc) {
+TEST(CloseByTalk, FingerTouchesTheHighestEdgeOfAStrip) {
     const HingeChain chain = make_chain(0.02);
     const ClosedFinger on_floor = close_by_talk(chain, make_floor());
     const ClosedFinger on_strip = close_by_talk(chain, make_floor(1.0, 0.005, -0.05));
@@ -157,7 +158,7 @@ TEST(CloseByTalk, StripIsTouchedAtTheEdgeThatIsHighestInTheDisc) {
     EXPECT_NEAR(on_floor.angle_rad[0], std::asin(0.02 / sum_of_lengths(chain)), 1e-7);
 }
 
-TEST(CloseBySpheres, LinkStopsInTheLastOf50StepsThatLeavesItsEndAboveAFloor) {
+TEST(CloseBySpheres, LinkStopsAtTheLastStepAboveAFloor) {
     for (const double height_m : {0.012, 0.02, 0.03, 0.045}) {
         const HingeChain chain = make_chain(height_m, 1);
         const double touch_rad = std::asin((height_m - chain.radius_m[0]) / chain.length_m[0]);
@@ -168,15 +169,15 @@ TEST(CloseBySpheres, LinkStopsInTheLastOf50StepsThatLeavesItsEndAboveAFloor) {
     }
 }
 
-TEST(CloseBySpheres, LinksBeyondTheOneThatTouchesGoOn) {
-    const HingeChain chain = make_chain(0.012);  // the first link's end is the first to touch
+TEST(CloseBySpheres, LinksBeyondTheTouchingOneKeepClosing) {
+    const HingeChain chain = make_chain(0.012);  // the first link's end touches first
     const GripMesh post = make_floor(1.0, 0.005, -0.04);
     const ClosedFinger closed = close_by_spheres(chain, post);
     EXPECT_LT(closed.angle_rad[0], 0.2);
     EXPECT_GT(closed.angle_rad[1], closed.angle_rad[0]);
 }
 
-TEST(CloseBySpheres, WhatIsThinAndBetweenTwoSpheresIsPassedThrough) {
+TEST(CloseBySpheres, PassesThroughABladeBetweenTwoSpheres) {
     const HingeChain chain = make_chain(0.02, 1);
     HingeChain thin = chain;
     thin.radius_m = {0.002, 0.002, 0.002};
@@ -185,12 +186,13 @@ TEST(CloseBySpheres, WhatIsThinAndBetweenTwoSpheresIsPassedThrough) {
     blade.positions = {Vec3(-0.1, 0.0, -0.03), Vec3(0.1, 0.0, -0.03), Vec3(0.0, 0.002, -0.03)};
     blade.triangles = {{0, 1, 2}};
     const GripMesh mesh = as_it_is(blade);
-    // The link sweeps over the blade: asin(20 mm / 36 mm) is within its range, its end never is.
+    // The link sweeps over the blade: asin(20 mm / 36 mm) is within its range, which its end never
+    // reaches.
     EXPECT_EQ(close_by_spheres(thin, mesh).contact_link, DiscClosure::k_none);
     EXPECT_EQ(close_by_talk(thin, mesh).contact_link, 0);
 }
 
-TEST(CloseBySpheres, NothingInReachLeavesTheFingerRelaxed) {
+TEST(CloseBySpheres, NothingInReachGivesRestPose) {
     const HingeChain chain = make_chain(0.5);
     EXPECT_EQ(close_by_spheres(chain, make_floor()).angle_rad, chain.rest_rad);
 }

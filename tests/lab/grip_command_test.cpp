@@ -1,4 +1,4 @@
-// `handhold-lab grip` as others call it: every field of its format, exit status, what is left.
+// `handhold-lab grip` as an external program: its format, exit status, and output files.
 #include <sys/wait.h>
 
 #include "engine/io/gltf_writer.hpp"
@@ -39,7 +39,7 @@ std::string beam_glb() {
     return write_glb(std::vector<GltfMaterial>(1), {&beam, 1});
 }
 
-// Palms look down: one on the beam's top, one a metre above it.
+// Palms face down: one on the beam's top, one a metre above.
 const char* const k_placements =
     R"({"id":7,"wrist":{"position_m":[0.0,0.045,0.085],"rotation_xyzw":[0,0,0,1]}})"
     "\n"
@@ -121,7 +121,7 @@ TEST_F(GripCommand, WritesEveryWarmFrame) {
               0)
         << err_;
     const Json warm = Json::parse(text_of(folder_ / "warm.json"));
-    // One of the two hands grips: four fingers and a thumb of three hinges.
+    // One of the two hands grips; it has four fingers and a thumb of three joints each.
     for (const char* const name : {"slide_us", "stand_us"}) {
         ASSERT_EQ(warm[name].size(), 20U) << name;
         for (const Json& us : warm[name]) {
@@ -134,7 +134,7 @@ TEST_F(GripCommand, WritesEveryWarmFrame) {
     EXPECT_LE(warm["shown_jumps"].get<int>(), 20 * 15);
 }
 
-TEST_F(GripCommand, HandsWithNothingInReachSayWhy) {
+TEST_F(GripCommand, HandsWithNothingInReachGiveAReason) {
     ASSERT_EQ(run(files()), 0) << err_;
     const Json hand = hands()[1];
     EXPECT_EQ(hand["id"], -2);
@@ -146,7 +146,7 @@ TEST_F(GripCommand, HandsWithNothingInReachSayWhy) {
     EXPECT_EQ(hand["fingers"].size(), 5U);
 }
 
-TEST_F(GripCommand, CapsulesOfAFingerHangTogether) {
+TEST_F(GripCommand, CapsulesOfAFingerAreConnected) {
     ASSERT_EQ(run(files() + " --hand left --search bfs --palm ray --grip-edge-mm 11"), 0) << err_;
     const Json hand = hands()[0];
     for (std::size_t i = 1; i < hand["capsules"].size(); ++i) {
@@ -161,7 +161,7 @@ TEST_F(GripCommand, CapsulesOfAFingerHangTogether) {
     }
 }
 
-TEST_F(GripCommand, WithoutSyncThePalmStaysWhereItIsTracked) {
+TEST_F(GripCommand, WithoutSyncThePalmStaysAtItsTrackedPose) {
     ASSERT_EQ(run(files() + " --sync off"), 0) << err_;
     const Json hand = hands()[0];
     EXPECT_EQ(hand["sync_mm"], 0.0);
@@ -196,7 +196,7 @@ TEST_F(GripCommand, RefusesWrongFlagsAndLeavesNoOutput) {
     EXPECT_EQ(run("--mesh " + path("beam.glb")), 1);
 }
 
-TEST_F(GripCommand, RefusesFilesWithOneLineAndLeavesNoOutput) {
+TEST_F(GripCommand, BadFileGivesOneErrorLineAndNoOutput) {
     const auto expect_refused = [&](const std::string& arguments, const std::string& said) {
         EXPECT_EQ(run(arguments), 2) << arguments;
         EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;

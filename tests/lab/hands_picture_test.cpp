@@ -10,7 +10,7 @@ const char* const k_line =
     R"({"id":3,"gripped":true,"wrist":{"position_m":[1,2,3],"rotation_xyzw":[0,0,0,1]},)"
     R"("capsules":[{"finger":"index","link":1,"a_m":[0,0,0],"b_m":[0,0,-0.03],"radius_m":0.008}]})";
 
-TEST(PosedHands, ReadsWhatAPictureNeeds) {
+TEST(PosedHands, ReadsWristAndCapsules) {
     const auto hands = parse_posed_hands(std::string(k_line) + "\n\n" + k_line + "\n", "G.jsonl");
     ASSERT_TRUE(hands.ok()) << hands.error().message();
     ASSERT_EQ(hands.value().size(), 2U);
@@ -21,7 +21,7 @@ TEST(PosedHands, ReadsWhatAPictureNeeds) {
     EXPECT_EQ(hands.value()[1].capsules[0].b_m, Vec3(0, 0, -0.03));
 }
 
-TEST(PosedHands, RefusesOthersWithLineAndPlace) {
+TEST(PosedHands, ErrorNamesLineAndPointer) {
     std::string bad = k_line;
     bad.replace(bad.find("index"), 5, "elbow");
     const auto hands = parse_posed_hands(std::string(k_line) + "\n" + bad, "G.jsonl");
@@ -29,8 +29,8 @@ TEST(PosedHands, RefusesOthersWithLineAndPlace) {
     EXPECT_EQ(hands.error().place, "line 2 /capsules/0/finger");
 }
 
-// A finger below a plate: it is seen from below only.
-TEST(HandViewpoint, LooksFromWhereNothingHidesTheFingers) {
+// A finger below a plate is only visible from below.
+TEST(HandViewpoint, LooksFromAnUnobstructedSide) {
     const std::vector<HandCapsule> finger = {
         {"index", 0, Vec3(-0.02, -0.02, 0), Vec3(0.02, -0.02, 0), 0.008}};
     Mesh plate;
@@ -41,11 +41,11 @@ TEST(HandViewpoint, LooksFromWhereNothingHidesTheFingers) {
     const HandView view = choose_hand_view(finger, Quat::Identity(), around, 0.4);
     EXPECT_LT(view.towards.y(), 0.1);
     EXPECT_NEAR(view.center.y(), -0.02, 1e-12);
-    // Nothing in the way: rather from above.
+    // Without obstacles the view is from above.
     EXPECT_GT(choose_hand_view(finger, Quat::Identity(), {}, 0.4).towards.y(), 0.0);
 }
 
-TEST(HandViewpoint, FarTrianglesDoNotCount) {
+TEST(HandViewpoint, IgnoresFarTriangles) {
     Mesh plate;
     plate.positions = {Vec3(5, 0, 0), Vec3(6, 0, 0), Vec3(5, 1, 0)};
     plate.triangles = {{0, 1, 2}};

@@ -1,4 +1,4 @@
-// The command as others call it: exit status, messages, files.
+// `handhold-lab` as an external program: exit status, messages, files.
 #include <sys/wait.h>
 
 #include "lab_files.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 class LabCommand : public LabTest {
   protected:
-    // Exit status; what it printed on standard error is in err_.
+    // Returns the exit status; standard error is in err_.
     int run(const std::string& arguments) {
         const std::string err = (folder_ / "err").string();
         const int status = std::system(
@@ -34,7 +34,7 @@ TEST_F(LabCommand, RefusesWrongFlagsWithTheUsage) {
     }
 }
 
-TEST_F(LabCommand, SaysWhatASolverOrHolderCannotExpress) {
+TEST_F(LabCommand, NamesWhatASolverOrHolderCannotExpress) {
     EXPECT_EQ(run("solve --scene push_off --solver bullet --frames 2 " + json()), 1);
     EXPECT_NE(err_.find("kappa"), std::string::npos);
     EXPECT_EQ(run("solve --scene lean_in --holder kinematic --frames 2 " + json()), 1);
@@ -42,7 +42,7 @@ TEST_F(LabCommand, SaysWhatASolverOrHolderCannotExpress) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.json"));
 }
 
-TEST_F(LabCommand, LeavesNothingWhereItCannotWrite) {
+TEST_F(LabCommand, LeavesNoFileIfItCannotWrite) {
     const std::string nowhere = (folder_ / "absent" / "a.json").string();
     EXPECT_EQ(run("solve --scene chain --frames 2 --json \"" + nowhere + "\""), 2);
     EXPECT_NE(err_.find(nowhere), std::string::npos);

@@ -15,8 +15,8 @@
 #include "engine/io/text_file.hpp"
 #include "tools/lab/solve_command.hpp"
 
-// Runs of `solve` in a folder of their own, and a reader of what they write that knows the format
-// only: docs/reference/lab.md.
+// Runs `solve` in a temporary folder. The reader of its files uses only the documented format
+// (docs/reference/lab.md).
 namespace handhold::lab {
 
 class LabTest : public testing::Test {

@@ -1,5 +1,5 @@
-// The figures, computed again by a reader that has nothing but the two files: its own quaternions,
-// its own joints.
+// Recomputes the figures from the two output files alone, with independent quaternion and joint
+// code.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ V axis(const Frame& body, const nlohmann::json& local) {
     return turn(body.rotation, turn(frame_of(local).rotation, {1.0, 0.0, 0.0}));
 }
 
-// Worst errors over all frames, in the units of the file.
+// Worst errors over all frames, in the file's units.
 struct Errors {
     double joint_mm = 0.0;
     double joint_deg = 0.0;
@@ -65,9 +65,9 @@ void take_joint(const nlohmann::json& joint, const std::map<std::string, Frame>&
     const bool slides = joint["type"] == "slider";
     double point_m = slides ? length(cross(along, apart)) : length(apart);
     if (slides) {
-        const double way = dot(along, apart);
-        point_m = std::max(
-            {point_m, way - joint["upper"].get<double>(), joint["lower"].get<double>() - way});
+        const double travel = dot(along, apart);
+        point_m = std::max({point_m, travel - joint["upper"].get<double>(),
+                            joint["lower"].get<double>() - travel});
     }
     errors.joint_mm = std::max(errors.joint_mm, 1e3 * point_m);
     if (joint["type"] != "ball") {
@@ -107,13 +107,13 @@ class LabReader : public LabTest {
     void expect_same(const std::string& scene, const std::string& holder,
                      const std::string& solver) const {
         SCOPED_TRACE(scene + " " + holder + " " + solver);
-        SolveOptions asked = options(scene, 60);
-        asked.links = 12;
-        asked.holder = holder;
-        asked.solver = solver;
-        asked.csv = folder_ / "out.csv";
-        const nlohmann::json json = solve(asked);
-        const std::vector<CsvRow> rows = parse_rows(text_of(asked.csv));
+        SolveOptions run_options = options(scene, 60);
+        run_options.links = 12;
+        run_options.holder = holder;
+        run_options.solver = solver;
+        run_options.csv = folder_ / "out.csv";
+        const nlohmann::json json = solve(run_options);
+        const std::vector<CsvRow> rows = parse_rows(text_of(run_options.csv));
         ASSERT_EQ(rows.back().frame, 59);
         const Errors errors = recompute(json, rows);
         const auto same = [](double again, const nlohmann::json& said) {
@@ -127,26 +127,26 @@ class LabReader : public LabTest {
     }
 };
 
-TEST_F(LabReader, FindsTheSameErrorsInTheFiles) {
+TEST_F(LabReader, ErrorsRecomputedFromTheFilesAgree) {
     for (const char* scene : {"chain", "lever", "drawer"}) {
         for (const char* holder : {"player", "kinematic"}) {
             expect_same(scene, holder, "direct");
         }
     }
-    // Where the errors are large enough to see with the naked eye too.
+    // Solvers whose errors are large enough to see.
     expect_same("chain", "kinematic", "plain");
     expect_same("chain", "player", "bullet");
 }
 
-TEST_F(LabReader, FindsAPlayerWhereHeWasInEveryFrame) {
-    SolveOptions asked = options("chain", 120);
-    asked.csv = folder_ / "out.csv";
-    const nlohmann::json json = solve(asked);
+TEST_F(LabReader, PlayerRowsHaveTheOriginInEveryFrame) {
+    SolveOptions run_options = options("chain", 120);
+    run_options.csv = folder_ / "out.csv";
+    const nlohmann::json json = solve(run_options);
     const auto& bodies = json["bodies"];
     ASSERT_EQ(bodies.back()["kind"], "player");
     const std::string player = std::to_string(bodies.back()["id"].get<int>());
     int found = 0;
-    for (const CsvRow& row : parse_rows(text_of(asked.csv))) {
+    for (const CsvRow& row : parse_rows(text_of(run_options.csv))) {
         if (row.body == player) {
             ++found;
             EXPECT_EQ((V{row.numbers[0], row.numbers[1], row.numbers[2]}), (V{0.0, 0.0, 0.0}));
@@ -155,15 +155,15 @@ TEST_F(LabReader, FindsAPlayerWhereHeWasInEveryFrame) {
     EXPECT_EQ(found, 120);
 }
 
-TEST_F(LabReader, FindsNoPartOfARockInTheWall) {
-    SolveOptions asked = options("shove", 90);
-    asked.csv = folder_ / "out.csv";
-    const nlohmann::json json = solve(asked);
+TEST_F(LabReader, HeldRockNeverPenetratesTheWall) {
+    SolveOptions run_options = options("shove", 90);
+    run_options.csv = folder_ / "out.csv";
+    const nlohmann::json json = solve(run_options);
     ASSERT_EQ(json["planes"][0]["normal"].get<V>(), (V{1.0, 0.0, 0.0}));
     const nlohmann::json& rock = json["bodies"][1];
     const V half = rock["half_m"].get<V>();
     double deepest = 0.0;
-    for (const CsvRow& row : parse_rows(text_of(asked.csv))) {
+    for (const CsvRow& row : parse_rows(text_of(run_options.csv))) {
         if (row.body != "1") {
             continue;
         }

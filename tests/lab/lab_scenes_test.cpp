@@ -1,4 +1,4 @@
-// What each scene claims of the runtime, at the goals of the design where today's solver meets
+// The claims of each scene about the runtime, at the design's goals where today's solver meets
 // them. Expected values are the scenes' closed forms.
 #include <algorithm>
 #include <cmath>
@@ -18,15 +18,15 @@ double claim(const Json& json, const char* figure) {
 
 class LabScenes : public LabTest {};
 
-TEST_F(LabScenes, KeepEveryJointWithBothKindsOfHolders) {
+TEST_F(LabScenes, JointsHoldWithBothKindsOfHolders) {
     for (const std::string_view name : scene_names()) {
         for (const char* holder : {"player", "kinematic"}) {
             if (std::string(holder) == "kinematic" && make_scene(name, {}).needs_player) {
                 continue;
             }
-            SolveOptions asked = options(std::string(name), name == "hub" ? 20 : 90);
-            asked.holder = holder;
-            const Json json = solve(asked);
+            SolveOptions run_options = options(std::string(name), name == "hub" ? 20 : 90);
+            run_options.holder = holder;
+            const Json json = solve(run_options);
             SCOPED_TRACE(std::string(name) + " " + holder);
             EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
             EXPECT_LE(worst(json, "joint_error_deg"), 1e-4);
@@ -35,13 +35,13 @@ TEST_F(LabScenes, KeepEveryJointWithBothKindsOfHolders) {
     }
 }
 
-TEST_F(LabScenes, ChainsOfAnyMassesHoldAndMoveNobody) {
+TEST_F(LabScenes, ChainsOfAnyMassesHoldWithoutMovingPlayers) {
     for (const std::string_view masses : mass_patterns()) {
         for (const int links : {8, 33}) {
-            SolveOptions asked = options("chain", 120);
-            asked.links = links;
-            asked.masses = masses;
-            const Json json = solve(asked);
+            SolveOptions run_options = options("chain", 120);
+            run_options.links = links;
+            run_options.masses = masses;
+            const Json json = solve(run_options);
             SCOPED_TRACE(std::string(masses));
             EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
             EXPECT_LE(worst(json, "grab_error_mm"), 1e-3);
@@ -51,14 +51,14 @@ TEST_F(LabScenes, ChainsOfAnyMassesHoldAndMoveNobody) {
 }
 
 // A hand that jumps by a metre, and a ring in free space.
-TEST_F(LabScenes, JumpingHandsAndRingsOfAnyMassesHoldAndMoveNobody) {
+TEST_F(LabScenes, JumpingHandsAndRingsHoldWithoutMovingPlayers) {
     for (const std::string_view masses : mass_patterns()) {
         for (const int links : {16, 64, 128}) {
             for (const char* scene : {"teleport", "ring"}) {
-                SolveOptions asked = options(scene, 100);
-                asked.links = links;
-                asked.masses = masses;
-                const Json json = solve(asked);
+                SolveOptions run_options = options(scene, 100);
+                run_options.links = links;
+                run_options.masses = masses;
+                const Json json = solve(run_options);
                 SCOPED_TRACE(std::string(scene) + " " + std::string(masses) + " " +
                              std::to_string(links));
                 EXPECT_LE(worst(json, "joint_error_mm"), 1e-3);
@@ -69,44 +69,44 @@ TEST_F(LabScenes, JumpingHandsAndRingsOfAnyMassesHoldAndMoveNobody) {
     }
 }
 
-// Every scene, and every pattern of masses, with all four solvers: each runs, or says what it
-// cannot express. The runtime's own keeps the joints; of a chain that can be had the others move
-// the player.
-TEST_F(LabScenes, RunWithEverySolver) {
-    const auto run = [&](SolveOptions asked, const std::string& solver) {
-        asked.solver = solver;
-        const Json json = solve(asked);
+// Every scene and every mass pattern with all four solvers: each runs, or names what it cannot
+// express. The runtime's solver satisfies the joints; the baselines move the player of a reachable
+// chain.
+TEST_F(LabScenes, EverySceneRunsWithEverySolver) {
+    const auto run = [&](SolveOptions run_options, const std::string& solver) {
+        run_options.solver = solver;
+        const Json json = solve(run_options);
         EXPECT_EQ(json["solver"], solver);
-        EXPECT_EQ(json["scene"], asked.scene);
+        EXPECT_EQ(json["scene"], run_options.scene);
         EXPECT_TRUE(std::isfinite(worst(json, "joint_error_mm")));
         EXPECT_TRUE(solver != "direct" || worst(json, "joint_error_mm") <= 1e-3);
         return json;
     };
     for (const std::string_view scene : scene_names()) {
-        SolveOptions asked = options(std::string(scene), 12);
-        asked.links = 12;
+        SolveOptions run_options = options(std::string(scene), 12);
+        run_options.links = 12;
         for (const std::string& solver : solver_names()) {
-            SCOPED_TRACE(asked.scene + " " + solver);
+            SCOPED_TRACE(run_options.scene + " " + solver);
             if (solver == "bullet" && !make_scene(scene, {}).beyond_bullet.empty()) {
-                asked.solver = solver;
-                EXPECT_EQ(solve_command(asked), 1);
+                run_options.solver = solver;
+                EXPECT_EQ(solve_command(run_options), 1);
             } else {
-                run(asked, solver);
+                run(run_options, solver);
             }
         }
     }
     for (const std::string_view masses : mass_patterns()) {
-        SolveOptions asked = options("chain", 100);
-        asked.masses = masses;
+        SolveOptions run_options = options("chain", 100);
+        run_options.masses = masses;
         for (const std::string& solver : solver_names()) {
             SCOPED_TRACE(std::string(masses) + " " + solver);
-            const double player_mm = worst(run(asked, solver), "player_error_mm");
+            const double player_mm = worst(run(run_options, solver), "player_error_mm");
             EXPECT_TRUE(solver == "direct" ? player_mm == 0.0 : player_mm > 1.0) << player_mm;
         }
     }
 }
 
-TEST_F(LabScenes, ThingsOnAWallHoldAsFarAsTheyAreStrained) {
+TEST_F(LabScenes, JointedBodiesHoldWhenPulledBeyondTheirRange) {
     for (const char* scene : {"lever", "drawer", "door"}) {
         const Json json = solve(scene, 900);
         SCOPED_TRACE(scene);
@@ -128,42 +128,42 @@ TEST_F(LabScenes, WallsPushBackInTheSameFrame) {
     }
 }
 
-TEST_F(LabScenes, WhatTwoHandsCannotBothHaveIsSharedAlike) {
+TEST_F(LabScenes, OpposingHandsShareTheErrorEqually) {
     EXPECT_LE(claim(solve("contradict"), "share_error_mm"), 1e-3);
     EXPECT_LE(claim(solve("two_players"), "push_back_error_mm"), 1e-3);
 }
 
-// A hand that leaves may move the head by 0.01 mm in that frame. Expected: the closed form.
-TEST_F(LabScenes, HeadsOfClimbersGoTheWayOfTheirHands) {
+// A hand that releases may move the head by 0.01 mm in that frame. Expected: the closed form.
+TEST_F(LabScenes, ClimbersHeadsFollowTheirHands) {
     const Json json = solve("climb", 900);
     EXPECT_LE(claim(json, "head_path_one_hand_mm"), 1e-3);
     EXPECT_LE(claim(json, "head_path_two_hands_mm"), 1e-3);
     EXPECT_LE(claim(json, "head_jump_mm"), 0.01);
 }
 
-TEST_F(LabScenes, TwoHandsOnAFreeBarLeaveNothingToShare) {
+TEST_F(LabScenes, FirstHandOnAFreeBarHasNoError) {
     const Json json = solve("two_hands");
     EXPECT_LE(claim(json, "first_hand_error_mm"), 1e-3);
     EXPECT_LE(claim(json, "second_hand_beside_line_mm"), 1e-3);
     EXPECT_LE(worst(json, "grab_error_mm"), 2.0 + 1e-3)
-        << "the second hand slides by what it strays";
+        << "the second hand slides by the change of distance";
 }
 
-TEST_F(LabScenes, JamIsSharedByBothWallsAndStill) {
+TEST_F(LabScenes, JamErrorIsSharedByBothWallsWithoutJitter) {
     const Json json = solve("jam");
     EXPECT_NEAR(claim(json, "jam_gap_left_mm"), 10.0, 1.0);
     EXPECT_NEAR(claim(json, "jam_gap_right_mm"), 10.0, 1.0);
     EXPECT_LE(claim(json, "still_mps"), 1e-6);
 }
 
-// A tenth of what a solve is asked for: what it leaves of a hand is taken away once more.
-TEST_F(LabScenes, HandsOnShipsLagByATenthOfTheSolversTolerance) {
+// A tenth of the solver's tolerance: the remaining hand error is corrected once more.
+TEST_F(LabScenes, HandsOnShipsLagLessThanTheSolversTolerance) {
     for (const char* scene : {"ship_kinematic", "ship_dynamic"}) {
         EXPECT_LE(claim(solve(scene, 900), "ship_lag_mm"), 1e-5) << scene;
     }
 }
 
-TEST_F(LabScenes, MomentumStaysWhereNothingActsFromOutside) {
+TEST_F(LabScenes, MomentumIsConservedInClosedScenes) {
     for (const char* scene : {"throw", "push_off", "ship_dynamic"}) {
         EXPECT_LE(solve(scene)["momentum_residual"].get<double>(), 1e-9) << scene;
     }
@@ -181,29 +181,29 @@ TEST_F(LabScenes, BouncesAndSlidesFollowTheirClosedForms) {
     EXPECT_LE(claim(slid, "sliding_error_mm"), claim(slid, "sliding_step_mm"));
 }
 
-TEST_F(LabScenes, OtherSolversLeaveMore) {
-    SolveOptions asked = options("chain", 120);
-    asked.holder = "kinematic";
-    const double direct_mm = worst(solve(asked), "joint_error_mm");
+TEST_F(LabScenes, BaselineSolversLeaveLargerErrors) {
+    SolveOptions run_options = options("chain", 120);
+    run_options.holder = "kinematic";
+    const double direct_mm = worst(solve(run_options), "joint_error_mm");
     for (const char* solver : {"plain", "sweep", "bullet"}) {
-        asked.solver = solver;
-        EXPECT_GT(worst(solve(asked), "joint_error_mm"), 100.0 * direct_mm) << solver;
+        run_options.solver = solver;
+        EXPECT_GT(worst(solve(run_options), "joint_error_mm"), 100.0 * direct_mm) << solver;
     }
 }
 
-TEST_F(LabScenes, ResidualsFallFromIterationToIteration) {
-    SolveOptions asked = options("chain", 40);
-    asked.residual_frame = 30;
+TEST_F(LabScenes, ResidualFallsWithEachIteration) {
+    SolveOptions run_options = options("chain", 40);
+    run_options.residual_frame = 30;
     for (const char* solver : {"direct", "plain"}) {
-        asked.solver = solver;
-        const Json json = solve(asked);
+        run_options.solver = solver;
+        const Json json = solve(run_options);
         const auto curve = json["residual_per_iteration"].get<std::vector<double>>();
         ASSERT_GE(curve.size(), 3U);
         EXPECT_LT(curve.back(), 0.1 * curve.front()) << solver;
         EXPECT_TRUE(std::is_sorted(curve.rbegin(), curve.rend())) << solver;
     }
-    asked.solver = "bullet";
-    EXPECT_EQ(solve(asked)["residual_per_iteration"].size(), 50U);
+    run_options.solver = "bullet";
+    EXPECT_EQ(solve(run_options)["residual_per_iteration"].size(), 50U);
 }
 
 }  // namespace

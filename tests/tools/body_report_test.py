@@ -1,4 +1,4 @@
-"""What body_report measures, against closed forms and another program, and what it says where nothing can be run."""
+"""body_report's figures against closed forms and another program, and its errors if nothing can be run."""
 import json
 import os
 import stat
@@ -24,7 +24,7 @@ OUT = "clip,t,chest_yaw_deg," + ",".join(side + part + axis for part in ("sh", "
 
 
 class Case:
-    """Arms that hang, of one or several clips, in memory; what a test needs else it changes."""
+    """Hanging arms in one or several clips, in memory; tests change what they need."""
 
     def __init__(self, clip):
         rows = len(clip)
@@ -51,12 +51,12 @@ def everything(errors):
 
 
 class Scores(unittest.TestCase):
-    def test_yaw_error_is_the_short_way_round(self):
+    def test_yaw_error_wraps_to_the_short_angle(self):
         truth, estimate = Case([1] * 4), Case([1] * 4)
         truth.yaw_deg[:], estimate.yaw_deg[:] = 179.0, -179.0
         self.assertAlmostEqual(everything(measure(truth, estimate))["yaw_deg"]["mean"], 2.0)
 
-    def test_distances_are_in_centimetres_and_of_both_arms(self):
+    def test_distances_are_centimetres_over_both_arms(self):
         truth = Case([1] * 4)
         estimate = truth.copy()
         estimate.elbow_m[0] += [0.03, 0.0, 0.04]
@@ -72,10 +72,10 @@ class Scores(unittest.TestCase):
             estimate.elbow_m = estimate.shoulder_m + [0.1 * np.sin(angle), -0.2, 0.1 * np.cos(angle)]
             self.assertAlmostEqual(everything(measure(truth, estimate))["swivel_deg"]["mean"], angle_deg)
 
-    def test_an_arm_carried_by_the_least_rotation_has_no_swivel(self):
+    def test_arm_moved_by_the_smallest_rotation_has_no_swivel(self):
         truth = Case([1])
         tilt = np.radians(20.0)
-        # About the hand, in the plane x-y: the axis z is across both lines, so this is the least rotation.
+        # About the hand, in the plane x-y: the axis z is perpendicular to both lines, so this is the smallest rotation.
         turn = np.array([[np.cos(tilt), -np.sin(tilt), 0.0], [np.sin(tilt), np.cos(tilt), 0.0], [0.0, 0.0, 1.0]])
         estimate = truth.copy()
         for side in (0, 1):
@@ -83,7 +83,7 @@ class Scores(unittest.TestCase):
             estimate.shoulder_m[side], estimate.elbow_m[side] = (hand + (points[side] - hand) @ turn.T for points in (truth.shoulder_m, truth.elbow_m))
         self.assertAlmostEqual(everything(measure(truth, estimate))["swivel_deg"]["mean"], 0.0, places=5)
 
-    def test_a_straight_true_arm_has_no_swivel_to_count(self):
+    def test_straight_true_arm_has_no_swivel(self):
         truth = Case([1] * 3)
         truth.elbow_m = truth.shoulder_m + [0.0, -0.25, 0.039]
         self.assertTrue(np.isnan(measure(truth, Case([1] * 3)).swivel_deg).all())
@@ -97,7 +97,7 @@ class Scores(unittest.TestCase):
         self.assertAlmostEqual(scoring.mean(errors.true_jerk_mps3), 12.0, places=4)
         self.assertAlmostEqual(everything(errors)["jerk_ratio"], 1.5, places=6)
 
-    def test_a_new_clip_makes_neither_jerk_nor_pops(self):
+    def test_clip_change_adds_neither_jerk_nor_pops(self):
         truth = Case([1] * 6 + [2] * 6)
         estimate = truth.copy()
         estimate.elbow_m[:, 6:] += [1.0, 0.0, 0.0]
@@ -105,7 +105,7 @@ class Scores(unittest.TestCase):
         self.assertLess(scoring.mean(errors.jerk_mps3), 1e-6)
         self.assertEqual(errors.pops.sum(), 0)
 
-    def test_a_pop_goes_over_5_cm_where_the_true_elbow_goes_under_3(self):
+    def test_pop_is_over_5_cm_while_the_true_elbow_moves_under_3(self):
         for way_m, true_way_m, pops in ((0.051, 0.029, 2), (0.049, 0.0, 0), (0.06, 0.031, 0)):
             truth = Case([1] * 5400)  # a minute
             estimate = truth.copy()
@@ -115,7 +115,7 @@ class Scores(unittest.TestCase):
             truth.elbow_m[0, 200:] -= [true_way_m, 0.0, 0.0]
             self.assertAlmostEqual(everything(measure(truth, estimate))["pops_per_min"], pops)
 
-    def test_frames_that_are_not_valid_do_not_count(self):
+    def test_invalid_frames_are_excluded(self):
         truth = Case([1] * 8)
         estimate = truth.copy()
         truth.valid[3] = False
@@ -124,7 +124,7 @@ class Scores(unittest.TestCase):
         figures = everything(measure(truth, estimate))
         self.assertEqual((figures["elbow_cm"]["p95"], figures["yaw_deg"]["mean"], figures["pops_per_min"]), (0.0, 0.0, 0.0))
 
-    def test_leaving_a_person_out_leaves_the_others(self):
+    def test_leaving_a_person_out_keeps_the_others(self):
         truth = Case([1] * 30 + [2] * 10)
         estimate = truth.copy()
         estimate.yaw_deg[:30], estimate.yaw_deg[30:] = 4.0, 8.0
@@ -139,16 +139,16 @@ class Scores(unittest.TestCase):
         self.assertAlmostEqual(yaw["most_without_one"], 8.0)
         self.assertAlmostEqual(yaw["error"], 2.0)
 
-    def test_hands_are_where_they_are_in_the_turned_chest(self):
+    def test_hand_positions_are_in_the_chests_frame(self):
         truth = Case([1] * 4)
-        truth.yaw_deg[:] = 90.0  # he faces -X
+        truth.yaw_deg[:] = 90.0  # the chest faces -X
         truth.hand_m[1] = truth.shoulder_m[1] + [-0.5, 0.0, 0.0]
         places = scoring.where_hands_are(truth, truth)
         self.assertTrue(places["hanging"][0].all() and places["in front"][1].all())
         self.assertFalse(places["in front"][0].any() or places["crossed"].any() or places["behind"].any())
 
     @unittest.skipUnless((DATA / "score.py").exists(), "no data")
-    def test_figures_agree_with_the_datas_own_scorer(self):
+    def test_figures_agree_with_the_data_sets_scorer(self):
         recording = recordings.Recording(DATA / "in.csv")
         truth = recordings.Bodies(DATA / "truth.csv", recording, is_truth=True)
         rng = np.random.default_rng(3)
@@ -173,11 +173,11 @@ class Drawings(unittest.TestCase):
         figures = {"yaw_deg": {"mean": 8.5}, "elbow_cm": {"mean": 7.1}, "swivel_deg": {"mean": 22.0}, "pops_per_min": 1.6, "jerk_ratio": 1.5}
         self.assertEqual([goal.verdict() for goal in report.goals(figures)], ["met", "MISSED", "met", "MISSED", "met"])
 
-    def test_lines_break_where_a_value_is_missing(self):
+    def test_lines_break_at_missing_values(self):
         drawing = svg.lines("a < b", "s", "cm", {"one": ("#000", [(0.0, 1.0), (1.0, 2.0), (2.0, float("nan")), (3.0, 4.0)]), "none": ("#111", [])})
         self.assertEqual(len(ElementTree.fromstring(drawing).findall(".//polyline")), 2)
 
-    def test_moments_are_where_both_elbows_are_as_wrong_as_mostly_nearly_worst_and_worst(self):
+    def test_moments_have_median_95th_percentile_and_largest_error(self):
         truth = Case([1] * 45)
         estimate = truth.copy()
         off_cm = np.random.default_rng(5).permutation(41).astype(float)
@@ -187,20 +187,21 @@ class Drawings(unittest.TestCase):
         found = report.moments(errors, np.ones(45, bool))
         self.assertEqual([title for title, _ in found], ["median", "95th percentile", "worst"])
         np.testing.assert_allclose([errors.elbow_cm[:, row].mean() for _, row in found], [20.0, 38.0, 40.0])
-        own = np.arange(45) < 11  # of one person: nothing of the others counts
+        own = np.arange(45) < 11  # one person: the others are excluded
         self.assertEqual([row for _, row in report.moments(errors, own)][2], int(np.argmax(off_cm[:11])))
         self.assertEqual(report.moments(errors, np.arange(45) == 7), [(title, 7) for title in ("median", "95th percentile", "worst")])
         self.assertEqual(report.moments(errors, np.arange(45) > 40), [])  # no truth there
 
-    def test_who_faces_left_looks_right_when_seen_from_his_right(self):
+    def test_side_view_shows_the_person_facing_right(self):
         local = stick_figures.about(90.0, np.array([1.0, 1.0, 1.0]), np.array([[0.0, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 2.0, 1.0]]))
         np.testing.assert_allclose(local, [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], atol=1e-12)  # ahead, right, up
         ahead, right, up = stick_figures.seen(local, "right") - stick_figures.seen(np.zeros(3), "right")
         self.assertTrue(ahead[0] > 0.0 and abs(right[0]) < 1e-9 and up[1] < 0.0)
         self.assertLess((stick_figures.seen(local[1], "front") - stick_figures.seen(np.zeros(3), "front"))[0], 0.0)
 
-    def test_the_head_looks_where_its_rotation_says(self):
-        np.testing.assert_allclose(stick_figures.forward([0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)]), [-1.0, 0.0, 0.0], atol=1e-12)  # a quarter turn left
+    def test_forward_rotates_minus_z(self):
+        # a quarter turn left
+        np.testing.assert_allclose(stick_figures.forward([0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)]), [-1.0, 0.0, 0.0], atol=1e-12)
 
 
 class Runs(unittest.TestCase):
@@ -232,7 +233,7 @@ class Runs(unittest.TestCase):
         self.assertEqual((run.returncode, run.stderr.count("\n"), self.page.exists()), (2, 1, False), run.stderr)
         self.assertIn(said, run.stderr)
 
-    def test_a_perfect_estimate_meets_every_goal_on_a_page_of_its_own(self):
+    def test_perfect_estimate_meets_every_goal_on_a_self_contained_page(self):
         run = self.run_report("--strict")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(run.stdout.count(" met"), 5)
@@ -241,14 +242,14 @@ class Runs(unittest.TestCase):
         self.assertEqual(page.count("from the right</text>"), 6)  # three moments of each person
         self.assertIn("wave", page)
 
-    def test_strict_fails_where_a_goal_is_missed(self):
+    def test_strict_fails_if_a_goal_is_missed(self):
         text = (self.folder / "exact.csv").read_text().replace(",0,-.18,1.4", ",30,-.18,1.4")
         (self.folder / "exact.csv").write_text(text)
         run = self.run_report("--strict")
         self.assertEqual((run.returncode, run.stdout.count("MISSED")), (1, 1), run.stdout)
         self.assertEqual(self.run_report().returncode, 0)
 
-    def test_missing_data_ends_it_with_one_line_and_no_page(self):
+    def test_missing_data_gives_one_error_line_and_no_page(self):
         for name in ("in.csv", "calib.csv", "truth.csv"):
             kept = (self.folder / name).read_bytes()
             (self.folder / name).unlink()
@@ -258,14 +259,14 @@ class Runs(unittest.TestCase):
     def test_broken_files_are_named_with_their_line(self):
         kept = (self.folder / "truth.csv").read_text()
         for bad, said in ((kept.replace("chest_yaw_deg", "yaw"), "line 1: expected a column chest_yaw_deg"),
-                          (kept.replace("1,0.100000,1,0,", "1,0.100000,1,east,"), "line 11: expected a finite number as chest_yaw_deg"),
+                          (kept.replace("1,0.100000,1,0,", "1,0.100000,1,east,"), "line 11: expected a finite number in column chest_yaw_deg"),
                           (kept.replace("1,0.100000,1,0,", "1,0.200000,1,0,"), "line 11: expected the clip and time"),
                           (kept.replace("1,0.100000,1,0,", "1,0.100000,1,"), "line 11: expected 16 cells, found 15"),
                           (kept.rpartition("\n2,")[0] + "\n", "expected 40 rows, found 39")):
             (self.folder / "truth.csv").write_text(bad)
             self.expect_refused(f"truth.csv: {said}")
 
-    def test_a_tool_that_fails_is_quoted(self):
+    def test_error_of_a_failing_tool_is_quoted(self):
         self.lab.write_text("#!/bin/sh\necho no arms >&2\nexit 2\n")
         self.expect_refused("exit status 2: no arms")
         self.lab.unlink()

@@ -1,4 +1,4 @@
-"""Plants one breach of each rule in a small tree and expects check_docs to name it, and nothing where all is well."""
+"""Creates one breach of each rule in a small tree and expects check_docs to name it; valid trees give no breach."""
 import importlib.util
 import tempfile
 import unittest
@@ -16,7 +16,7 @@ INDEX = "docs/decisions/README.md"
 
 
 def decisions(first: str, index: str = "| [1](0001-a.md) | One | accepted |\n") -> dict[str, str]:
-    """One page, and an index of it and of a second page that is as it should be."""
+    """One page, and an index of it and of a second, valid page."""
     return {
         PAGE: first,
         "docs/decisions/0002-b.md": "# 2. Two\nStatus: accepted\n",
@@ -49,7 +49,7 @@ class CheckDocs(unittest.TestCase):
     def test_broken_anchor_is_named(self):
         self.assertEqual(breaches({"a.md": "# Here\n[a](#there)\n"}), ["a.md:2: link to #there: no such heading"])
 
-    def test_code_is_no_link(self):
+    def test_links_in_code_are_ignored(self):
         self.assertEqual(breaches({"a.md": "`f[0](x)`\n```\n[a](b.md)\n```\n"}), [])
 
     def test_maps_name_files_and_tests_that_exist(self):
@@ -65,10 +65,10 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(breaches(TEST_FILE | {"docs/reference/stages.md": "`SolvePhases.Other`\n"}),
                          ["docs/reference/stages.md:1: no test is called SolvePhases.Other"])
 
-    def test_other_documents_may_name_files_to_be_made(self):
+    def test_other_documents_may_name_missing_files(self):
         self.assertEqual(breaches({"CONTRIBUTING.md": "make `systems/grip/new_stage.cpp`\n"}), [])
 
-    def test_decisions_as_they_should_be_are_allowed(self):
+    def test_valid_decisions_are_allowed(self):
         self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n" + 13 * (100 * "a" + "\n"))), [])
         for status in ("superseded by 2", "amended by 2"):
             self.assertEqual(breaches(decisions(f"# 1. One\nStatus: {status}\n",
@@ -87,7 +87,7 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n\n" + 101 * "a" + "\n")),
                          [f"{PAGE}:4: more than 100 characters"])
 
-    def test_decision_superseded_by_none_that_exists_is_named(self):
+    def test_decision_superseded_by_a_missing_one_is_named(self):
         for status in ("superseded by 3", "amended by 2, 3"):
             self.assertEqual(breaches(decisions(f"# 1. One\nStatus: {status}\n",
                                                 f"| [1](0001-a.md) | One | {status} |\n")),
@@ -98,7 +98,7 @@ class CheckDocs(unittest.TestCase):
                                             "| [1](0001-a.md) | One | superseded by 1 |\n")),
                          [f"{PAGE}:2: decision 1 is not later than this one"])
 
-    def test_decision_that_the_index_leaves_out_is_named(self):
+    def test_decision_missing_from_the_index_is_named(self):
         row = "| [1](0001-a.md) | One | accepted |"
         for index in ("", "| [1](0001-a.md) | Another title | accepted |\n", "| [1](0001-a.md) | One | amended by 2 |\n"):
             self.assertEqual(breaches(decisions("# 1. One\nStatus: accepted\n", index)),
@@ -118,7 +118,7 @@ class CheckDocs(unittest.TestCase):
         self.assertEqual(breaches(pages), [f"{PAGE}:1: another page has number 1",
                                            "docs/decisions/0001-c.md:1: another page has number 1"])
 
-    def test_build_folders_are_left_out(self):
+    def test_build_folders_are_ignored(self):
         self.assertEqual(breaches({"build/a.md": "[a](b.md)\n", "out/a.md": "[a](b.md)\n"}), [])
 
 

@@ -1,4 +1,4 @@
-"""Plants one breach of each rule in a small tree and expects check_includes to name it, and nothing where all is well."""
+"""Creates one breach of each rule in a small tree and expects check_includes to name it; valid trees give no breach."""
 import importlib.util
 import tempfile
 import unittest
@@ -47,7 +47,7 @@ class CheckIncludes(unittest.TestCase):
                            "systems/frame.cpp:1 | systems does not include game")
         self.assert_breach("game/a.cpp", '#include "tests/a.hpp"\n', "game/a.cpp:1 | game does not include tests")
 
-    def test_system_may_not_include_another_system_but_frame_snapshot_and_host_may(self):
+    def test_only_frame_snapshot_and_host_include_other_systems(self):
         include = '#include "systems/grip/search_grip.hpp"\n'
         self.assert_breach("systems/hand/constrain_palms.cpp", include,
                            "systems/hand/constrain_palms.cpp:1 | no other system")
@@ -66,7 +66,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("systems/hand/shared/palm_fit.cpp", '#include "systems/hand/search_grip.hpp"\n',
                            "systems/hand/shared/palm_fit.cpp:1 | no other system")
 
-    def test_rigs_are_for_every_system_and_include_only_rigs(self):
+    def test_every_system_may_include_rigs_which_include_only_rigs(self):
         include = '#include "systems/rigs/hand_kinematics.hpp"\n'
         self.assert_clean("systems/hand/constrain_palms.cpp", include)
         self.assert_clean("systems/locomotion/shared/grab_anchor.hpp", "#pragma once\n" + include)
@@ -76,7 +76,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_breach("components/hand.hpp", "#pragma once\n" + include,
                            "components/hand.hpp:2 | components does not include systems")
 
-    def test_only_the_front_door_names_world(self):
+    def test_only_allowed_files_name_world(self):
         self.assert_breach("systems/physics/a.cpp", "void f(const World& world);\n",
                            "systems/physics/a.cpp:1 | World")
         self.assert_breach("components/grab.hpp", "#pragma once\nstruct World;\n", "components/grab.hpp:2 | World")
@@ -84,17 +84,17 @@ class CheckIncludes(unittest.TestCase):
                      "tests/systems/a.cpp", "tools/lab/a.cpp"):
             self.assert_clean(file, "void f(const World& world);\n")
 
-    def test_world_in_comments_literals_and_longer_names_is_no_breach(self):
+    def test_world_in_comments_literals_and_longer_names_is_allowed(self):
         self.assert_clean("engine/a.cpp", '// World\n/* the\n World */\nconst char* a = "World"; CollisionWorld b;\n'
                                           'const char* c = R"(\nWorld "quoted")";\n')
 
     def test_lines_after_block_comments_keep_their_numbers(self):
         self.assert_breach("engine/a.cpp", "/* one\n two\n*/\nWorld w;\n", "engine/a.cpp:4 | World")
 
-    def test_commented_include_is_no_breach(self):
+    def test_commented_include_is_ignored(self):
         self.assert_clean("engine/a.cpp", '// #include "game/a.hpp"\n/* #include "game/a.hpp" */\n')
 
-    def test_each_library_has_one_home(self):
+    def test_each_library_is_included_in_one_place_only(self):
         homes = {
             "bullet/btBulletCollisionCommon.h": "engine/collision/bullet_collision_world.cpp",
             "btBulletDynamicsCommon.h": "engine/collision/bullet_collision_world.cpp",
@@ -116,13 +116,13 @@ class CheckIncludes(unittest.TestCase):
                 self.assert_breach("systems/physics/a.cpp", text, "systems/physics/a.cpp:2 | only ")
                 self.assert_clean("tests/engine/a.cpp", text)
 
-    def test_library_types_are_named_at_home_only(self):
+    def test_library_types_are_named_in_one_place_only(self):
         for code in ("class btDispatcher;", "b2Vec2 v;", "tbb::task_arena a;", "draco::Mesh m;", "XrSession s;",
                      "SDL_Init(0);", "meshopt_simplify(d);"):
             with self.subTest(code=code):
                 self.assert_breach("engine/ecs/a.cpp", code + "\n", "engine/ecs/a.cpp:1 | only")
 
-    def test_our_headers_are_quoted_from_the_root(self):
+    def test_own_headers_are_quoted_from_the_root(self):
         self.assert_breach("engine/a.cpp", '#include "b.hpp"\n', "engine/a.cpp:1 | start at the root")
         self.assert_breach("engine/a.cpp", '#include "../components/b.hpp"\n', "engine/a.cpp:1 | start at the root")
         self.assert_breach("engine/a.cpp", "#include <engine/b.hpp>\n", 'engine/a.cpp:1 | our own headers go in ""')

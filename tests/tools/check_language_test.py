@@ -1,4 +1,4 @@
-"""Plants words of the former dialect in a small tree and expects check_language to name each, and nothing in plain text or code."""
+"""Writes words of the former dialect to a small tree and expects check_language to name each, and nothing in plain text or code."""
 import importlib.util
 import tempfile
 import unittest
@@ -34,7 +34,7 @@ class CheckLanguage(unittest.TestCase):
         self.assertEqual(len(breaches("tools/a.py", "# solved anew\n")), 1)
         self.assertEqual(len(breaches("tools/a.py", '"""One.\n\nSolved anew.\n"""\n')), 1)
 
-    def test_opening_that_needs_decoding_is_found(self):
+    def test_forbidden_sentence_opening_is_found(self):
         self.assertEqual(len(breaches("engine/a.cpp", "// What is clear stays.\n")), 1)
         self.assertEqual(len(breaches("engine/a.cpp", "// Sorted. Of those two the first.\n")), 1)
 

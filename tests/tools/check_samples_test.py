@@ -1,4 +1,4 @@
-"""Plants one breach of each rule in a small tree and expects check_samples to name it, and nothing where all is well."""
+"""Creates one breach of each rule in a small tree and expects check_samples to name it; valid trees give no breach."""
 import importlib.util
 import tempfile
 import unittest
@@ -70,7 +70,7 @@ class CheckSamples(unittest.TestCase):
         self.assertEqual(self.breaches_of(page(STEP, LINE.replace("hello", "bye"))),
                          ["docs/a.md:3: tests/samples/bye.cpp does not exist"])
 
-    def test_program_that_is_not_built_is_named(self):
+    def test_program_outside_the_samples_folder_is_named(self):
         self.assertEqual(self.breaches_of(page(STEP, LINE.replace("tests/samples", "docs"))),
                          ["docs/a.md:3: docs/hello.cpp is not a program in tests/samples/"])
 
@@ -78,18 +78,18 @@ class CheckSamples(unittest.TestCase):
         self.assertEqual(self.breaches_of(page(STEP, LINE.replace("step", "stop"))),
                          ["docs/a.md:3: tests/samples/hello.cpp has 0 lines `// [stop]`, expected 2"])
 
-    def test_line_that_is_not_directly_before_a_fence_is_named(self):
+    def test_marker_not_directly_before_a_fence_is_named(self):
         self.assertEqual(self.breaches_of(f"{LINE}\n\n```\n```\n"),
                          ["docs/a.md:1: expected `<!-- sample: FILE#REGION -->` directly before a fence"])
 
-    def test_malformed_line_is_named(self):
+    def test_malformed_marker_is_named(self):
         self.assertEqual(self.breaches_of("<!-- sample: tests/samples/hello.cpp -->\n```text\n```\n"),
                          ["docs/a.md:1: expected `<!-- sample: FILE#REGION -->` directly before a fence"])
 
     def test_other_languages_and_fences_within_fences_need_no_program(self):
         self.assertEqual(self.breaches_of(f"```json\n{{}}\n```\n````text\n{page(STEP, '')}````\n"), [])
 
-    def test_build_folders_are_left_out(self):
+    def test_build_folders_are_ignored(self):
         self.assertEqual(self.breaches({"build/a.md": page(STEP)}), [])
 
     def test_fix_copies_the_regions_and_nothing_else(self):

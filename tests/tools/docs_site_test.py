@@ -1,4 +1,5 @@
-"""What tools/docs_site adds to mkdocs and Doxygen. The site's tests build small trees with mkdocs and are skipped where it is not installed."""
+"""The additions of tools/docs_site to mkdocs and Doxygen. The site's tests build small trees with mkdocs and are skipped if it is not
+installed."""
 import importlib.util
 import shutil
 import subprocess
@@ -29,7 +30,7 @@ PAGES = {
 @unittest.skipUnless(shutil.which("mkdocs"), "mkdocs is not installed")
 class Site(unittest.TestCase):
     def build(self, pages: dict[str, str]) -> tuple[int, str, Path]:
-        """Exit status, what was printed, and the folder of the site."""
+        """Exit status, output, and the site's folder."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         root = Path(folder.name).resolve()
@@ -42,7 +43,7 @@ class Site(unittest.TestCase):
                              capture_output=True, text=True, check=False)
         return run.returncode, run.stdout + run.stderr, root / "build" / "docs" / "site"
 
-    def test_pages_stand_in_the_order_of_their_index_and_links_lead_to_the_site(self):
+    def test_pages_follow_their_index_and_links_stay_in_the_site(self):
         status, printed, site = self.build(PAGES)
         self.assertEqual(status, 0, printed)
         page = (site / "guide/a.html").read_text(encoding="utf-8")
@@ -57,7 +58,7 @@ class Site(unittest.TestCase):
         self.assertIn('src="images/a.svg"', home)
         self.assertIn('href="guide/index.html">guide</a> tests', home)
 
-    def test_only_pages_with_formulas_load_what_draws_them(self):
+    def test_only_pages_with_formulas_load_katex(self):
         _, _, site = self.build(PAGES)
         self.assertIn("katex", (site / "guide/b.html").read_text(encoding="utf-8"))
         self.assertNotIn("katex", (site / "guide/a.html").read_text(encoding="utf-8"))
@@ -89,7 +90,7 @@ class DoxygenFilter(unittest.TestCase):
         self.expect("    int a;  // One\n            // two.\n    // Next.\n    int b;",
                     "    int a;  ///< One\n            ///< two.\n    /// Next.\n    int b;")
 
-    def test_comments_that_document_nothing_stay(self):
+    def test_other_comments_are_unchanged(self):
         for text in ("// Apart.\n\nint a;", "}  // namespace handhold", 'f("http://a");', "// Guard\n#endif", "// End\n}"):
             self.expect(text, text)
 

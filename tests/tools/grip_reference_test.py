@@ -1,4 +1,4 @@
-"""The brute-force reference on planes, where reach is a closed form."""
+"""The brute-force reference on planes, where reach has a closed form."""
 import json
 import math
 import sys
@@ -20,7 +20,7 @@ THUMB = reference.FINGERS.index("thumb")
 
 
 def finger(name="index", **more):
-    """Two links along -Z from the wrist that turn as one, from level to straight down."""
+    """Two coupled links along -Z from the wrist, from level to straight down."""
     return {"name": name, "link_count": 2, "base_hs": {"position_m": [0, 0, 0], "rotation_xyzw": [0, 0, 0, 1]},
             "length_m": [LENGTH_M, LENGTH_M], "radius_m": [RADIUS_M, RADIUS_M], "lower_rad": [0, 0], "upper_rad": [math.pi / 2, 0],
             "opposition_axis_hs": [0, 0, -1], "lower_opposition_rad": 0, "upper_opposition_rad": 0, **more}
@@ -46,22 +46,22 @@ def reaches(triangles, heights_m, fingers, column=INDEX):
 
 
 class Reach(unittest.TestCase):
-    def test_a_finger_reaches_what_is_no_farther_than_its_length_and_thickness(self):
+    def test_reach_is_the_fingers_length_plus_its_radius(self):
         limit = 2 * LENGTH_M + RADIUS_M
         self.assertEqual(reaches(floor(), (0.03, 0.05, limit - 1e-3, limit + 1e-3, 0.2), read(finger())), [True, True, True, False, False])
 
-    def test_a_link_that_begins_inside_and_goes_deeper_stops_at_once(self):
-        # 1 mm deep it still counts as lying on the surface, 4 mm deep not.
+    def test_link_that_starts_inside_and_moves_deeper_stops_at_once(self):
+        # At 1 mm depth it still counts as lying on the surface, at 4 mm not.
         self.assertEqual(reaches(floor(), (RADIUS_M - 1e-3, RADIUS_M - 4e-3), read(finger())), [True, False])
 
-    def test_a_link_that_begins_inside_and_comes_out_goes_on(self):
+    def test_link_that_starts_inside_and_moves_out_continues(self):
         ceiling = floor(0.1 + 2 * RADIUS_M + 0.05)  # its lower face is 2 radii above a wrist at 0.05
         opened = read(finger(lower_rad=[-0.5, 0]))
         self.assertEqual(reaches(ceiling, (0.05,), opened), [False])
         self.assertEqual(reaches(np.concatenate([ceiling, floor()]), (0.05,), opened), [True])
 
-    def test_later_hinges_go_on_where_the_first_link_was_stopped(self):
-        # The first link comes to lie on a bar under its middle; the second turns on alone until its tip is on the floor.
+    def test_later_joints_continue_after_the_first_link_stops(self):
+        # The first link touches a bar under its middle; the second continues alone until its tip is on the floor.
         bar = primitives.box((0.02, 0.02, 0.01), 0.01)
         stopper = (bar[0] + (0.01, 0.05 - RADIUS_M - 0.0101, 0.005))[bar[1]]
         sweep = reference.Sweep(Surface(np.concatenate([stopper, floor(0.01)])), read(finger(upper_rad=[math.pi / 2, math.pi / 2]))["index"],
@@ -73,8 +73,8 @@ class Reach(unittest.TestCase):
         turn = math.asin((0.05 - 0.01 - RADIUS_M) / LENGTH_M - math.sin(level)) - level
         self.assertEqual(second, math.ceil(turn / math.radians(0.25)))
 
-    def test_steps_that_are_passed_over_change_no_contact(self):
-        """Against the same sweep by single steps: a sphere's distance is a closed form."""
+    def test_skipped_steps_change_no_contact(self):
+        """Compared with the same sweep by single steps: a sphere's distance has a closed form."""
         middle, ball_m = np.array((0.012, -0.01, -0.05)), 0.05
         points, faces = primitives.sphere(ball_m, 0.002)
         one = read(finger(upper_rad=[1.3, 1.6]))["index"]
@@ -104,8 +104,8 @@ class Reach(unittest.TestCase):
                     break
         return at
 
-    def test_a_thumb_reaches_if_one_of_its_oppositions_does(self):
-        # Level, it turns about its own axis' side: only an opposition of half a turn brings the floor before it.
+    def test_thumb_reaches_if_one_of_its_oppositions_does(self):
+        # Level, it rotates about its own axis' side: only an opposition of half a turn brings the floor in front of it.
         up = finger("thumb", base_hs={"position_m": [0, 0, 0], "rotation_xyzw": [0, 0, 1, 0]})
         fixed, opposed = read(up), read({**up, "lower_opposition_rad": 0, "upper_opposition_rad": math.pi})
         self.assertEqual(reaches(floor(), (0.05,), fixed, THUMB), [False])
@@ -113,12 +113,12 @@ class Reach(unittest.TestCase):
 
 
 class Kinematics(unittest.TestCase):
-    def test_a_positive_curl_turns_towards_the_palm(self):
+    def test_positive_curl_rotates_towards_the_palm(self):
         points = read(finger())["index"].points_hs(np.array([[math.pi / 6, math.pi / 3]]), 0.0)[0]
         half, root = LENGTH_M / 2, LENGTH_M * math.sqrt(0.75)
         np.testing.assert_allclose(points, [(0, 0, 0), (0, -half, -root), (0, -half - LENGTH_M, -root)], atol=1e-12)
 
-    def test_a_broken_rig_names_the_member(self):
+    def test_invalid_rig_names_the_member(self):
         for broken, word in ((finger(link_count=4), "link_count"), (finger("sixth"), "name"), (finger(length_m=[0.1]), "length_m"),
                              ({**finger(), "base_hs": {}}, "base_hs"), (finger(upper_rad=[None, 1]), "finite")):
             with self.subTest(word), self.assertRaisesRegex(files.FormatError, word):

@@ -1,4 +1,4 @@
-"""What grip_report makes of figures, and what it says where nothing can be run."""
+"""grip_report's goals and figures, and its errors if nothing can be run."""
 import argparse
 import importlib.machinery
 import importlib.util
@@ -16,18 +16,18 @@ SCRIPT = ROOT / "tools" / "lab" / "grip_report"
 sys.path.insert(0, str(ROOT / "tools" / "lab"))
 from grips import glb, primitives, report, warm
 from pages import files, svg
-from pages.goals import judged
+from pages.goals import limit_goal
 
 
 class Goals(unittest.TestCase):
-    def test_a_limit_is_met_at_its_value_and_missed_beyond(self):
-        self.assertEqual(judged("x", 3.0, 3, "%").verdict(), "met")
-        self.assertEqual(judged("x", 3.01, 3, "%").verdict(), "MISSED")
-        self.assertEqual(judged("x", 95.0, 95, "%", least=True).verdict(), "met")
-        self.assertEqual(judged("x", 94.9, 95, "%", least=True).verdict(), "MISSED")
+    def test_limit_is_met_at_its_value_and_missed_beyond(self):
+        self.assertEqual(limit_goal("x", 3.0, 3, "%").verdict(), "met")
+        self.assertEqual(limit_goal("x", 3.01, 3, "%").verdict(), "MISSED")
+        self.assertEqual(limit_goal("x", 95.0, 95, "%", at_least=True).verdict(), "met")
+        self.assertEqual(limit_goal("x", 94.9, 95, "%", at_least=True).verdict(), "MISSED")
 
-    def test_what_was_not_measured_was_not_run(self):
-        self.assertEqual(judged("x", math.nan, 3, "%").verdict(), "not run")
+    def test_missing_value_gives_not_run(self):
+        self.assertEqual(limit_goal("x", math.nan, 3, "%").verdict(), "not run")
         self.assertEqual({goal.verdict() for goal in report.goals(None, None, None, None, None)}, {"not run"})
 
     def test_each_goal_reads_its_own_figure(self):
@@ -47,7 +47,7 @@ class Warm(unittest.TestCase):
         path.write_text(json.dumps({"slide_us": [], "stand_us": [], "pops_a_disc": [], "joint_frames": 0, "jumps": 0, "shown_jumps": 0, **figures}))
         return path
 
-    def test_percentiles_are_of_all_frames_and_shares_of_all_joints(self):
+    def test_percentiles_cover_all_frames_and_shares_all_joints(self):
         with tempfile.TemporaryDirectory() as folder:
             one = warm.read(self.write(folder, slide_us=[10.0] * 300, stand_us=[1.0, 3.0, 3.0], joint_frames=300, jumps=6, shown_jumps=3))
             other = warm.read(self.write(folder, slide_us=[30.0] * 100, joint_frames=100, jumps=2))
@@ -58,7 +58,7 @@ class Warm(unittest.TestCase):
         self.assertIsNone(warm.figures([[empty]]))
         self.assertIsNone(warm.figures([]))
 
-    def test_what_is_not_such_a_file_is_said(self):
+    def test_invalid_file_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "warm.json"
             for text in ("{", "[]", '{"slide_us": ["x"]}'):
@@ -67,11 +67,11 @@ class Warm(unittest.TestCase):
 
 
 class Plots(unittest.TestCase):
-    def test_a_tail_is_the_share_above(self):
+    def test_tail_is_the_share_above(self):
         points = dict(svg.share_above([1.0, 2.0, 3.0, 4.0]))
         self.assertEqual(points, {1.0: 0.75, 2.0: 0.5, 3.0: 0.25, 4.0: 0.0})
 
-    def test_drawings_are_well_formed_and_leave_out_what_is_empty(self):
+    def test_drawings_are_well_formed_without_empty_series(self):
         drawing = ElementTree.fromstring(svg.tail_plot("a < b", "mm", {"one": ("#000", [1.0, 5.0]), "none": ("#111", [])}, 10.0, (3.0,)))
         self.assertEqual(len(drawing.findall(".//polyline")), 1)
         drawing = ElementTree.fromstring(svg.bars("a & b", [("x", 1.0), ("y", math.nan)], "%", 3.0))
@@ -107,11 +107,11 @@ class Refusals(unittest.TestCase):
             lab.chmod(0o700)
             return grip_report.run_case(name, mesh, argparse.Namespace(lab=lab, count=4, baseline_count=4, reference_count=0, warm_frames=0, variants=["handhold"]))
 
-    def test_a_broken_mesh_may_be_refused_in_one_line(self):
+    def test_broken_mesh_may_be_refused_with_one_line(self):
         result = self.run_case("nasty/nan", "mesh.glb: expected finite positions\\n")
         self.assertEqual((result.failures, result.notes), ([], ["nasty/nan: refused: mesh.glb: expected finite positions"]))
 
-    def test_a_sound_mesh_may_not_and_neither_may_a_broken_one_without_a_word(self):
+    def test_refusing_a_valid_mesh_or_giving_no_reason_is_a_failure(self):
         self.assertEqual(len(self.run_case("objects/mug", "mesh.glb: expected finite positions\\n").failures), 1)
         self.assertEqual(len(self.run_case("nasty/nan", "").failures), 1)
 
@@ -120,14 +120,14 @@ class Runs(unittest.TestCase):
     def run_report(self, *flags):
         return subprocess.run([sys.executable, "-B", SCRIPT, *flags], capture_output=True, text=True)
 
-    def test_a_tool_that_cannot_be_run_ends_it_without_a_page(self):
+    def test_tool_that_cannot_run_gives_no_page(self):
         with tempfile.TemporaryDirectory() as folder:
             run = self.run_report("--lab", f"{folder}/none", "--out", f"{folder}/grip.html", "--only", "primitives/sphere_20")
             self.assertEqual(run.returncode, 2)
             self.assertIn("none", run.stderr.splitlines()[-1])
             self.assertEqual(list(Path(folder).iterdir()), [])
 
-    def test_without_data_the_primitives_are_left(self):
+    def test_without_data_only_primitives_remain(self):
         run = self.run_report("--data", "/nowhere", "--list")
         self.assertEqual({line.partition("/")[0] for line in run.stdout.splitlines()}, {"primitives"})
 

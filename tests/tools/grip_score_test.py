@@ -1,4 +1,4 @@
-"""grip_score against closed forms: planes, spheres, boxes and what a sheet has no inside of."""
+"""grip_score against closed forms: planes, spheres, boxes and sheets without inside."""
 import json
 import math
 import subprocess
@@ -46,19 +46,19 @@ def random_capsules(count, reach_m, seed):
 
 
 class CapsuleAgainstSolid(unittest.TestCase):
-    def test_beside_a_wall_the_gap_is_the_nearer_end_less_the_radius(self):
+    def test_gap_to_a_wall_is_the_nearer_ends_distance_minus_the_radius(self):
         wall = box((1.0, 1.0, 0.1))
         self.assertAlmostEqual(clear(wall, (0, 0, 0.08), (0.03, 0.01, 0.07), 0.008), 0.02 - 0.008, delta=EXACT_M)
 
-    def test_sunk_into_a_wall_the_depth_is_that_of_the_deeper_end_and_the_radius(self):
+    def test_depth_in_a_wall_is_the_deeper_ends_depth_plus_the_radius(self):
         wall = box((1.0, 1.0, 0.1))
         self.assertAlmostEqual(clear(wall, (0, 0, 0.07), (0.01, 0.01, 0.04), 0.008), -(0.01 + 0.008), delta=EXACT_M)
 
-    def test_through_a_thin_plate_it_is_as_deep_as_half_the_plate_and_the_radius(self):
+    def test_depth_in_a_thin_plate_is_half_its_thickness_plus_the_radius(self):
         plate = box((0.4, 0.4, 0.012))
         self.assertAlmostEqual(clear(plate, (0.01, 0.02, -0.05), (0, 0.02, 0.043), 0.008), -(0.006 + 0.008), delta=EXACT_M)
 
-    def test_boxes_outside_distance_is_the_closed_form(self):
+    def test_distance_outside_a_box_is_the_closed_form(self):
         half = np.array((0.15, 0.1, 0.075))
         solid = box(2 * half)
         points = np.random.default_rng(1).uniform(-0.3, 0.3, (2000, 3))
@@ -66,24 +66,24 @@ class CapsuleAgainstSolid(unittest.TestCase):
         expected = np.linalg.norm(np.maximum(off, 0.0), axis=1) + np.minimum(off.max(1), 0.0)
         np.testing.assert_allclose(solid.signed_distance(points), expected, atol=1e-9)
 
-    def test_any_capsule_at_a_sphere_is_as_deep_as_its_axis_is_near_the_middle(self):
+    def test_depth_in_a_sphere_is_the_closed_form(self):
         radius = 0.06
         surface = Surface(sphere(radius))
         a, b, r = random_capsules(300, 0.09, 2)
         t = np.clip(-np.einsum("ij,ij->i", a, b - a) / np.einsum("ij,ij->i", b - a, b - a), 0.0, 1.0)
         expected = np.linalg.norm(a + t[:, None] * (b - a), axis=1) - radius - r
-        # Chords of 4 mm lie up to edge^2 / (4 R) below the sphere they stand for.
+        # Chords of 4 mm lie up to edge^2 / (4 R) below the sphere.
         np.testing.assert_allclose(capsules.clearance(surface, a, b, r), expected, atol=2e-4)
 
-    def test_a_long_capsule_with_clear_ends_is_measured_where_it_is_deepest(self):
+    def test_long_capsule_with_clear_ends_is_measured_at_its_deepest_point(self):
         surface = Surface(sphere(0.02, 0.002))
         self.assertAlmostEqual(clear(surface, (-0.1, 0.011, 0.003), (0.13, 0.011, 0.003), 0.008), math.hypot(0.011, 0.003) - 0.028, delta=1e-4)
 
-    def test_a_capsule_of_no_length_is_a_sphere(self):
+    def test_capsule_of_zero_length_is_a_sphere(self):
         wall = box((1.0, 1.0, 0.1))
         self.assertAlmostEqual(clear(wall, (0, 0, 0.06), (0, 0, 0.06), 0.008), 0.002, delta=EXACT_M)
 
-    def test_moving_and_turning_the_world_changes_nothing(self):
+    def test_rigid_motion_of_the_world_changes_nothing(self):
         points, faces = primitives.rail(0.035, 0.01)
         a, b, r = random_capsules(100, 0.1, 3)
         turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
@@ -92,7 +92,7 @@ class CapsuleAgainstSolid(unittest.TestCase):
         there = capsules.clearance(Surface(points[faces] @ turn.T + offset), a @ turn.T + offset, b @ turn.T + offset, r)
         np.testing.assert_allclose(there, here, atol=2 * EXACT_M)
 
-    def test_mirrored_hands_on_a_mirrored_mesh_are_as_deep(self):
+    def test_mirrored_hands_on_a_mirrored_mesh_have_equal_depths(self):
         points, faces = primitives.rail(0.035, 0.01)
         a, b, r = random_capsules(100, 0.1, 4)
         flip = np.array((-1.0, 1.0, 1.0))
@@ -102,7 +102,7 @@ class CapsuleAgainstSolid(unittest.TestCase):
 
 
 def distance_to_triangle(p, a, b, c):
-    """Least over the plane, the sides and the corners, each by its own formula."""
+    """Minimum over the plane, the sides and the corners, each by its own formula."""
     n = np.cross(b - a, c - a)
     weights = [np.cross(v - u, p - u) @ n for u, v in ((a, b), (b, c), (c, a))]
     found = [abs((p - a) @ n) / np.linalg.norm(n)] if min(weights) >= 0 else []
@@ -114,7 +114,7 @@ def distance_to_triangle(p, a, b, c):
 
 class Tree(unittest.TestCase):
     def setUp(self):
-        """Triangles of edges from half a millimetre to metres, needles among them."""
+        """Triangles with edges from half a millimetre to metres, including needles."""
         rng = np.random.default_rng(8)
         sizes = 10.0 ** rng.uniform(-3.3, 0.3, (300, 1, 1))
         self.triangles = rng.uniform(-0.3, 0.3, (300, 1, 3)) + sizes * rng.uniform(-1, 1, (300, 3, 3))
@@ -122,11 +122,11 @@ class Tree(unittest.TestCase):
         self.points = rng.uniform(-0.4, 0.4, (60, 3))
         self.tree = TriangleTree(self.triangles)
 
-    def test_the_closest_triangle_is_that_of_asking_all(self):
+    def test_closest_triangle_equals_brute_force(self):
         expected = [min(distance_to_triangle(point, *corners) for corners in self.triangles) for point in self.points]
         np.testing.assert_allclose(self.tree.closest(self.points)[0], expected, atol=1e-9)
 
-    def test_the_winding_number_is_that_of_all_solid_angles(self):
+    def test_winding_number_equals_the_sum_of_solid_angles(self):
         a, b, c = (self.triangles[None, :, side] - self.points[:, None] for side in range(3))
         la, lb, lc = (np.linalg.norm(v, axis=2) for v in (a, b, c))
         top = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
@@ -135,13 +135,13 @@ class Tree(unittest.TestCase):
 
 
 class Inside(unittest.TestCase):
-    def test_a_lone_sheet_has_none_and_is_as_deep_as_the_radius_at_most(self):
+    def test_single_sheet_has_no_inside_and_depths_up_to_the_radius(self):
         surface = Surface(sheet())
         self.assertAlmostEqual(clear(surface, (0, 0, 0.003), (0.02, 0, 0.01), 0.008), 0.003 - 0.008, delta=EXACT_M)
         self.assertAlmostEqual(clear(surface, (0, 0, -0.003), (0.02, 0, -0.01), 0.008), 0.003 - 0.008, delta=EXACT_M)
         self.assertAlmostEqual(clear(surface, (0, 0, -0.03), (0.02, 0, 0.03), 0.008), -0.008, delta=EXACT_M)
 
-    def test_it_is_the_same_however_badly_a_solid_is_written(self):
+    def test_inside_is_independent_of_winding_duplicates_and_jitter(self):
         triangles = sphere(0.06, 0.01)
         rng = np.random.default_rng(5)
         flipped = rng.random(len(triangles)) < 0.15
@@ -156,23 +156,23 @@ class Inside(unittest.TestCase):
             with self.subTest(name):
                 np.testing.assert_array_equal(Surface(soup).is_inside(points), expected)
 
-    def test_holes_leave_most_of_the_inside(self):
+    def test_holes_keep_most_of_the_inside(self):
         triangles = sphere(0.06, 0.006)
         kept = triangles[np.random.default_rng(6).random(len(triangles)) > 0.06]
         self.assertTrue(Surface(kept).is_inside(np.random.default_rng(7).uniform(-0.03, 0.03, (200, 3))).all())
 
-    def test_things_in_a_room_have_one_and_the_room_has_none(self):
+    def test_objects_in_a_room_have_an_inside_and_the_room_has_none(self):
         room, thing = primitives.box((4.0, 3.0, 5.0), 0.5), primitives.box((0.1, 0.1, 0.1), 0.05)
         surface = Surface(np.concatenate([room[0][room[1][:, ::-1]], thing[0][thing[1]]]))
         np.testing.assert_array_equal(surface.is_inside(np.array([[0, 0, 0], [0.2, 0, 0], [1.9, 0, 0], [3.0, 0, 0]])), [True, False, False, False])
 
-    def test_a_small_room_has_none_and_what_is_inside_out_and_thin_is_turned(self):
+    def test_small_room_has_no_inside_and_thin_inverted_solid_is_flipped(self):
         quarters, plate = primitives.box((0.8, 1.8, 1.0), 0.2), primitives.box((1.9, 0.1, 1.9), 0.2)
         corners = quarters[1][:, ::-1]
         self.assertFalse(Surface(quarters[0][corners]).is_inside(np.array([[0, 0, 0], [0.35, 0, 0], [0.5, 0, 0]])).any())
         np.testing.assert_array_equal(Surface(plate[0][plate[1][:, ::-1]]).is_inside(np.array([[0, 0, 0], [0, 0.2, 0]])), [True, False])
 
-    def test_solids_that_run_into_each_other_are_one(self):
+    def test_intersecting_solids_are_one(self):
         points, faces = primitives.rail(0.035, 0.01)
         surface = Surface(points[faces])
         np.testing.assert_array_equal(surface.is_inside(np.array([[0, 0, 0], [0.336, 0, 0], [0.336, 0, -0.08], [0, 0, -0.03]])),
@@ -196,17 +196,17 @@ class Placements(unittest.TestCase):
         _, facing = self.palms("near")
         self.assertGreaterEqual(np.abs(facing).max(1).min(), math.cos(math.radians(30.0)) - 1e-9)
 
-    def test_harsh_palms_reach_into_the_solid_and_away(self):
+    def test_harsh_palms_reach_inside_and_outside(self):
         distance = self.surface.signed_distance(self.palms("harsh")[0])
         self.assertLess(distance.min(), -0.02)
         self.assertGreater(distance.max(), 0.05)
         self.assertLessEqual(distance.max(), 0.06 + 1e-9)
 
-    def test_a_seed_gives_the_same_and_another_gives_others(self):
+    def test_seed_determines_the_placements(self):
         np.testing.assert_array_equal(self.palms("near")[0], self.palms("near")[0])
         self.assertFalse(np.allclose(self.palms("near")[0], self.palms("near", seed=2)[0]))
 
-    def test_sides_get_palms_by_their_area(self):
+    def test_palms_are_distributed_by_area(self):
         facing = np.abs(self.palms("near", 3000)[1]).argmax(1)
         areas = np.array((0.2 * 0.15, 0.3 * 0.15, 0.3 * 0.2))
         np.testing.assert_allclose(np.bincount(facing, minlength=3) / 3000, areas / areas.sum(), atol=0.03)
@@ -237,17 +237,17 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures["us"]["total"]["median"], 50.0)
         self.assertAlmostEqual(self.score(grasp_line(0, 0.059), grasp_line(1, 0.061))["fingers_within_2_mm"]["four"], 0.5)
 
-    def test_hands_that_are_not_finite_are_counted_and_spoil_nothing(self):
+    def test_non_finite_hands_are_counted_and_excluded(self):
         figures = self.score(grasp_line(0, 0.056), grasp_line(1, math.nan), grasp_line(2, 0.056, sync_mm=None))
         self.assertEqual(figures["not_finite"], 2)
         self.assertAlmostEqual(figures["penetration_mm"]["mean_of_fingers"], 2.0, delta=0.03)
 
-    def test_hands_that_grip_nothing_are_counted_by_reason_and_not_measured(self):
+    def test_hands_without_grip_are_counted_by_reason_and_not_measured(self):
         figures = self.score(grasp_line(0, 0.059), grasp_line(1, 0.05, gripped=False))
         self.assertEqual((figures["gripped_share"], figures["reasons"]), (0.5, {"nothing in reach": 1}))
         self.assertEqual(figures["deep_share"]["any_finger"], 0.0)
 
-    def test_syncs_of_near_placements_are_told_apart(self):
+    def test_sync_of_near_placements_is_separate(self):
         figures = self.score(grasp_line(0), grasp_line(1, sync_mm=9.0), kinds={0: "near", 1: "harsh"})
         self.assertEqual((figures["sync_mm_near"]["median"], figures["sync_mm"]["median"]), (2.0, 5.5))
 
@@ -272,12 +272,12 @@ class BrokenFiles(unittest.TestCase):
             self.assertIn(word, run.stderr)
         self.assertFalse(self.out.exists())
 
-    def test_a_good_file_is_scored(self):
+    def test_valid_file_is_scored(self):
         run = self.run_score(json.dumps(grasp_line(0, 0.059)) + "\n")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(json.loads(self.out.read_text())["fingers_within_2_mm"]["four"], 1.0)
 
-    def test_each_breach_is_one_line_that_names_the_place(self):
+    def test_each_breach_gives_one_line_that_names_the_place(self):
         good = json.dumps(grasp_line(0))
         wrong_finger = json.dumps(grasp_line(1)).replace('"finger": "index"', '"finger": "sixth"')
         for text, words in ((good + "\n{", ("line 2", "JSON")), (good + "\n" + wrong_finger, ("line 2", "capsules: 0", "finger")),
@@ -287,7 +287,7 @@ class BrokenFiles(unittest.TestCase):
             with self.subTest(words):
                 self.assert_refused(self.run_score(text), *words)
 
-    def test_a_broken_mesh_is_named(self):
+    def test_invalid_mesh_is_named(self):
         broken = self.folder / "broken.glb"
         good = json.dumps(grasp_line(0))
         broken.write_bytes(b"glTF")
@@ -303,16 +303,16 @@ class BrokenFiles(unittest.TestCase):
 
 
 class Glb(unittest.TestCase):
-    def test_a_written_mesh_reads_back(self):
+    def test_written_mesh_reads_back(self):
         points, faces = primitives.box((0.5, 0.25, 1.0), 0.25)
         with tempfile.TemporaryDirectory() as folder:
             glb.write_triangles(f"{folder}/m.glb", points, faces)
             np.testing.assert_array_equal(glb.read_triangles(f"{folder}/m.glb"), points[faces])
 
-    def test_a_nodes_transform_moves_turns_and_mirrors(self):
+    def test_node_transform_translates_rotates_and_mirrors(self):
         half = math.sqrt(0.5)
         matrix = glb.node_matrix({"translation": [1, 2, 3], "rotation": [0, half, 0, half], "scale": [2, 1, -1]})
-        # x turns to -z about y; z, mirrored, to -x.
+        # x rotates to -z about y; z, mirrored, to -x.
         np.testing.assert_allclose(matrix @ [1, 1, 1, 1], [1 - 1, 2 + 1, 3 - 2, 1], atol=1e-12)
 
 

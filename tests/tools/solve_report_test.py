@@ -1,4 +1,4 @@
-"""What solve_report makes of figures, without running anything."""
+"""solve_report's figures, without running anything."""
 import importlib.machinery
 import importlib.util
 import unittest
@@ -18,21 +18,21 @@ class SolveReport(unittest.TestCase):
             points = [(n, 7.0 * n ** power) for n in (8, 64, 128, 256)]
             self.assertAlmostEqual(solve_report.growth_exponent(points), power)
 
-    def test_growth_looks_at_long_chains_only(self):
+    def test_growth_uses_long_chains_only(self):
         points = [(8, 1000.0), (64, 64.0), (128, 128.0), (256, 256.0)]
         self.assertAlmostEqual(solve_report.growth_exponent(points), 1.0)
 
-    def test_a_goal_is_met_at_its_limit_and_missed_above(self):
+    def test_goal_is_met_at_its_limit_and_missed_above(self):
         self.assertEqual(solve_report.at_most("x", 50.0, 50, "us").verdict(), "pass")
         self.assertEqual(solve_report.at_most("x", 50.1, 50, "us").verdict(), "MISS")
 
-    def test_a_plot_is_well_formed_and_has_every_point_above_zero(self):
+    def test_plot_is_well_formed_and_has_every_point_above_zero(self):
         drawing = solve_report.plot("a < b", "n", "mm", {"direct": [(8, 1e-4), (16, 0.0), (32, 1e-3)], "plain": [(8, 2.0)]})
         tree = ElementTree.fromstring(drawing)
         self.assertEqual(len(tree.findall(".//circle")), 3)
         self.assertEqual(len(tree.findall(".//polyline")), 2)
 
-    def test_every_goal_of_a_missing_length_is_marked_as_not_run(self):
+    def test_goals_of_a_missing_length_are_not_run(self):
         self.assertEqual(solve_report.Goal("chain 1024", "-", "x", None).verdict(), "not run")
 
 

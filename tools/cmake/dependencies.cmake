@@ -1,9 +1,9 @@
-# Everything the project links, wrapped into targets whose headers count as system headers: our warnings are
-# for our code. Versions measured with: docs/decisions/ and the distribution's packages.
+# All dependencies, wrapped into targets whose headers count as system headers, since our warnings are for our code. Measured versions:
+# docs/decisions/ and the distribution's packages.
 
 include(${CMAKE_CURRENT_LIST_DIR}/runtime_dependencies.cmake)
 
-# Bullet's solver: only for the tool that compares ours with it.
+# Bullet's solver: only for the lab, which compares it with ours.
 add_library(handhold_bullet_dynamics INTERFACE)
 add_library(handhold::bullet_dynamics ALIAS handhold_bullet_dynamics)
 target_link_libraries(handhold_bullet_dynamics INTERFACE BulletDynamics-float64 handhold::bullet)
@@ -11,12 +11,12 @@ target_link_libraries(handhold_bullet_dynamics INTERFACE BulletDynamics-float64 
 if(HANDHOLD_BUILD_GAME)
   find_package(CLI11 REQUIRED)
   pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
-  pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)  # FindOpenGL would ask for libOpenGL, which nothing here uses
+  pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)  # FindOpenGL would require libOpenGL, which is unused
   pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2)
   pkg_check_modules(imgui REQUIRED imgui)
-  pkg_check_modules(openxr IMPORTED_TARGET openxr)  # the loader; without it `play --xr` says so
+  pkg_check_modules(openxr IMPORTED_TARGET openxr)  # the loader; without it `play --xr` reports that
   if(NOT openxr_FOUND)
-    message(STATUS "No OpenXR: the game is built without headsets")
+    message(STATUS "OpenXR not found: building the game without headset support")
   endif()
   find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED)
   add_library(handhold_stb INTERFACE)

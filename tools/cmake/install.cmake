@@ -1,5 +1,5 @@
-# cmake --install: the runtime library for find_package(handhold), which gives the target handhold::runtime. The game is a
-# program of its own and is run where it is built.
+# cmake --install: the runtime library for find_package(handhold), which defines the target handhold::runtime. The game is a separate
+# program and runs from the build folder.
 include(CMakePackageConfigHelpers)
 
 set(handhold_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/handhold)
@@ -7,7 +7,7 @@ set_target_properties(handhold_runtime PROPERTIES EXPORT_NAME runtime)
 install(TARGETS handhold_runtime EXPORT handholdTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT handhold_runtime)
 install(EXPORT handholdTargets NAMESPACE handhold:: DESTINATION ${handhold_package_dir} COMPONENT handhold_runtime)
-# The public headers and what they reach; see install_headers.cmake.
+# The public headers and the headers that they include; see install_headers.cmake.
 install(CODE "set(SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")
 set(PUBLIC_DIR \"${PROJECT_SOURCE_DIR}/systems/host/include\")
 set(DESTINATION \"${CMAKE_INSTALL_INCLUDEDIR}\")" COMPONENT handhold_runtime)

@@ -1,11 +1,10 @@
-# Runs at install time. Installs the public headers of PUBLIC_DIR as <prefix>/DESTINATION/handhold/, and the headers that they
-# reach as handhold/internal/, with their includes rewritten: `#include "engine/..."` becomes `#include <handhold/internal/engine/...>`,
-# so that no folder of this repository is on a host's include path.
-# Variables: SOURCE_DIR, PUBLIC_DIR, DESTINATION.
+# Runs at install time. Installs the public headers of PUBLIC_DIR as <prefix>/DESTINATION/handhold/, and the headers that they include as
+# handhold/internal/, with includes rewritten: `#include "engine/..."` becomes `#include <handhold/internal/engine/...>`. A host's include
+# path therefore has no folder of this repository. Variables: SOURCE_DIR, PUBLIC_DIR, DESTINATION.
 
 set(our_include "^[ \t]*#[ \t]*include[ \t]*\"((engine|components|systems)/[^\"]+)\"")
 
-# Installs one header and adds what it includes to `pending` of the caller.
+# Installs one header and adds the headers that it includes to the caller's `pending`.
 function(install_header source target)
   file(READ ${source} text)
   file(STRINGS ${source} lines REGEX "${our_include}")
@@ -36,4 +35,4 @@ while(pending)
   endif()
 endwhile()
 list(LENGTH installed internal_count)
-message(STATUS "Installed the public headers and ${internal_count} that they reach: ${include_dir}/handhold")
+message(STATUS "Installed the public headers and ${internal_count} that they include: ${include_dir}/handhold")

@@ -1,5 +1,5 @@
-# What the runtime library needs, for this build and for those who link the installed library: handholdConfig.cmake includes
-# this file too. Imported targets, so that their headers count as system headers and exports refer to them by name.
+# Dependencies of the runtime library, for this build and for users of the installed library: handholdConfig.cmake includes this file too.
+# They are imported targets, so their headers count as system headers and exports refer to them by name.
 
 # Eigen: no version in find_package (3.4's and 5's version files refuse each other's expressions).
 find_package(Eigen3 REQUIRED NO_MODULE)
@@ -10,8 +10,8 @@ add_library(handhold::eigen INTERFACE IMPORTED)
 get_target_property(eigen_includes Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 target_include_directories(handhold::eigen SYSTEM INTERFACE ${eigen_includes})
 
-# Bullet in double precision. The package's CMake config is broken on Debian 12 and the float and double sets
-# share their headers: pkg-config names the right one.
+# Bullet in double precision. The package's CMake config is broken on Debian 12, and the float and double sets share their headers, so
+# pkg-config is used.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
 add_library(handhold::bullet INTERFACE IMPORTED)

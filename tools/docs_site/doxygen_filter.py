@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Doxygen's input filter: prints a header with its plain // comments as Doxygen's.
+"""Doxygen's input filter: prints a header with its plain // comments converted to Doxygen's.
 
 - Lines directly above a declaration document it; above a namespace, the file.
-- A comment after a member documents that member, with the lines of comment below it that begin in the same column.
-- Everything else, such as a comment with an empty line below it, stays as it is.
+- A comment after a member documents that member, including comment lines below that start in the same column.
+- All other comments, such as one followed by an empty line, are unchanged.
 """
 import re
 import sys
 from pathlib import Path
 
 WHOLE_LINE = re.compile(r"(\s*)//(?!/)(.*)")
-# After a declaration or an enumerator: not after a brace, where it names what the brace closes.
+# After a declaration or an enumerator, but not after a brace, where the comment names the closed block.
 TRAILING = re.compile(r"(?P<code>\s*[^/\s].*?[\w;,)])(?P<gap>\s+)//(?P<text>(?!/).*)")
 
 
@@ -29,7 +29,7 @@ def documented(text: str) -> str:
             if declared and not declared.startswith(("#", "}")):
                 block = [WHOLE_LINE.sub(r"\1///\2", comment) for comment in block]
                 if declared.startswith("namespace") and result and not result[-1]:
-                    result[-1] = r"/// \file"  # in place of the empty line: lines keep their numbers
+                    result[-1] = r"/// \file"  # replaces the empty line, so line numbers stay
             result.extend(block)
             number = end
         elif (match := TRAILING.fullmatch(line)) and '"' not in match["code"]:

@@ -1,10 +1,10 @@
-"""What mkdocs does not do by itself for the site of tools/docs:
+"""mkdocs hooks for the site of tools/docs:
 
-- Navigation follows the folders of docs/. Within a folder, pages stand in the order in which its index page links to them, then by title.
+- Navigation follows the folders of docs/. Within a folder, pages are in the order in which its index page links to them, then by title.
 - README.md is the home page; CONTRIBUTING.md and CHANGELOG.md are pages too.
 - Links from a page to a file outside docs/ lead to a page that shows that file; links to a folder outside become plain text.
-- Formulas are drawn by Debian's KaTeX, on the pages that have any.
-- The API reference that Doxygen left in build/docs/api becomes a part of the site.
+- Pages with formulas load Debian's KaTeX.
+- The API reference that Doxygen wrote to build/docs/api becomes part of the site.
 - Lists that GitHub renders and Python's Markdown does not are warnings; tools/docs makes warnings errors.
 """
 import logging
@@ -37,7 +37,7 @@ log = logging.getLogger("mkdocs.handhold")
 
 
 def outside_code(text: str, replace) -> str:
-    """`replace` applied to the text between fences and inline code."""
+    """Applies `replace` to the text outside fences and inline code."""
     parts = []
     end = 0
     for code in NOT_PROSE.finditer(text):
@@ -47,12 +47,12 @@ def outside_code(text: str, replace) -> str:
 
 
 def repository_path(file: File) -> str:
-    """Of a page's source, relative to the repository's root."""
+    """Path of a page's source, relative to the repository's root."""
     return Path(file.abs_src_path).relative_to(ROOT).as_posix()
 
 
 def target_path(file: File, target: str) -> str:
-    """What a link of a page leads to, relative to the repository's root."""
+    """Path of a link's target, relative to the repository's root."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(repository_path(file)), target))
 
 
@@ -61,7 +61,7 @@ def is_of_web(target: str) -> bool:
 
 
 def site_path(path: str) -> str:
-    """Where the site has a file of the repository: relative to docs_dir, as mkdocs names it."""
+    """Path in the site of a repository file, relative to docs_dir, as mkdocs names it."""
     if path.startswith("docs/"):
         return path.removeprefix("docs/")
     if path in (HOME, *PROJECT_PAGES):
@@ -70,7 +70,7 @@ def site_path(path: str) -> str:
 
 
 def links_of(file: File) -> list[str]:
-    """Repository paths of what a page links to, in order."""
+    """Repository paths of a page's link targets, in order."""
     paths = []
 
     def collect(prose: str) -> str:
@@ -140,7 +140,7 @@ def on_files(files, config):
 
 
 def on_nav(nav, config, files):
-    # After mkdocs' own checks, which know nothing of what Doxygen wrote.
+    # After mkdocs' own checks, which do not know Doxygen's files.
     if API.is_dir():
         nav.items.insert(-1, Link("API", "api/index.html"))
     return nav
@@ -186,7 +186,7 @@ def on_post_build(config):
 
 
 def warn_of_lists(path: str, markdown: str) -> None:
-    """Python's Markdown begins a list after a blank line only, and nests by four columns."""
+    """Python's Markdown starts a list only after a blank line, and nests by four columns."""
     lines = NOT_PROSE.sub(lambda match: "\n" * match[0].count("\n") or "code", markdown).split("\n")
     in_list = False
     for number, line in enumerate(lines, start=1):

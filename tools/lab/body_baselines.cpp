@@ -6,7 +6,7 @@
 namespace handhold::lab {
 namespace {
 
-// From the eyes to the middle between the shoulders, in the chest's axes.
+// Eyes to the point midway between the shoulders, in the chest's axes.
 const Vec3 k_shoulders(0.0, -0.22, 0.07);
 
 Vec3 level(const Vec3& v) {
@@ -27,7 +27,7 @@ Vec3 square_to(const Vec3& pole, const Vec3& axis) {
                                : Vec3(unit.cross(Vec3::UnitX()).normalized());
 }
 
-// Chest and shoulders fixed to it. `pole_of(side)` is in play space.
+// Sets the chest, and shoulders rigidly attached to it. `pole_of(side)` is in play space.
 template <typename PoleOf>
 void hang_arms(const Pose& head_ps, const BodyMeasures& measures, const Vec3& ahead,
                const PoleOf& pole_of, ArmEstimate& out) {
@@ -72,7 +72,7 @@ void estimate_as_talked(const Pose& head_ps, const BodyMeasures& measures, ArmEs
     const auto pole_of = [&](std::size_t side) {
         const double outward = side == 0 ? -1.0 : 1.0;
         const Vec3 rest = chest_ps * Vec3(0.3 * outward, -0.8, 0.5);
-        // The wrist's direction: elbows lie behind the fingers.
+        // The wrist's direction: the elbow is opposite the fingers.
         return Vec3(0.5 * rest - 0.5 * (out.arms[side].hand_ps.rotation * -Vec3::UnitZ()));
     };
     hang_arms(head_ps, measures, ahead, pole_of, out);

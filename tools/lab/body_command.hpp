@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// `handhold-lab body`: the runtime's arms and chest over recorded heads and hands.
+// `handhold-lab body`: the runtime's arm and chest estimate for recorded heads and hands.
 namespace handhold::lab {
 
 struct BodyOptions {
@@ -14,10 +14,10 @@ struct BodyOptions {
     std::string estimator = "full";
 };
 
-// "full": the runtime's systems; the others are what to compare it with (body_baselines.hpp).
+// "full": the runtime's systems; the others are baselines (body_baselines.hpp).
 std::vector<std::string> estimator_names();
 
-// Exit status: 0; 2 for a file that cannot be read or written. One line on standard error says why.
+// Exit status: 0, or 2 with one line on standard error if a file cannot be read or written.
 int body_command(const BodyOptions& options);
 
 }  // namespace handhold::lab

@@ -17,7 +17,7 @@ constexpr double k_length_tolerance = 0.01;
 
 std::string line_of(std::size_t row) { return "line " + std::to_string(row + 2); }
 
-// False where a number is none of a pose.
+// False if the numbers are not a valid pose.
 bool read_pose(const NumericTable& table, std::size_t row, std::size_t first, Pose& pose) {
     const auto cell = [&](std::size_t i) { return table.at(row, first + i); };
     pose.position = Vec3(cell(0), cell(1), cell(2));
@@ -59,7 +59,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     return lines;
 }
 
-// Where the columns that count stand.
+// Indices of the columns in use.
 struct CalibColumns {
     static constexpr std::array<const char*, 5> k_names = {"clip", "eye_height", "upper_arm",
                                                            "forearm", "shoulder_width"};
@@ -104,19 +104,19 @@ Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& p
         BodySample& sample = samples[row];
         const double clip = table.at(row, 0);
         if (clip != std::floor(clip) || std::abs(clip) > 1e9) {
-            return FileError{path.string(), line_of(row), "expected a whole number under clip"};
+            return FileError{path.string(), line_of(row), "expected a whole number in column clip"};
         }
         sample.clip = static_cast<std::int64_t>(clip);
         sample.t_s = table.at(row, 1);
         if (row > 0 && samples[row - 1].clip == sample.clip &&
             !(sample.t_s > samples[row - 1].t_s)) {
-            return FileError{path.string(), line_of(row), "expected t to rise within a clip"};
+            return FileError{path.string(), line_of(row), "expected t to increase within a clip"};
         }
         if (!read_pose(table, row, 2, sample.head_ps) ||
             !read_pose(table, row, 9, sample.hands_ps[0]) ||
             !read_pose(table, row, 16, sample.hands_ps[1])) {
             return FileError{path.string(), line_of(row),
-                             "expected places within 1e4 m and quaternions of length 1"};
+                             "expected positions within 1e4 m and quaternions of length 1"};
         }
     }
     return samples;
@@ -150,7 +150,7 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
                 return FileError{path.string(), line_of(row),
                                  std::string("expected ") +
                                      (i == 0 ? "a whole number" : "a length of 0.05 to 5 m") +
-                                     " under " + CalibColumns::k_names[i]};
+                                     " in column " + CalibColumns::k_names[i]};
             }
         }
         BodyMeasures one;
@@ -159,7 +159,7 @@ Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::files
         one.forearm_m = numbers[3];
         one.shoulder_width_m = numbers[4];
         if (!measures.emplace(static_cast<std::int64_t>(numbers[0]), one).second) {
-            return FileError{path.string(), line_of(row), "expected a clip that was not there yet"};
+            return FileError{path.string(), line_of(row), "expected each clip once"};
         }
     }
     return measures;

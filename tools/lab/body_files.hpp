@@ -10,12 +10,12 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
-// What `handhold-lab body` reads: heads and hands over time, and who they belong to.
+// Input of `handhold-lab body`: heads and hands over time, and the persons' measures.
 namespace handhold::lab {
 
 struct BodySample {
     std::int64_t clip = 0;
-    double t_s = 0.0;  // rises within a clip
+    double t_s = 0.0;  // increases within a clip
     Pose head_ps;      // between the eyes
     std::array<Pose, k_hand_count> hands_ps;
 };
@@ -23,8 +23,8 @@ struct BodySample {
 // Rows of 23 numbers: clip, t, then head, left and right hand as x, y, z, qx, qy, qz, qw.
 Result<std::vector<BodySample>> load_body_samples(const std::filesystem::path& path);
 
-// By clip. A table with text cells: only the columns clip, eye_height, upper_arm, forearm and
-// shoulder_width are looked at.
+// Measures by clip. The table may have text cells: only the columns clip, eye_height, upper_arm,
+// forearm and shoulder_width are read.
 Result<std::map<std::int64_t, BodyMeasures>> load_body_measures(const std::filesystem::path& path);
 
 }  // namespace handhold::lab

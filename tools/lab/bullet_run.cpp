@@ -1,4 +1,4 @@
-// The only file of the tools that names Bullet.
+// The only file of the tools that uses Bullet directly.
 #include "tools/lab/bullet_run.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Pose from_bullet(const btTransform& transform) {
     return {from_bullet(transform.getOrigin()), Quat(q.w(), q.x(), q.y(), q.z()).normalized()};
 }
 
-// Bullet's hinge turns about its frame's z, ours about x.
+// Bullet's hinge axis is its frame's z, ours is x.
 btTransform hinge_frame(const Pose& frame) {
     return to_bullet(frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), 0.5 * k_pi)});
 }
@@ -54,10 +54,10 @@ struct BulletRun::Impl {
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
     std::vector<std::unique_ptr<btTriangleMesh>> meshes;
-    std::vector<BodyPtr> bodies;  // as FrameRecord::poses
-    BodyPtr ground;               // what joints to the world hang on
+    std::vector<BodyPtr> bodies;  // in the order of FrameRecord::poses
+    BodyPtr ground;               // the world's end of joints
     std::vector<std::unique_ptr<btTypedConstraint>> joints;
-    std::vector<std::unique_ptr<btTypedConstraint>> grabs;  // by holds; null: let go
+    std::vector<std::unique_ptr<btTypedConstraint>> grabs;  // by LabScene::holds; null: released
 
     Impl(const LabScene& of, Holder who, double hz) : scene(of), holder(who), dt_s(1.0 / hz) {
         world.setGravity({0.0, 0.0, 0.0});
@@ -134,7 +134,7 @@ struct BulletRun::Impl {
                                  make_shape(body));
         made->setLinearVelocity(to_bullet(body.velocity.linear_mps));
         made->setAngularVelocity(to_bullet(body.velocity.angular_radps));
-        // Bullet multiplies two bodies' numbers: what is not free must not change the free one's.
+        // Bullet multiplies the values of two bodies, so bodies that are not free have 1.
         made->setFriction(is_free ? body.friction : 1.0);
         made->setRestitution(is_free ? body.restitution : 1.0);
         if (body.kind == BodyKind::kinematic) {
@@ -207,7 +207,8 @@ struct BulletRun::Impl {
         const Vec3& origin = scene.players[static_cast<std::size_t>(hold.player)].origin_ws;
         return Pose{origin, Quat::Identity()} * hold.hand_ps(at_s);
     }
-    // The hand in the frame of what carries it: the player, or a kinematic body that is the hand.
+    // The hand in its carrier's frame: the player's, or that of the kinematic body that is the
+    // hand.
     Pose hand_in_carrier(const LabHold& hold, double at_s) const {
         return holder == Holder::player ? hold.hand_ps(at_s) : Pose{};
     }

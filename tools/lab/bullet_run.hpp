@@ -5,8 +5,8 @@
 
 #include "tools/lab/lab_scene.hpp"
 
-// The same scenes in Bullet's own world: btDiscreteDynamicsWorld with
-// btSequentialImpulseConstraintSolver at its defaults, its joints, its contacts.
+// The same scenes in Bullet: btDiscreteDynamicsWorld with btSequentialImpulseConstraintSolver at
+// its defaults, with Bullet's joints and contacts.
 namespace handhold::lab {
 
 class BulletRun {
@@ -26,8 +26,8 @@ class BulletRun {
     std::unique_ptr<Impl> impl_;
 };
 
-// Worst error of any joint, metres, at the end of one frame: by the iterations that this frame's
-// step was given, from 1.
+// Worst error of any joint, metres, at the end of frame `frame` if its step has 1, 2, ...
+// iterations.
 std::vector<double> bullet_residuals(const LabScene& scene, Holder holder, double hz, int frame);
 
 }  // namespace handhold::lab

@@ -2,13 +2,13 @@
 
 #include "engine/io/result.hpp"
 
-// What the lab's commands exit with, beside 0.
+// Exit statuses of the lab's commands other than 0.
 namespace handhold::lab {
 
 inline constexpr int k_exit_usage = 1;
 inline constexpr int k_exit_file = 2;
 
-// Says what is wrong with a file and gives the status for that.
+// Prints the error and returns its exit status.
 int refuse(const FileError& error);
 
 }  // namespace handhold::lab

@@ -8,7 +8,7 @@
 namespace handhold::lab {
 namespace {
 
-constexpr double k_detail_apart_m = 0.02;  // the search detail from the surface itself, at most
+constexpr double k_detail_apart_m = 0.02;  // largest distance of the search detail from the surface
 constexpr double k_rounding_m = 1e-9;
 
 double length_from(const HingeChain& chain, std::size_t joint) {
@@ -29,7 +29,7 @@ Disc disc_of(const HingeChain& chain) {
     return disc;
 }
 
-// What one joint can touch with all that is beyond it, straight.
+// The sector that a joint and the straight rest of the finger sweep, and the first contact in it.
 class JointDisc {
   public:
     JointDisc(const Vec2& center, double direction_rad, double radius_m, double open_rad,
@@ -57,7 +57,7 @@ class JointDisc {
         distance_m_ = distance_m;
     }
 
-    // Where the line from a to b leaves the disc.
+    // Adds the point where the line from a to b leaves the disc.
     void add_leaving(const Vec2& a, const Vec2& b) {
         const Vec2 along = b - a;
         const double squared = along.squaredNorm();
@@ -79,7 +79,7 @@ class JointDisc {
     }
 
     std::optional<double> highest_rad() const { return highest_rad_; }
-    double distance_m() const { return distance_m_; }  // of the contact from the joint
+    double distance_m() const { return distance_m_; }  // distance of the contact from the joint
 
   private:
     Vec2 center_;
@@ -99,7 +99,7 @@ std::int32_t link_at(const HingeChain& chain, std::size_t joint, double distance
     return static_cast<std::int32_t>(link);
 }
 
-// From `from` on, with these angles.
+// The first link from `from` on that touches with these angles.
 std::optional<std::size_t> first_touching_link(const HingeChain& chain, const ChainAngles& angles,
                                                std::size_t from, const GripMesh& mesh) {
     const auto capsules = chain_capsules(chain, angles);
@@ -153,8 +153,8 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
     const CrossingSearch found =
         find_crossing(mesh.search, disc, {&seed_under_palm, 1}, order, scratch.trace);
     closed.pops = found.pops;
-    // The walk is on the surface that is touched: what is compared is how fingers close, not on
-    // which detail.
+    // Walks the surface that is touched: the comparison is of closing methods, not of detail
+    // levels.
     const auto near = found.triangle != k_no_triangle
                           ? mesh.contact_bvh.closest_point(found.point, k_detail_apart_m)
                           : std::nullopt;
@@ -168,7 +168,7 @@ ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
     if (onto.triangle == k_no_triangle) {
         return closed;
     }
-    scratch.segments.clear();  // the walk's, with some of the crossings left out: not used
+    scratch.segments.clear();  // unused: the walk's segments omit some of the crossings
     closed.walked +=
         walk_crossing(mesh.contact, disc, onto.triangle, scratch.trace, scratch.segments);
     const ClosedFinger flat = close_on_crossings(chain, scratch.trace.line);
@@ -181,7 +181,7 @@ ClosedFinger close_by_spheres(const HingeChain& chain, const GripMesh& mesh) {
     constexpr int k_steps = 50;
     ClosedFinger closed;
     closed.angle_rad = chain.open_rad;
-    std::size_t moving = 0;  // the first joint that does
+    std::size_t moving = 0;  // the first joint that still moves
     for (int step = 0; step <= k_steps; ++step) {
         const double share = static_cast<double>(step) / k_steps;
         while (moving < chain.link_count) {

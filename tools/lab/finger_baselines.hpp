@@ -7,41 +7,42 @@
 #include "engine/geometry/grip_mesh.hpp"
 #include "engine/geometry/hinge_chain.hpp"
 
-// Fingers as others close them: what sweep_fingers and pose_thumb are compared with. All of one
-// call is in the mesh's frame.
+// Other methods of closing fingers, as baselines for sweep_fingers and pose_thumb. All arguments of
+// one call are in the mesh's frame.
 namespace handhold::lab {
 
 enum class FingerMethod : std::uint8_t {
-    sweep,    // the runtime's
-    talk,     // talk rows 12 to 14, and no more than they say
+    sweep,    // the runtime's method
+    talk,     // talk rows 12 to 14, taken literally
     spheres,  // spheres on the bones, moved in steps
 };
 
 struct ClosedFinger {
     ChainAngles angle_rad = {};
-    std::int32_t contact_link = DiscClosure::k_none;  // the last that touches; none: relaxed
+    // the last link that touches; k_none: rest pose
+    std::int32_t contact_link = DiscClosure::k_none;
     std::uint32_t discs = 0;
-    std::uint32_t pops = 0;  // triangles, as ChainFit counts them
+    std::uint32_t pops = 0;  // visited triangles, as ChainFit counts them
     std::uint32_t walked = 0;
 };
 
-// One disc, in the finger's middle plane: the search to the first triangle that crosses it, the
-// walk along the crossing edges, and for each joint in turn the highest contact.
-// Where the search finds nothing, or nothing can be touched, the finger is relaxed.
+// Uses one disc, in the finger's middle plane: searches the first triangle that crosses it, walks
+// along the crossing edges, and takes the highest contact for each joint in turn. Returns the rest
+// pose if the search finds nothing or nothing can be touched.
 ClosedFinger close_by_talk(const HingeChain& chain, const GripMesh& mesh,
                            const GraphPoint& seed_under_palm, SearchOrder order,
                            ChainFitScratch& scratch);
 
-// The half of it that is flat. `line_ds`: the crossings of edges with the disc, in the walk's
-// order. The finger is a line without thickness, straight beyond the joint that turns; contacts are
-// the crossings within its reach, and where the line between two of them leaves the joint's disc.
-// The one that the finger comes to first, of those within the joint's range, stops it; what lies
-// between two crossings is not seen. Joints that meet nothing close fully.
+// The planar part of close_by_talk. `line_ds`: crossings of edges with the disc, in the walk's
+// order. The finger is a line without thickness, straight beyond the joint that turns. Contacts are
+// the crossings within its reach, and the points where the line between two crossings leaves the
+// joint's disc. The first contact within the joint's range stops it; the surface between two
+// crossings is ignored. Joints without contact close fully.
 ClosedFinger close_on_crossings(const HingeChain& chain, std::span<const Vec2> line_ds);
 
-// From open to closed in 50 steps, all joints in step; two spheres a link, at its middle and its
-// end, as thick as it. A link whose sphere would touch a triangle stops its joint and those before
-// it where they are; those beyond go on. Nothing touched: relaxed.
+// Closes all joints in 50 equal steps, with two spheres per link (at its middle and its end, with
+// the link's radius). A link whose sphere would touch a triangle stops its joint and the joints
+// before it; those beyond continue. Returns the rest pose if nothing is touched.
 ClosedFinger close_by_spheres(const HingeChain& chain, const GripMesh& mesh);
 
 }  // namespace handhold::lab

@@ -16,7 +16,7 @@ using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, k_
 
 int g_sweeps = k_sweeps;
 
-// One body's part in one block: how easily it moves.
+// A body's inverse mass and inertia in one block.
 struct Mobility {
     double inverse_mass = 0.0;
     Mat3 inverse_inertia_ws = Mat3::Zero();
@@ -66,7 +66,7 @@ class GaussSeidel {
         return std::min(depth(island_.blocks[i].a), depth(island_.blocks[i].b));
     }
 
-    // Steps from what cannot move, breadth first.
+    // Distance of each body from the nearest immovable one, in blocks, breadth first.
     void find_depths() {
         depths_.assign(island_.bodies.size(), k_far);
         std::vector<std::vector<std::uint32_t>> neighbours(island_.bodies.size());
@@ -101,7 +101,7 @@ class GaussSeidel {
         return {body.inverse_mass, inverse_inertia_ws(body)};
     }
 
-    // J W J^T of two rows of one block.
+    // The element of J M^-1 J^T for rows x and y of one block (bodies a and b).
     static double coupling(const Row& x, const Row& y, const Mobility& a, const Mobility& b) {
         return (a.inverse_mass + b.inverse_mass) * x.linear_a.dot(y.linear_a) +
                x.angular_a.dot(a.inverse_inertia_ws * y.angular_a) +
@@ -122,7 +122,7 @@ class GaussSeidel {
         apply(block.b, b, -lambda * row.linear_a, lambda * row.angular_b);
     }
 
-    // The block's equations together: what a joint's rows say does not depend on its axes.
+    // Solves a block's equality rows together, so the result does not depend on a joint's axes.
     void solve_equations(const RowBlock& block, const Mobility& a, const Mobility& b) const {
         std::array<const Row*, k_max_rows> equations{};
         Eigen::Index count = 0;

@@ -18,7 +18,7 @@
 namespace handhold::lab {
 namespace {
 
-// All parts of a file as one mesh, in the frame of its scene.
+// All parts of a file as one mesh, in the scene's frame.
 Result<Mesh> load_mesh(const std::filesystem::path& path) {
     const Result<GltfLevel> level = load_gltf_level(path);
     if (!level) {
@@ -86,7 +86,7 @@ std::string pose_all(const GripOptions& options, const GripMesh& mesh, const Han
     return text;
 }
 
-// The value that this share of all is not above; 0 of none.
+// The smallest value that at least this share of the values does not exceed; 0 if there are none.
 template <typename Value>
 Value quantile(std::vector<Value> values, double share) {
     if (values.empty()) {

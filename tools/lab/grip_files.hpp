@@ -9,7 +9,7 @@
 #include "engine/io/result.hpp"
 #include "tools/lab/grip_run.hpp"
 
-// What `handhold-lab grip` reads and writes.
+// File formats of `handhold-lab grip`.
 namespace handhold::lab {
 
 struct Placement {
@@ -17,17 +17,17 @@ struct Placement {
     Pose wrist;  // in the mesh's frame
 };
 
-// One JSON object a line: {"id": 0, "wrist": {"position_m": [3], "rotation_xyzw": [4]}}. Other
-// members are passed over. Errors name the line.
+// One JSON object per line: {"id": 0, "wrist": {"position_m": [3], "rotation_xyzw": [4]}}. Ignores
+// other members. Errors name the line.
 Result<std::vector<Placement>> load_placements(const std::filesystem::path& path);
 
-// One line of the output, with its line break.
+// One line of the output, with line break.
 std::string posed_hand_line(std::int64_t id, const HandRig& rig, const PosedHand& posed);
 
-// What warm hands took, and how often their hinges jumped; every frame of every hand.
+// Costs of warm hands and counts of jumping joints, for every frame of every hand.
 std::string warm_hands_json(const WarmHand& all);
 
-// The rig as JSON, for those who measure: every field of HandRig but its skin's joints.
+// The rig as JSON, for external measuring tools: every field of HandRig except its skin's joints.
 std::string hand_rig_json(const HandRig& rig);
 
 }  // namespace handhold::lab

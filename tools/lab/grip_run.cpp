@@ -20,7 +20,7 @@ namespace {
 constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
 constexpr double k_frame_s = 1.0 / 90.0;
 
-// Without capsules a palm has nothing to be pushed out with.
+// The talk's method does not depenetrate the palm, so its rig has no palm capsules.
 HandRig fitted_rig(const HandRig& rig, FingerMethod fingers) {
     HandRig fitted = rig;
     if (fingers == FingerMethod::talk) {
@@ -29,7 +29,7 @@ HandRig fitted_rig(const HandRig& rig, FingerMethod fingers) {
     return fitted;
 }
 
-// A thumb is a finger like the others to what it is compared with.
+// The baselines treat a thumb like any other finger, at a fixed opposition.
 double resting_opposition(const FingerRig& finger, const ThumbTuning& tuning) {
     return finger.name == FingerName::thumb
                ? std::clamp(tuning.rest_opposition_rad, finger.lower_opposition_rad,
@@ -37,7 +37,7 @@ double resting_opposition(const FingerRig& finger, const ThumbTuning& tuning) {
                : 0.0;
 }
 
-// The columns of one hand, and what its stages keep their memory in.
+// The columns of one hand, and the scratch memory of its stages.
 class OneHand {
   public:
     OneHand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist, FingerMethod fingers)
@@ -66,7 +66,7 @@ class OneHand {
         }
     }
 
-    // One frame with what is known from the last one.
+    // Runs one frame with the previous frame's results.
     double run_frame_us(const Pose& wrist, const Tuning& tuning, const GripVariant& variant) {
         surroundings_.front().wrist_bs = wrist;
         traces_.front() = {};
@@ -108,7 +108,7 @@ class OneHand {
             close_baseline(f, tuning, variant);
         }
     }
-    // Shown at once: how a finger comes to where it is bound for is not what is compared.
+    // Shows the target pose at once: transitions are not compared.
     void close_baseline(std::size_t f, const Tuning& tuning, const GripVariant& variant) {
         const FingerRig& finger = rig_.fingers[f];
         FingerAngles& shown = fingers_.rows().front().shown[f];
@@ -164,7 +164,7 @@ class OneHand {
     StageStats stats_;
 };
 
-// The wrist that slides: across the fingers, in the plane of the surface that it grips.
+// A wrist that slides across the fingers, in the plane of the gripped surface.
 class SlidingWrist {
   public:
     SlidingWrist(const Pose& wrist, const Vec3& normal, const HandSlide& slide)
@@ -212,7 +212,7 @@ void add_pops(const std::array<FingerTrace, k_finger_count>& traces, WarmHand& w
     }
 }
 
-// How the hand is shown now.
+// The hand as shown.
 void describe(const OneHand& hand, const GripMesh& mesh, const HandRig& rig, PosedHand& posed) {
     posed.gripped = hand.surface().triangle != GripSurface::k_none;
     posed.reason = posed.gripped ? "" : "no_surface";
@@ -265,7 +265,7 @@ WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
         add_pops(hand.traces(), warm);
     }
     describe(hand, mesh, rig, warm.slid);
-    // The palm that is shown comes to rest first.
+    // First lets the shown palm converge.
     constexpr int k_convergence_frames = 45;
     for (int frame = 0; frame < k_convergence_frames; ++frame) {
         hand.run_frame_us(at, tuning, variant);

@@ -13,15 +13,15 @@
 #include "systems/hand/search_grip.hpp"
 #include "tools/lab/finger_baselines.hpp"
 
-// One hand on one mesh, posed by the runtime's own systems over columns of one row.
+// One hand on one mesh, posed by the runtime's systems over columns of one element.
 namespace handhold::lab {
 
 struct GripVariant {
-    bool sync = true;  // the palm moves to its limits; else it stays where it is tracked
+    bool sync = true;  // the palm moves to its limits; else it stays at its tracked pose
     SearchOrder order = SearchOrder::best_first;
     GripSearch palm = GripSearch::smallest_sync;
-    // The talk's fingers come with its palm: held to its three limits, never pushed out of what its
-    // knuckles and heel are sunk in. Palms are lifted for none but the runtime's own fingers.
+    // The talk's fingers include its palm fit: three limits and no depenetration of knuckles and
+    // heel. The palm is lifted only for the runtime's own fingers.
     FingerMethod fingers = FingerMethod::sweep;
 };
 
@@ -34,43 +34,43 @@ struct GripTimes {  // microseconds of thread CPU time
 
 struct PosedHand {
     bool gripped = false;
-    std::string reason;  // why not, or empty
+    std::string reason;  // reason if not gripped, or empty
     Pose wrist;          // as shown, in the mesh's frame
     double sync_m = 0.0;
     double sync_rad = 0.0;
     std::uint32_t triangle = 0;  // of the mesh as loaded
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitY();
-    std::array<FingerAngles, k_finger_count> angles;  // by place in HandRig::fingers
+    std::array<FingerAngles, k_finger_count> angles;  // by index in HandRig::fingers
     std::array<FingerTrace, k_finger_count> traces;
     GripTimes us;
 };
 
-// A hand that closes at `wrist` (in the mesh's frame) with nothing known from before: the frame's
-// stages in their order, shown at once where they aim, and again while fingers lift the palm.
+// Poses a hand that closes at `wrist` (in the mesh's frame) without cached results. Runs the
+// frame's stages in order, shows targets at once, and repeats while fingers lift the palm.
 PosedHand pose_cold_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                          const Tuning& tuning, const GripVariant& variant);
 
-// How a hand moves that is measured warm.
+// Motion of a hand that is measured warm.
 struct HandSlide {
     std::int32_t frames = 0;  // of 1/90 s: first sliding, then as many standing still
-    double speed_mps = 0.2;   // to and fro by 4 cm: along the surface, across the fingers
+    double speed_mps = 0.2;   // back and forth by 4 cm: along the surface, across the fingers
 };
 
-// What the frames of a hand that knows its last solution took, each from search_grip to pose_thumb:
-// microseconds of thread CPU time.
+// Costs of a hand that reuses its last solution: microseconds of thread CPU time per frame, from
+// search_grip to pose_thumb.
 struct WarmHand {
     std::vector<double> slide_us;
     std::vector<double> stand_us;
-    std::vector<std::uint32_t> pops;  // a searched disc, in the mean of a finger and a frame
-    PosedHand slid;                   // in the last frame of these; without times
-    std::uint32_t joint_frames = 0;   // sliding: hinges of all fingers, times frames
-    std::uint32_t jumps = 0;          // of these, bound for 10 degrees away or more in one frame
-    std::uint32_t shown_jumps = 0;    // of these, shown 10 degrees away or more: opened
+    std::vector<std::uint32_t> pops;  // per searched disc: mean over a finger and a frame
+    PosedHand slid;                   // in the last sliding frame; without times
+    std::uint32_t joint_frames = 0;   // while sliding: joints of all fingers times frames
+    std::uint32_t jumps = 0;          // of these, target moved by 10 degrees or more in one frame
+    // of these, shown angle moved by 10 degrees or more in one frame
+    std::uint32_t shown_jumps = 0;
 };
 
-// A hand that has closed at `wrist` as pose_cold_hand closes it, and then slides and stands. Empty
-// where it does not grip.
+// Closes a hand as pose_cold_hand does, then lets it slide and stand. Empty if it does not grip.
 WarmHand slide_hand(const GripMesh& mesh, const HandRig& rig, const Pose& wrist,
                     const Tuning& tuning, const GripVariant& variant, const HandSlide& slide);
 

@@ -4,9 +4,9 @@
 
 namespace handhold::lab {
 
-double to_and_fro(double t_s, double way, double speed, double start) {
-    const double run = std::fmod(start + speed * t_s, 2.0 * way);
-    return run <= way ? run : 2.0 * way - run;
+double triangle_wave(double t_s, double travel, double speed, double start) {
+    const double run = std::fmod(start + speed * t_s, 2.0 * travel);
+    return run <= travel ? run : 2.0 * travel - run;
 }
 
 Vec3 along_polygon(const std::vector<Vec3>& corners, double t_s, double speed_mps) {

@@ -9,8 +9,9 @@ namespace handhold::lab {
 namespace {
 
 constexpr int k_directions = 96;
-constexpr double k_beside_weight = 0.25;  // a quarter of the fingers hidden, and beside the hand
-constexpr double k_above_weight = 0.08;   // the eye rather above than below
+// a view from the side is worth hiding a quarter of the fingers
+constexpr double k_beside_weight = 0.25;
+constexpr double k_above_weight = 0.08;  // prefers views from above
 
 bool hits_triangle(const Vec3& from, const Vec3& ray, const Triangle& triangle) {
     const Vec3 e1 = triangle[1] - triangle[0];
@@ -28,7 +29,7 @@ bool hits_triangle(const Vec3& from, const Vec3& ray, const Triangle& triangle) 
     return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0;
 }
 
-// Squared distance of two segments, each given by its beginning and its way.
+// Squared distance of two segments, each given by its start and its direction vector.
 double segment_distance2(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
     const Vec3 r = p - q;
     const double a = d.squaredNorm();
@@ -50,7 +51,7 @@ Vec3 spiral_direction(int i) {
     return {wide * std::cos(around), height, wide * std::sin(around)};
 }
 
-// Whether the side of capsule `own` that faces the eye is seen, in its middle.
+// Whether the eye sees the middle of capsule `own`'s facing side.
 bool is_seen(std::span<const HandCapsule> capsules, std::size_t own, const Vec3& towards,
              std::span<const Triangle> around, double distance_m) {
     const HandCapsule& capsule = capsules[own];
@@ -118,7 +119,7 @@ HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wri
             if (capsules[k].finger == "palm") {
                 continue;
             }
-            const double weight = 1.0 + capsules[k].link;  // tips tell most
+            const double weight = 1.0 + capsules[k].link;  // fingertips have the largest weight
             all += weight;
             seen += is_seen(capsules, k, towards, around, distance_m) ? weight : 0.0;
         }

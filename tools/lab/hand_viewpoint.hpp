@@ -8,7 +8,7 @@
 #include "engine/geometry/mesh.hpp"
 #include "engine/math/math.hpp"
 
-// Where a posed hand on a mesh is best seen from.
+// Chooses the best viewpoint for a posed hand on a mesh.
 namespace handhold::lab {
 
 struct HandCapsule {
@@ -21,22 +21,22 @@ struct HandCapsule {
 
 struct HandView {
     Vec3 center = Vec3::Zero();    // of the hand
-    double radius_m = 0.1;         // of a sphere about it that holds the hand
+    double radius_m = 0.1;         // of a sphere around the centre that contains the hand
     Vec3 towards = Vec3::UnitZ();  // unit, from the hand to the eye
 };
 
 using Triangle = std::array<Vec3, 3>;
 
-// Of all meshes, the triangles within `reach_m` of the point.
+// The triangles of all meshes within `reach_m` of the point.
 std::vector<Triangle> triangles_near(std::span<const Mesh> meshes, const Vec3& point,
                                      double reach_m);
 
-// Of directions spread evenly, the one from which most of the fingers is seen at `distance_m`,
-// neither behind the triangles nor behind the hand itself; of such, one from beside the hand, where
-// gaps and sunk fingers show.
+// Of evenly spread directions, the one from which most of the fingers is visible at `distance_m`,
+// in front of both the triangles and the hand itself. Prefers views from beside the hand, which
+// show gaps and penetrating fingers.
 HandView choose_hand_view(std::span<const HandCapsule> capsules, const Quat& wrist,
                           std::span<const Triangle> around, double distance_m);
-// The sphere only.
+// Only the bounding sphere.
 HandView hand_bounds(std::span<const HandCapsule> capsules);
 
 }  // namespace handhold::lab

@@ -26,7 +26,7 @@ Color color_of(const HandCapsule& capsule) {
         {"little", {0.28F, 0.16F, 0.60F}}, {"palm", {0.55F, 0.50F, 0.44F}}};
     Color color = colors.at(capsule.finger);
     for (float& part : color) {
-        part *= capsule.link % 2 == 0 ? 1.0F : 0.72F;  // links are told apart
+        part *= capsule.link % 2 == 0 ? 1.0F : 0.72F;  // distinguishes neighbouring links
     }
     return color;
 }
@@ -51,7 +51,8 @@ std::vector<DrawnHand> choose_hands(std::vector<DrawnHand> all,
     return chosen;
 }
 
-// A mesh seen close: lit from over the eye's left shoulder, bright around.
+// Frame for a close view of a mesh: lit from over the eye's left shoulder, with bright
+// surroundings.
 RenderFrame make_frame(const HandView& view, double distance_m) {
     RenderFrame frame;
     const Vec3 up = std::abs(view.towards.y()) < 0.97 ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitZ());
@@ -72,7 +73,7 @@ RenderFrame make_frame(const HandView& view, double distance_m) {
     return frame;
 }
 
-// What is drawn of one file's mesh, and the triangles themselves.
+// One file's meshes, as instances and as triangles.
 struct Studio {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
@@ -91,9 +92,9 @@ Studio build_stage(GltfLevel level, Renderer& renderer) {
 
 void add_capsules(const DrawnHand& hand, Renderer& renderer, RenderFrame& frame) {
     for (const HandCapsule& capsule : hand.capsules) {
-        const Vec3 way = capsule.b_m - capsule.a_m;
-        // A sphere where both ends are one point.
-        const Vec3 b = way.norm() > 1e-6 ? way : Vec3(1e-6 * Vec3::UnitX());
+        const Vec3 axis = capsule.b_m - capsule.a_m;
+        // A sphere if both ends coincide.
+        const Vec3 b = axis.norm() > 1e-6 ? axis : Vec3(1e-6 * Vec3::UnitX());
         Mesh mesh = make_capsule(Vec3::Zero(), b, capsule.radius_m, 24);
         mesh.color = color_of(capsule);
         frame.instances.push_back(
@@ -120,8 +121,7 @@ int hands_picture_command(const HandsPictureOptions& options) {
     }
     const std::vector<DrawnHand> hands = choose_hands(std::move(loaded.value()), options);
     if (hands.empty()) {
-        return refuse(
-            {options.hands.string(), "", "expected at least one hand that was asked for"});
+        return refuse({options.hands.string(), "", "expected at least one of the requested hands"});
     }
     Result<GltfLevel> level = load_gltf_level(options.mesh);
     if (!level) {
@@ -133,7 +133,7 @@ int hands_picture_command(const HandsPictureOptions& options) {
     std::string why_not;
     std::optional<Renderer> renderer = open(why_not);
     if (!renderer) {
-        return refuse({options.out.string(), "", "expected pictures to be possible: " + why_not});
+        return refuse({options.out.string(), "", "expected a machine that can draw: " + why_not});
     }
     const Studio stage = build_stage(std::move(level.value()), *renderer);
     const int columns = std::min(options.columns, static_cast<int>(hands.size()));

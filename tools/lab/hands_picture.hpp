@@ -7,8 +7,8 @@
 
 namespace handhold::lab {
 
-// `handhold-lab hands-picture`: posed hands on a mesh as they stand in a G.jsonl, each from where
-// it is seen best, as one sheet.
+// `handhold-lab hands-picture`: draws posed hands of a G.jsonl on a mesh, each from its best
+// viewpoint, as one sheet.
 struct HandsPictureOptions {
     std::filesystem::path mesh;
     std::filesystem::path hands;  // G.jsonl
@@ -21,8 +21,8 @@ struct HandsPictureOptions {
     int height_px = 400;
 };
 
-// Exit status: 0; 2 for a file that breaks its format or cannot be written, or where nothing can be
-// drawn. One line on standard error says why; on standard output the ids, row by row.
+// Exit status: 0, or 2 with one line on standard error for an invalid file, one that cannot be
+// written, or if nothing can be drawn. Prints the ids to standard output, row by row.
 int hands_picture_command(const HandsPictureOptions& options);
 
 }  // namespace handhold::lab

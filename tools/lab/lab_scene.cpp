@@ -82,7 +82,7 @@ LabScene make_scene(std::string_view name, const SceneOptions& options) {
     const auto* const found = std::ranges::find(k_scenes, name, &NamedScene::name);
     HH_CHECK(found != k_scenes.end(), "no such scene", name.size());
     LabScene scene = found->make(options);
-    scene.tuning.hand.max_arm_m = 1000.0;  // nobody's arms: a chain's end is as far as it is long
+    scene.tuning.hand.max_arm_m = 1000.0;  // no arm limit: a chain is longer than an arm
     scene.name = name;
     return scene;
 }

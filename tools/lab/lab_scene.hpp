@@ -12,17 +12,16 @@
 #include "components/tracking.hpp"
 #include "components/tuning.hpp"
 
-// The scenes that constraint solvers are measured on, as plain descriptions: one builder makes a
-// World of them (runtime_run), another a world of Bullet's own (bullet_run), a third the JSON.
-// No gravity; hands and driven bodies are functions of the time. docs/reference/lab.md lists the
-// scenes.
+// Benchmark scenes for constraint solvers, as plain descriptions. runtime_run builds a World from
+// them, bullet_run a Bullet world, scene_files the JSON. No gravity; hands and driven bodies are
+// functions of time. docs/reference/lab.md lists the scenes.
 namespace handhold::lab {
 
 inline constexpr int k_world = -1;
 inline constexpr double k_never_s = std::numeric_limits<double>::infinity();
 
-// kinematic: every hand is a kinematic body on the same way, tied to what it holds by a joint (by a
-// ball joint where point_only, else rigidly), and there are no players.
+// kinematic: there are no players. Every hand is a kinematic body on the same path, joined to the
+// body it holds (by a ball joint if point_only, else rigidly).
 enum class Holder : std::uint8_t { player, kinematic };
 
 using PathOfTime = std::function<Pose(double t_s)>;
@@ -35,16 +34,16 @@ struct LabBody {
     double mass_kg = 0.0;
     Vec3 half_m = Vec3::Zero();  // a box
     bool collides = false;       // has a collider
-    bool is_mesh = false;        // fixed: its +x face as a one-sided mesh instead of the box
+    bool is_mesh = false;        // fixed body: a one-sided mesh of its +x face instead of the box
     double restitution = 0.0;
     double friction = 0.0;
-    PathOfTime drive;  // kinematic: where it is
+    PathOfTime drive;  // kinematic body: its pose
 
     Vec3 inertia_kgm2() const;
 };
 
-// Half a space that nothing may enter: normal . x >= offset; as seen by a body where it moves. Says
-// what walls mean to whoever computes penetration; the walls themselves are bodies.
+// A half space that nothing may enter: normal . x >= offset, in the frame of `body`. Used to
+// compute penetration; the walls themselves are bodies.
 struct LabPlane {
     Vec3 normal = Vec3::UnitY();
     double offset_m = 0.0;
@@ -64,39 +63,40 @@ struct LabJoint {
 
 struct LabPlayer {
     Vec3 origin_ws = Vec3::Zero();
-    Vec3 head_ps = Vec3(0.0, 0.6, 1.5);  // collider's centre: always there
+    Vec3 head_ps = Vec3(0.0, 0.6, 1.5);  // centre of the head's collider; constant
     Vec3 velocity_mps = Vec3::Zero();
-    bool head_meets_planes = false;  // planes have no end, walls do
+    // false: planes are infinite but the walls are not, so the head is not tested
+    bool head_meets_planes = false;
 };
 
-// A hand that holds a body from the beginning, as an authored grip would.
+// A hand that holds a body from the start, like an authored grip.
 struct LabHold {
     int player = 0;
     HandSide side = HandSide::right;
     int body = 0;
-    Vec3 anchor_bs = Vec3::Zero();  // the hand's place in the body's frame
+    Vec3 anchor_bs = Vec3::Zero();  // the hand's position in the body's frame
     PathOfTime hand_ps;
     double release_s = k_never_s;
-    // What hangs on joints that lead to something fixed is held by a point, and so is what is
-    // heavy.
+    // Held by a point only, as for bodies jointed to something fixed and for heavy bodies.
     bool point_only = false;
 };
 
-// Everything of one scene at the end of one frame.
+// State of a scene at the end of one frame.
 struct FrameRecord {
     double t_s = 0.0;
     double dt_s = 0.0;
-    // By LabScene::bodies; then the players' origins or, without players, the hands by holds.
+    // By LabScene::bodies; then the players' origins or, without players, the hands in order of
+    // holds.
     std::vector<Pose> poses;
     std::vector<BodyVelocity> velocities;
     std::vector<Pose> targets;       // by LabScene::holds: the tracked hand in the world
-    std::vector<std::uint8_t> held;  // by LabScene::holds: still
+    std::vector<std::uint8_t> held;  // by LabScene::holds: whether still held
     double step_us = 0.0;            // physics stages, thread CPU time
     double frame_us = 0.0;           // the whole frame
     int iterations = 0;
 };
 
-// Named results of one scene against its closed form.
+// Named results of one scene compared with its closed form.
 class Figures {
   public:
     void set(const std::string& name, double value) { values_[name] = value; }
@@ -116,17 +116,17 @@ struct LabScene {
     std::vector<LabPlane> planes;
     Tuning tuning;
 
-    // Until then every joint and hand can be met with the players where they were at the start:
-    // there they must stay, bit for bit. 0: not a claim of this scene.
+    // Until this time every joint and hand can be satisfied with the players at their start
+    // positions, so they must stay there exactly. 0: not a claim of this scene.
     double players_still_until_s = 0.0;
-    // From then on nothing acts on the scene from outside: its momentum must stay as it is.
+    // From this time on the scene has no external forces, so its momentum must be conserved.
     double closed_from_s = k_never_s;
-    bool closed_in_spin = false;  // its angular momentum too
-    // Called after every frame, with players.
+    bool closed_in_spin = false;  // angular momentum too
+    // Called after every frame if there are players.
     std::function<void(const FrameRecord&, Figures&)> watch;
-    // What Bullet's rigid bodies cannot express; empty where they can.
+    // What Bullet cannot express of this scene; empty: nothing.
     std::string beyond_bullet;
-    // The hand goes where what it holds cannot: somebody has to give way.
+    // The hand moves where the held body cannot follow, so a player must yield.
     bool needs_player = false;
 
     int player_id(int player) const { return static_cast<int>(bodies.size()) + player; }
@@ -134,27 +134,28 @@ struct LabScene {
         bodies.push_back(std::move(body));
         return static_cast<int>(bodies.size()) - 1;
     }
-    // A joint whose frames meet at `frame_ws` as the bodies stand.
+    // Adds a joint whose frames coincide at `frame_ws` in the bodies' current poses.
     void add_joint_at(LabJoint joint, const Pose& frame_ws);
-    // A hand at `hand_ws` at time 0 on a body.
+    // Adds a hand at `hand_ws` (time 0) that holds a body.
     void add_hold(LabHold hold);
 };
 
-// A free box that stands along the world's axes; returns its place in scene.bodies.
+// Adds a free axis-aligned box; returns its index in scene.bodies.
 int add_box(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
             const Vec3& center_ws);
 
 struct SceneOptions {
-    int links = 0;  // 0: the scene's own number
+    int links = 0;  // 0: the scene's default
     std::string masses = "uniform";
     double duration_s = 10.0;
     double hz = 90.0;
-    Holder holder = Holder::player;  // kinematic: levers, drawers and doors are not pulled too far
+    // kinematic: levers, drawers and doors are not pulled beyond their range
+    Holder holder = Holder::player;
 };
 
-// All scenes' names, in the order of docs/reference/lab.md.
+// Names of all scenes, in the order of docs/reference/lab.md.
 std::vector<std::string_view> scene_names();
-// `name` is one of them.
+// Precondition: `name` is one of them.
 LabScene make_scene(std::string_view name, const SceneOptions& options);
 std::vector<std::string_view> mass_patterns();
 

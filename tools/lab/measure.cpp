@@ -28,7 +28,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Turn of b against a about a's local x, in (-pi, pi].
+// Angle of b relative to a about a's local x, in (-pi, pi].
 double hinge_angle(const Quat& a, const Quat& b) {
     const Vec3 y = a.conjugate() * (b * Vec3::UnitY());
     return std::atan2(y.z(), y.y());
@@ -184,7 +184,8 @@ void Measure::take_players(const FrameRecord& frame) {
 }
 
 void Measure::take_momentum(const FrameRecord& frame) {
-    // A kinematic hand takes and gives; after it has let go the scene is closed with either.
+    // A kinematic hand exchanges momentum; once it has released, the scene is closed for either
+    // holder.
     const bool ever_alone = scene_.closed_from_s > 0.0 || holder_ == Holder::player;
     if (frame.t_s < scene_.closed_from_s || !ever_alone) {
         return;

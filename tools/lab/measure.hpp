@@ -4,37 +4,38 @@
 
 #include "tools/lab/lab_scene.hpp"
 
-// Errors of a scene, from poses alone: nothing here asks the solver.
+// Errors of a scene, computed from poses alone, independently of the solver.
 namespace handhold::lab {
 
 struct JointErrors {
-    double point_m = 0.0;    // and sliders' limits passed
-    double angle_rad = 0.0;  // and hinges' limits passed
+    double point_m = 0.0;    // including how far a slider is beyond its limits
+    double angle_rad = 0.0;  // including how far a hinge is beyond its limits
 };
 JointErrors joint_error(const LabJoint& joint, const std::vector<Pose>& poses);
 
-// How far the tracked hand is from its anchor.
+// Distance between the tracked hand and its anchor.
 double grab_error_m(const LabHold& hold, const Pose& target_ws, const std::vector<Pose>& poses);
 
-// The deepest that boxes and heads are in a plane's half space.
+// The deepest penetration of boxes and heads into a plane's half space.
 double penetration_m(const LabScene& scene, Holder holder, const std::vector<Pose>& poses);
 
-// Linear and angular (about the world's origin) momentum of what moves freely.
+// Linear and angular (about the world's origin) momentum of freely moving bodies.
 struct Momentum {
     Vec3 linear = Vec3::Zero();
     Vec3 angular = Vec3::Zero();
-    double linear_size = 0.0;  // the sum of the parts' sizes: what residuals are relative to
+    double linear_size = 0.0;  // sum of the bodies' magnitudes, which residuals are relative to
     double angular_size = 0.0;
 };
 Momentum momentum(const LabScene& scene, Holder holder, const FrameRecord& frame);
 
-// Worst and 99th percentile over the frames, and the rest of solver.md's figures.
+// Values over the frames, for maximum and quantiles.
 struct Series {
     std::vector<double> values;
 
     void add(double value) { values.push_back(value); }
     double max() const;
-    int worst_frame() const;              // the first with the largest value; -1 without values
+    // the first frame with the largest value; -1 without values
+    int worst_frame() const;
     double quantile(double share) const;  // nearest rank; 0 without values
 };
 

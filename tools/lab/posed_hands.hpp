@@ -9,15 +9,14 @@
 
 namespace handhold::lab {
 
-// One line of a G.jsonl: what a picture needs of it. In the mesh's frame.
+// A line of a G.jsonl, as far as pictures need it. In the mesh's frame.
 struct DrawnHand {
     std::int64_t id = 0;
     Pose wrist;  // as shown
     std::vector<HandCapsule> capsules;
 };
 
-// Blank lines are skipped. Refused with the line and the JSON pointer: anything that is no such
-// hand.
+// Skips blank lines. Errors name the line and the JSON pointer.
 Result<std::vector<DrawnHand>> parse_posed_hands(std::string_view text, const std::string& file);
 Result<std::vector<DrawnHand>> load_posed_hands(const std::filesystem::path& path);
 

@@ -38,7 +38,7 @@ void probe(const IslandView& island, const NewtonSettings& settings, SolveScratc
         }
         std::copy(start.begin(), start.end(), island.bodies.begin());
         if (result.iterations < iterations) {
-            break;  // it had ended before
+            break;  // converged before this iteration
         }
     }
     set_sweeps(k_sweeps);

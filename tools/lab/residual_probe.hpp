@@ -4,15 +4,15 @@
 
 #include "components/frame_graph.hpp"
 
-// Residual against iteration: the first island that a frame solves is solved again and again from
-// where it stood, with one iteration more each time.
+// Residual by iteration: solves the first island of a frame repeatedly from the same start, each
+// time with one more iteration.
 namespace handhold::lab {
 
-// Puts itself between the phases and `solver` from now on; pass what it returns to the run.
+// Installs the probe before `solver`; pass the returned solver to the run.
 PositionSolver probe_residuals(PositionSolver solver);
-// The next solve is probed.
+// Probes the next solve.
 void arm_probe();
-// Metres: before the first iteration, after it, ...; empty until a solve was probed.
+// Metres, before the first iteration, after it, and so on; empty until a solve was probed.
 const std::vector<double>& probed_residuals();
 
 }  // namespace handhold::lab

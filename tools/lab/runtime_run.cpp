@@ -12,7 +12,7 @@ namespace {
 constexpr std::array k_physics = {Stage::predict_bodies, Stage::build_constraints,
                                   Stage::solve_phases, Stage::update_velocities};
 
-// The box's +x face, of two by two quads, facing outward.
+// The box's +x face of two by two quads, facing outward.
 std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
     auto mesh = std::make_shared<Mesh>();
     constexpr std::uint32_t k_quads = 2;
@@ -34,8 +34,8 @@ std::shared_ptr<const Mesh> face_mesh(const Vec3& half_m) {
     return mesh;
 }
 
-// An authored grip: the hand holds from the first frame on, whatever surfaces are near. Button and
-// tracking stand as if it had closed before.
+// Starts an authored grip: the hand holds from the first frame on, independent of nearby surfaces.
+// Button and tracking are set as if the hand had closed before.
 void write_grip(World& world, const PlayerEntities& player, const LabScene& scene,
                 const LabHold& hold, Entity body) {
     const Entity hand = player.hands[index_of(hold.side)];
@@ -133,7 +133,7 @@ void RuntimeRun::add_player(std::size_t index) {
                                   shapes_.add_sphere(scene_.tuning.head.radius_m)};
     players_.push_back(handhold::add_player(world_, description));
     for (const Entity hand : players_.back().hands) {
-        world_.controller_to_hand.add(hand, {});  // hands are given as hands
+        world_.controller_to_hand.add(hand, {});  // hands are given directly, without controllers
     }
 }
 
@@ -163,7 +163,7 @@ void RuntimeRun::add_kinematic_hand(std::size_t hold_index) {
     hand_joints_.push_back(holds_free ? add_joint(world_, {name + "/joint", joint}) : k_no_entity);
 }
 
-// As a host moves its own: pose and velocity at the end of the frame, before the step.
+// Moves a body as a host does: sets pose and velocity for the end of the frame, before the step.
 void RuntimeRun::drive(World& world, Entity body, const Pose& pose_ws) const {
     Pose& now = world.body_pose.at(body).pose_ws;
     world.body_start.at(body).pose_ws = now;
@@ -184,12 +184,12 @@ void RuntimeRun::drive_all(World& world, double end_s) const {
         const Vec3& origin = scene_.players[static_cast<std::size_t>(hold.player)].origin_ws;
         drive(world, kinematic_hands_[i], Pose{origin, Quat::Identity()} * hold.hand_ps(end_s));
         if (end_s >= hold.release_s && !is_null(hand_joints_[i])) {
-            destroy(world, hand_joints_[i]);  // a stale handle finds nothing
+            destroy(world, hand_joints_[i]);  // a stale handle is ignored
         }
     }
 }
 
-// One sample a frame, at its end: the hand is where the script says at that instant.
+// One sample per frame, at its end: the hand is at its scripted pose at that instant.
 void RuntimeRun::sample_devices(double end_s) {
     samples_.assign(players_.size(), TrackingSample{});
     inputs_.assign(players_.size(), PlayerInput{});

@@ -8,18 +8,17 @@
 
 namespace handhold::lab {
 
-// A scene played by the real runtime, one step_frame after the other, with the given method for
-// positions.
+// Plays a scene with the runtime, calling step_frame with the given position solver.
 class RuntimeRun {
   public:
     // `scene` must outlive the run.
     RuntimeRun(const LabScene& scene, Holder holder, double hz, PositionSolver solver);
-    // One frame, and everything at its end.
+    // Runs one frame and records the state at its end.
     void step(FrameRecord& record);
-    // The same frame on a copy that is thrown away: caches are warm after it, the run is as it was.
+    // Runs the same frame on a discarded copy, which warms the caches and leaves the run unchanged.
     void warm_up();
 
-    // Of the last frame: where the runtime's own columns can be looked at.
+    // State after the last frame.
     const World& world() const { return world_; }
     const StageStats& stats() const { return stats_; }
 

@@ -73,7 +73,7 @@ Json bodies_json(const LabScene& scene, Holder holder) {
                                    is_player ? PlayerBody{}.mass_kg : 0.0, Vec3::Zero(),
                                    Vec3::Zero(), is_player ? "player" : "kinematic"));
         if (is_player) {
-            // The one thing of his that touches: a sphere at this place in play space.
+            // The player's only collider: a sphere at a fixed position in play space.
             bodies.back()["head"] = {{"offset_m", list(scene.players[i].head_ps)},
                                      {"radius_m", scene.tuning.head.radius_m},
                                      {"meets_planes", scene.players[i].head_meets_planes}};
@@ -118,7 +118,7 @@ Json planes_json(const LabScene& scene) {
     for (const LabPlane& plane : scene.planes) {
         planes.push_back({{"normal", list(plane.normal)}, {"offset_m", plane.offset_m}});
         if (plane.body != k_world) {
-            planes.back()["body"] = plane.body;  // in its frame
+            planes.back()["body"] = plane.body;  // in this body's frame
         }
     }
     return planes;
@@ -203,7 +203,7 @@ void FrameCsv::take(int frame, const FrameRecord& record) {
     for (std::size_t i = 0; i < scene_.holds.size(); ++i) {
         if (record.held[i] != 0) {
             const std::size_t joint = scene_.joints.size() + i;
-            // The hand's own velocity is input that nothing here is measured by.
+            // The hand's own velocity is an input and not measured.
             append_row(text_, frame, "grab" + std::to_string(joint), record.targets[i], {});
         }
     }

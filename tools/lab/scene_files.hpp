@@ -5,8 +5,8 @@
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/measure.hpp"
 
-// What `handhold-lab solve` writes. The formats are a contract: docs/reference/lab.md. Fields may
-// be added, none renamed or dropped.
+// Output formats of `handhold-lab solve`. They are a contract (docs/reference/lab.md): fields may
+// be added, but never renamed or removed.
 namespace handhold::lab {
 
 struct RunLabels {
@@ -18,16 +18,16 @@ struct RunLabels {
     int links = 0;
 };
 
-// Residual against iteration of one solve, metres.
+// Residual by iteration of one solve, metres.
 struct ResidualCurve {
-    int frame = -1;  // none was taken
+    int frame = -1;  // -1: not recorded
     std::vector<double> residual_m;
 };
 
 std::string scene_json(const LabScene& scene, Holder holder, const RunLabels& labels,
                        const Measure& measure, const ResidualCurve& curve);
 
-// Rows of every body, player and held hand, frame by frame.
+// Rows for every body, player and held hand, frame by frame.
 class FrameCsv {
   public:
     explicit FrameCsv(const LabScene& scene);

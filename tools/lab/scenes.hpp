@@ -2,7 +2,7 @@
 
 #include "tools/lab/lab_scene.hpp"
 
-// One maker a scene; make_scene knows them by name.
+// One function per scene; make_scene finds them by name.
 namespace handhold::lab {
 
 LabScene make_chain(const SceneOptions& options);

@@ -1,4 +1,4 @@
-// Many links of 0.1 m: the chain that hangs on the world, the closed ring, the hub.
+// Scenes with many links of 0.1 m: a chain hanging from the world, a closed ring, a hub.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ constexpr double k_link_m = 0.1;
 constexpr double k_reach_used = 0.98;
 const Vec3 k_link_half(0.05, 0.02, 0.02);
 
-// Mass of link i of n. Of alternating masses the last, which is held, is a light one.
+// Mass of link i of n. With alternating masses, the last link, which is held, is light.
 double link_mass(const std::string& masses, int i, int n) {
     const bool is_last = i == n - 1;
     const bool alternates = (n - 1 - i) % 2 == 1;
@@ -43,7 +43,7 @@ LabBody make_link(const std::string& name, double mass_kg, const Vec3& from, con
     return link;
 }
 
-// Links between consecutive places, ball joints where they meet; the first hangs on the world.
+// Links between consecutive points, joined by ball joints; the first is joined to the world.
 void add_links(LabScene& scene, const std::vector<Vec3>& places, const std::string& masses) {
     const int count = static_cast<int>(places.size()) - 1;
     for (int i = 0; i < count; ++i) {
@@ -58,14 +58,14 @@ void add_links(LabScene& scene, const std::vector<Vec3>& places, const std::stri
     }
 }
 
-// Zigzag from the world's origin to `end`, in the plane of that way and y; for an odd number of
-// links the last is laid along the way.
+// Zigzag from the world's origin to `end`, in the plane of that direction and y. For an odd number
+// of links, the last one lies along the direction.
 std::vector<Vec3> zigzag(int links, const Vec3& end) {
     const int folded = links - links % 2;
-    const double way = end.norm() - k_link_m * (links % 2);
+    const double span_m = end.norm() - k_link_m * (links % 2);
     const Vec3 along = end.normalized();
     const Vec3 across = (Vec3::UnitY() - along.y() * along).normalized();
-    const double step = way / folded;
+    const double step = span_m / folded;
     const double height = std::sqrt(std::max(0.0, k_link_m * k_link_m - step * step));
     std::vector<Vec3> places;
     for (int i = 0; i <= folded; ++i) {
@@ -77,7 +77,7 @@ std::vector<Vec3> zigzag(int links, const Vec3& end) {
     return places;
 }
 
-// A player whose hand holds the last link by its end.
+// A player whose hand holds the end of the last link.
 void hold_end(LabScene& scene, const PathOfTime& path) {
     scene.players.emplace_back();
     LabHold hold;
@@ -132,7 +132,7 @@ LabScene make_ring(const SceneOptions& options) {
         places.emplace_back(radius * Vec3(std::cos(angle), std::sin(angle), 0.0));
     }
     add_links(scene, places, options.masses);
-    scene.joints.front().a = links - 1;  // closed, and on nothing
+    scene.joints.front().a = links - 1;  // closed, and not joined to the world
     scene.joints.front().frame_a = {Vec3(0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};
     scene.joints.front().frame_b = {Vec3(-0.5 * k_link_m, 0.0, 0.0), Quat::Identity()};
     const Vec3 start = places.front();
@@ -156,7 +156,7 @@ LabScene make_hub(const SceneOptions& options) {
     hub.half_m = Vec3::Constant(0.1);
     scene.add_body(hub);
     for (int i = 0; i < arms; ++i) {
-        // Fibonacci's sphere: alike in all directions.
+        // Fibonacci sphere: evenly spread directions.
         const double height = 1.0 - (2.0 * i + 1.0) / arms;
         const double angle = k_pi * (3.0 - std::sqrt(5.0)) * i;
         const double flat = std::sqrt(1.0 - height * height);
@@ -173,7 +173,7 @@ LabScene make_hub(const SceneOptions& options) {
     hold.hand_ps = [](double t_s) {
         const std::vector<Vec3> corners = {Vec3(0.0, 0.0, 0.1), Vec3(0.3, 0.0, 0.1),
                                            Vec3(0.0, 0.2, 0.1)};
-        const Quat turn = rotation_about(Vec3::UnitY(), to_and_fro(t_s, k_twist_rad, 2.0));
+        const Quat turn = rotation_about(Vec3::UnitY(), triangle_wave(t_s, k_twist_rad, 2.0));
         return Pose{along_polygon(corners, t_s, k_hand_speed_mps) + tremor(t_s), turn};
     };
     scene.add_hold(hold);

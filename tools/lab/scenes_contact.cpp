@@ -1,4 +1,4 @@
-// Rocks, heads and walls. Walls face +x at x = 0.
+// Scenes with rocks, heads and walls. Walls face +x at x = 0.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,8 @@ namespace {
 
 constexpr double k_rock_half_m = 0.08;
 constexpr double k_gap_m = 0.1;      // between rock and wall at the start
-constexpr double k_too_far_m = 0.2;  // how far the hand goes into it
-constexpr double k_wave_s = 0.5;     // before that
+constexpr double k_too_far_m = 0.2;  // distance that the hand moves into the wall
+constexpr double k_wave_s = 0.5;     // duration of the movement along the wall before
 constexpr double k_wall_half_m = 0.5;
 
 void add_wall(LabScene& scene) {
@@ -41,7 +41,7 @@ void add_player_before_wall(LabScene& scene) {
     scene.players.back().head_meets_planes = true;
 }
 
-// A rock in the hand, 10 cm from the wall: waved along it, then moved into it by `into_wall`.
+// A rock in the hand, 10 cm from the wall: moved along it, then into it by `into_wall`.
 LabScene make_rock_before_wall(const std::function<double(double)>& into_wall) {
     LabScene scene;
     add_wall(scene);
@@ -50,7 +50,7 @@ LabScene make_rock_before_wall(const std::function<double(double)>& into_wall) {
     LabHold hold;
     hold.body = rock;
     hold.hand_ps = [into_wall](double t_s) {
-        const double along = to_and_fro(std::min(t_s, k_wave_s), 0.25, k_hand_speed_mps);
+        const double along = triangle_wave(std::min(t_s, k_wave_s), 0.25, k_hand_speed_mps);
         return Pose{Vec3(k_rock_half_m + k_gap_m - into_wall(t_s), along, 0.0), Quat::Identity()};
     };
     scene.add_hold(hold);
@@ -67,7 +67,8 @@ LabScene make_shove(const SceneOptions& /*options*/) {
     LabScene scene = make_rock_before_wall(into_wall);
     scene.players_still_until_s = k_wave_s + k_gap_m / k_hand_speed_mps;
     const double stop_s = k_wave_s + (k_gap_m + k_too_far_m) / k_hand_speed_mps;
-    // While the hand goes in, the player comes out by as much; then he drifts on.
+    // While the hand moves into the wall, the player moves out by as much; then the player drifts
+    // on.
     scene.watch = [into_wall, stop_s](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s <= stop_s) {
             const Vec3 expected = std::max(0.0, into_wall(frame.t_s) - k_gap_m) * Vec3::UnitX();
@@ -106,22 +107,25 @@ LabScene make_lean_in(const SceneOptions& /*options*/) {
     constexpr double k_head_m = 0.4;
     scene.players.back().head_ps = Vec3(k_head_m, 0.3, 0.0);
     scene.players.back().head_meets_planes = true;
-    const double room = k_head_m - scene.tuning.head.radius_m;
-    const auto pull = [room](double t_s) { return to_and_fro(t_s, room + 0.1, k_hand_speed_mps); };
+    const double gap_m = k_head_m - scene.tuning.head.radius_m;
+    const auto pull = [gap_m](double t_s) {
+        return triangle_wave(t_s, gap_m + 0.1, k_hand_speed_mps);
+    };
     LabHold hold;
     hold.point_only = true;
     hold.hand_ps = [pull](double t_s) { return Pose{Vec3(pull(t_s), 0.0, 0.0), Quat::Identity()}; };
     scene.add_hold(hold);
     scene.needs_player = true;
-    // Contacts outrank hands: the head stops at the wall, what is left is on the hand.
-    scene.watch = [pull, room](const FrameRecord& frame, Figures& figures) {
-        const Vec3 expected(-std::min(pull(frame.t_s), room), 0.0, 0.0);
+    // Contacts have priority over hands: the head stops at the wall and the rest is the hand's
+    // error.
+    scene.watch = [pull, gap_m](const FrameRecord& frame, Figures& figures) {
+        const Vec3 expected(-std::min(pull(frame.t_s), gap_m), 0.0, 0.0);
         figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());
     };
     return scene;
 }
 
-// A gap of 20 cm that closes to 14 cm about a rock of 16 cm in a hand, which goes to and fro and
+// A gap of 20 cm closes to 14 cm around a rock of 16 cm in a hand, which moves back and forth and
 // then rests.
 LabScene make_jam(const SceneOptions& options) {
     LabScene scene;
@@ -164,7 +168,7 @@ LabScene make_jam(const SceneOptions& options) {
     return scene;
 }
 
-// Boxes that hit the wall flat at 2 m/s: they leave at e times that.
+// Boxes that hit the wall flat at 2 m/s leave it at e times that speed (e: restitution).
 LabScene make_bounce(const SceneOptions& /*options*/) {
     LabScene scene;
     add_wall(scene);
@@ -187,7 +191,8 @@ LabScene make_bounce(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A block on a floor that is pushed up under it at 9.81 m/s^2 slides v^2 / (2 mu a) far.
+// A block on a floor that is accelerated upwards under it with a = 9.81 m/s^2 slides v^2 / (2 mu a)
+// (v: speed, mu: friction).
 LabScene make_slide(const SceneOptions& options) {
     LabScene scene;
     constexpr double k_push_mps2 = 9.81;
@@ -199,7 +204,7 @@ LabScene make_slide(const SceneOptions& options) {
     floor.half_m = Vec3(20.0, 1.0, 20.0);
     floor.collides = true;
     floor.friction = k_friction;
-    // As far as steps of constant speed go that gains the same in each.
+    // Discrete path with equal speed gain per step.
     const double dt_s = 1.0 / options.hz;
     floor.drive = [dt_s](double t_s) {
         return Pose{Vec3(0.0, 0.5 * k_push_mps2 * t_s * (t_s + dt_s) - 1.0, 0.0), Quat::Identity()};
@@ -215,7 +220,7 @@ LabScene make_slide(const SceneOptions& options) {
         figures.set("sliding_distance_m", slid);
         figures.set("sliding_expected_m", expected);
         figures.set("sliding_error_mm", 1e3 * std::abs(slid - expected));
-        // What a first-order step may miss.
+        // The error that a first-order step may have.
         figures.set("sliding_step_mm", 1e3 * k_speed_mps * frame.dt_s);
     };
     return scene;

@@ -1,4 +1,4 @@
-// In free space: rocks waved, ships ridden, things pushed off and thrown.
+// Scenes in free space: waving rocks, riding ships, pushing off and throwing.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace handhold::lab {
 namespace {
 
-// Nothing but the constraints changes a momentum.
+// Disables drag and speed limits, so only constraints change momentum.
 void take_off_limits(Tuning& tuning) {
     tuning.locomotion.drift_drag_per_s = 0.0;
     tuning.locomotion.release_speed_max_mps = 1e6;
@@ -25,13 +25,13 @@ const std::vector<Vec3>& wave_corners() {
 
 Pose wave(double t_s) {
     const Quat turn =
-        rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), to_and_fro(t_s, k_twist_rad, 2.0));
+        rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), triangle_wave(t_s, k_twist_rad, 2.0));
     return {along_polygon(wave_corners(), t_s, k_hand_speed_mps) + tremor(t_s), turn};
 }
 
 }  // namespace
 
-// Rocks of 0.5, 5 and 50 kg, each with a player of its own.
+// Rocks of 0.5, 5 and 50 kg, each held by its own player.
 LabScene make_wave(const SceneOptions& /*options*/) {
     LabScene scene;
     for (const double mass_kg : {0.5, 5.0, 50.0}) {
@@ -48,7 +48,7 @@ LabScene make_wave(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A ship at 20 m/s on a circle, and a player who holds on to it and moves his arm.
+// A ship at 20 m/s on a circle, and a player who holds on to it and moves their arm.
 LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     LabScene scene;
     static constexpr double k_turn_radps = 0.2;
@@ -71,7 +71,7 @@ LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     scene.add_hold(hold);
     scene.needs_player = true;
     const Vec3 anchor = scene.holds.front().anchor_bs;
-    // Where the ship is now, not where it was: the closed form of its way.
+    // Expected pose from the closed form of the ship's path at this time.
     scene.watch = [drive = ship.drive, anchor](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected = transform_point(drive(frame.t_s), anchor) - wave(frame.t_s).position;
         figures.take_worst("ship_lag_mm", 1e3 * (frame.poses[1].position - expected).norm());
@@ -79,7 +79,7 @@ LabScene make_ship_kinematic(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// The same on 10 t that float: momentum is exchanged exactly.
+// The same with a free ship of 10 t: momentum is exchanged exactly.
 LabScene make_ship_dynamic(const SceneOptions& /*options*/) {
     LabScene scene;
     const int ship = add_box(scene, "ship", 1e4, Vec3(3.0, 2.0, 5.0), Vec3::Zero());
@@ -103,7 +103,7 @@ LabScene make_ship_dynamic(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// 50 kg pushed away with kappa 1: both leave as momentum has it.
+// Pushing away 50 kg with kappa 1: both get the speeds that momentum conservation gives.
 LabScene make_push_off(const SceneOptions& /*options*/) {
     LabScene scene;
     constexpr double k_mass_kg = 50.0;
@@ -113,8 +113,8 @@ LabScene make_push_off(const SceneOptions& /*options*/) {
     hold.body = add_box(scene, "crate", k_mass_kg, Vec3::Constant(0.2), Vec3(0.3, 0.0, 0.0));
     scene.players.emplace_back();
     hold.hand_ps = [](double t_s) {
-        const double way = k_hand_speed_mps * std::max(0.0, t_s - k_begin_s);
-        return Pose{Vec3(0.3 + way, 0.0, 0.0), Quat::Identity()};
+        const double pushed_m = k_hand_speed_mps * std::max(0.0, t_s - k_begin_s);
+        return Pose{Vec3(0.3 + pushed_m, 0.0, 0.0), Quat::Identity()};
     };
     hold.release_s = k_release_s;
     scene.add_hold(hold);
@@ -122,7 +122,7 @@ LabScene make_push_off(const SceneOptions& /*options*/) {
     scene.tuning.phases.kappa_light_kg = 0.0;
     scene.tuning.phases.kappa_heavy_kg = 1.0;
     scene.closed_from_s = 0.0;
-    scene.beyond_bullet = "kappa, how much of a push becomes the player's";
+    scene.beyond_bullet = "kappa, the share of a push that moves the player";
     scene.watch = [](const FrameRecord& frame, Figures& figures) {
         if (frame.t_s < k_release_s + 2.0 * frame.dt_s) {
             return;
@@ -137,7 +137,8 @@ LabScene make_push_off(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// A bar of 1 kg thrown by one end of its middle part, with spin: it leaves as the hand moved it.
+// A bar of 1 kg, held at one end of its middle part and thrown with spin: it leaves with the hand's
+// velocity.
 LabScene make_throw(const SceneOptions& /*options*/) {
     LabScene scene;
     constexpr double k_release_s = 0.5;
@@ -152,7 +153,7 @@ LabScene make_throw(const SceneOptions& /*options*/) {
     hold.release_s = k_release_s;
     scene.add_hold(hold);
     take_off_limits(scene.tuning);
-    // Half a frame later at the latest it has left; from then on it is alone.
+    // Released half a frame later at the latest; from then on the bar is free.
     scene.closed_from_s = k_release_s + 0.03;
     scene.closed_in_spin = true;
     scene.watch = [velocity, spin, left_s = 0.0](const FrameRecord& frame,
@@ -160,7 +161,7 @@ LabScene make_throw(const SceneOptions& /*options*/) {
         if (frame.t_s < k_release_s || frame.held.front() != 0) {
             return;
         }
-        left_s = left_s > 0.0 ? left_s : frame.t_s;  // samples come at the ends of frames
+        left_s = left_s > 0.0 ? left_s : frame.t_s;  // samples are at the ends of frames
         const Vec3 arm = rotation_from_vector(spin * left_s) * Vec3(-0.2, 0.0, 0.0);
         const Vec3 expected = velocity + spin.cross(arm);
         figures.take_worst("throw_speed_error_mps",

@@ -1,4 +1,4 @@
-// More than one hand on one thing.
+// Scenes with more than one hand on a body.
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +7,9 @@
 #include "tools/lab/scenes.hpp"
 
 namespace handhold::lab {
-// One player with both hands on a lever, both exactly on their arcs; another, 10 m away, with both
-// on a free bar: hands never keep their distance, here they stray by 2 mm. The first keeps its
-// point, the second is on the line through both.
+// One player with both hands on a lever, both exactly on their arcs. Another, 10 m away, with both
+// hands on a free bar: their distance varies by 2 mm, as real hands' does. The first hand keeps its
+// anchor; the second is on the line through both.
 LabScene make_two_hands(const SceneOptions& /*options*/) {
     LabScene scene;
     const int lever = add_box(scene, "lever", 2.0, Vec3(0.015, 0.2, 0.015), Vec3(0.0, 0.2, 0.0));
@@ -28,7 +28,7 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
         on_lever.body = lever;
         on_lever.point_only = true;
         on_lever.hand_ps = [arm](double t_s) {
-            const double angle = to_and_fro(t_s, 1.6, k_hand_speed_mps / 0.4, 0.8) - 0.8;
+            const double angle = triangle_wave(t_s, 1.6, k_hand_speed_mps / 0.4, 0.8) - 0.8;
             return Pose{arm * Vec3(-std::sin(angle), std::cos(angle), 0.0), Quat::Identity()};
         };
         scene.add_hold(on_lever);
@@ -37,17 +37,17 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
         on_bar.side = side;
         on_bar.body = bar;
         on_bar.hand_ps = [is_left](double t_s) {
-            const Quat turn = rotation_about(Vec3::UnitY(), to_and_fro(t_s, 1.0, 2.0));
+            const Quat turn = rotation_about(Vec3::UnitY(), triangle_wave(t_s, 1.0, 2.0));
             const double stray = 0.002 * std::sin(2.0 * k_pi * 3.0 * t_s);
             const Vec3 hand =
                 turn * Vec3((is_left ? -0.2 : 0.2) + (is_left ? 0.0 : stray), 0.0, 0.0);
-            return Pose{hand + to_and_fro(t_s, 0.3, k_hand_speed_mps) * Vec3::UnitY(), turn};
+            return Pose{hand + triangle_wave(t_s, 0.3, k_hand_speed_mps) * Vec3::UnitY(), turn};
         };
         scene.add_hold(on_bar);
     }
     scene.players_still_until_s = k_never_s;
-    // Of hands without a time since when they hold the left one is the first. Holds: lever and bar
-    // of the left hand, then of the right one.
+    // If hands have no start time of their grip, the left one is the first. Holds: lever and bar of
+    // the left hand, then of the right one.
     scene.watch = [first = scene.holds[1], second = scene.holds[3]](const FrameRecord& frame,
                                                                     Figures& figures) {
         figures.take_worst("first_hand_error_mm",
@@ -60,13 +60,13 @@ LabScene make_two_hands(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Two players at the ends of one bar who pull it apart by 20 cm, ten times: their origins come
-// together by exactly as much.
+// Two players at the ends of one bar pull it apart by 20 cm, ten times: their origins move together
+// by exactly as much.
 LabScene make_two_players(const SceneOptions& /*options*/) {
     LabScene scene;
     const int bar = add_box(scene, "bar", 5.0, Vec3(0.6, 0.02, 0.02), Vec3::Zero());
     scene.players = {LabPlayer{Vec3(-0.5, 0.0, 0.0)}, LabPlayer{Vec3(0.5, 0.0, 0.0)}};
-    const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
+    const auto pull = [](double t_s) { return triangle_wave(t_s, 0.1, 0.2); };
     for (const int player : {0, 1}) {
         LabHold hold;
         hold.player = player;
@@ -79,7 +79,7 @@ LabScene make_two_players(const SceneOptions& /*options*/) {
     scene.needs_player = true;
     scene.watch = [pull](const FrameRecord& frame, Figures& figures) {
         const Vec3 apart = frame.poses[2].position - frame.poses[1].position;
-        // By the direction of the bar, which may turn.
+        // Along the bar's direction, since the bar may rotate.
         const Vec3 axis = frame.poses[0].rotation * Vec3::UnitX();
         figures.take_worst("push_back_error_mm",
                            1e3 * std::abs(apart.dot(axis) + 2.0 * pull(frame.t_s) - 1.0));
@@ -87,13 +87,13 @@ LabScene make_two_players(const SceneOptions& /*options*/) {
     return scene;
 }
 
-// Both hands on one fixed thing pull 20 cm apart: half of it is left on each.
+// Both hands on one fixed body pull 20 cm apart: each gets half of the error.
 LabScene make_contradict(const SceneOptions& /*options*/) {
     LabScene scene;
     const int rail = add_box(scene, "rail", 0.0, Vec3(0.5, 0.02, 0.02), Vec3::Zero());
     scene.bodies[static_cast<std::size_t>(rail)].kind = BodyKind::fixed;
     scene.players.emplace_back();
-    const auto pull = [](double t_s) { return to_and_fro(t_s, 0.1, 0.2); };
+    const auto pull = [](double t_s) { return triangle_wave(t_s, 0.1, 0.2); };
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const double sign = side == HandSide::left ? -1.0 : 1.0;
         LabHold hold;
@@ -117,20 +117,20 @@ LabScene make_contradict(const SceneOptions& /*options*/) {
 
 namespace {
 
-// Of a hand that pulls its player along a rail, trembling.
+// A hand that pulls its player along a rail, with tremor.
 Vec3 climbing_hand(double t_s) {
     const double tremor_m = 1e-3 * std::sin(2.0 * k_pi * 10.0 * t_s);
-    return {to_and_fro(t_s, 0.4, k_hand_speed_mps), tremor_m, 0.0};
+    return {triangle_wave(t_s, 0.4, k_hand_speed_mps), tremor_m, 0.0};
 }
 
-// Of the second one, which never keeps its distance.
+// Offset of the second hand, whose distance varies.
 Vec3 stray(double t_s) { return {0.002 * std::sin(2.0 * k_pi * 3.0 * t_s), 0.0, 0.0}; }
 
 }  // namespace
 
-// Two players pull themselves along one rail in the same way: one by the right hand, the other by
-// both, of which the left one leaves. His head goes half the way that his left hand
-// strays, and stays where that had it at the instant in which it leaves.
+// Two players pull themselves along one rail in the same way: one with the right hand, the other
+// with both, of which the left one releases. The second player's head moves by half of the left
+// hand's offset, and keeps the offset of the moment of release.
 LabScene make_climb(const SceneOptions& /*options*/) {
     LabScene scene;
     const int rail = add_box(scene, "rail", 0.0, Vec3(10.0, 0.02, 0.02), Vec3::Zero());
@@ -157,12 +157,12 @@ LabScene make_climb(const SceneOptions& /*options*/) {
     add(1, HandSide::right, k_never_s);
     add(1, HandSide::left, k_leaves_s);
     scene.needs_player = true;
-    // How far the head is from where a hand that never slips would have it.
+    // Distance of the head from where a hand without slip would put it.
     scene.watch = [aside, left_by = Vec3(Vec3::Zero()), held = true](const FrameRecord& frame,
                                                                      Figures& figures) mutable {
-        const Vec3 way = climbing_hand(frame.t_s) - climbing_hand(0.0);
-        const Vec3 one = frame.poses[1].position + way;
-        const Vec3 two = frame.poses[2].position - aside + way;
+        const Vec3 travel = climbing_hand(frame.t_s) - climbing_hand(0.0);
+        const Vec3 one = frame.poses[1].position + travel;
+        const Vec3 two = frame.poses[2].position - aside + travel;
         const bool holds = frame.held[2] != 0;
         if (held) {
             left_by = -0.5 * stray(frame.t_s);

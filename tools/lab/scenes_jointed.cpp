@@ -1,5 +1,5 @@
-// Things on a wall: a lever, a drawer, a door. In the first half of the run the hand goes where
-// they can follow; in the second it pulls them beyond.
+// Bodies jointed to a wall: a lever, a drawer, a door. In the first half of the run they can follow
+// the hand; in the second the hand pulls them beyond their range.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_lever_m = 0.4;
 
-// 0 up, `height` and back to 0, once a second: 5, 10, 20 cm in turn.
+// 0, up to `height` and back to 0, once per second; `height` is 5, 10 and 20 cm in turn.
 double pull_off(double t_s) {
     constexpr std::array k_heights = {0.05, 0.10, 0.20};
     if (t_s <= 0.0) {
@@ -24,7 +24,7 @@ double pull_off(double t_s) {
     return k_heights[turn] * smooth_step(rise, 0.0, 1.0);
 }
 
-// When the hand begins to pull too far: never where nobody would give way.
+// When the hand starts to pull too far; never if there is no player to yield.
 double half_time(const SceneOptions& options) {
     return options.holder == Holder::player ? 0.5 * options.duration_s : k_never_s;
 }
@@ -36,7 +36,7 @@ LabHold hold_body(const PathOfTime& path) {
     return hold;
 }
 
-// The thing, and the player who holds it.
+// Adds the body and the player who holds it.
 void add_jointed_body(LabScene& scene, const std::string& name, double mass_kg, const Vec3& half_m,
                       const Vec3& center_ws) {
     add_box(scene, name, mass_kg, half_m, center_ws);
@@ -57,17 +57,17 @@ LabScene make_lever(const SceneOptions& options) {
     scene.add_joint_at(hinge, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const double half_s = half_time(options);
     const double pull_s =
-        half_s + 0.2;  // once the lever is at rest: else it pushes him as it stops
+        half_s + 0.2;  // once the lever is at rest; else it pushes the player as it stops
     scene.add_hold(hold_body([half_s, pull_s](double t_s) {
         const double angle =
-            to_and_fro(std::min(t_s, half_s), 1.8, k_hand_speed_mps / k_lever_m, 0.9) - 0.9;
-        const double twist = to_and_fro(t_s, k_twist_rad, 2.0);
+            triangle_wave(std::min(t_s, half_s), 1.8, k_hand_speed_mps / k_lever_m, 0.9) - 0.9;
+        const double twist = triangle_wave(t_s, k_twist_rad, 2.0);
         return Pose{
             Vec3(-k_lever_m * std::sin(angle), k_lever_m * std::cos(angle), pull_off(t_s - pull_s)),
             rotation_about(Vec3(1.0, 2.0, -1.0).normalized(), twist)};
     }));
     scene.players_still_until_s = pull_s;
-    // Along the hinge the lever cannot follow: the player comes by as much.
+    // The lever cannot follow along its hinge axis, so the player moves by as much.
     scene.watch = [pull_s](const FrameRecord& frame, Figures& figures) {
         const Vec3 expected(0.0, 0.0, -pull_off(frame.t_s - pull_s));
         figures.take_worst("push_back_error_mm", 1e3 * (frame.poses[1].position - expected).norm());
@@ -85,11 +85,11 @@ LabScene make_drawer(const SceneOptions& options) {
     scene.add_joint_at(slider, {Vec3::Zero(), rotation_between(Vec3::UnitX(), Vec3::UnitZ())});
     const double half_s = half_time(options);
     scene.add_hold(hold_body([half_s](double t_s) {
-        const double out = t_s <= half_s ? to_and_fro(t_s, 0.28, k_hand_speed_mps)
-                                         : to_and_fro(half_s, 0.28, k_hand_speed_mps) +
+        const double out = t_s <= half_s ? triangle_wave(t_s, 0.28, k_hand_speed_mps)
+                                         : triangle_wave(half_s, 0.28, k_hand_speed_mps) +
                                                2.0 * pull_off(t_s - half_s);
         return Pose{Vec3(0.0, 0.1, out),
-                    rotation_about(Vec3::UnitX(), to_and_fro(t_s, k_twist_rad, 2.0))};
+                    rotation_about(Vec3::UnitX(), triangle_wave(t_s, k_twist_rad, 2.0))};
     }));
     scene.players_still_until_s = half_s;
     return scene;
@@ -106,12 +106,13 @@ LabScene make_door(const SceneOptions& options) {
     const double half_s = half_time(options);
     scene.add_hold(hold_body([half_s](double t_s) {
         constexpr double k_edge_m = 0.75;
-        const double turn = to_and_fro(t_s, 1.5, k_hand_speed_mps / k_edge_m);
-        const double angle = t_s <= half_s ? turn
-                                           : to_and_fro(half_s, 1.5, k_hand_speed_mps / k_edge_m) +
-                                                 4.0 * pull_off(t_s - half_s);
+        const double turn = triangle_wave(t_s, 1.5, k_hand_speed_mps / k_edge_m);
+        const double angle = t_s <= half_s
+                                 ? turn
+                                 : triangle_wave(half_s, 1.5, k_hand_speed_mps / k_edge_m) +
+                                       4.0 * pull_off(t_s - half_s);
         return Pose{Vec3(k_edge_m * std::cos(angle), 0.1, -k_edge_m * std::sin(angle)),
-                    rotation_about(Vec3::UnitZ(), to_and_fro(t_s, k_twist_rad, 2.0))};
+                    rotation_about(Vec3::UnitZ(), triangle_wave(t_s, k_twist_rad, 2.0))};
     }));
     scene.players_still_until_s = half_s;
     return scene;

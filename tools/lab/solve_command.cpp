@@ -25,11 +25,11 @@ PositionSolver position_solver(const std::string& name) {
     return name == "sweep" ? &solve_sweep : &solve_positions;
 }
 
-// Why these options say nothing sensible; empty where they do.
+// Why these options are inconsistent; empty if they are valid.
 std::string find_objection(const SolveOptions& options, const LabScene& scene) {
     if (options.holder == "kinematic" && scene.needs_player) {
         return "scene " + scene.name +
-               ": its hand goes where what it holds cannot: it needs --holder player";
+               ": the hand moves beyond the held body's range, so it needs --holder player";
     }
     if (options.solver == "bullet" && !scene.beyond_bullet.empty()) {
         return "scene " + scene.name + ": Bullet cannot express " + scene.beyond_bullet;

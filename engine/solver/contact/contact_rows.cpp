@@ -1,3 +1,4 @@
+// Solver, contact: turns contact points into constraint blocks.
 #include "engine/solver/contact/contact_rows.hpp"
 
 #include <algorithm>

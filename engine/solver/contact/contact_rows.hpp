@@ -1,3 +1,5 @@
+// Solver, contact: turns contact points into constraint blocks.
+
 #pragma once
 
 #include <span>
@@ -7,8 +9,8 @@
 
 namespace handhold {
 
-// Replaces the graph's contact rows by those of `contacts` and finds the islands again. Every id
-// must be one of graph.bodies (PreconditionError).
+// Replaces the graph's contact blocks by those of `contacts` and rebuilds the islands. Every id
+// must be in graph.bodies, else PreconditionError.
 void replace_contact_rows(std::span<const ContactPoint> contacts, ConstraintGraph& graph);
 
 }  // namespace handhold

@@ -1,3 +1,5 @@
+// Solver, contact: overlaps that a sweep cannot see, found by a query without sweeps.
+
 #pragma once
 
 #include <cstdint>
@@ -7,7 +9,7 @@
 
 namespace handhold {
 
-// What one body lies in deepest: 0 and itself where that is nothing.
+// The deepest overlap of one body; depth 0 and the body itself if there is none.
 struct Overlap {
     double depth_m = 0.0;
     std::uint32_t with = 0;  // into ConstraintGraph::bodies
@@ -19,12 +21,11 @@ struct MissedOverlaps {
     std::vector<std::uint8_t> is_suspect;  // scratch, by body
 };
 
-// What was swept is met where its way first touches a thing, and no other part of that thing
-// counts; what it only grazes on the way counts nowhere. A bag that leans on a rack and turns may
-// end up with its far end in the same rack. Looks at what moved by more than is swept, against the
-// world or what it touches, where it is now. Call once contacts have been refreshed at the bodies'
-// poses.
+// A sweep reports only the first touch of each pair, and no pair that is merely grazed on the way.
+// A body that leans on another and rotates can therefore end with its far side inside the same
+// body. Queries all bodies that moved by more than `limits.sweep_m`, absolutely or relative to a
+// body they touch, at their current poses. Call after contacts have been refreshed at these poses.
 void find_missed_overlaps(const MovingContacts& moving, const ContactLimits& limits,
-                          MissedOverlaps& hidden);
+                          MissedOverlaps& missed);
 
 }  // namespace handhold

@@ -1,3 +1,4 @@
+// Solver, contact: refreshes contacts at the poses a solve ended with.
 #include "engine/solver/contact/moving_contacts.hpp"
 
 #include <algorithm>
@@ -7,29 +8,31 @@
 
 #include "engine/solver/contact/contact_rows.hpp"
 #include "engine/solver/model/collider_pose.hpp"
+#include "engine/solver/newton/settings.hpp"
 
 namespace handhold {
 namespace {
 
 constexpr double k_moved_m = 1e-5;  // colliders that moved less keep their contacts
 constexpr double k_max_slide_m =
-    5e-3;  // a point whose bodies slid farther touches something else now
+    5e-3;  // A contact point whose bodies slid farther than this is dropped.
 constexpr double k_same_point_m = 1e-3;
 constexpr double k_same_normal = 0.99;
+constexpr double k_touch_m = VelocitySettings{}.touch_m;
 
-// True where a collider went farther than contacts stay good for.
-bool went_far(const Pose& from, const Pose& to) {
+// True if a collider moved farther than its contacts stay valid.
+bool exceeds_contact_motion(const Pose& from, const Pose& to) {
     const double square = (to.position - from.position).squaredNorm();
     if (square > k_moved_m * k_moved_m) {
         return true;
     }
-    const double way = std::sqrt(square);
-    const double turn = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
-    return way + turn * 0.5 > k_moved_m;
+    const double translation_m = std::sqrt(square);
+    const double rotation_rad = 2.0 * (to.rotation.conjugate() * from.rotation).vec().norm();
+    return translation_m + rotation_rad * 0.5 > k_moved_m;
 }
 
-// Moves the colliders after the solver's bodies; true where any went farther than contacts stay
-// good for. What has no collider touches nothing, wherever its proxy is.
+// Moves the proxies to the solver's bodies; true if any moved farther than its contacts stay valid.
+// Bodies without a collider are skipped.
 bool move_proxies(const MovingContacts& moving) {
     bool moved = false;
     for (std::size_t i = 0; i < moving.graph.bodies.size(); ++i) {
@@ -39,7 +42,7 @@ bool move_proxies(const MovingContacts& moving) {
         }
         ColliderProxy& proxy = moving.proxies[i];
         const Pose now = collider_pose(body);
-        if (went_far(proxy.to_ws, now)) {
+        if (exceeds_contact_motion(proxy.to_ws, now)) {
             proxy.to_ws = now;
             moved = true;
         }
@@ -54,48 +57,75 @@ bool is_pair_before(const ContactPoint& x, const ContactPoint& y) {
     return std::tie(x.id_a, x.id_b) < std::tie(y.id_a, y.id_b);
 }
 
-bool slid_away(const ConstraintGraph& graph, const ContactPoint& contact) {
+// The distance between a contact's two points at the bodies' current poses.
+struct PointOffset {
+    double normal_m = 0.0;   // along the normal; negative if penetrating
+    double tangent_m = 0.0;  // across it
+};
+PointOffset offset_of(const ConstraintGraph& graph, const ContactPoint& contact) {
     const auto pose_of = [&graph](std::uint64_t id) {
         return collider_pose(graph.bodies[find_body(graph, id)]);
     };
     const Pose b = pose_of(contact.id_b);
-    const Vec3 apart = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
-                       transform_point(b, contact.point_b_bs);
+    const Vec3 offset = transform_point(pose_of(contact.id_a), contact.point_a_bs) -
+                        transform_point(b, contact.point_b_bs);
     const Vec3 normal = b.rotation * contact.normal_b_bs;
-    return (apart - normal * normal.dot(apart)).norm() > k_max_slide_m;
+    const double normal_m = normal.dot(offset);
+    return {normal_m, (offset - normal * normal_m).norm()};
 }
 
-bool is_among(const ContactPoint& contact, std::span<const ContactPoint> points) {
+bool has_slid_apart(const ConstraintGraph& graph, const ContactPoint& contact) {
+    return offset_of(graph, contact).tangent_m > k_max_slide_m;
+}
+
+// True if the solve met this contact exactly: it limited the motion.
+bool limited_motion(const ConstraintGraph& graph, const ContactPoint& contact) {
+    return std::abs(offset_of(graph, contact).normal_m) < k_touch_m;
+}
+
+bool any_touches(std::span<const ContactPoint> points) {
+    return std::ranges::any_of(
+        points, [](const ContactPoint& point) { return point.separation_m < k_touch_m; });
+}
+
+bool has_same_point(const ContactPoint& contact, std::span<const ContactPoint> points) {
     return std::ranges::any_of(points, [&contact](const ContactPoint& point) {
         return (point.point_a_bs - contact.point_a_bs).norm() < k_same_point_m &&
                point.normal_b_bs.dot(contact.normal_b_bs) > k_same_normal;
     });
 }
 
-// New contacts replace the old ones of their pairs or join them; old pairs that are no longer near
-// stay, they hold back what they held back. Both lists are sorted.
+// Merges old and new contacts; both lists are sorted. New contacts replace the old ones of their
+// pair, or join them (OldPoints). Pairs that are no longer found keep their old contacts, because
+// those are what separates the pair. So do pairs whose new contacts are all apart, for the contacts
+// that limited the motion: a ball that is deflected by a rail slides along the contact's plane and
+// ends a little off the rail, and yet the impact at the old point must change its velocity.
 void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
     std::vector<ContactPoint>& merged = moving.scratch;
-    const std::size_t fresh_count = merged.size();
-    std::size_t first = 0;  // of the fresh ones of the old one's pair, up to end
+    const std::size_t new_count = merged.size();
+    std::size_t first = 0;  // range of the new contacts of the old contact's pair
     std::size_t end = 0;
-    std::uint32_t feature = 0;  // the pair's last
+    std::uint32_t feature = 0;  // highest feature id of the pair
     for (std::size_t i = 0; i < moving.contacts.size(); ++i) {
         ContactPoint old = moving.contacts[i];
         if (i == 0 || is_pair_before(moving.contacts[i - 1], old)) {
             first = end;
-            while (first < fresh_count && is_pair_before(merged[first], old)) {
+            while (first < new_count && is_pair_before(merged[first], old)) {
                 ++first;
             }
             end = first;
-            while (end < fresh_count && !is_pair_before(old, merged[end])) {
+            while (end < new_count && !is_pair_before(old, merged[end])) {
                 feature = merged[end++].feature;
             }
         }
-        if (first == end) {
+        const auto found = std::span(merged).subspan(first, end - first);
+        if (found.empty()) {
             merged.push_back(old);
-        } else if (old_points == OldPoints::kept && !slid_away(moving.graph, old) &&
-                   !is_among(old, std::span(merged).subspan(first, end - first))) {
+        } else if (!any_touches(found) && limited_motion(moving.graph, old)) {
+            old.feature = ++feature;
+            merged.push_back(old);
+        } else if (old_points == OldPoints::kept && !has_slid_apart(moving.graph, old) &&
+                   !has_same_point(old, found)) {
             old.feature = ++feature;
             merged.push_back(old);
         }

@@ -1,3 +1,5 @@
+// Solver, contact: refreshes contacts at the poses a solve ended with.
+
 #pragma once
 
 #include <cstdint>
@@ -6,32 +8,33 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/solver/model/islands.hpp"
 
-// Contacts that are found again where a solve left the bodies.
 namespace handhold {
 
-// A contact found on a solve's result counts as overlap from here: Bullet's own noise is below.
+// Penetration depth above which a new contact counts as overlapping; Bullet's noise is below.
 inline constexpr double k_new_overlap_m = 2e-5;
 
 struct MovingContacts {
     CollisionWorld& collision;
-    std::vector<ColliderProxy>& proxies;  // as graph.bodies, but for the world; follow them
-    std::vector<ContactPoint>& contacts;  // in/out, sorted by pair and feature
-    ConstraintGraph& graph;               // out: contact rows, islands
-    std::vector<ContactPoint>& scratch;   // the contacts before, when done
+    // In/out: one per body of graph.bodies, except the world; follow the bodies.
+    std::vector<ColliderProxy>& proxies;
+    std::vector<ContactPoint>& contacts;  // in/out; sorted by pair and feature
+    ConstraintGraph& graph;               // out: contact blocks, islands
+    std::vector<ContactPoint>& scratch;   // scratch; afterwards the previous contacts
 };
 
-// What becomes of points found before, of a pair that is found again.
+// What happens to the old contact points of a pair for which new ones are found.
 enum class OldPoints : std::uint8_t {
     replaced,
-    kept,  // those that the bodies have not slid away from: a round edge that rolls from one point
-           // to the next is met by all of them
+    // Old points from which the bodies have not slid apart are kept beside the new ones. A round
+    // edge that rolls from one point to the next needs all of them.
+    kept,
 };
 
 enum class FoundContacts : std::uint8_t { unchanged, clear, overlapping };
 
-// Sweeps colliders from their last valid pose to where the solver's bodies are now, and makes the
-// contacts found there the graph's rows; islands are built anew. As before, and nothing done, where
-// no collider moved.
+// Finds contacts by sweeping colliders from their last valid poses to the solver's current poses,
+// makes them the graph's contact blocks and rebuilds the islands. Returns `unchanged` and does
+// nothing if no collider moved.
 FoundContacts refresh_contacts(const MovingContacts& moving, const ContactLimits& limits,
                                OldPoints old_points);
 

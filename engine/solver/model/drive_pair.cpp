@@ -1,20 +1,22 @@
-// Sources: swing and twist as in Dobrowolski, Swing-twist decomposition in Clifford algebra (2015).
+// Solver, model: the rotation that two drives give one body.
+// Source: swing-twist decomposition as in Dobrowolski, Swing-twist decomposition in Clifford
+// algebra (2015).
 #include "engine/solver/model/drive_pair.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_no_line_m = 1e-6;
+constexpr double k_min_line_m = 1e-6;
 
 }  // namespace
 
 Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     const Vec3 apart = drives.second.position - drives.first.position;
     const Vec3 apart_bs = drives.second_anchor_bs.position - drives.first_anchor_bs.position;
-    if (apart.norm() < k_no_line_m || apart_bs.norm() < k_no_line_m) {
+    if (apart.norm() < k_min_line_m || apart_bs.norm() < k_min_line_m) {
         return near;
     }
-    // Direction first, twist second: turning about the line keeps the direction.
+    // First the direction, then the twist: a rotation about the line keeps the direction.
     const Vec3 line = apart.normalized();
     const Quat lined = rotation_between((near * apart_bs).normalized(), line) * near;
     double sine = 0.0;
@@ -27,7 +29,7 @@ Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near) {
     };
     add(drives.first.rotation, drives.first_anchor_bs.rotation);
     add(drives.second.rotation, drives.second_anchor_bs.rotation);
-    // Half-angle vectors of equal length: their sum points half way between them.
+    // The half-angle vectors have equal length, so their sum points midway between them.
     return (rotation_about(line, 2.0 * arc_tangent2(sine, cosine)) * lined).normalized();
 }
 

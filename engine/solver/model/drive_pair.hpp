@@ -1,14 +1,16 @@
+// Solver, model: two drives on one free body, without a least-squares compromise. The first drive
+// holds a point (drive_point, 3 rows), the body's rotation is held by drive_direction (3 rows) at
+// the rotation computed here. Six equations for six degrees of freedom can always be satisfied.
+
 #pragma once
 
 #include "engine/math/math.hpp"
 
-// Two hands on one free body, without a compromise: the first hand's point is on its anchor, and
-// the body is turned as here. That is six equations for six degrees of freedom, met whatever the
-// hands do.
 namespace handhold {
 
-// The hands in one space, which the rotations below are seen in too; anchors in the body's frame.
-// Both the hands and the anchors lie apart.
+// Both drive poses in one space, in which the resulting rotation is also expressed. Anchors are in
+// the body's frame. Preconditions: the two drive positions differ, and so do the two anchor
+// positions.
 struct DrivePair {
     Pose first;
     Pose second;
@@ -16,14 +18,18 @@ struct DrivePair {
     Pose second_anchor_bs;
 };
 
-// How the body has to be turned so that
-// - the line between the anchors lies along that between the hands: with the first hand on its
-//   anchor the second is on the line through both, and may slide along it;
-// - about that line the hands' twists against their anchors are as much to one side as to the
-//   other. A hand counts by the cosine of half its swing out of the line: one that is turned about
-//   by half a turn has no twist, and no say.
-// `near`, any rotation within half a turn of both hands' twists, says which turns are meant.
-// Returns `near` where hands or anchors are closer than a micrometre.
+// Returns the body rotation for which
+// - the line between the anchors is parallel to the line between the drives. With the first drive
+//   on
+//   its anchor, the second drive is on the line through both anchors and may slide along it;
+// - the twists of the two drives against their anchors about that line cancel. A drive is weighted
+//   by
+//   the cosine of half its swing out of the line: a drive swung by half a turn has no defined twist
+//   and weight 0.
+//
+// `near` selects among rotations a whole turn apart: any rotation within half a turn of both
+// drives' twists. Returns `near` if the drives or the anchors are closer together than a
+// micrometre.
 Quat rotation_from_drive_pair(const DrivePair& drives, const Quat& near);
 
 }  // namespace handhold

@@ -1,3 +1,5 @@
+// Solver, model: torque-free rotation of rigid bodies, four bodies at a time. The equations and
+// their source are in free_rotation.hpp.
 #include "engine/solver/model/free_rotation.hpp"
 
 #include <span>
@@ -9,14 +11,15 @@ namespace {
 
 using FreeRotation4 = FreeRotations::FreeRotation4;
 
-// One of a body's three axes: its moment, and what the momentum and the rotation's vector have
-// along it.
+// One principal axis of four bodies: its moment of inertia, and the components of the angular
+// momentum and of the rotation quaternion's vector part along it.
 struct PrincipalAxis {
     Double4 inertia;
     Double4 momentum;
     Double4 vector;
 };
-// From the smallest moment to the largest. An odd number of exchanges mirrors them: `hand` is -1.
+// The axes sorted by moment, smallest first. `handedness` is -1 if an odd number of exchanges has
+// mirrored the axes, else +1.
 struct SortedAxes {
     PrincipalAxis axis[3];
     Double4 handedness;
@@ -42,9 +45,9 @@ struct Sines4 {
     Double4 sine, cosine;
 };
 
-// Turns the bodies about one of their own axes, by the sines of half the angle; the momentum stays
-// in the world, so it turns back in the body. `following` and `remaining` come after it in the
-// order of a right hand.
+// Rotates the bodies about one of their own axes; `half` holds sine and cosine of half the angle.
+// The angular momentum is constant in the world, so its body-frame components rotate the opposite
+// way. `about`, `following`, `remaining` are in right-handed cyclic order.
 HH_INLINE void turn_about_axis(const Sines4& half, const Double4& handedness, PrincipalAxis& about,
                                PrincipalAxis& following, PrincipalAxis& remaining, Double4& w) {
     const Double4& s = half.sine;
@@ -76,42 +79,45 @@ HH_INLINE Double4 steps_for(const Double4& spin_radps, double dt_s) {
     const Double4 wanted = spin_radps * dt_s / k_largest_turn_rad;
     const Double4 nearest = (wanted + k_last_place_one) - k_last_place_one;
     const Double4 up = nearest < wanted ? nearest + 1.0 : nearest;
-    const Double4 some = larger(zero4() + 1.0, up);
-    return some < k_max_steps ? some : zero4() + k_max_steps;
+    const Double4 at_least_one = larger(zero4() + 1.0, up);
+    return at_least_one < k_max_steps ? at_least_one : zero4() + k_max_steps;
 }
 
-HH_INLINE void turn_others(double dt_s, const Double4& spin_radps, const Double4& of_least,
-                           const Double4& of_most, SortedAxes& axes, Double4& w) {
-    PrincipalAxis& least = axes.axis[0];
+HH_INLINE void turn_asymmetric(double dt_s, const Double4& spin_radps, const Double4& min_rate,
+                               const Double4& max_rate, SortedAxes& axes, Double4& w) {
+    PrincipalAxis& minor = axes.axis[0];
     PrincipalAxis& middle = axes.axis[1];
-    PrincipalAxis& most = axes.axis[2];
+    PrincipalAxis& major = axes.axis[2];
     const Double4 steps = steps_for(spin_radps, dt_s);
     const Double4 step_s = dt_s / steps;
     const double count = largest(steps);
     for (double i = 0.0; i < count; i += 1.0) {
-        const Double4 now_s = steps > i ? step_s : zero4();  // some are there before others
+        const Double4 now_s = steps > i ? step_s : zero4();  // lanes that are done do nothing
         const Double4 half_s = 0.5 * now_s;
-        turn_about_axis(half_s * of_least * least.momentum, axes.handedness, least, middle, most,
+        turn_about_axis(half_s * min_rate * minor.momentum, axes.handedness, minor, middle, major,
                         w);
-        turn_about_axis(now_s * of_most * most.momentum, axes.handedness, most, least, middle, w);
-        turn_about_axis(half_s * of_least * least.momentum, axes.handedness, least, middle, most,
+        turn_about_axis(now_s * max_rate * major.momentum, axes.handedness, major, minor, middle,
+                        w);
+        turn_about_axis(half_s * min_rate * minor.momentum, axes.handedness, minor, middle, major,
                         w);
     }
 }
 
-// A four on its way through the stages below.
+// Intermediate values of four bodies, passed between the stages below.
 struct Rotation4 {
     Wide3 momentum_ws;
     SortedAxes axes;
-    Mask4 exchanged[3];         // of the axes, in turn
-    Double4 of_least, of_most;  // 1 / moment: what the outer axes have more or less than the middle
-    Wide3 turn;        // the part all three moments share: about the momentum, in the world
-    Double4 turn_rad;  // its length
-    Double4 top_rad;   // tops: of the turn about their own axis
+    Mask4 exchanged[3];  // which exchanges sorted the axes, in order
+    // 1/moment of the outer axis minus 1/moment of the middle axis, 1/(kg m^2).
+    Double4 min_rate, max_rate;
+    // The rotation common to all three axes: a rotation vector along the momentum, world axes.
+    Wide3 turn;
+    Double4 turn_rad;  // length of `turn`
+    Double4 top_rad;   // symmetric tops: angle about the symmetry axis
     Sines4 half_turn, half_top;
 };
 
-// Energy = m^2 / (2 I_middle) + what the outer two axes have more or less.
+// Energy = |m|^2 / (2 I_middle) + the differences of the two outer axes, m the angular momentum.
 HH_INLINE void begin_turn(double dt_s, const FreeRotation4& bodies, Rotation4& out) {
     const WideAxes before = axes_of(bodies.rotation);
     const Wide3 spin_bs = rotate_back(before, bodies.spin);
@@ -126,25 +132,25 @@ HH_INLINE void begin_turn(double dt_s, const FreeRotation4& bodies, Rotation4& o
     out.exchanged[1] = sort_two(axes.axis[1], axes.axis[2], axes.handedness);
     out.exchanged[2] = sort_two(axes.axis[0], axes.axis[1], axes.handedness);
     const Double4 shared = 1.0 / axes.axis[1].inertia;
-    out.of_least = 1.0 / axes.axis[0].inertia - shared;
-    out.of_most = 1.0 / axes.axis[2].inertia - shared;
+    out.min_rate = 1.0 / axes.axis[0].inertia - shared;
+    out.max_rate = 1.0 / axes.axis[2].inertia - shared;
     const Wide3 turn = (dt_s * shared) * momentum_ws;
     out.turn_rad = square_root(dot(turn, turn));
-    const Mask4 is_most = out.of_most != 0.0;
-    out.top_rad = dt_s * (is_most ? out.of_most : out.of_least) *
-                  (is_most ? axes.axis[2].momentum : axes.axis[0].momentum);
+    const Mask4 about_max = out.max_rate != 0.0;
+    out.top_rad = dt_s * (about_max ? out.max_rate : out.min_rate) *
+                  (about_max ? axes.axis[2].momentum : axes.axis[0].momentum);
     assign(turn, out.turn);
     assign(momentum_ws, out.momentum_ws);
     out.axes = axes;
 }
 
-// Bodies two of whose moments are equal turn about one axis of their own only, and exactly.
+// Symmetric tops (two equal moments) rotate about one body axis only, which is exact.
 HH_INLINE void turn_tops(const Rotation4& turning, SortedAxes& axes, Double4& w) {
-    const Mask4 is_most = turning.of_most != 0.0;
+    const Mask4 about_max = turning.max_rate != 0.0;
     Double4 handedness = axes.handedness;
-    exchange(is_most, axes.axis[0], axes.axis[2], handedness);
+    exchange(about_max, axes.axis[0], axes.axis[2], handedness);
     turn_about_axis(turning.half_top, handedness, axes.axis[0], axes.axis[1], axes.axis[2], w);
-    exchange(is_most, axes.axis[0], axes.axis[2], handedness);
+    exchange(about_max, axes.axis[0], axes.axis[2], handedness);
 }
 
 template <bool AreTops>
@@ -154,8 +160,8 @@ HH_INLINE void turn_four(double dt_s, const Rotation4& turning, FreeRotation4& b
     if (AreTops) {
         turn_tops(turning, axes, w);
     } else {
-        turn_others(dt_s, square_root(dot(bodies.spin, bodies.spin)), turning.of_least,
-                    turning.of_most, axes, w);
+        turn_asymmetric(dt_s, square_root(dot(bodies.spin, bodies.spin)), turning.min_rate,
+                        turning.max_rate, axes, w);
     }
     Double4 handedness = axes.handedness;
     exchange(turning.exchanged[2], axes.axis[0], axes.axis[1], handedness);
@@ -169,7 +175,7 @@ HH_INLINE void turn_four(double dt_s, const Rotation4& turning, FreeRotation4& b
            bodies.rotation);
 }
 
-// From the momentum in the world, which is what it was: no rounding adds up.
+// Recomputes the spin from the conserved world momentum, so that rounding does not accumulate.
 HH_INLINE void write_spin(const Rotation4& turning, FreeRotation4& bodies) {
     const Wide3& inertia = bodies.inertia;
     const WideAxes after = axes_of(bodies.rotation);
@@ -178,8 +184,8 @@ HH_INLINE void write_spin(const Rotation4& turning, FreeRotation4& bodies) {
            bodies.spin);
 }
 
-// Stage by stage: a four's numbers wait for each other in long chains, and while one waits the
-// processor looks ahead to the next only where that is near.
+// Stage by stage over all groups of four: each stage is a long dependency chain, and a processor
+// overlaps the chains of neighbouring groups only if they are close together in the code.
 template <bool AreTops>
 HH_INLINE void advance_fours(double dt_s, std::span<FreeRotation4> fours) {
     Rotation4 turnings[FreeRotations::k_fours];
@@ -261,7 +267,7 @@ void FreeRotations::advance(Kind kind) {
     if (batch.count == 0) {
         return;
     }
-    // What has no body in the last four is a sphere at rest.
+    // Empty lanes of the last group hold a sphere at rest.
     const std::size_t fours = (batch.count + k_lanes - 1) / k_lanes;
     for (std::size_t place = batch.count; place < fours * k_lanes; ++place) {
         write(place, Vec3::Ones(), Quat::Identity(), Vec3::Zero(), batch);

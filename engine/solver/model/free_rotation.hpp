@@ -1,3 +1,5 @@
+// Solver, model: torque-free rotation of rigid bodies, used to predict poses before the solve.
+
 #pragma once
 
 #include <array>
@@ -9,24 +11,25 @@
 
 namespace handhold {
 
-// Turns bodies on which nothing acts by dt_s, four at a time; what happens to one does not depend
-// on the other three. Keeps the angular momentum to rounding and the energy to a fraction that does
-// not grow with time, up to 64 rad in dt_s; what claims to spin at 1e6 rad/s or more stays as it
-// is; exact for spheres and symmetric tops. The energy is split after Dullweber, Leimkuhler and
-// McLachlan (1997, J. Chem. Phys. 107, 5840), with the part all three moments share taken out
-// first, which commutes with the rest.
+// Rotates torque-free bodies by dt_s, four at a time. The result of a body does not depend on the
+// other three. Angular momentum is kept to rounding. The energy error is bounded and does not grow
+// with time, for rotations up to 64 rad per dt_s. Exact for spheres and symmetric tops. A body with
+// a spin of 1e6 rad/s or more is left unchanged.
+//
+// Method: energy splitting after Dullweber, Leimkuhler and McLachlan (1997, J. Chem. Phys. 107,
+// 5840). The rotation common to all three axes is factored out first; it commutes with the rest.
 class FreeRotations {
   public:
     explicit FreeRotations(double dt_s, Vectors vectors = fastest_vectors())
         : dt_s_(dt_s), vectors_(vectors) {}
 
-    // `rotation` body to world, `spin_radps` in world axes, principal moments all > 0. Both are
-    // written by the time of `finish`, not before: they must stay where they are.
+    // `rotation` maps body to world, `spin_radps` is in world axes, all principal moments are > 0.
+    // Both references are written no later than `finish` and must stay valid until then.
     void add(const Vec3& inertia_kgm2, Quat& rotation, Vec3& spin_radps);
     void finish();
 
-    // Bodies are turned so many fours at once: what was written number by number has reached the
-    // cache before it is read four at a time.
+    // Groups of four processed per batch. Batching lets the scalar stores reach the cache before
+    // the vector loads read them.
     static constexpr std::size_t k_fours = 8;
     // Lane i is the i-th of four bodies.
     struct FreeRotation4 {

@@ -1,3 +1,4 @@
+// Solver, model: which blocks of an island a solve includes.
 #include "engine/solver/model/island_view.hpp"
 
 namespace handhold {

@@ -1,3 +1,5 @@
+// Solver, model: one island of the constraint graph, as a solve receives it.
+
 #pragma once
 
 #include <cstdint>
@@ -10,18 +12,18 @@ namespace handhold {
 enum class BlockFilter : std::uint8_t { all, without_contacts, without_drives };
 bool passes(BlockFilter filter, const RowBlock& block);
 
-// An island's part of the graph. Blocks between two bodies with zero inverse mass are passed over.
+// A view of one island. Blocks between two bodies with zero inverse mass are skipped.
 struct IslandView {
     BlockFilter filter = BlockFilter::all;
-    std::span<SolverBody> bodies;  // of the whole graph
+    std::span<SolverBody> bodies;  // of the whole graph; indexed by island_bodies
     std::span<RowBlock> blocks;
     std::span<const std::uint32_t> island_bodies;
     std::span<const std::uint32_t> island_blocks;
     std::uint64_t revision =
-        0;  // the graph's: within one, islands and blocks are the same; 0: unknown
+        0;  // Revision of the graph. Islands and blocks are unchanged while it is; 0: unknown.
 };
 
-// True where the filter lets the block pass and something in it can move.
+// True if the filter includes the block and at least one of its bodies can move.
 bool takes_part(const IslandView& island, const RowBlock& block);
 
 }  // namespace handhold

@@ -1,3 +1,4 @@
+// Solver, model: island building by union-find, in an order that depends on persistent ids only.
 #include "engine/solver/model/islands.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
 
 bool is_movable(const SolverBody& body) { return body.role != BodyRole::fixed; }
 
-// The smaller index is the root, so that an island is found at its first body.
+// The smaller index becomes the root, so an island is identified by its first body.
 void unite_blocks(ConstraintGraph& graph) {
     graph.parent.resize(graph.bodies.size());
     std::iota(graph.parent.begin(), graph.parent.end(), 0U);
@@ -28,7 +29,7 @@ void unite_blocks(ConstraintGraph& graph) {
         }
         graph.root_of_block.push_back(moves_a ? block.a : block.b);
     }
-    // A root comes before all others of its set: from here on every body's parent is its root.
+    // A root precedes all other members of its set, so one pass makes every body's parent its root.
     for (std::uint32_t& parent : graph.parent) {
         parent = graph.parent[parent];
     }
@@ -37,7 +38,8 @@ void unite_blocks(ConstraintGraph& graph) {
     }
 }
 
-// Counting sort: counts into the `end`s, offsets, then places in ascending order.
+// Counting sort: the counts are in the `end` fields; turns them into offsets, then places members
+// in ascending order.
 void place_members(ConstraintGraph& graph) {
     std::uint32_t bodies = 0;
     std::uint32_t blocks = 0;
@@ -64,7 +66,7 @@ void place_members(ConstraintGraph& graph) {
     }
 }
 
-// True where bodies and blocks are tied as they were when the islands were built.
+// True if movability and the bodies of every block are as when the islands were built.
 bool has_same_topology(const ConstraintGraph& graph) {
     const auto is_same_body = [](const SolverBody& body, std::uint8_t was_movable) {
         return is_movable(body) == (was_movable != 0);
@@ -87,7 +89,7 @@ void record_topology(ConstraintGraph& graph) {
     }
 }
 
-// Bodies are written anew in every frame.
+// Bodies are rewritten every frame, so their slots must be too.
 void assign_slots(ConstraintGraph& graph) {
     for (const Island& island : graph.islands) {
         std::uint32_t slot = 0;
@@ -108,7 +110,7 @@ std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id) {
                : graph.bodies.size();
 }
 
-// Blocks are large: their places are sorted, and each is copied once, or not at all.
+// Blocks are large, so an index array is sorted and each block is copied at most once.
 void sort_blocks(ConstraintGraph& graph) {
     using Place = ConstraintGraph::BlockPlace;
     const auto is_before = [](const Place& x, const Place& y) {
@@ -144,7 +146,7 @@ void build_islands(ConstraintGraph& graph) {
     graph.islands.clear();
     graph.island_of_root.assign(graph.bodies.size(), k_none);
     for (const std::uint32_t root : graph.root_of_block) {
-        graph.island_of_root[root] = 0;  // has an island; numbered below
+        graph.island_of_root[root] = 0;  // marks the island; numbered below
     }
     for (std::uint32_t i = 0; i < graph.bodies.size(); ++i) {
         if (graph.parent[i] == i && graph.island_of_root[i] != k_none) {

@@ -1,3 +1,6 @@
+// Solver, model: the frame's constraint graph and its islands, that is, the sets of bodies that can
+// push one another.
+
 #pragma once
 
 #include <algorithm>
@@ -9,7 +12,6 @@
 
 #include "engine/solver/model/rows.hpp"
 
-// The frame's constraints as a graph, and its islands: sets of bodies that can push one another.
 namespace handhold {
 
 struct Island {
@@ -23,10 +25,11 @@ struct ConstraintGraph {
     std::vector<SolverBody> bodies;  // sorted by id
     std::vector<RowBlock> blocks;    // sorted: see sort_blocks
     // Written by build_islands.
-    std::vector<Island> islands;               // by their first body
-    std::vector<std::uint32_t> island_bodies;  // ascending within an island: so by id
+    std::vector<Island> islands;  // ordered by their first body
+    // ascending within an island, hence sorted by persistent id
+    std::vector<std::uint32_t> island_bodies;
     std::vector<std::uint32_t> island_blocks;  // ascending within an island
-    std::uint64_t revision = 0;                // grows with every build_islands
+    std::uint64_t revision = 0;                // incremented by every build_islands
 
     std::span<const std::uint32_t> bodies_of(const Island& island) const {
         return std::span(island_bodies)
@@ -37,9 +40,9 @@ struct ConstraintGraph {
             .subspan(island.blocks_begin, island.blocks_end - island.blocks_begin);
     }
 
-    // What the islands were built from: they stay as long as it does.
+    // Topology the islands were built from; the islands are kept while it is unchanged.
     std::vector<std::uint8_t> are_movable;                   // by body
-    std::vector<std::array<std::uint32_t, 2>> block_bodies;  // by block: its bodies
+    std::vector<std::array<std::uint32_t, 2>> block_bodies;  // by block: its two bodies
 
     // Scratch of sort_blocks and build_islands.
     struct BlockPlace {
@@ -56,26 +59,27 @@ struct ConstraintGraph {
     std::vector<std::uint32_t> root_of_block;
 };
 
-// Index of the body with this id, or bodies.size(). Bodies are sorted by id.
+// Index of the body with this id, or bodies.size() if there is none. Bodies must be sorted by id.
 std::size_t find_body(const ConstraintGraph& graph, std::uint64_t id);
 
-// By the bodies' ids, then kind, then key: the order in which rows were found never shows.
+// Sorts blocks by their bodies' ids, then kind, then key. The order of detection has no effect on
+// the result.
 void sort_blocks(ConstraintGraph& graph);
 
-// Connected components over the bodies that any phase may move: everything but fixed ones. Bodies
-// without a block have no island.
+// Finds connected components over all bodies that some phase may move (every role but `fixed`).
+// Bodies without a block belong to no island. Also assigns SolverBody::slot.
 void build_islands(ConstraintGraph& graph);
 
-// Indices of islands by their blocks, most first, of equal ones in order: threads that take them so
-// wait least for each other.
+// Sorts island indices by block count, largest first, ties by index. Threads that take islands in
+// this order finish at about the same time.
 void sort_largest_first(const ConstraintGraph& graph, std::span<std::uint32_t> islands);
 
-// The worst error of each kind of row at the present poses, or a bound on it, metres.
+// The largest error of each kind of block at the current poses, or an upper bound on it, metres.
 struct IslandErrors {
     double drives_m = 0.0;
     double joints_m = 0.0;
     double contacts_m = 0.0;
-    std::optional<JointError> joints;  // the joints' own, not a bound, where a solve has told it
+    std::optional<JointError> joints;  // exact joint errors, if a solve has reported them
 
     double without_drives_m() const { return std::max(joints_m, contacts_m); }
     double worst_m() const { return std::max(drives_m, without_drives_m()); }

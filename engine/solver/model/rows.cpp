@@ -1,3 +1,5 @@
+// Solver, model: Jacobians and residuals of every block kind. Every Jacobian is checked against
+// central differences in tests/engine/solver/rows_test.cpp and joint_rows_test.cpp.
 #include "engine/solver/model/rows.hpp"
 
 #include <algorithm>
@@ -7,11 +9,11 @@
 namespace handhold {
 namespace {
 
-// The two bodies' ends of a block, in the world's axes.
+// The two ends of a block, in world axes.
 struct Ends {
-    Vec3 arm_a;  // from each body's centre to its point
+    Vec3 arm_a;  // from each body's centre to its anchor point
     Vec3 arm_b;
-    Vec3 error;  // from b's point to a's
+    Vec3 error;  // from b's point to a's point
 
     Ends(std::span<const SolverBody> bodies, const RowBlock& block) {
         const Pose& a = bodies[block.a].pose_ws;
@@ -22,7 +24,7 @@ struct Ends {
     }
 };
 
-// Rotations of the two frames of a block in the world.
+// World rotations of the two frames of a block.
 Quat frame_a(std::span<const SolverBody> bodies, const RowBlock& block) {
     return bodies[block.a].pose_ws.rotation * block.rotation_a_bs;
 }
@@ -30,7 +32,7 @@ Quat frame_b(std::span<const SolverBody> bodies, const RowBlock& block) {
     return bodies[block.b].pose_ws.rotation * block.rotation_b_bs;
 }
 
-// The frames' local x, a joint's axis, in the world.
+// The joint axis (local x of each frame) in world axes.
 Vec3 axis_a(std::span<const SolverBody> bodies, const RowBlock& block) {
     return frame_a(bodies, block) * Vec3::UnitX();
 }
@@ -56,7 +58,8 @@ Row empty_row(const RowBlock& block, std::uint32_t block_index, RowGroup group) 
     return row;
 }
 
-// Point on point, one row a world axis.
+// Residual: p_a - p_b, one row per world axis (p: anchor point). J: linear +-1, angular arm x
+// e_axis.
 void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 unit = Vec3::Unit(axis);
@@ -69,7 +72,8 @@ void append_point_rows(const Ends& ends, Row row, std::vector<Row>& rows) {
     }
 }
 
-// Rotation on rotation.
+// Residual: k_angle_lever_m times the rotation vector from b's frame to a's. J: +-k_angle_lever_m
+// e.
 void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
     row.linear_a.setZero();
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,15 +85,16 @@ void append_weld_rows(const Vec3& error_rad, Row row, std::vector<Row>& rows) {
     }
 }
 
-// b's axis along a's: how far it leans towards a's two other axes. The sine is stretched to the
-// angle, so that half a turn is the worst error, not none.
+// Keeps b's axis parallel to a's. Residual: lean of b's axis towards a's two other axes, scaled
+// from the sine to the angle, so that an opposed axis (half a turn) is the largest error and not
+// zero.
 void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
                       std::vector<Row>& rows) {
     const Vec3 axis_a_ws = frame_a_ws * Vec3::UnitX();
     const double sine = axis_a_ws.cross(axis_b_ws).norm();
     const double angle = arc_tangent2(sine, axis_a_ws.dot(axis_b_ws));
     const double stretch = sine > 1e-9 ? angle / sine : 1.0;
-    const bool is_opposed = sine <= 1e-9 && angle > 1.0;  // any way back is as short
+    const bool is_opposed = sine <= 1e-9 && angle > 1.0;  // every rotation back is equally short
     row.linear_a.setZero();
     for (int axis = 1; axis < 3; ++axis) {
         const Vec3 side = frame_a_ws * Vec3::Unit(axis);
@@ -104,7 +109,7 @@ void append_axis_rows(const Quat& frame_a_ws, const Vec3& axis_b_ws, Row row,
     }
 }
 
-// b's point on a's axis. The axis turns with a: a's arm reaches to b's point.
+// Keeps b's point on a's axis. The axis rotates with a, so a's lever arm reaches to b's point.
 void append_line_rows(const Quat& frame_a_ws, const Ends& ends, Row row, std::vector<Row>& rows) {
     for (int axis = 1; axis < 3; ++axis) {
         row.linear_a = frame_a_ws * Vec3::Unit(axis);
@@ -122,13 +127,13 @@ void append_contact_row(std::span<const SolverBody> bodies, const RowBlock& bloc
     row.unilateral = true;
     row.linear_a = normal;
     row.angular_a = ends.arm_a.cross(normal);
-    // The normal turns with b: b's arm reaches to a's point, not to its own.
+    // The normal rotates with b, so b's lever arm reaches to a's point instead of its own.
     row.angular_b = -(ends.arm_b + ends.error).cross(normal);
     row.residual = normal.dot(ends.error);
     rows.push_back(row);
 }
 
-// The rate of the joint's coordinate as a row, per unit of the coordinate.
+// J of the joint coordinate: its rate per unit of relative motion.
 void set_rate(std::span<const SolverBody> bodies, const RowBlock& block, Row& row) {
     switch (block.kind) {
         case RowKind::hinge:
@@ -171,7 +176,8 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     }
     const double lever = is_angular(block.kind) ? k_angle_lever_m : 1.0;
     const double coordinate = joint_coordinate(bodies, block);
-    // A cone's angle and a distance are never below 0: there no row may stop what swings through.
+    // A cone's angle and a distance cannot be negative. A lower limit of 0 would stop a body that
+    // passes through the middle, so it has no row.
     const bool has_lower =
         joint.lower > 0.0 || block.kind == RowKind::hinge || block.kind == RowKind::slider;
     const double above =
@@ -196,7 +202,7 @@ void append_limit_rows(std::span<const SolverBody> bodies, const RowBlock& block
     }
 }
 
-// How far the coordinate is outside of its limits, in its own unit.
+// How far the coordinate is outside its limits, in its own unit (m or rad).
 double limit_excess(std::span<const SolverBody> bodies, const RowBlock& block) {
     if (!block.joint.limited || block.kind == RowKind::fixed) {
         return 0.0;
@@ -295,19 +301,20 @@ double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& 
 }
 
 JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block) {
-    const Vec3 apart = Ends(bodies, block).error;
+    const Vec3 separation = Ends(bodies, block).error;
     JointError error;
     switch (block.kind) {
         case RowKind::drive_weld:
         case RowKind::fixed:
-            error = {apart.norm(), rotation_error(bodies, block).norm()};
+            error = {separation.norm(), rotation_error(bodies, block).norm()};
             break;
         case RowKind::hinge:
-            error = {apart.norm(), angle_between(axis_a(bodies, block), axis_b(bodies, block))};
+            error = {separation.norm(),
+                     angle_between(axis_a(bodies, block), axis_b(bodies, block))};
             break;
         case RowKind::slider: {
             const Vec3 axis = axis_a(bodies, block);
-            error = {Vec3(apart - axis * axis.dot(apart)).norm(),
+            error = {Vec3(separation - axis * axis.dot(separation)).norm(),
                      rotation_error(bodies, block).norm()};
             break;
         }
@@ -316,7 +323,7 @@ JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block
             break;
         case RowKind::drive_point:
         case RowKind::ball:
-            error.point_m = apart.norm();
+            error.point_m = separation.norm();
             break;
         case RowKind::distance:
         case RowKind::contact:

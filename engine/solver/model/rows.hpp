@@ -1,3 +1,6 @@
+// Solver, model: bodies and constraints as the solver sees them. Packed arrays without entities, in
+// an order that depends on persistent ids only. docs/reference/solver.md has the derivation.
+
 #pragma once
 
 #include <cstdint>
@@ -7,98 +10,105 @@
 
 #include "engine/math/math.hpp"
 
-// Bodies and constraints as the solver sees them: packed, without entities, in an order that
-// depends on persistent ids only.
 namespace handhold {
 
 enum class BodyRole : std::uint8_t {
-    fixed,  // static or kinematic: moved by nothing here
-    heavy,  // free, but unmoved by the forward phase
+    fixed,  // static or kinematic: never moved by the solver
+    heavy,  // free, but held still by the forward phase
     free,
-    translating,  // three degrees of freedom: never turns
+    translating,  // translation only (3 degrees of freedom): the solver never rotates it
 };
 
 struct SolverBody {
     std::uint64_t id = 0;  // persistent
     BodyRole role = BodyRole::fixed;
     Pose pose_ws;                      // in/out of every solve
-    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_velocities
-    Vec3 spin_radps = Vec3::Zero();
+    Vec3 velocity_mps = Vec3::Zero();  // in/out of solve_velocities; world axes
+    Vec3 spin_radps = Vec3::Zero();    // angular velocity; world axes
     double mass_kg = 0.0;
-    Vec3 inertia_kgm2 = Vec3::Zero();  // principal, body axes; zero for players and fixed bodies
-    double restitution = 0.0;          // [0, 1]; the larger of two bodies' counts
-    double friction = 0.0;             // Coulomb's coefficient; of two bodies the geometric mean
-    Vec3 collider_offset_bs = Vec3::Zero();  // its collider's centre: a player's is his head's
+    // Principal moments, body axes; zero for translating and fixed bodies.
+    Vec3 inertia_kgm2 = Vec3::Zero();
+    double restitution = 0.0;  // [0, 1]; a contact takes the larger of its bodies'
+    // Coulomb coefficient; a contact takes the geometric mean of its bodies'
+    double friction = 0.0;
+    // The collider's centre in the body's frame; non-zero if the collider moves relative to the
+    // body.
+    Vec3 collider_offset_bs = Vec3::Zero();
 
-    // The phase's share of motion: 1/mass, or 0 for what the phase holds still. Written by the
-    // phases.
+    // Effective inverse mass in the current phase: 1/mass, a share of it, or 0 for bodies that the
+    // phase holds still. Written before each solve.
     double inverse_mass = 0.0;
     Vec3 inverse_inertia_bs = Vec3::Zero();
-    std::uint32_t slot = 0;  // place in its island; written by build_islands
+    std::uint32_t slot = 0;  // index within its island; written by build_islands
 };
 
-// What a block of rows holds together. "a's frame" and "b's frame" are point and rotation of the
-// block in each body; a joint's axis is the local x of its frames.
+// What a block constrains. A block has a frame (point and rotation) in each of its bodies a and b.
+// A joint's axis is the local x axis of its frames. Row counts include no limit rows.
 enum class RowKind : std::uint8_t {
     drive_point,  // 3 rows: a's point on b's point
-    drive_weld,   // 6 rows: and a's rotation on b's
-    // 3 rows: a's rotation on b's. The second of two hands on one body: the direction of the line
-    // between the hands and the twist about it, both turned by the body alone; its points take part
-    // in no row, they may slide along the line. See two_hands.hpp.
+    drive_weld,   // 6 rows: drive_point, and a's rotation on b's
+    // 3 rows: a's rotation on b's. For the second of two drives on one body: direction of the line
+    // between the drives and twist about it, both satisfied by rotation alone. Its points take part
+    // in no row and may slide along the line. See drive_pair.hpp.
     drive_direction,
     contact,   // 1 row, >= 0: separation along b's normal
     ball,      // 3 rows: a's point on b's point
-    hinge,     // 5 rows: and the axes along each other
+    hinge,     // 5 rows: ball, and parallel axes
     slider,    // 5 rows: b's point on a's axis, and a's rotation on b's
     fixed,     // 6 rows: as drive_weld
-    distance,  // no row of its own: only limits
+    distance,  // no rows except limits on the distance of the points
 };
 
-// A joint's one degree of freedom, in its own unit: a hinge's angle about the axis (rad), a
-// slider's way along it, a distance joint's length (m), a ball's angle between the axes (rad).
+// Limits, friction and motor of a joint's coordinate q. Unit of q: hinge, angle about the axis
+// (rad); slider, travel along the axis (m); distance, length (m); ball, angle between the axes
+// (rad).
 struct JointRows {
-    // The coordinate stays in [lower, upper]; equal: locked there.
+    // q is kept in [lower, upper]; lower == upper: locked.
     bool limited = false;
     double lower = 0.0;
     double upper = 0.0;
-    double previous =
-        0.0;  // hinge: of all angles whole turns apart the one nearest to this is meant
-    // Velocity only: rows that give way. Friction about (ball: all axes) or along the free
-    // coordinate, at most this impulse, N s or N m s; a pull towards a coordinate, as fast as gets
-    // there in a time, by at most that impulse; and what a lock takes before it gives way, 0: all.
+    double previous = 0.0;  // Hinge: q is the angle closest to this among those whole turns apart.
+    // The rest applies to the velocity solve only; impulses are in N s or N m s per frame. Friction
+    // about the axis (ball: all axes) or along it, at most this impulse.
     double friction_impulse = 0.0;
+    // Motor: towards `motor_target`, at the speed that reaches it within `motor_time_s`, limited to
+    // `motor_max_impulse` (0: no motor).
     double motor_target = 0.0;  // m or rad
-    double motor_time_s = 0.0;  // > 0 where it is driven
+    double motor_time_s = 0.0;  // s; > 0 if there is a motor
     double motor_max_impulse = 0.0;
+    // Impulse at which a lock gives way; 0: it never does.
     double lock_limit_impulse = 0.0;
 
-    double lock_impulse = 0.0;  // out of solve_velocities: what held a locked coordinate
+    double lock_impulse = 0.0;  // out of solve_velocities: impulse that held the lock
 };
 
-// One constraint between two bodies. Hands: a is the player, b what is held. Contacts: a is the
-// free collider, b holds the normal.
+// One constraint between two bodies. Drives: a is the driving (translating) body, b the driven one.
+// Contacts: a is the free collider, b holds the normal.
 struct RowBlock {
     RowKind kind = RowKind::contact;
     std::uint32_t a = 0;  // into ConstraintGraph::bodies
     std::uint32_t b = 0;
-    std::uint64_t key = 0;  // orders the blocks of one kind between the same bodies: the hand's or
-                            // joint's id, the contact's feature
-    std::uint32_t source = 0;  // hands, joints: the row of the column that the block was made from
+    // Orders blocks of one kind between the same bodies: id of the drive's source or of the joint,
+    // feature id of the contact.
+    std::uint64_t key = 0;
+    std::uint32_t source = 0;  // drives, joints: element index in the column it came from
     Vec3 point_a_bs = Vec3::Zero();
     Vec3 point_b_bs = Vec3::Zero();
-    Quat rotation_a_bs =
-        Quat::Identity();  // weld, joints: the two that shall be equal in the world
+    // Weld, joints: frame rotations; the constraint makes the two equal in the world.
+    Quat rotation_a_bs = Quat::Identity();
     Quat rotation_b_bs = Quat::Identity();
-    Vec3 normal_b_bs = Vec3::UnitY();           // contact: from b towards a
-    Vec3 drive_velocity_ws_mps = Vec3::Zero();  // hands: the tracked hand's own motion against a
+    Vec3 normal_b_bs = Vec3::UnitY();  // contact: unit normal from b towards a
+    // Drives: velocity and spin of the target relative to a, world axes.
+    Vec3 drive_velocity_ws_mps = Vec3::Zero();
     Vec3 drive_spin_ws_radps = Vec3::Zero();
     double restitution = 0.0;  // contact
-    double friction = 0.0;     // contact: Coulomb's coefficient
+    double friction = 0.0;     // contact: Coulomb coefficient
     JointRows joint;
 
-    Vec3 impulse_ws_ns =
-        Vec3::Zero();  // out of solve_velocities: on a at its point; b gets the opposite
-    Vec3 angular_impulse_ws_nms = Vec3::Zero();  // out: on a; b gets the opposite
+    // Out of solve_velocities: linear impulse on a at its point; b gets the opposite.
+    Vec3 impulse_ws_ns = Vec3::Zero();
+    // Out of solve_velocities: angular impulse on a; b gets the opposite.
+    Vec3 angular_impulse_ws_nms = Vec3::Zero();
 };
 inline bool is_drive(RowKind kind) {
     return kind == RowKind::drive_point || kind == RowKind::drive_weld ||
@@ -108,71 +118,80 @@ inline bool is_drive(const RowBlock& block) { return is_drive(block.kind); }
 inline bool is_contact(const RowBlock& block) { return block.kind == RowKind::contact; }
 inline bool is_joint(const RowBlock& block) { return !is_drive(block) && !is_contact(block); }
 
-// Angular errors count as lengths at this lever, metres.
+// Lever that converts angles to lengths, metres. Angular rows are multiplied by it, so that all
+// residuals of a solve have one unit: 0.01 rad counts as 1 mm.
 inline constexpr double k_angle_lever_m = 0.1;
 
-// How a row gives way where not all can be met.
+// Selects a row's regularisation (model/regularisation.hpp).
 enum class RowGroup : std::uint8_t { drive, joint, limit, contact };
 
-// One scalar equation: value + J dx = 0, or >= 0. J as the parts that belong to a's and b's
-// translation and rotation.
+// One scalar equation of Newton's method: residual + J dx = 0 (bilateral) or >= 0 (unilateral),
+// where dx stacks the translations and rotation vectors of bodies a and b in world axes and
+//   J dx = linear_a . (dx_a - dx_b) + angular_a . dr_a + angular_b . dr_b
 struct Row {
-    Vec3 linear_a = Vec3::Zero();  // b's linear part is its negative
+    Vec3 linear_a = Vec3::Zero();  // b's linear part is -linear_a
     Vec3 angular_a = Vec3::Zero();
     Vec3 angular_b = Vec3::Zero();
+    // Position solve, metres: the error C at the current poses. Point rows: offset along an axis.
+    // Angular rows: angle times k_angle_lever_m. Contacts: separation (negative: overlap). Limits:
+    // distance to the limit, angles times k_angle_lever_m.
+    //
+    // Velocity solve, m/s: relative velocity along the row plus its bias (restitution, motor or
+    // drive velocity). Angular rows of drives, joints and limits: rad/s times k_angle_lever_m.
+    // Friction and motor rows of angular joints (append_sliding_rows): rad/s, without the lever.
     double residual = 0.0;
-    std::uint32_t block = 0;  // into the graph's blocks
-    std::uint32_t a = 0;      // into the graph's bodies
+    std::uint32_t block = 0;  // into ConstraintGraph::blocks
+    std::uint32_t a = 0;      // into ConstraintGraph::bodies
     std::uint32_t b = 0;
     RowGroup group = RowGroup::contact;
-    bool unilateral = false;  // value >= 0 is fine
-    // Rows of one error, from this one on: only together they say the same however the world is
-    // turned. 0: belongs to an earlier row.
+    bool unilateral = false;  // true: satisfied if residual >= 0
+    // Number of rows of one vector-valued error, starting with this row; 0: belongs to an earlier
+    // row. Norms are taken over all rows of an error, so that they do not depend on the world's
+    // orientation.
     std::uint8_t width = 1;
 };
 
-// True where a joint's coordinate is an angle.
+// True if the joint coordinate of this kind is an angle.
 bool is_angular(RowKind kind);
 
-// Appends the block's rows at the bodies' present poses. Limits farther away than reach_m (angles
-// at their lever) are left out.
+// Appends the block's rows at the current poses; residuals are in metres (see Row::residual).
+// Limits farther away than reach_m (angles times k_angle_lever_m) are omitted.
 void append_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                  std::uint32_t block_index, std::vector<Row>& rows,
                  double reach_m = std::numeric_limits<double>::infinity());
 
-// From b's point to a's in the world: the values of the rows that hold one on the other.
+// p_a - p_b in world axes, metres: the residuals of the point rows.
 Vec3 point_error(std::span<const SolverBody> bodies, const RowBlock& block);
-// From b's rotation to a's in the world, radians: the values, at their lever, of the rows that hold
-// one on the other.
+// Rotation vector from b's frame to a's in world axes, radians; times k_angle_lever_m it is the
+// residuals of the weld rows.
 Vec3 rotation_error(const Quat& rotation_a_ws, const Quat& rotation_b_ws, const RowBlock& block);
-// True for the first of three rows that hold a's point on b's, one a world axis.
+// True for the first of three rows that keep a's point on b's, one row per world axis.
 inline bool starts_point_rows(const Row& row) {
     return row.width == 3 && row.linear_a == Vec3::UnitX();
 }
 
-// Rows that only velocities have: a contact's two directions along the surface, a joint's free
-// directions. Value 0. Returns how many.
+// Appends the rows that only the velocity solve has: the two tangents of a contact, the free
+// directions of a joint. Residual 0. Returns their number.
 std::size_t append_sliding_rows(std::span<const SolverBody> bodies, const RowBlock& block,
                                 std::uint32_t block_index, std::vector<Row>& rows);
 
-// The block's error at the present poses, metres: length of the point error or of the angular one
-// times k_angle_lever_m, whichever is larger; how far a limit is passed; a contact's overlap, 0
-// where it is apart.
+// The block's error at the current poses, metres: the larger of point error and angle times
+// k_angle_lever_m, including exceeded limits; for a contact its penetration depth (0 if separated).
 double block_error_m(std::span<const SolverBody> bodies, const RowBlock& block);
-// Its two parts where they matter apart, of joints: metres, and radians.
+// A joint's error in its own units.
 struct JointError {
     double point_m = 0.0;
     double angle_rad = 0.0;
 };
 JointError joint_error(std::span<const SolverBody> bodies, const RowBlock& block);
-// A contact's separation at the present poses; negative: overlap.
+// Separation of a contact at the current poses, metres; negative: overlap.
 double contact_separation_m(std::span<const SolverBody> bodies, const RowBlock& block);
-// A joint's free coordinate at the present poses (JointRows); 0 for fixed.
+// The joint's coordinate q (JointRows) at the current poses; 0 for fixed.
 double joint_coordinate(std::span<const SolverBody> bodies, const RowBlock& block);
-// Its rate of change, m/s or rad/s.
+// Rate of change of q, m/s or rad/s.
 double joint_speed(std::span<const SolverBody> bodies, const RowBlock& block);
 
-// Inverse inertia about the world's axes.
+// Inverse inertia tensor in world axes, 1/(kg m^2).
 Mat3 inverse_inertia_ws(const SolverBody& body);
 
 }  // namespace handhold

@@ -1,6 +1,6 @@
-// Sources: active set: block principal pivoting of Judice and Pires (1994); where changing all
-// wrong rows at once goes round in a circle, the descent of Lawson and Hanson, Solving Least
-// Squares Problems (1974), which cannot.
+// Solver, newton: the active set of unilateral rows.
+// Sources: block principal pivoting of Judice and Pires (1994); if pivoting cycles, the active-set
+// descent of Lawson and Hanson, Solving Least Squares Problems (1974), which cannot cycle.
 #include "engine/solver/newton/active_set.hpp"
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint8_t k_undecided = 2;  // acts in the first solve where it overlaps
-constexpr int k_max_block_pivots = 4;  // of all wrong rows at once that may fail to make them fewer
-constexpr int k_max_descent_steps = 60;  // factorisations after that
+constexpr std::uint8_t k_undecided = 2;  // becomes active in the first solve if it overlaps
+// Block pivots in a row that do not reduce the number of violating rows, before descent takes over.
+constexpr int k_max_block_pivots = 4;
+constexpr int k_max_descent_steps = 60;  // limit of factorisations in the descent
 constexpr double k_overlap_m = 1e-10;
 constexpr double k_noise_m = 1e-8;
 
@@ -27,7 +28,7 @@ void RowSystem::assemble(std::span<const SolverBody> bodies,
     fixed_lambda_.assign(rows.size(), 0.0);
 }
 
-// Both lists are in the order of their blocks.
+// Both key lists are sorted by block, so one pass merges them.
 void RowSystem::warm_start_active_set(std::span<const Row> rows) {
     std::swap(keys_, previous_keys_);
     std::swap(active_, previous_active_);
@@ -43,7 +44,7 @@ void RowSystem::warm_start_active_set(std::span<const Row> rows) {
         }
         const bool is_known =
             before < previous_keys_.size() && previous_keys_[before] == keys_.back();
-        // What acted in the rows before acts at first.
+        // Warm start: rows that were active before start active.
         active_.push_back(!row.unilateral ? 1 : is_known ? previous_active_[before] : k_undecided);
     }
 }
@@ -62,8 +63,8 @@ double RowSystem::remaining_residual(std::size_t row, double value) const {
     return value + matrix_.row_motion(row);
 }
 
-// A unilateral row is wrong where it acts and pulls, or is left out and the solution would overlap
-// it.
+// True if a unilateral row violates complementarity: it is active and pulls (lambda < 0), or it is
+// inactive and the solution would make it overlap.
 bool RowSystem::violates_complementarity(const Row& row, std::size_t index) const {
     if (!row.unilateral || fixed_[index] != 0) {
         return false;
@@ -87,13 +88,14 @@ void RowSystem::solve_active() {
 }
 
 std::span<const double> RowSystem::solve(std::span<const Row> rows) {
-    // What the held rows do to the others.
-    const bool holds = std::ranges::any_of(fixed_, [](std::uint8_t held) { return held != 0; });
-    if (holds) {
+    // Effect of the rows with a fixed multiplier on the others.
+    const bool has_fixed =
+        std::ranges::any_of(fixed_, [](std::uint8_t is_fixed) { return is_fixed != 0; });
+    if (has_fixed) {
         matrix_.gather_moves(fixed_lambda_);
     }
     for (std::size_t i = 0; i < size(); ++i) {
-        values_[i] = rows[i].residual + (holds ? matrix_.row_motion(i) : 0.0);
+        values_[i] = rows[i].residual + (has_fixed ? matrix_.row_motion(i) : 0.0);
         if (active_[i] == k_undecided) {
             active_[i] = values_[i] < 0.0 ? 1 : 0;
         }
@@ -102,9 +104,10 @@ std::span<const double> RowSystem::solve(std::span<const Row> rows) {
     return lambda_;
 }
 
-// True where it ends with every acting row pushing and no other overlapping. It need not.
+// Changes all violating rows at once until none is left. False if the number of violating rows
+// stops decreasing.
 bool RowSystem::block_pivot(std::span<const Row> rows) {
-    std::size_t fewest = size() + 1;
+    std::size_t min_violations = size() + 1;
     for (int blocks_left = k_max_block_pivots; blocks_left > 0;) {
         solve_active();
         violating_rows_.clear();
@@ -116,8 +119,8 @@ bool RowSystem::block_pivot(std::span<const Row> rows) {
         if (violating_rows_.empty()) {
             return true;
         }
-        if (violating_rows_.size() < fewest) {
-            fewest = violating_rows_.size();
+        if (violating_rows_.size() < min_violations) {
+            min_violations = violating_rows_.size();
             blocks_left = k_max_block_pivots;
         } else {
             --blocks_left;
@@ -129,10 +132,12 @@ bool RowSystem::block_pivot(std::span<const Row> rows) {
     return false;
 }
 
-// From what pushes now, always down: half lambda A lambda + value lambda shrinks with every step,
-// so that no set comes twice, and where the steps run out nothing pulls. Rows that overlap join all
-// at once, or only the worst where that led nowhere. True where the minimum was found, but for
-// noise: a worst overlap that is left out again as soon as it joins.
+// Active-set descent from a feasible point (no multiplier pulls). Each step decreases
+//   q(lambda) = 1/2 lambda^T A lambda + residual^T lambda,   A = J W J^T + R
+// so that no active set occurs twice; if the steps run out, the last feasible point is returned, in
+// which nothing pulls. Overlapping rows join all at once; if that made no progress, only the
+// deepest joins. Returns true if the minimum was found, up to noise: a deepest row that is dropped
+// again as soon as it joins.
 bool RowSystem::descend_active_set(std::span<const Row> rows) {
     feasible_lambda_.assign(lambda_.begin(), lambda_.end());
     for (std::size_t i = 0; i < size(); ++i) {
@@ -164,9 +169,10 @@ bool RowSystem::descend_active_set(std::span<const Row> rows) {
     return false;
 }
 
-// Takes the point towards lambda until a row begins to pull, which is left out.
+// Moves the feasible point towards lambda until a row would start to pull; that row becomes
+// inactive.
 RowSystem::Approach RowSystem::step_towards_solution(std::span<const Row> rows) {
-    constexpr double k_full_step = 2.0;  // what pulls ever so little stops it at 1 or before
+    constexpr double k_full_step = 2.0;  // no row blocks; a pulling row blocks at 1 or less
     const auto step_length_of = [&](std::size_t i) {
         const bool pulls = rows[i].unilateral && is_active(i) && lambda_[i] < 0.0;
         return pulls ? feasible_lambda_[i] / (feasible_lambda_[i] - lambda_[i]) : k_full_step;
@@ -191,7 +197,7 @@ RowSystem::Approach RowSystem::step_towards_solution(std::span<const Row> rows) 
     return approach;
 }
 
-// The deepest overlap of those that do not act, negative; 0 where none overlaps.
+// Deepest overlap of all inactive rows, negative; 0 if none overlaps.
 double RowSystem::worst_remaining_residual(std::span<const Row> rows) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
@@ -202,7 +208,7 @@ double RowSystem::worst_remaining_residual(std::span<const Row> rows) const {
     return worst;
 }
 
-// True where any row overlaps that does not act.
+// Activates inactive rows that overlap: all of them or only the deepest. True if there were any.
 bool RowSystem::activate_overlapping(std::span<const Row> rows, bool only_worst) {
     violating_rows_.clear();
     double worst = 0.0;

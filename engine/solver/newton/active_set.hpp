@@ -1,3 +1,8 @@
+// Solver, newton: the normal equations of one island's rows,
+//   (J W J^T + diag(alpha)) lambda = -residual
+// with unilateral rows (lambda >= 0, residual after the step >= 0, one of the two 0) handled by an
+// active set.
+
 #pragma once
 
 #include <cstdint>
@@ -7,42 +12,42 @@
 #include "engine/solver/model/rows.hpp"
 #include "engine/solver/sparse/row_matrix.hpp"
 
-// The normal equations of one island's rows, (J W J^T + diag(alpha)) lambda = -value, with
-// unilateral rows by an active set.
 namespace handhold {
 
 class RowSystem {
   public:
     using Twist = RowMatrix::Twist;
 
-    // Fills J W J^T. Unilateral rows that the rows before had too begin as they ended there.
-    // `inverse_inertia_ws` by the bodies' slots, as many as the island has bodies.
+    // Assembles J W J^T. A unilateral row that also existed in the previous rows keeps its state
+    // (active or inactive) as a warm start. `inverse_inertia_ws` is by slot and has one entry per
+    // body of the island.
     void assemble(std::span<const SolverBody> bodies, std::span<const Mat3> inverse_inertia_ws,
                   std::span<const Row> rows);
-    // The next rows are no later state of those before: nothing is known of who acts.
+    // Discards the warm start: the next rows are unrelated to the previous ones.
     void reset_active_set() { keys_.clear(); }
 
     std::size_t size() const { return matrix_.size(); }
     double diagonal(std::size_t row) const { return matrix_.diagonal(row); }
-    // Added to the diagonal from now on; one number a row, >= 0.
+    // R's diagonal, one value per row, >= 0. Takes effect with the next `solve`.
     std::span<double> alpha() { return matrix_.alpha(); }
 
-    // Solves for all rows; unilateral ones push (lambda >= 0) or are left out. Where the changes of
-    // the active set run out, nothing pulls, but rows left out may overlap. The result is valid
-    // until the next solve or assemble. Rows that nothing can move (zero diagonal) get lambda 0.
+    // Solves for the multipliers of all rows. Unilateral rows push (lambda >= 0) or are inactive.
+    // If the active set does not converge, no row pulls, but inactive rows may overlap. Rows that
+    // nothing can move (zero diagonal) get lambda 0. The result is valid until the next solve or
+    // assemble.
     std::span<const double> solve(std::span<const Row> rows);
-    // True where the last solve found no active set: rows left out may overlap.
+    // True if the last solve found no consistent active set: inactive rows may overlap.
     bool is_active_set_unconverged() const { return active_set_unconverged_; }
-    // The same factor and active set against other values: for refinement.
+    // Solves with the last factor and active set for other residuals (iterative refinement).
     std::span<const double> solve_with_last_factor(std::span<const double> values);
     bool is_active(std::size_t row) const { return active_[row] != 0 && fixed_[row] == 0; }
-    // The row's multiplier is given, not solved for, from the next solve until the next assemble or
-    // release: a friction that slides.
+    // Fixes a row's multiplier from the next solve until the next assemble or free_multiplier. Used
+    // for sliding friction.
     void fix_multiplier(std::size_t row, double lambda);
     void free_multiplier(std::size_t row);
-    // How the last solve moves the bodies: W J^T lambda, by slot.
+    // Moves of the bodies in the last solve, W J^T lambda; by slot.
     std::span<const Twist> moves() const { return matrix_.moves(); }
-    // What is left of a row's value after the last solve: value + J W J^T lambda.
+    // A row's residual after the last solve: value + J W J^T lambda.
     double remaining_residual(std::size_t row, double value) const;
 
   private:
@@ -52,7 +57,7 @@ class RowSystem {
     bool descend_active_set(std::span<const Row> rows);
     struct Approach {
         bool reaches_solution = false;
-        bool moves = false;  // anything at all
+        bool moves = false;  // any multiplier changed
     };
     Approach step_towards_solution(std::span<const Row> rows);
     double worst_remaining_residual(std::span<const Row> rows) const;
@@ -63,15 +68,15 @@ class RowSystem {
     std::vector<double> lambda_;
     std::vector<double> values_;
     std::vector<std::uint8_t> active_;
-    // Of the rows before these: which of a block's rows, and whether it acted.
+    // Identity (block, index within the block) and state of the rows and of the previous rows.
     std::vector<std::uint64_t> keys_;
     std::vector<std::uint64_t> previous_keys_;
     std::vector<std::uint8_t> previous_active_;
     std::vector<std::uint8_t> fixed_;
     std::vector<double> fixed_lambda_;
-    std::vector<std::uint8_t> chosen_;  // active and not held
+    std::vector<std::uint8_t> chosen_;  // active and not fixed
     std::vector<std::uint32_t> violating_rows_;
-    std::vector<double> feasible_lambda_;  // multipliers none of which pulls
+    std::vector<double> feasible_lambda_;  // point of the descent: no multiplier pulls
     bool active_set_unconverged_ = false;
 };
 

@@ -1,9 +1,11 @@
+// Solver, newton: closed form of the positive part of the geometric stiffness.
 #include "engine/solver/newton/geometric_stiffness.hpp"
 
 namespace handhold {
 
-// In closed form: the eigenvectors are l/|l| - r/|r|, l/|l| + r/|r| and l x r. Along one line, as
-// in a rope pulled straight, every direction square to it is one.
+// The eigenvectors of (l.r) I - sym(l r^T) are l/|l| - r/|r|, l/|l| + r/|r| and l x r, l the force
+// and r the arm. If l and r are parallel, as in a taut rope, every direction perpendicular to them
+// is one.
 Mat3 positive_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     const double product = force.norm() * arm.norm();
     if (product < 1e-12) {

@@ -1,3 +1,5 @@
+// Solver, newton: assembly shared by the position and the velocity solve, for islands that are
+// solved row by row.
 #include "engine/solver/newton/island_system.hpp"
 
 #include <algorithm>
@@ -36,46 +38,21 @@ void prepare_inertia(const IslandView& island, SolveScratch& scratch) {
     }
 }
 
-namespace {
-
-constexpr double k_limit = 100.0;  // times a joint: limits may contradict each other
-
-double regularisation_of(const Row& row, const Regularisation& regularisation) {
-    switch (row.group) {
-        case RowGroup::drive:
-            return regularisation.drive;
-        case RowGroup::contact:
-            return regularisation.contact;
-        case RowGroup::limit:
-            return row.unilateral ? k_limit * regularisation.joint : regularisation.joint;
-        case RowGroup::joint:
-            break;
-    }
-    return regularisation.joint;
-}
-
-}  // namespace
-
 void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
                 RowSystem& system) {
-    double inverse_sum = 0.0;
-    double count = 0.0;
+    HarmonicMean mean;
     for (std::size_t i = 0; i < system.size();) {
         const std::size_t width = rows[i].width;
         double sum = 0.0;
         for (std::size_t end = i + width; i < end; ++i) {
             sum += system.diagonal(i);
         }
-        if (sum > 0.0) {
-            const double size = static_cast<double>(width);
-            inverse_sum += size * size / sum;
-            count += size;
-        }
+        mean.add(static_cast<double>(width), sum);
     }
-    const double mean = inverse_sum > 0.0 ? count / inverse_sum : 0.0;
+    const double drive_scale = mean.value();
     for (std::size_t i = 0; i < system.size(); ++i) {
-        const double size = rows[i].group == RowGroup::drive ? mean : system.diagonal(i);
-        system.alpha()[i] = factor * regularisation_of(rows[i], regularisation) * size;
+        const double scale = rows[i].group == RowGroup::drive ? drive_scale : system.diagonal(i);
+        system.alpha()[i] = factor * relative_regularisation(rows[i], regularisation) * scale;
     }
 }
 

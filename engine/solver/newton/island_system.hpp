@@ -1,3 +1,6 @@
+// Solver, newton: one island as linear equations. Shared by the position solve (newton.cpp) and the
+// velocity solve (velocities.cpp).
+
 #pragma once
 
 #include <cstdint>
@@ -5,64 +8,67 @@
 #include <vector>
 
 #include "engine/solver/model/island_view.hpp"
+#include "engine/solver/model/regularisation.hpp"
 #include "engine/solver/model/rows.hpp"
 #include "engine/solver/newton/active_set.hpp"
 #include "engine/solver/newton/load_stepped_drives.hpp"
-#include "engine/solver/newton/regularisation.hpp"
 #include "engine/solver/packed/triad_system.hpp"
 
-// One island as linear equations: what the solve of positions and that of velocities share.
 namespace handhold {
 
-// Kept between solves so that a warm one allocates nothing. One for each island that is solved at
-// the same time.
+// Buffers kept between solves, so that a warm solve does not allocate. One per island that is
+// solved concurrently.
 struct SolveScratch {
     std::vector<Row> rows;
-    std::vector<Row> previous_rows;        // of the step before; lambda belongs to them
+    std::vector<Row> previous_rows;        // of the previous step; lambda belongs to these
     std::vector<Mat3> inverse_inertia_ws;  // by slot
     std::vector<Mat3> stiffness;           // by slot
     std::vector<Vec3> moves_m;             // by slot
     std::vector<Vec3> rotations_rad;
     std::vector<double> values;
     std::vector<double> lambda;
-    std::vector<double> approach_mps;  // by row: normal velocity before the solve
+    // By row, m/s: bias added to the row's velocity. Restitution: coefficient times approach speed;
+    // motor: minus the target speed.
+    std::vector<double> approach_mps;
     struct Friction {
-        std::size_t row = 0;     // first of its rows in `rows`
-        std::size_t width = 1;   // how many: their multipliers' length is bounded
-        double limit = 0.0;      // N s or N m s, where `normal` is none
+        std::size_t row = 0;     // index of its first row in `rows`
+        std::size_t width = 1;   // number of rows; the length of their multipliers is bounded
+        double limit = 0.0;      // N s or N m s; used if `coefficient` is 0
         std::size_t normal = 0;  // row whose multiplier times `coefficient` is the limit
         double coefficient = 0.0;
         bool slides = false;
-        bool is_frictionless = false;  // slips freely: its contacts are wedged
+        bool is_frictionless = false;  // released because its contacts wedge
     };
     std::vector<Friction> frictions;
-    bool has_energy_source = false;  // a hand or a detent may give energy
+    bool has_energy_source = false;  // a drive or motor may add energy
     RowSystem system;
-    TriadSystem triads;  // in place of all the others where it serves
+    TriadSystem triads;  // used instead of all the others if the island qualifies
     LoadSteppedDrives load_stepped;
-    std::vector<Pose> full_load;  // by slot, where steps ran out before hands were led
+    // By slot: result of the solve with full load, before load stepping.
+    std::vector<Pose> full_load;
 };
 
 bool has_contact(std::span<const Row> rows);
 
-// No geometric stiffness, for all of the island's bodies.
+// Sets the geometric stiffness of all bodies of the island to 0.
 void clear_stiffness(const IslandView& island, SolveScratch& scratch);
-// Inverse inertia of all bodies at their present poses, with the stiffness.
+// Computes all bodies' inverse inertia at their current poses, including the geometric stiffness.
 void prepare_inertia(const IslandView& island, SolveScratch& scratch);
 
-// Times that a solve whose answer is too large to be meant softens its rows.
+// A solve whose step is implausibly long is repeated with more regularisation, at most this often.
 inline constexpr int k_max_regularisation_retries = 3;
-// The farthest that rows of contacts may move a body, in what they lack: a lever of 1 m.
+inline constexpr double k_retry_regularisation_increase = 100.0;
+// Longest plausible move of a body by contact rows, relative to the residual: a lever of 1 m.
 inline constexpr double k_max_move_ratio = 10.0;
 
-// Hands by the harmonic mean of the diagonal, so that what one holds weighs as much as the other's;
-// all else by its own entry. Times `factor`.
+// Writes the system's alpha: model/regularisation.hpp.
 void regularise(std::span<const Row> rows, const Regularisation& regularisation, double factor,
                 RowSystem& system);
 
-// W J^T lambda of the system's last solve by slot; returns the largest turn in radians.
+// Copies the moves W J^T lambda of the system's last solve, by slot. Returns the largest rotation
+// in radians.
 double gather_moves(SolveScratch& scratch);
-// Of the moves gathered, metres.
+// Longest translation of the gathered moves, metres.
 double longest_move(const SolveScratch& scratch);
 
 }  // namespace handhold

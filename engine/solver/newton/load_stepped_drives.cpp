@@ -1,3 +1,4 @@
+// Solver, newton: the drives of a load-stepped island.
 #include "engine/solver/newton/load_stepped_drives.hpp"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 namespace handhold {
 namespace {
 
-// By no less than half of what there is: islands grow by a body at a time.
+// Grows by at least half of the capacity: islands grow by one body at a time.
 template <typename T>
 void reserve(std::size_t size, std::vector<T>& values) {
     if (size > values.capacity()) {

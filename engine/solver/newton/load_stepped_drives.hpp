@@ -1,3 +1,6 @@
+// Solver, newton: load stepping. Drives that jumped move to their targets in steps that Newton's
+// method can follow.
+
 #pragma once
 
 #include <cstdint>
@@ -6,26 +9,26 @@
 
 #include "engine/solver/model/island_view.hpp"
 
-// Load stepping: hands that jumped go their way in parts, each of which Newton's method can follow.
 namespace handhold {
 
-// Poses of the island's bodies, by slot.
+// Save, reserve and restore the poses of the island's bodies; by slot.
 void save_poses(const IslandView& island, std::vector<Pose>& poses);
 void reserve_poses(const IslandView& island, std::vector<Pose>& poses);
 void restore_poses(const IslandView& island, std::span<const Pose> poses);
 
-// The hands of one island, and how far they are from what they hold where the bodies start. Keeps
-// its memory.
+// The drives of one island, and their errors at the poses from which the solve starts. Keeps its
+// memory.
 class LoadSteppedDrives {
   public:
-    // As they are at the bodies' present poses. False where there are none.
+    // Records drives, errors and poses at the bodies' current poses. False if there are no drives.
     bool take(const IslandView& island);
-    // Room for such an island's, so that taking them allocates nothing.
+    // Reserves memory for such an island, so that `take` does not allocate.
     void reserve(const IslandView& island);
-    // Puts the bodies where they were then.
+    // Restores the recorded poses.
     void restore_start(const IslandView& island) const { restore_poses(island, start_); }
 
-    // Has hands ask for all but `share` of that, in [0, 1]. 0: bitwise as they were taken.
+    // Offsets the drives' targets so that `share` in [0, 1] of the recorded error is not asked for.
+    // 0: targets are bitwise as recorded.
     void withhold_load(const IslandView& island, double share) const;
 
   private:
@@ -33,9 +36,9 @@ class LoadSteppedDrives {
         std::uint32_t block = 0;  // into the graph's blocks
         Vec3 point_a_bs = Vec3::Zero();
         Quat rotation_a_bs = Quat::Identity();
-        Vec3 point_error_a_bs = Vec3::Zero();  // from b's point to a's, in a's frame
-        Vec3 rotation_error_a_bs =
-            Vec3::Zero();  // rotation vector, radians: from b's rotation to a's
+        Vec3 point_error_a_bs = Vec3::Zero();  // p_a - p_b in a's frame
+        // Rotation vector from b's frame to a's, in a's frame, radians.
+        Vec3 rotation_error_a_bs = Vec3::Zero();
     };
     std::vector<Drive> drives_;
     std::vector<Pose> start_;  // by slot

@@ -1,3 +1,4 @@
+// Solver, newton: the load-stepping loop.
 #include "engine/solver/newton/load_stepping.hpp"
 
 #include <algorithm>
@@ -6,9 +7,9 @@ namespace handhold {
 namespace {
 
 constexpr int k_load_steps = 4;
-constexpr double k_load_step_tolerance_m = 1e-5;  // all but the last part end where this is left
+constexpr double k_load_step_tolerance_m = 1e-5;  // tolerance of all steps but the last
 
-// Gives up where one part cannot be had.
+// Stops at the first load step that does not converge.
 NewtonResult run_load_steps(const IslandView& island, const NewtonSettings& settings,
                             SolveScratch& scratch, SolveLoadStep solve) {
     NewtonSettings load_step_settings = settings;
@@ -54,8 +55,8 @@ NewtonResult solve_by_load_stepping(const IslandView& island, const NewtonSettin
         return load_stepped;
     }
     restore_poses(island, scratch.full_load);
-    // With the hands where they were: the solve of velocities goes on from here. What has been
-    // loaded before is so again; and if it were not, velocities would load for themselves.
+    // Loads the triads with the restored targets, because the velocity solve continues from them.
+    // If the load failed, the velocity solve would load by itself.
     scratch.triads.load(island);
     NewtonResult result = full_load;
     result.iterations = load_stepped.iterations;

@@ -1,27 +1,29 @@
+// Solver, newton: solves a large jump of drives in several load steps.
+
 #pragma once
 
 #include "engine/solver/newton/newton.hpp"
 
 namespace handhold {
 
-// Newton's method from the bodies' present poses, which it leaves where they got to. Not converged,
-// in no steps, where the island is not what triads serve.
+// Newton's method from the bodies' current poses; leaves them where it ended. Returns not converged
+// and 0 iterations if TriadSystem does not take the island.
 using SolveLoadStep = NewtonResult (*)(const IslandView& island, const NewtonSettings& settings,
                                        SolveScratch& scratch);
 
-// Where hands jump far, on links of very different masses, no number of steps suffices. True where
-// a solve ran out of them on such a jump. A rope that is pulled taut, or that a hand stretches,
-// runs out of them too, frame by frame: there the steps brought the hand next to nothing, and parts
-// of its way are no easier.
+// True if a solve ran out of iterations on a large jump of a drive. Chains with very different
+// masses need load steps then; no number of iterations suffices. A taut or overstretched rope also
+// runs out of iterations, frame after frame, but there the iterations hardly reduced the drive's
+// error, and load steps would not help.
 bool needs_load_stepping(const NewtonResult& full_load, const NewtonSettings& settings);
 
-// Room for what leading takes: whether an island's hands will ever be led nobody knows, and a warm
-// frame allocates nothing.
+// Reserves memory for load stepping, so that a warm frame does not allocate if it becomes
+// necessary.
 void reserve_load_stepping(const IslandView& island, SolveScratch& scratch);
 
-// Leads hands part by part of their way, from where `scratch.led` was taken; each part may take as
-// many steps as a solve. `at_once` is the solve that ran out of them, the bodies are where it left
-// them. What cannot be had in parts either stays so.
+// Applies the load in steps from the poses recorded in `scratch.load_stepped`; each step may take
+// as many iterations as a solve. `full_load` is the result of the solve that ran out of iterations;
+// the bodies are where it left them. If a load step does not converge, that result is restored.
 NewtonResult solve_by_load_stepping(const IslandView& island, const NewtonSettings& settings,
                                     const NewtonResult& full_load, SolveScratch& scratch,
                                     SolveLoadStep solve);

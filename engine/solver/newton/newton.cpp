@@ -1,3 +1,6 @@
+// Solver, newton: the damped Newton iteration of the position solve. One iteration,
+//   (J W J^T + R) lambda = -C,   dx = W J^T lambda,   x += scale * dx
+// is the same for islands solved row by row (RowSteps) and in packed triads (TriadSteps).
 // Sources: Levenberg-Marquardt regularisation of constrained rigid bodies; geometric stiffness
 // after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics (2015).
 #include "engine/solver/newton/newton.hpp"
@@ -9,25 +12,24 @@
 #include "engine/math/flush_denormals.hpp"
 #include "engine/solver/newton/geometric_stiffness.hpp"
 #include "engine/solver/newton/load_stepping.hpp"
+#include "engine/solver/newton/regularisation_schedule.hpp"
 
 namespace handhold {
 namespace {
 
-constexpr double k_unresolved_overlap_m =
-    1e-4;  // contacts that contradict each other soften from here
-constexpr double k_min_active_distance_m =
-    1e-3;  // contacts farther than this and any error stay out
-// The farthest that joints may move a body, in what they lack: a chain that is all but stretched
-// out. A hand that pulls across an endless rail would send what slides on it to the horizon.
+// Contacts and limits are omitted from a step beyond both this and twice the worst error.
+constexpr double k_min_active_distance_m = 1e-3;
+// Longest plausible move of a body by joint rows, relative to the residual: an almost stretched
+// chain. Without it a drive that pulls across an endless rail would move a slider without bound.
 constexpr double k_max_joint_move_ratio = 10.0;
-constexpr double k_unlimited_move_m = 0.1;  // no move is too far up to this
-// Of the tolerance: the view goes where hands are, and shows what they lack. What a step leaves of
-// it the same factor takes away.
+constexpr double k_unlimited_move_m = 0.1;  // a shorter move is always plausible
+// A converged solve whose drive error is above this share of the tolerance takes one more step with
+// the same factor: drive errors are visible as offsets of the translating bodies.
 constexpr double k_drive_tolerance_ratio = 0.1;
-// Of the tolerance: what a step moves by less is at rest.
+// Bodies that a step moves by less than this share of the tolerance count as at rest.
 constexpr double k_inactive_move_ratio = 1e-3;
 
-// --- Any rows ----------------------------------------------------------------------------------
+// --- Row by row ---------------------------------------------------------------------------------
 
 bool is_unilateral_block(const RowBlock& block) { return is_contact(block) || block.joint.limited; }
 
@@ -37,7 +39,7 @@ bool has_unilateral_block(const IslandView& island) {
     });
 }
 
-// Contacts and limits farther apart than this matter to no step: twice the worst error.
+// Separation beyond which contacts and limits are omitted from a step.
 double active_distance_of(const IslandView& island) {
     if (!has_unilateral_block(island)) {
         return k_min_active_distance_m;
@@ -51,8 +53,8 @@ double active_distance_of(const IslandView& island) {
     return std::max(k_min_active_distance_m, 2.0 * worst);
 }
 
-// Rows of the blocks that a step can matter to. What a step overlaps all the same is near in the
-// next one.
+// Collects the rows that a step may affect. A row that the step violates although it was omitted is
+// within reach in the next one.
 void collect_rows(const IslandView& island, std::vector<Row>& rows) {
     const double reach_m = active_distance_of(island);
     rows.clear();
@@ -65,7 +67,7 @@ void collect_rows(const IslandView& island, std::vector<Row>& rows) {
     }
 }
 
-double worst_overlap_of(std::span<const Row> rows) {
+double worst_overlap(std::span<const Row> rows) {
     double worst = 0.0;
     for (const Row& row : rows) {
         worst = row.group == RowGroup::contact ? std::max(worst, -row.residual) : worst;
@@ -73,8 +75,9 @@ double worst_overlap_of(std::span<const Row> rows) {
     return worst;
 }
 
-// Rows of one error count together: the same however the world is turned.
-double worst_of(std::span<const Row> rows) {
+// Largest error. The rows of one vector-valued error enter with their norm, so that the result does
+// not depend on the world's orientation.
+double worst_error(std::span<const Row> rows) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
         if (rows[i].unilateral) {
@@ -90,18 +93,19 @@ double worst_of(std::span<const Row> rows) {
     return worst;
 }
 
-// The same of hands alone.
-double worst_drive_of(std::span<const Row> rows) {
+// Largest error of the drives.
+double worst_drive_error(std::span<const Row> rows) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); i += rows[i].width) {
         if (rows[i].group == RowGroup::drive) {
-            worst = std::max(worst, worst_of(rows.subspan(i, rows[i].width)));
+            worst = std::max(worst, worst_error(rows.subspan(i, rows[i].width)));
         }
     }
     return worst;
 }
 
-// Returns the longest step, metres.
+// Moves the bodies by `scale` times the gathered moves. Returns the longest move, metres; rotations
+// count times k_angle_lever_m.
 double apply_moves(const IslandView& island, double scale, const SolveScratch& scratch) {
     double longest_move = 0.0;
     double largest_rotation = 0.0;
@@ -114,7 +118,8 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
         const Vec3 turn = scale * scratch.rotations_rad[body.slot];
         body.pose_ws.position += move;
         if (turn.squaredNorm() > 0.0) {
-            // Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one.
+            // Cayley map: a rotation by 2 atan(|turn| / 2), to second order equal to the
+            // exponential map.
             const Vec3 half = 0.5 * turn;
             body.pose_ws.rotation =
                 (Quat(1.0, half.x(), half.y(), half.z()) * body.pose_ws.rotation).normalized();
@@ -125,7 +130,7 @@ double apply_moves(const IslandView& island, double scale, const SolveScratch& s
     return std::max(std::sqrt(longest_move), k_angle_lever_m * std::sqrt(largest_rotation));
 }
 
-// An island's rows one by one, as RowSystem has them: any kind, with an active set.
+// The step of an island solved by RowSystem: any kind of row, with an active set.
 class RowSteps {
   public:
     RowSteps(const IslandView& island, SolveScratch& scratch) : island_(island), scratch_(scratch) {
@@ -133,8 +138,8 @@ class RowSteps {
         clear_stiffness(island_, scratch_);
     }
 
-    // Where all rows hold points and the step before was whole, the errors alone: directions stay
-    // those of the factor at hand until `renew`.
+    // If all rows are point rows and the last step was unscaled, updates only the residuals and
+    // keeps the Jacobian of the current factor until `renew`.
     void evaluate(bool was_full_step) {
         reuses_jacobian_ = was_full_step && has_only_point_rows_;
         if (reuses_jacobian_) {
@@ -148,13 +153,13 @@ class RowSteps {
             collect();
         }
     }
-    double worst_m() const { return worst_of(scratch_.rows); }
-    double worst_drive_m() const { return worst_drive_of(scratch_.rows); }
-    double overlap_m() const { return worst_overlap_of(scratch_.rows); }
+    double worst_m() const { return worst_error(scratch_.rows); }
+    double worst_drive_m() const { return worst_drive_error(scratch_.rows); }
+    double overlap_m() const { return worst_overlap(scratch_.rows); }
     bool has_contact() const { return handhold::has_contact(scratch_.rows); }
     bool is_active_set_unconverged() const { return scratch_.system.is_active_set_unconverged(); }
 
-    // True where the factor of the rows before serves these.
+    // True if the last factor fits the current rows.
     bool keeps_factor() const { return has_only_point_rows_ || has_same_rows(); }
     void stiffen(bool stiff) {
         clear_stiffness(island_, scratch_);
@@ -186,7 +191,7 @@ class RowSteps {
     static std::optional<JointError> worst_joints() { return std::nullopt; }
 
   private:
-    // All of them hold, none may let go.
+    // True if the number of rows is unchanged and all are bilateral.
     bool has_same_rows() const {
         return scratch_.rows.size() == scratch_.previous_rows.size() &&
                std::ranges::none_of(scratch_.rows, [](const Row& row) { return row.unilateral; });
@@ -195,7 +200,7 @@ class RowSteps {
         std::swap(scratch_.rows, scratch_.previous_rows);
         collect_rows(island_, scratch_.rows);
     }
-    // True where every row, now and after a step, holds a point on a point.
+    // True if every row is a point row, now and after a step.
     bool has_only_point_rows() const {
         if (has_unilateral_block(island_)) {
             return false;
@@ -220,8 +225,8 @@ class RowSteps {
         scratch_.lambda.assign(lambda.begin(), lambda.end());
     }
 
-    // From the rows and multipliers of the last step, for every point held on, or away from, a
-    // point.
+    // Sums the geometric stiffness of all point and distance rows, from the rows and multipliers of
+    // the last step.
     void gather_stiffness() {
         const std::span<const double> lambda = scratch_.lambda;
         const auto add = [&](std::uint32_t index, const Vec3& force, const Vec3& point_bs,
@@ -253,9 +258,9 @@ class RowSteps {
     bool reuses_jacobian_ = false;
 };
 
-// --- Rows that all hold ------------------------------------------------------------------------
+// --- Packed triads -------------------------------------------------------------------------------
 
-// The same for an island that TriadSystem serves.
+// The step of an island solved by TriadSystem: bilateral rows only.
 class TriadSteps {
   public:
     TriadSteps(const IslandView& island, TriadSystem& system) : island_(island), system_(system) {}
@@ -295,59 +300,13 @@ class TriadSteps {
 
 // --- Newton's method ---------------------------------------------------------------------------
 
-// Hands give way until the error falls below half of the least so far, or steadily: steps that
-// overshoot to and fro are no progress, but on a light link at the end of heavy ones it is the soft
-// hand itself that lets the error fall but slowly. Contacts do so only where they contradict each
-// other: else their multipliers grow without bound and push along what they do not even oppose.
-void adapt(bool progresses, double overlap_m, double previous_overlap_m,
-           const NewtonSettings& settings, Regularisation& regularisation) {
-    const StepControl& schedule = settings.schedule;
-    const bool drive_at_max = regularisation.drive >= schedule.max_drive_regularisation;
-    const bool is_unresolved =
-        drive_at_max && overlap_m > k_unresolved_overlap_m && overlap_m > 0.5 * previous_overlap_m;
-    regularisation.drive = progresses
-                               ? std::max(regularisation.drive * schedule.regularisation_decrease,
-                                          schedule.min_drive_regularisation)
-                               : std::min(regularisation.drive * schedule.regularisation_increase,
-                                          schedule.max_drive_regularisation);
-    regularisation.contact =
-        is_unresolved ? std::min(regularisation.contact * schedule.regularisation_increase,
-                                 schedule.max_contact_regularisation)
-                      : std::max(regularisation.contact * (1.0 / schedule.regularisation_increase),
-                                 settings.regularisation.contact);
-}
-
-// Says whether the error falls steadily, step by step, and begins to count anew where it does.
-// Steps that repeat a factor are not asked: they neither count nor end a run, for they say nothing
-// of how soft hands should be. Until a run is long enough its steps are no progress, so that hands
-// soften twice by `softening` and then harden once by `hardening`: about where they were, in three
-// steps, in place of a thousand times as soft. Between contacts steps are not trusted that far.
-class SteadyDecrease {
-  public:
-    explicit SteadyDecrease(const StepControl& schedule) : schedule_(schedule) {}
-
-    bool take(double residual_m, double least_m, bool is_whole, bool has_contact) {
-        const bool falls =
-            is_whole && !has_contact && residual_m < schedule_.linear_decrease_ratio * least_m;
-        steps_ = falls ? steps_ + 1 : 0;
-        if (steps_ < schedule_.linear_decrease_steps) {
-            return false;
-        }
-        steps_ = 0;
-        return true;
-    }
-
-  private:
-    const StepControl& schedule_;
-    int steps_ = 0;
-};
-
 struct StepResult {
     double length_m = 0.0;
     bool whole = true;  // not scaled down
 };
 
-// One Newton step.
+// One Newton step. If the step would be scaled below min_step_scale, it is repeated with more
+// regularisation.
 template <typename Steps>
 StepResult take_step(const Regularisation& regularisation, const StepControl& schedule,
                      double worst_m, Steps& steps) {
@@ -364,12 +323,12 @@ StepResult take_step(const Regularisation& regularisation, const StepControl& sc
         if (scale >= schedule.min_step_scale) {
             break;
         }
-        factor *= 100.0;
+        factor *= k_retry_regularisation_increase;
     }
     return {steps.apply_moves(scale), scale == 1.0};
 }
 
-// What a step hardly moved the next ones do not look at, as long as they take the error down.
+// While each step halves the error, later steps skip the bodies that the last one hardly moved.
 template <typename Steps>
 void choose_active_rows(bool halves, const NewtonSettings& settings, Steps& steps) {
     if (halves) {
@@ -379,22 +338,22 @@ void choose_active_rows(bool halves, const NewtonSettings& settings, Steps& step
     }
 }
 
-// A step with the factor of the one before: as good where the poses hardly moved since.
+// A step with the previous factor. As good as a new one if the poses hardly moved since.
 template <typename Steps>
 StepResult repeat_step(Steps& steps) {
     steps.solve_with_last_factor();
     return {steps.apply_moves(1.0), true};
 }
 
-// True where the last step took the error down so well that its factor is worth another. Where a
-// factor costs little more than a step (`is_factor_cheap`), only if that should be the last one.
+// True if the last step reduced the error so well that its factor is worth another step. If a new
+// factor costs little more than a step (`is_factor_cheap`), only if that step would be the last.
 bool is_good_step(double residual_m, double previous_m, bool is_factor_cheap,
                   const NewtonSettings& settings) {
-    constexpr double k_good_step = 0.05;
-    constexpr double k_spare = 0.1;  // such steps are not quite as good as the one before
+    constexpr double k_max_step_ratio = 0.05;
+    constexpr double k_safety = 0.1;  // a repeated step converges slightly worse
     const double ratio = residual_m / previous_m;
-    return residual_m < settings.geometric_stiffness_from_m && ratio < k_good_step &&
-           (!is_factor_cheap || ratio * residual_m < k_spare * settings.tolerance_m);
+    return residual_m < settings.geometric_stiffness_from_m && ratio < k_max_step_ratio &&
+           (!is_factor_cheap || ratio * residual_m < k_safety * settings.tolerance_m);
 }
 
 template <typename Steps>
@@ -403,10 +362,10 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
     Regularisation regularisation = settings.regularisation;
     double previous = std::numeric_limits<double>::infinity();
     double previous_overlap = previous;
-    double least = previous;
+    double smallest = previous;
     StepResult step{previous, false};
-    SteadyDecrease fall(settings.schedule);
-    bool refines_drives = false;  // the step to come, or just taken, is for hands alone
+    SteadyDecrease steady(settings.schedule);
+    bool refines_drives = false;  // the next or last step only refines drives
     for (;;) {
         steps.evaluate(step.whole);
         result.residual_m = steps.worst_m();
@@ -430,10 +389,12 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
             steps.renew();
         }
         if (result.iterations > 0 && !repeats) {
-            const bool is_steady =
-                fall.take(result.residual_m, least, step.whole, steps.has_contact());
-            adapt(result.residual_m < 0.5 * least || is_steady, overlap, previous_overlap, settings,
-                  regularisation);
+            const bool is_steady = steady.take({.residual_m = result.residual_m,
+                                                .smallest_residual_m = smallest,
+                                                .is_unscaled = step.whole,
+                                                .has_contact = steps.has_contact()});
+            update_regularisation(result.residual_m < 0.5 * smallest || is_steady, overlap,
+                                  previous_overlap, settings, regularisation);
             choose_active_rows(step.whole && result.residual_m < 0.5 * previous, settings, steps);
             steps.stiffen(result.residual_m > settings.geometric_stiffness_from_m);
         }
@@ -441,13 +402,13 @@ NewtonResult iterate(const NewtonSettings& settings, Steps&& steps) {
                        : take_step(regularisation, settings.schedule, result.residual_m, steps);
         result.active_set_unconverged |= steps.is_active_set_unconverged();
         previous = result.residual_m;
-        least = std::min(least, previous);
+        smallest = std::min(smallest, previous);
         previous_overlap = overlap;
         ++result.iterations;
     }
 }
 
-// From the bodies' present poses, which may have changed since the island was loaded.
+// Solves from the bodies' current poses, which may have changed since the island was loaded.
 NewtonResult solve_load_step(const IslandView& island, const NewtonSettings& settings,
                              SolveScratch& scratch) {
     if (!scratch.triads.load(island)) {

@@ -1,11 +1,12 @@
+// Solver, newton: velocity solve of an island in packed triads.
 #include "engine/solver/newton/triad_velocities.hpp"
 
 #include <limits>
 
 namespace handhold {
 
-// The same refinements as for any rows: with the factor at hand, until the rows are met or cannot
-// be.
+// Iterative refinement with one factor until the rows are satisfied or cannot be, as
+// refine_velocities in velocities.cpp.
 void solve_triad_velocities(const IslandView& island, const VelocitySettings& settings,
                             TriadSystem& triads) {
     for (const std::uint32_t index : island.island_blocks) {

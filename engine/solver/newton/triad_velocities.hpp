@@ -1,3 +1,5 @@
+// Solver, newton: velocity solve of an island in packed triads.
+
 #pragma once
 
 #include "engine/solver/model/island_view.hpp"

@@ -1,5 +1,6 @@
-// Sources: Coulomb's cone by fixed point over who sticks and who slides, as in Moreau's contact
-// dynamics (1988); restitution after Newton.
+// Solver, newton: the velocity solve, row by row.
+// Sources: Coulomb's cone by fixed-point iteration over sticking and sliding contacts, as in
+// Moreau's contact dynamics (1988); restitution after Newton.
 #include "engine/solver/newton/velocities.hpp"
 
 #include <algorithm>
@@ -19,16 +20,16 @@ double row_velocity(const IslandView& island, const Row& row) {
            row.angular_b.dot(b.spin_radps);
 }
 
-// Only what has one free coordinate can be pulled to a speed.
+// Only joints with one free coordinate have a motor.
 bool has_motor(const RowBlock& block) {
     return (block.kind == RowKind::hinge || block.kind == RowKind::slider) &&
            block.joint.motor_max_impulse > 0.0;
 }
 
-// What may slide against a bounded impulse, and what pulls a joint to a speed.
+// Appends the friction and motor rows of a block, and their bounds.
 void collect_frictions(const IslandView& island, const RowBlock& block, std::uint32_t index,
                        SolveScratch& scratch) {
-    const std::size_t normal = scratch.rows.size() - 1;  // a contact's only row
+    const std::size_t normal = scratch.rows.size() - 1;  // a contact's only row; a joint's last row
     const auto add = [&](double limit, double coefficient) {
         const std::size_t row = scratch.rows.size();
         const std::size_t width = append_sliding_rows(island.bodies, block, index, scratch.rows);
@@ -40,7 +41,7 @@ void collect_frictions(const IslandView& island, const RowBlock& block, std::uin
         add(0.0, block.friction);
     }
     if (block.joint.lock_limit_impulse > 0.0 && block.joint.lower == block.joint.upper) {
-        // The lock is the last of the joint's rows; angular rows are scaled by their lever.
+        // The lock is the last of the joint's rows. Angular rows are scaled by their lever.
         const double lever = is_angular(block.kind) ? k_angle_lever_m : 1.0;
         scratch.frictions.push_back(
             {normal, 1, block.joint.lock_limit_impulse / lever, normal, 0.0, false});
@@ -87,7 +88,7 @@ void collect_velocity_rows(const IslandView& island, const VelocitySettings& set
     }
 }
 
-// What each row's velocity lacks.
+// Residual of every row at the current velocities, m/s (Row::residual).
 void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
         Row& row = scratch.rows[i];
@@ -99,7 +100,7 @@ void evaluate_velocity_rows(const IslandView& island, SolveScratch& scratch) {
                 speed += row.angular_a.dot(block.drive_spin_ws_radps);
             }
         }
-        row.residual = speed;  // metres a second here
+        row.residual = speed;  // m/s, unlike in positions
     }
 }
 
@@ -110,9 +111,9 @@ void stick(SolveScratch& scratch, SolveScratch::Friction& friction) {
     }
 }
 
-// Coulomb's law for one friction after a solve: what takes more than its limit slides, against its
-// motion, by the limit; what slides and is pushed along its motion sticks again. True where that
-// changes the next solve.
+// Coulomb's law for one friction after a solve. A multiplier above its limit slides: it is fixed at
+// the limit, opposing the slip. A sliding one that pushes along its slip sticks again. True if the
+// next solve changes.
 bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScratch& scratch,
                         SolveScratch::Friction& friction) {
     const double limit = friction.coefficient > 0.0
@@ -134,21 +135,21 @@ bool apply_friction_law(std::span<const double> lambda, bool may_stick, SolveScr
         stick(scratch, friction);
         return true;
     }
-    Vec3 wanted = friction.slides ? Vec3(-slip) : push;
-    wanted = wanted.norm() > 1e-12 ? Vec3(wanted * (limit / wanted.norm())) : push;
+    Vec3 target = friction.slides ? Vec3(-slip) : push;
+    target = target.norm() > 1e-12 ? Vec3(target * (limit / target.norm())) : push;
     if (friction.slides && !may_stick && push.dot(slip) > 0.0) {
-        wanted = 0.5 * push;  // between too much and too little: never along the slip for long
+        target = 0.5 * push;  // bisects: avoids pushing along the slip
     }
-    const bool changes = !friction.slides || (wanted - push).norm() > tolerance;
+    const bool changes = !friction.slides || (target - push).norm() > tolerance;
     friction.slides = true;
     for (std::size_t i = 0; i < friction.width; ++i) {
-        scratch.system.fix_multiplier(friction.row + i, wanted[static_cast<Eigen::Index>(i)]);
+        scratch.system.fix_multiplier(friction.row + i, target[static_cast<Eigen::Index>(i)]);
     }
     return changes;
 }
 
-// The largest impulse that presses a contact that rubs, N s; 0 where none does.
-double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) {
+// Largest normal impulse of a contact with friction, N s; 0 if there is none.
+double largest_normal_impulse(std::span<const double> lambda, const SolveScratch& scratch) {
     double largest = 0.0;
     for (const SolveScratch::Friction& friction : scratch.frictions) {
         if (friction.coefficient > 0.0 && !friction.is_frictionless) {
@@ -158,11 +159,11 @@ double pressure_of(std::span<const double> lambda, const SolveScratch& scratch) 
     return largest;
 }
 
-// True where the rows of an island that nothing drives give it more energy than they take: half of
-// impulse times velocity, before and after.
+// True if the rows of an island without energy source add energy. Work of a row: impulse times the
+// mean of its velocity before and after.
 bool adds_energy(std::span<const double> lambda, const VelocityResult& result,
                  const SolveScratch& scratch) {
-    // Of what they exchange, which is out of all proportion where friction was not settled.
+    // Relative to the energy exchanged, which is unreliable if friction did not converge.
     const double tolerance = result.friction_unconverged ? 1e-9 : 1e-3;
     constexpr double k_slow_mps = 1e-3;
     if (scratch.has_energy_source) {
@@ -179,13 +180,14 @@ bool adds_energy(std::span<const double> lambda, const VelocityResult& result,
     return work > tolerance * exchanged;
 }
 
-// Who sticks and who slides, by fixed point. The multipliers are those of the last pass.
+// Stick-slip iteration. Returns the multipliers of the last pass.
 std::span<const double> solve_stick_slip(int passes, SolveScratch& scratch,
                                          VelocityResult& result) {
-    constexpr int k_max_stick_passes = 6;  // later ones only slide: no going round in circles
-    constexpr double k_wedge = 10.0;       // times what pressed while all stuck
+    // later passes allow no return to sticking, so the iteration cannot cycle
+    constexpr int k_max_stick_passes = 6;
+    constexpr double k_wedge = 10.0;  // times the largest normal impulse with all contacts sticking
     std::span<const double> lambda = scratch.system.solve(scratch.rows);
-    const double pressed = pressure_of(lambda, scratch);
+    const double sticking_impulse = largest_normal_impulse(lambda, scratch);
     for (int pass = 0; pass < passes; ++pass) {
         bool changes = false;
         for (SolveScratch::Friction& friction : scratch.frictions) {
@@ -196,7 +198,7 @@ std::span<const double> solve_stick_slip(int passes, SolveScratch& scratch,
             return lambda;
         }
         lambda = scratch.system.solve(scratch.rows);
-        if (pressure_of(lambda, scratch) > k_wedge * pressed) {
+        if (largest_normal_impulse(lambda, scratch) > k_wedge * sticking_impulse) {
             result.wedged = true;
             return lambda;
         }
@@ -212,7 +214,8 @@ void release_friction(SolveScratch& scratch, SolveScratch::Friction& friction) {
     }
 }
 
-// Newton's law of restitution gains energy where some contacts bounce and others do not.
+// Removes restitution: Newton's law adds energy if some contacts of a body bounce and others do
+// not.
 void clear_restitution(SolveScratch& scratch) {
     for (std::size_t i = 0; i < scratch.rows.size(); ++i) {
         if (scratch.rows[i].group == RowGroup::contact) {
@@ -222,7 +225,7 @@ void clear_restitution(SolveScratch& scratch) {
     }
 }
 
-// Multipliers of all rows, with friction.
+// Solves for the multipliers of all rows with friction.
 std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
                                             VelocityResult& result) {
     result = {};
@@ -237,8 +240,8 @@ std::span<const double> solve_with_friction(int passes, SolveScratch& scratch,
     if (!result.wedged && !adds_energy(lambda, result, scratch)) {
         return lambda;
     }
-    // The harder it is held, the harder it presses, or the more it gains. A wedge has no answer;
-    // let contacts slip freely, and settle what rubs in joints anew.
+    // The contacts wedge (more friction causes more normal impulse) or the rows add energy. Contact
+    // friction is removed and joint friction is solved again.
     for (SolveScratch::Friction& friction : scratch.frictions) {
         stick(scratch, friction);
         if (friction.coefficient > 0.0) {
@@ -273,14 +276,14 @@ void apply_impulses(const IslandView& island, std::span<const double> lambda,
             block.angular_impulse_ws_nms += lambda[i] * row.angular_a;
         }
         if (row.group == RowGroup::limit && !row.unilateral) {
-            // In the coordinate's own unit: angular rows are scaled by their lever.
-            const bool angle = row.linear_a.isZero(0.0);
-            block.joint.lock_impulse += std::abs(lambda[i]) * (angle ? k_angle_lever_m : 1.0);
+            // In the coordinate's unit: angular rows are scaled by their lever.
+            const bool is_angle = row.linear_a.isZero(0.0);
+            block.joint.lock_impulse += std::abs(lambda[i]) * (is_angle ? k_angle_lever_m : 1.0);
         }
     }
 }
 
-// Of the rows that act.
+// Largest residual of the active rows.
 double worst_speed(std::span<const Row> rows, const RowSystem& system) {
     double worst = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -289,8 +292,9 @@ double worst_speed(std::span<const Row> rows, const RowSystem& system) {
     return worst;
 }
 
-// Takes the error of regularisation down, by a factor that long levers make small, until the rows
-// are met or cannot be: more would only press contradicting rows against each other.
+// Iterative refinement: reduces the error of regularisation, which long levers amplify, until the
+// rows are satisfied or cannot be. Further steps would only press contradicting rows against each
+// other.
 void refine_velocities(const IslandView& island, const VelocitySettings& settings,
                        SolveScratch& scratch) {
     double previous = std::numeric_limits<double>::infinity();
@@ -329,8 +333,8 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
     for (const Row& row : scratch.rows) {
         largest_residual = std::max(largest_residual, std::abs(row.residual));
     }
-    // Contacts that contradict each other (a jam) are met by no velocity; hard ones would try with
-    // huge ones. Nobody may gain more than the rows lack.
+    // No velocity satisfies contacts that contradict each other (a jam); stiff rows would answer
+    // with huge impulses. No body may gain more speed than k_max_move_ratio times the residual.
     Regularisation regularisation = settings.regularisation;
     for (int attempt = 0; attempt <= k_max_regularisation_retries; ++attempt) {
         regularise(scratch.rows, regularisation, 1.0, scratch.system);
@@ -342,8 +346,8 @@ VelocityResult solve_velocities(const IslandView& island, const VelocitySettings
             longest_move(scratch) <= k_max_move_ratio * largest_residual) {
             break;
         }
-        regularisation.drive *= 100.0;
-        regularisation.contact *= 100.0;
+        regularisation.drive *= k_retry_regularisation_increase;
+        regularisation.contact *= k_retry_regularisation_increase;
     }
     result.active_set_unconverged = scratch.system.is_active_set_unconverged();
     apply_impulses(island, scratch.lambda, scratch);

@@ -1,5 +1,6 @@
-// Sources: nested dissection after George, Nested Dissection of a Regular Finite Element Mesh
-// (1973), of a path.
+// Solver, packed: finds strands in an island's chains.
+// Source: nested dissection after George, Nested Dissection of a Regular Finite Element Mesh
+// (1973), applied to a path.
 #include "engine/solver/packed/strand_plan.hpp"
 
 #include <algorithm>
@@ -9,10 +10,10 @@ namespace {
 
 constexpr std::uint32_t k_strands = 4;
 constexpr std::uint32_t k_separators = k_strands - 1;
-// Shorter strands do not pay for their separators.
+// Shorter strands cost more for their separators than they save.
 constexpr std::uint32_t k_shortest_strand = 4;
 
-// The other side of the same node.
+// The other end of the same node.
 std::uint32_t other_side(std::uint32_t end) { return end ^ 1U; }
 
 }  // namespace
@@ -68,21 +69,21 @@ void StrandPlan::find_ends(std::span<const RowNode> nodes) {
     }
 }
 
-// Links of which each body has at most one other node.
+// Marks the links both of whose bodies have at most one other node.
 void StrandPlan::find_links(std::span<const RowNode> nodes) {
     is_open_.assign(nodes.size(), 0);
     for (std::uint32_t node = 0; node < nodes.size(); ++node) {
-        const auto is_passed = [&](std::uint32_t slot) {
+        const auto is_passable = [&](std::uint32_t slot) {
             return slot == k_no_slot || uses_[slot] <= 2;
         };
         const std::uint32_t a = nodes[node].slots[0];
         const std::uint32_t b = nodes[node].slots[1];
         is_open_[node] =
-            nodes[node].is_point_link && a != b && is_passed(a) && is_passed(b) ? 1 : 0;
+            nodes[node].is_point_link && a != b && is_passable(a) && is_passable(b) ? 1 : 0;
     }
 }
 
-// The other end at the body of this one; k_no_slot where there is none.
+// The other node's end at this end's body; k_no_slot if there is none.
 std::uint32_t StrandPlan::beyond(std::span<const RowNode> nodes, std::uint32_t end) const {
     const std::uint32_t slot = nodes[end / 2].slots[end % 2];
     if (slot == k_no_slot || uses_[slot] < 2) {
@@ -91,22 +92,22 @@ std::uint32_t StrandPlan::beyond(std::span<const RowNode> nodes, std::uint32_t e
     return ends_[slot][0] == end ? ends_[slot][1] : ends_[slot][0];
 }
 
-// The whole run that a link lies in, from one end to the other. Of a closed one, this link is left
-// to the rest.
+// Collects the whole run that contains a link, from one end to the other. In a closed run this link
+// is left to the rest.
 void StrandPlan::follow(std::span<const RowNode> nodes, std::uint32_t from) {
     const auto is_open = [this](std::uint32_t end) {
         return end != k_no_slot && is_open_[end / 2] != 0;
     };
     run_.clear();
     is_open_[from] = 0;
-    std::uint32_t end = 2 * from;  // the side that the run comes in by
+    std::uint32_t end = 2 * from;  // the end at which the run enters the link
     std::uint32_t back = beyond(nodes, end);
     while (is_open(back)) {
         is_open_[back / 2] = 0;
         end = other_side(back);
         back = beyond(nodes, end);
     }
-    if (back != k_no_slot && back / 2 == from) {  // round, and back again
+    if (back != k_no_slot && back / 2 == from) {  // a closed run
         end = beyond(nodes, other_side(back));
         for (; end / 2 != from; end = beyond(nodes, other_side(end))) {
             run_.push_back(end);
@@ -126,15 +127,15 @@ void StrandPlan::follow(std::span<const RowNode> nodes, std::uint32_t from) {
     }
 }
 
-// All four go inward: the outer two from the run's ends, the inner ones from the outer separators
-// to the middle one.
+// Cuts the run into four strands. Lanes 0 and 1 run forwards and lanes 2 and 3 backwards, so that
+// all four are eliminated towards the middle separator.
 void StrandPlan::cut(std::span<const RowNode> nodes) {
     const auto size = static_cast<std::uint32_t>(run_.size());
     if (size < k_strands * k_shortest_strand + k_separators) {
         return;
     }
     const std::uint32_t length = (size - k_separators) / k_strands;
-    std::uint32_t spare = size - k_separators - k_strands * length;  // separators take them
+    std::uint32_t spare = size - k_separators - k_strands * length;  // the separators take these
     StrandPack strand_pack;
     strand_pack.length = length;
     strand_pack.row = static_cast<std::uint32_t>(bodies_.size());
@@ -176,7 +177,7 @@ void StrandPlan::add_strand(std::span<const RowNode> nodes, std::span<const std:
         place(k, ends[k]);
     }
     place(strand_pack.length, other_side(ends.back()));
-    // Nodes of all; lay_out_rest knows their places.
+    // node numbers of the whole island; lay_out_rest converts them
     strand_pack.before[lane] = beyond(nodes, ends.front());
     strand_pack.after[lane] = beyond(nodes, other_side(ends.back()));
 }

@@ -1,3 +1,6 @@
+// Solver, packed: cuts the long chains of an island into strand packs. Terms and a diagram are in
+// triad_system.hpp.
+
 #pragma once
 
 #include <array>
@@ -9,40 +12,41 @@
 
 namespace handhold {
 
-// The long runs of links in an island, each cut into four strands of one length by separators:
-// links that each share a body with the next one and are eliminated one after the other, four
-// side by side, with nothing between strands but the separators (nested dissection). What is left
-// is the rest: the separators, and all that is no run.
+// Strands and rest of an island's nodes. A run is a sequence of links each of which shares a body
+// with the next. Each long run is cut by separators into four strands of equal length (nested
+// dissection). Nothing couples two strands except the separators, so all four are eliminated side
+// by side. The rest is the separators and every node that is in no run.
 //
-// A strand has `length` links and one body more, counted in rows: link k lies between the bodies of
-// rows k and k + 1. At its first and at its last body there may be one node of the rest each. To
-// the rest, a strand is one body: slot `slot_count() + 4 * braid + lane` of `rest_nodes`.
+// A strand has `length` links and length + 1 bodies, counted in rows: link k connects the bodies of
+// rows k and k + 1. Its first and its last body may each have one node of the rest. Towards the
+// rest, a strand counts as one body: slot `slot_count() + 4 * strand pack + lane` of `rest_nodes`.
 class StrandPlan {
   public:
     using Lanes = std::array<std::uint32_t, 4>;
 
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
-    // Room for what the other has room for: a build of its structure allocates nothing.
+    // Reserves the other plan's capacities, so that a build of its structure does not allocate.
     void reserve(const StrandPlan& other);
 
-    // Four strands.
+    // Four strands, one per lane.
     struct StrandPack {
-        std::uint32_t length = 0;  // links of each
-        std::uint32_t row = 0;     // the first of length + 1, into `bodies`
-        std::uint32_t links = 0;   // the first of `length`, into `links`
-        Lanes before{};  // the rest's end at the first body, k_no_slot where there is none: 2 *
-                         // (its place in `rest`) + side
-        Lanes after{};   // and at the last body
+        std::uint32_t length = 0;  // links per strand
+        std::uint32_t row = 0;     // first of its length + 1 rows, into `bodies`
+        std::uint32_t links = 0;   // first of its `length` steps, into `links`
+        // The rest's end at the first body, k_no_slot if there is none: 2 * (index in `rest`) +
+        // side.
+        Lanes before{};
+        Lanes after{};  // the same at the last body
     };
     std::span<const StrandPack> strand_packs() const { return strand_packs_; }
     std::size_t row_count() const { return bodies_.size(); }
-    // By row: slots. k_no_slot where the strand begins at what nothing moves.
+    // By row: slots. k_no_slot if the strand starts at an immovable body.
     std::span<const Lanes> bodies() const { return bodies_; }
-    // By braid and link: 2 * node + the side at the row before.
+    // By strand pack and step: 2 * node + the side at row k.
     std::span<const Lanes> links() const { return links_; }
 
     std::span<const std::uint32_t> rest() const { return rest_; }  // nodes, ascending
-    // The place of a node in `rest`; k_no_slot for a strand's.
+    // Index of a node in `rest`; k_no_slot for a strand's.
     std::span<const std::uint32_t> places() const { return places_; }
     std::span<const RowNode> rest_nodes() const { return rest_nodes_; }
     std::span<const std::uint8_t> rest_can_rotate() const { return rest_can_rotate_; }
@@ -70,10 +74,10 @@ class StrandPlan {
     std::size_t slot_count_ = 0;
 
     // Scratch of build.
-    std::vector<std::array<std::uint32_t, 2>> ends_;  // by slot: the first two of its ends
+    std::vector<std::array<std::uint32_t, 2>> ends_;  // by slot: the first two ends at it
     std::vector<std::uint32_t> uses_;                 // by slot
-    std::vector<std::uint8_t> is_open_;               // by node: a link that no run has yet
-    std::vector<std::uint32_t> run_;  // 2 * node + the side that the run comes in by
+    std::vector<std::uint8_t> is_open_;               // by node: a link that is in no run yet
+    std::vector<std::uint32_t> run_;                  // 2 * node + the side at which the run enters
     std::vector<std::uint32_t> strand_of_slot_;
 };
 

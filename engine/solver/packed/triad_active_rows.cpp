@@ -1,4 +1,4 @@
-// What TriadSystem tells of its errors, and which of its rows are worth another step.
+// Solver, packed: TriadSystem's error norms, and the active windows of long strands.
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +17,11 @@ double TriadSystem::worst_drive_residual() const {
 }
 
 JointError TriadSystem::worst_joints() const {
-    Double4 of_strands = zero4();
+    Double4 strand_squares = zero4();
     for (const Links4& links : links_) {
-        of_strands = larger(of_strands, dot(links.value, links.value));
+        strand_squares = larger(strand_squares, dot(links.value, links.value));
     }
-    double points = largest(of_strands);
+    double points = largest(strand_squares);
     double is_angular = 0.0;
     const std::span<const std::uint32_t> rest = plans_.current().rest();
     for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -41,10 +41,11 @@ void TriadSystem::activate_all_rows() {
     }
 }
 
-// What the last solve moved in the window, and some rows around it; all of it where nothing moved.
+// The rows of the window that the last solve moved, plus a margin. The whole window if it moved
+// none.
 RowWindow TriadSystem::active_window(const TriadPlan::StrandPack& strand_pack,
                                      const RowWindow& window, double min_move_m) const {
-    constexpr std::uint32_t k_margin = 4;  // pulls fade by a factor of four or so a link
+    constexpr std::uint32_t k_margin = 4;  // a pull fades by a factor of about four per link
     RowWindow active{window.end, window.begin};
     for (std::uint32_t row = window.begin; row < window.end; ++row) {
         const Bodies4& bodies = bodies_[strand_pack.row + row];
@@ -63,7 +64,8 @@ RowWindow TriadSystem::active_window(const TriadPlan::StrandPack& strand_pack,
 }
 
 void TriadSystem::restrict_to_active(double min_move_m) {
-    constexpr std::uint32_t k_short = 48;  // looking for a part of it costs as much as it saves
+    // shorter strands cost more to search than a window saves
+    constexpr std::uint32_t k_short = 48;
     const std::span<const TriadPlan::StrandPack> strand_packs = plans_.current().strand_packs();
     for (std::size_t i = 0; i < strand_packs.size(); ++i) {
         if (strand_packs[i].length < k_short) {

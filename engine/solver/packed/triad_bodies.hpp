@@ -1,12 +1,13 @@
+// Solver, packed: kernels over four bodies at a time: poses, ends, inertia, J W J^T, moves.
+// Included by triad_kernels.cpp only, and inlined there into functions for one processor type.
+// Source: geometric stiffness after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics
+// (2015), as in newton/geometric_stiffness.cpp.
+
 #pragma once
 
-// Sources: geometric stiffness after Tournier, Nesme, Gilles and Faure, Stable Constrained Dynamics
-// (2015), as in geometric_stiffness.cpp.
 #include "engine/math/wide_rotation.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
 
-// What the triad kernels do for four bodies at once. Included by triad_kernels.cpp alone: all is
-// inlined into functions for one kind of processor.
 namespace handhold::triads {
 
 // --- Poses and ends ----------------------------------------------------------------------------
@@ -34,7 +35,7 @@ HH_INLINE void write_axes(Bodies4& bodies) {
     assign(axes.y, bodies.axes.y);
     assign(axes.z, bodies.axes.z);
 }
-// An end's part in its triad's value; its arm on the way.
+// An end's contribution to its triad's residual; also updates its arm.
 HH_INLINE Wide3 part_of(const Bodies4& bodies, Ends4& end) {
     const Wide3 arm = rotate(bodies.axes, end.point_bs);
     assign(arm, end.arm);
@@ -44,7 +45,7 @@ HH_INLINE Wide3 part_of(const Bodies4& bodies, Ends4& end) {
 HH_INLINE void evaluate(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        Bodies4& bodies = arrays.bodies[groups[i].four];
+        Bodies4& bodies = arrays.bodies[groups[i].group_index];
         write_axes(bodies);
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
             Ends4& ends = arrays.body_ends[groups[i].packed + j];
@@ -64,7 +65,7 @@ template <bool HasTurn>
 HH_INLINE void evaluate_velocities(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        const Bodies4& bodies = arrays.bodies[groups[i].four];
+        const Bodies4& bodies = arrays.bodies[groups[i].group_index];
         for (std::uint32_t j = 0; j < groups[i].width; ++j) {
             write_ends(speed_of<HasTurn>(bodies, arrays.body_ends[groups[i].packed + j]),
                        arrays.plan->ends()[groups[i].ends + j], arrays);
@@ -94,7 +95,7 @@ HH_INLINE double worst_square(const TriadArrays& arrays) {
 
 // --- Inertia -----------------------------------------------------------------------------------
 
-// A diagonal matrix in the bodies' axes, in the world's.
+// A diagonal matrix given in body axes, in world axes.
 HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
     const Wide3 x = diagonal.x * axes.x;
     const Wide3 y = diagonal.y * axes.y;
@@ -120,7 +121,8 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Double4& times)
             factor * (m.xy * m.xz - m.xx * m.yz)};
 }
 
-// Inertia is taken times the product of its inverses, which one division at the end makes good.
+// (I + stiffness)^-1. Works on I times the product of its inverse moments, which needs one division
+// at the end instead of three at the start.
 HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
                                                const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
@@ -138,7 +140,7 @@ HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
             may_turn ? inverse.xz : zero, may_turn ? inverse.yz : zero};
 }
 
-// += factor v v^T
+// out += factor * v v^T
 HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& out) {
     const Wide3 scaled = factor * v;
     out.xx += scaled.x * v.x;
@@ -149,9 +151,10 @@ HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& o
     out.yz += scaled.y * v.z;
 }
 
-// positive_stiffness of a force and an arm, or of a negative one with its sign.
+// out += positive_stiffness(force, arm, +1). The arm of b's ends is reversed, which amounts to the
+// sign -1.
 HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
-    constexpr double k_least = 1e-12;
+    constexpr double k_min_ratio = 1e-12;
     const Double4 zero = zero4();
     const Double4 force_square = dot(force, force);
     const Double4 arm_square = dot(arm, arm);
@@ -159,24 +162,24 @@ HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric
     const Double4 along = dot(force, arm);
     const Wide3 normal = cross(force, arm);
     const Double4 normal_square = dot(normal, normal);
-    const Mask4 counts = product >= k_least;
+    const Mask4 is_nonzero = product >= k_min_ratio;
     const Mask4 pulls = along > 0.0;
-    const Mask4 is_straight = pulls & (normal_square <= k_least * product * product);
-    const Double4 ratio = counts ? product / arm_square : zero;
-    const Wide3 bent = force - ratio * arm;
-    const Wide3 axis{is_straight ? force.x : bent.x, is_straight ? force.y : bent.y,
-                     is_straight ? force.z : bent.z};
-    // One division for two: what does not count is divided by 1.
+    const Mask4 is_straight = pulls & (normal_square <= k_min_ratio * product * product);
+    const Double4 ratio = is_nonzero ? product / arm_square : zero;
+    const Wide3 difference = force - ratio * arm;
+    const Wide3 axis{is_straight ? force.x : difference.x, is_straight ? force.y : difference.y,
+                     is_straight ? force.z : difference.z};
+    // One division for two quotients; unused lanes divide by 1.
     const Mask4 has_normal = pulls & ~is_straight;
     const Double4 one = zero + 1.0;
-    const Double4 axis_size = is_straight ? force_square : dot(bent, bent);
+    const Double4 axis_size = is_straight ? force_square : dot(difference, difference);
     const Double4 normal_size = has_normal ? normal_square : one;
     const Double4 by = 1.0 / (axis_size * normal_size);
     const Double4 of_axis = (is_straight ? -product : 0.5 * (product + along)) * (normal_size * by);
     const Double4 of_normal = has_normal ? along * (axis_size * by) : zero;
-    const Double4 of_all = (counts & is_straight) ? product : zero;
-    add_outer(axis, counts ? of_axis : zero, out);
-    add_outer(normal, counts ? of_normal : zero, out);
+    const Double4 of_all = (is_nonzero & is_straight) ? product : zero;
+    add_outer(axis, is_nonzero ? of_axis : zero, out);
+    add_outer(normal, is_nonzero ? of_normal : zero, out);
     out.xx += of_all;
     out.yy += of_all;
     out.zz += of_all;
@@ -196,7 +199,7 @@ HH_INLINE void gather_stiffness(const TriadArrays& arrays) {
             add_stiffness(lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays),
                           arrays.body_ends[groups[i].packed + j].arm, sum);
         }
-        assign(sum, arrays.stiffness[groups[i].four]);
+        assign(sum, arrays.stiffness[groups[i].group_index]);
     }
 }
 
@@ -222,7 +225,7 @@ HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int plac
     }
 }
 
-// Rows of J W of an end, the rotation's part: J's are arm x e_k, or the axes at their lever.
+// Rotational part of the rows of J W of an end. Rows of J: arm x e_k, or lever * e_k.
 template <bool HasTurn>
 HH_INLINE void write_side(const WideSymmetric& w, const Ends4& end, Wide3* side) {
     const Wide3 x{w.xx, w.xy, w.xz};
@@ -244,8 +247,8 @@ HH_INLINE Wide3 times_end(const Wide3& side, const Ends4& end) {
 }
 
 template <bool HasTurn>
-HH_INLINE void multiply_out_four(const Bodies4& bodies, const TriadPlan::Group& group,
-                                 const TriadArrays& arrays) {
+HH_INLINE void multiply_out_group(const Bodies4& bodies, const TriadPlan::Group& group,
+                                  const TriadArrays& arrays) {
     const TriadPlan::Pair* pair = arrays.plan->pairs().data() + group.pairs;
     const Ends4* const ends = arrays.body_ends.data() + group.packed;
     for (std::uint32_t i = 0; i < group.width; ++i) {
@@ -268,10 +271,10 @@ HH_INLINE void multiply_out_four(const Bodies4& bodies, const TriadPlan::Group& 
     }
 }
 
-HH_INLINE void write_inertia(std::size_t four, const TriadArrays& arrays) {
-    Bodies4& bodies = arrays.bodies[four];
+HH_INLINE void write_inertia(std::size_t group, const TriadArrays& arrays) {
+    Bodies4& bodies = arrays.bodies[group];
     if (arrays.has_stiffness) {
-        assign(inverse_with_stiffness(bodies, arrays.stiffness[four]), bodies.inverse_inertia);
+        assign(inverse_with_stiffness(bodies, arrays.stiffness[group]), bodies.inverse_inertia);
     } else {
         assign(to_world(bodies.axes, bodies.inverse_inertia_bs), bodies.inverse_inertia);
     }
@@ -286,12 +289,12 @@ HH_INLINE void multiply_out(const TriadArrays& arrays) {
     }
     const std::span<const TriadPlan::Group> groups = arrays.plan->groups();
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        Bodies4& bodies = arrays.bodies[groups[i].four];
-        write_inertia(groups[i].four, arrays);
+        Bodies4& bodies = arrays.bodies[groups[i].group_index];
+        write_inertia(groups[i].group_index, arrays);
         if (arrays.has_turn) {
-            multiply_out_four<true>(bodies, groups[i], arrays);
+            multiply_out_group<true>(bodies, groups[i], arrays);
         } else {
-            multiply_out_four<false>(bodies, groups[i], arrays);
+            multiply_out_group<false>(bodies, groups[i], arrays);
         }
     }
 }
@@ -335,7 +338,7 @@ HH_INLINE LargestMove gather_moves(const TriadArrays& arrays) {
                     lambdas_of(arrays.plan->ends()[groups[i].ends + j], arrays), arrays.has_turn,
                     wrench);
         }
-        take_moves(wrench, arrays.bodies[groups[i].four], reach);
+        take_moves(wrench, arrays.bodies[groups[i].group_index], reach);
     }
     return {largest(reach.move), largest(reach.turn)};
 }
@@ -345,8 +348,8 @@ HH_INLINE LargestMove longer(const LargestMove& a, const LargestMove& b) {
             a.turn_square > b.turn_square ? a.turn_square : b.turn_square};
 }
 
-// Cayley's map: a turn of 2 atan(|turn| / 2), as good a step as the exact one. What does not turn
-// keeps its bits.
+// Cayley map: a rotation by 2 atan(|turn| / 2), to second order equal to the exponential map. Lanes
+// without rotation keep their bits.
 HH_INLINE void turn_by(const Wide3& turn, Wide4& rotation) {
     const Double4 half = zero4() + 0.5;
     const Wide4 after = turned(half * turn, zero4() + 1.0, rotation);
@@ -364,7 +367,7 @@ HH_INLINE void move_by(double scale, Bodies4& bodies) {
 }
 HH_INLINE void apply(const TriadArrays& arrays, double scale) {
     for (const TriadPlan::Group& group : arrays.plan->groups()) {
-        move_by(scale, arrays.bodies[group.four]);
+        move_by(scale, arrays.bodies[group.group_index]);
     }
 }
 

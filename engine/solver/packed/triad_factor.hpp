@@ -1,50 +1,52 @@
+// Solver, packed: kernels of the rest's sparse LDL^T in 3x3 blocks. Included by triad_kernels.cpp
+// only, and inlined there into functions for one processor type.
+// Source: LDL^T by blocks as in Golub and Van Loan, Matrix Computations, 4.2.
+
 #pragma once
 
-// Sources: LDL^T by blocks as in Golub and Van Loan, Matrix Computations, 4.2.
 #include <cmath>
 
 #include "engine/solver/packed/triad_kernels.hpp"
 
-// The triad kernels' sparse factor, block by block. Included by triad_kernels.cpp alone: all is
-// inlined into functions for one kind of processor.
 namespace handhold::triads {
 
 // --- Inverses ----------------------------------------------------------------------------------
 
-// By cofactors: the three divisions of pivots wait for each other, this is one. What is left of two
-// triads that repeat each other is as small as alpha, 1e-10 of their diagonal, and is a difference
-// of products with the inverse: where cofactors would lose too many digits of it, blocks have an
-// LDL^T instead. It stands in the inverse's place: the inverse pivots in row 0, l10, l20 and l21 in
-// row 1, and in row 0's fourth place, where an inverse has 0, a 1.
+// Inverses by cofactors, which need one division instead of three dependent ones. They lose digits
+// if triads repeat each other: the remainder of such a block is as small as alpha, 1e-10 of its
+// diagonal, and is a difference of large products. Such a block gets an LDL^T instead. It is stored
+// in place of the inverse: inverse pivots in row 0, l10, l20 and l21 in row 1, and a 1 in row 0's
+// fourth element, where an inverse has 0.
 
-// Of the first diagonal's product; determinants of less are those of blocks with pivots.
+// Relative to the product of the diagonal before elimination. A block with a smaller determinant
+// gets an LDL^T.
 inline constexpr double k_well_conditioned = 0.1;
 
 HH_INLINE bool has_pivots(const Rows3& inverse) { return inverse.row[0][3] != 0.0; }
 
-// What has no pivot left, for it repeats other rows or nothing moves it, gets no share.
-inline double inverse_pivot(double pivot, double least) {
-    return std::abs(pivot) > least ? 1.0 / pivot : 0.0;
+// 1 / pivot, or 0 if the row repeats other rows or nothing moves it; its multiplier is then 0.
+inline double inverse_pivot(double pivot, double min_pivots) {
+    return std::abs(pivot) > min_pivots ? 1.0 / pivot : 0.0;
 }
 
-// Only what lies on and below the block's diagonal counts.
+// Reads only the elements on and below the block's diagonal.
 inline void decompose(const Rows3& block, const Double4& diagonal, Rows3& out) {
-    const Double4 least = k_smallest_pivot * diagonal;
+    const Double4 min_pivots = k_smallest_pivot * diagonal;
     const double d10 = block.row[1][0];
     const double d20 = block.row[2][0];
-    const double p0 = inverse_pivot(block.row[0][0], least[0]);
+    const double p0 = inverse_pivot(block.row[0][0], min_pivots[0]);
     const double l10 = d10 * p0;
     const double l20 = d20 * p0;
-    const double p1 = inverse_pivot(block.row[1][1] - l10 * d10, least[1]);
-    const double rest = block.row[2][1] - l20 * d10;
-    const double l21 = rest * p1;
-    const double p2 = inverse_pivot((block.row[2][2] - l20 * d20) - l21 * rest, least[2]);
+    const double p1 = inverse_pivot(block.row[1][1] - l10 * d10, min_pivots[1]);
+    const double remainder = block.row[2][1] - l20 * d10;
+    const double l21 = remainder * p1;
+    const double p2 = inverse_pivot((block.row[2][2] - l20 * d20) - l21 * remainder, min_pivots[2]);
     out.row[0] = Double4{p0, p1, p2, 1.0};
     out.row[1] = Double4{l10, l20, l21, 0.0};
     out.row[2] = zero4();
 }
 
-// The block's inverse times m, by its pivots.
+// The block's inverse times m, from its LDL^T.
 inline void divide(const Rows3& pivots, const Rows3& m, Rows3& out) {
     const Double4& p = pivots.row[0];
     const double l10 = pivots.row[1][0];
@@ -115,11 +117,11 @@ HH_INLINE void add_to_diagonal(const Double4& diagonal, Rows3& block) {
     block.row[2] += __builtin_shufflevector(diagonal, zero, 4, 5, 2, 7);
 }
 
-// out -= carried^T tied.
-HH_INLINE void subtract_product(const Rows3& carried, const Rows3& tied, Rows3& out) {
+// out -= carried^T coupled.
+HH_INLINE void subtract_product(const Rows3& carried, const Rows3& coupled, Rows3& out) {
     for (int i = 0; i < 3; ++i) {
-        out.row[i] -= (tied.row[0] * carried.row[0][i] + tied.row[1] * carried.row[1][i]) +
-                      tied.row[2] * carried.row[2][i];
+        out.row[i] -= (coupled.row[0] * carried.row[0][i] + coupled.row[1] * carried.row[1][i]) +
+                      coupled.row[2] * carried.row[2][i];
     }
 }
 
@@ -127,22 +129,22 @@ HH_INLINE void eliminate(const TriadPlan::Step& step, const Rows3& inverse,
                          const TriadArrays& arrays) {
     const std::uint32_t count = step.later_end - step.later_begin;
     const std::uint32_t* target = arrays.plan->updates().data() + step.updates;
-    Rows3* const tied = arrays.blocks.data() + step.own + 1;
+    Rows3* const coupled = arrays.blocks.data() + step.own + 1;
     for (std::uint32_t x = 0; x < count; ++x) {
         Rows3 carried;
-        apply_inverse(inverse, tied[x], carried);
+        apply_inverse(inverse, coupled[x], carried);
         for (std::uint32_t y = x; y < count; ++y) {
-            subtract_product(carried, tied[y], arrays.blocks[*target++]);
+            subtract_product(carried, coupled[y], arrays.blocks[*target++]);
         }
-        tied[x].row[0] = carried.row[0];
-        tied[x].row[1] = carried.row[1];
-        tied[x].row[2] = carried.row[2];
+        coupled[x].row[0] = carried.row[0];
+        coupled[x].row[1] = carried.row[1];
+        coupled[x].row[2] = carried.row[2];
     }
 }
 
 struct Alpha {
     Double4 of_drives;
-    double of_joints;  // a share of the diagonal
+    double of_joints;  // relative to the diagonal
 };
 
 HH_INLINE void invert_step(std::size_t place, const Alpha& alpha, const TriadArrays& arrays) {
@@ -161,7 +163,7 @@ HH_INLINE void invert_step(std::size_t place, const Alpha& alpha, const TriadArr
     invert(block, diagonal, arrays.inverses[place]);
 }
 
-// Blocks are compared with the diagonal before others take their share of it.
+// Saves the diagonals before elimination: pivots and determinants are compared with them.
 HH_INLINE void note_diagonals(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -173,8 +175,8 @@ HH_INLINE void factorise(const TriadArrays& arrays, double drive_alpha, double j
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
     const Alpha alpha{zero4() + drive_alpha, joint_alpha};
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        // An inverse takes long and waits for nothing but its own block: the next one's goes on
-        // while this step eliminates, where it does not wait for this one.
+        // An inverse has a long latency and depends only on its own block. The next step's inverse
+        // overlaps with this step's elimination if the next step is independent of this one.
         if (i == 0 || !steps[i].is_independent) {
             invert_step(i, alpha, arrays);
         }
@@ -193,7 +195,8 @@ HH_INLINE void negate_values(const TriadArrays& arrays) {
 
 HH_INLINE void substitute(const TriadArrays& arrays) {
     const std::span<const TriadPlan::Step> steps = arrays.plan->steps();
-    // Blocks and later nodes lie in the order of the steps: each step's own block, then its others.
+    // Blocks and later nodes are stored in the order of the steps: each step's own block, then the
+    // others.
     const Rows3* block = arrays.blocks.data();
     const std::uint32_t* later = arrays.plan->later().data();
     for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -1,3 +1,5 @@
+// Solver, packed: the kernels, compiled once for any processor and once for AVX2, with the same
+// bits.
 #include "engine/solver/packed/triad_kernels.hpp"
 
 #include "engine/math/processor.hpp"

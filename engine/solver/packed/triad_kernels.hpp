@@ -1,3 +1,11 @@
+// Solver, packed: the arithmetic of TriadSystem over packed arrays, compiled once for any processor
+// and once for AVX2, with the same bits. TriadSystem fills the arrays and calls the kernels in
+// turn. Nothing here fails or allocates. Units are metres, seconds, kilograms and radians; vectors
+// are in world axes unless noted. Terms are defined in triad_system.hpp.
+//
+// Work on bodies is done for four bodies at a time, work on triads block by block. Triads are those
+// of the plan's rest unless noted; those of strands are stored four links at a time.
+
 #pragma once
 
 #include <cstdint>
@@ -6,136 +14,129 @@
 #include "engine/math/wide_rotation.hpp"
 #include "engine/solver/packed/triad_plan.hpp"
 
-// The arithmetic of TriadSystem, over packed arrays: once for any processor, once for AVX2, with
-// equal bits. TriadSystem fills the arrays and calls the kernels in turn; nothing here fails or
-// allocates. Metres, seconds, kilograms, radians; the world's axes where nothing else is said.
-//
-// A triad is three rows, one a world axis: a point held on a point, or a rotation on a rotation.
-// Those of strands are in four lanes; where nothing else is said, triads are those of the plan's
-// rest.
-// Its ends, 2 * triad for a's and 2 * triad + 1 for b's, are what bodies see of it. Everything that
-// belongs to a body is done for four bodies at once, everything between triads block by block.
 namespace handhold {
 
-// Lane i belongs to the i-th of four bodies that may move; all 0 where there is none, or where
-// nothing moves it.
+// Four bodies, one per lane. All zeros in a lane without a body or with an immovable one.
 struct Bodies4 {
-    Wide3 position;  // of the centre
+    Wide3 position;  // of the centre of mass
     Wide4 rotation;  // unit
     Wide3 velocity;
     Wide3 spin;
-    WideAxes axes;                  // its own axes in the world
-    WideSymmetric inverse_inertia;  // with the stiffness; 0 where it cannot turn
-    Wide3 inverse_inertia_bs;       // principal, body axes
+    WideAxes axes;  // body axes in world axes
+    // world axes, with the geometric stiffness; 0 if the body cannot rotate
+    WideSymmetric inverse_inertia;
+    Wide3 inverse_inertia_bs;  // principal, body axes
     Double4 inverse_mass;
-    Wide3 move;  // W J^T lambda of the last solve
+    Wide3 move;  // translation in the last solve, part of W J^T lambda
     Wide3 turn;
 };
 
-// An end at each of four bodies. Its part in the triad's value is sign * position + arm, or
-// lever * rotation: b's sign and lever are negative, and its arm points from its point to its
-// centre.
+// One end at each of four bodies. Its contribution to the triad's residual is sign * position + arm
+// (point triads) or lever * rotation (angular triads). For b's ends sign and lever are negative,
+// and the arm points from the anchor point to the body's centre.
 struct Ends4 {
-    Wide3 point_bs;  // times the sign
-    Double4 sign;    // +-1 where it holds a point, else 0
-    Double4 lever;   // +-k_angle_lever_m where it holds a rotation, else 0
+    Wide3 point_bs;  // anchor point times the sign
+    Double4 sign;    // +-1 for point triads, else 0
+    Double4 lever;   // +-k_angle_lever_m for angular triads, else 0
     Wide3 arm;
 };
 
-// A 3x3 matrix in each lane, by rows.
+// A 3x3 matrix per lane, by rows.
 struct WideMat3 {
     Wide3 x, y, z;
 };
 
-// Of one step of a braid, a link in each lane.
+// One step of a strand pack: a link per lane.
 struct Links4 {
-    Wide3 value;    // as TriadArrays::values
+    Wide3 value;    // residual, as TriadArrays::values
     Wide3 unknown;  // scratch of the solve
-    Wide3 impulse;  // sum of lambdas
+    Wide3 impulse;  // sum of lambdas, N s
     // The step's row of the factor.
-    WideSymmetric inverse;  // of its own block; or its pivots
-    WideMat3 next;          // the inverse times the block with the next link, or with `after`
-    WideMat3 before;        // and times that with `before`, up to Strands4::decoupled_step
+    WideSymmetric inverse;  // inverse of its own block, or the block's LDL^T
+    WideMat3 next;          // inverse * block that couples it with the next link or with `after`
+    // inverse * block that couples it with `before`; up to Strands4::decoupled_step
+    WideMat3 before;
     bool has_pivots = false;
 };
 
-// What is left of four strands once their links are eliminated.
+// The remainder of four strands once their links are eliminated.
 struct Strands4 {
-    WideSymmetric before;  // is taken off the block of `before`
+    WideSymmetric before;  // subtracted from the block of `before`
     WideSymmetric after;
     WideMat3 between;                // rows of `after`, columns of `before`
-    Double4 inverse_sum;             // of 9 / the sum of each link's diagonal
-    std::size_t decoupled_step = 0;  // the first step from which on nothing is tied to `before`
+    Double4 inverse_sum;             // sum of 9 / (sum of the link's diagonal); see HarmonicMean
+    std::size_t decoupled_step = 0;  // First step that is not coupled with `before`.
 };
 
-// In a struct, for a template's argument would forget the alignment.
+// A struct, because a template argument would lose the alignment.
 struct TriadVector {
     Double4 v = {};
 };
 
-// The rows of a braid that a step may move, in all four lanes; whatever lies beyond is held where
-// it is, as if nothing could move it.
+// The active rows of a strand pack, in all four lanes. Bodies outside are treated as immovable.
 struct RowWindow {
     std::uint32_t begin = 0;
-    std::uint32_t end = 0;  // > begin; one more than the braid's length where the last row is in it
+    std::uint32_t end = 0;  // > begin; length + 1 if the last row is included
 };
 
-// Where a plan speaks of a spare end or block, there is one: it is written and means nothing.
-// The spare triad's multiplier is 0.
+// Where the plan names a dummy end, block or triad, an element exists that may be written and is
+// never read, or (the dummy triad's multiplier) is 0.
 struct TriadArrays {
-    std::span<Bodies4> bodies;           // by the plan's places
-    std::span<Ends4> body_ends;          // as the plan's packed ends
-    std::span<WideSymmetric> stiffness;  // as bodies
-    std::span<Links4> links;             // by the plan's braid steps
-    std::span<Wide3> multipliers;        // lambdas of braids: see TriadPlan::StrandPack::bound
-    std::span<Strands4> strands;         // by braid
-    std::span<TriadVector> ends;         // by end: its part in the triad's value
-    std::span<TriadVector>
-        values;  // by triad: metres, angles at k_angle_lever_m; or metres a second
-    std::span<TriadVector> lambdas;  // by triad, of the last solve: on a, b's is the opposite
-    std::span<const std::uint8_t> is_drive;  // by triad: whether it is a hand's
+    std::span<Bodies4> bodies;           // by place / 4
+    std::span<Ends4> body_ends;          // by the plan's packed ends
+    std::span<WideSymmetric> stiffness;  // as `bodies`
+    std::span<Links4> links;             // by the plan's strand pack steps
+    std::span<Wide3> multipliers;  // lambdas of strand packs: see TriadPlan::StrandPack::bound
+    std::span<Strands4> strands;   // by strand pack
+    std::span<TriadVector> ends;   // by end: its contribution to the triad's residual
+    // By triad: residual, as Row::residual (metres or m/s; angles times k_angle_lever_m).
+    std::span<TriadVector> values;
+    std::span<TriadVector> lambdas;  // by triad, of the last solve: on a; b gets the opposite
+    std::span<const std::uint8_t> is_drive;  // by triad: 1 for drives
     std::span<Rows3> blocks;                 // the plan's
-    std::span<Rows3> inverses;               // by step of the plan: of its own block
-    // Scratch by step: the diagonals while it is factorised, what is not yet solved for afterwards.
+    std::span<Rows3> inverses;               // by step: inverse of its own block
+    // Scratch by step: the diagonals during factorisation, then intermediate results of the
+    // substitution.
     std::span<TriadVector> unknowns;
-    std::span<const RowWindow> windows;  // by braid
+    std::span<const RowWindow> windows;  // by strand pack
     const TriadPlan* plan = nullptr;
-    bool has_turn = false;       // some triad holds a rotation
-    bool has_stiffness = false;  // inertia has the stiffness added
+    bool has_turn = false;       // at least one triad is angular
+    bool has_stiffness = false;  // inertia includes the geometric stiffness
 };
 
-// The largest squares among the bodies, metres and radians.
+// Largest squared translation and rotation of the bodies, m^2 and rad^2.
 struct LargestMove {
     double move_square = 0.0;
     double turn_square = 0.0;
 };
 
 struct TriadKernels {
-    // Axes, arms, ends and positional errors at the bodies' poses; rotations' errors are not its
-    // matter. What is at the ends of those that nothing moves is there already, and so is all that
-    // belongs to rows beyond the windows. Velocities know no windows.
+    // Computes axes, arms, ends and residuals at the bodies' poses; residuals of angular triads are
+    // computed by TriadSystem. Ends at immovable bodies, and everything outside the windows, must
+    // be up to date. The velocity kernels ignore the windows.
     void (*evaluate)(const TriadArrays& arrays);
-    // What each triad's velocity lacks but for the hands' own.
+    // Residuals of the velocities, without the drives' own velocities.
     void (*evaluate_velocities)(const TriadArrays& arrays);
-    // The largest square of a value.
+    // Largest squared norm of a residual.
     double (*worst_square)(const TriadArrays& arrays);
-    // Geometric stiffness at the arms and multipliers of the last solve: positive_stiffness,
-    // summed.
+    // Sums the geometric stiffness from the arms and multipliers of the last solve
+    // (positive_stiffness).
     void (*gather_stiffness)(const TriadArrays& arrays);
-    // Inertia at the axes, J W J^T in the plan's blocks, and the factor of strands, whose links
-    // have a share of the diagonal as alpha.
+    // Computes the inertia in world axes, writes J W J^T to the plan's blocks and factorises the
+    // strands. `joint_alpha` is relative to the diagonal.
     void (*multiply_out)(const TriadArrays& arrays, double joint_alpha);
-    // In their place the factor. Alpha: a number of hands, a share of the diagonal of joints.
+    // Replaces the blocks by their factor. `drive_alpha` is absolute, `joint_alpha` relative to the
+    // diagonal.
     void (*factorise)(const TriadArrays& arrays, double drive_alpha, double joint_alpha);
-    // lambda of the values, and the bodies' moves and turns.
+    // Solves for lambda and the bodies' translations and rotations.
     LargestMove (*solve)(const TriadArrays& arrays);
-    // Moves and turns the bodies by so much of it.
+    // Moves the bodies by `scale` times the last solve.
     void (*apply)(const TriadArrays& arrays, double scale);
-    // Adds it to their velocities.
+    // Adds the last solve to the bodies' velocities.
     void (*apply_velocities)(const TriadArrays& arrays);
 };
 
-// The fastest that this processor has; and those that every one has.
+// The fastest kernels this processor supports, and the portable ones.
 const TriadKernels& triad_kernels();
 const TriadKernels& portable_triad_kernels();
 

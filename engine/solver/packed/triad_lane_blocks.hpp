@@ -1,43 +1,45 @@
+// Solver, packed: 3x3 blocks with one block per lane: inverses and products of the strands' factor.
+// Included by triad_kernels.cpp only. The formulas are those of triad_factor.hpp, which stores one
+// block per register row instead.
+
 #pragma once
 
 #include "engine/solver/packed/triad_bodies.hpp"
 #include "engine/solver/packed/triad_factor.hpp"
 
-// Blocks of three by three, one in each of a register's lanes: inverses and products of the
-// strands' factor. Included by triad_kernels.cpp alone.
 namespace handhold::triads {
 
-// --- Inverses: as triad_factor.hpp's, in each lane ---------------------------------------------
+// --- Inverses ------------------------------------------------------------------------------------
 
 HH_INLINE bool all_of(const Mask4& bits) {
     return ((bits[0] & bits[1]) & (bits[2] & bits[3])) != 0;
 }
 
-HH_INLINE Double4 inverse_pivot(const Double4& pivot, const Double4& least) {
-    const Mask4 counts = (pivot > least) | (pivot < -least);
+HH_INLINE Double4 inverse_pivot(const Double4& pivot, const Double4& min_pivot) {
+    const Mask4 counts = (pivot > min_pivot) | (pivot < -min_pivot);
     return counts ? 1.0 / pivot : zero4();
 }
 
-// The inverse pivots on the diagonal, l10, l20 and l21 beside it.
+// LDL^T: inverse pivots on the diagonal, l10, l20 and l21 in xy, xz and yz.
 HH_INLINE void decompose(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
-    const Wide3 least = (zero4() + k_smallest_pivot) * diagonal;
-    out.xx = inverse_pivot(m.xx, least.x);
+    const Wide3 min_pivot = (zero4() + k_smallest_pivot) * diagonal;
+    out.xx = inverse_pivot(m.xx, min_pivot.x);
     out.xy = m.xy * out.xx;
     out.xz = m.xz * out.xx;
-    out.yy = inverse_pivot(m.yy - out.xy * m.xy, least.y);
+    out.yy = inverse_pivot(m.yy - out.xy * m.xy, min_pivot.y);
     const Double4 rest = m.yz - out.xz * m.xy;
     out.yz = rest * out.yy;
-    out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, least.z);
+    out.zz = inverse_pivot((m.zz - out.xz * m.xz) - out.yz * rest, min_pivot.z);
 }
 
-// True where it has pivots in the inverse's place: in all lanes, if one of them needs them.
+// True if `out` holds an LDL^T instead of the inverse: in all lanes, if one of them needs it.
 HH_INLINE bool invert(const WideSymmetric& m, const Wide3& diagonal, WideSymmetric& out) {
     const Double4 xx = m.yy * m.zz - m.yz * m.yz;
     const Double4 xy = m.xz * m.yz - m.xy * m.zz;
     const Double4 xz = m.xy * m.yz - m.xz * m.yy;
     const Double4 determinant = (m.xx * xx + m.xy * xy) + m.xz * xz;
-    const Double4 least = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
-    if (!all_of(determinant > least)) {
+    const Double4 min_pivot = k_well_conditioned * ((diagonal.x * diagonal.y) * diagonal.z);
+    if (!all_of(determinant > min_pivot)) {
         decompose(m, diagonal, out);
         return true;
     }
@@ -101,7 +103,7 @@ HH_INLINE WideMat3 product(const WideMat3& a, const WideMat3& b) {
     return {(a.x.x * b.x + a.y.x * b.y) + a.z.x * b.z, (a.x.y * b.x + a.y.y * b.y) + a.z.y * b.z,
             (a.x.z * b.x + a.y.z * b.y) + a.z.z * b.z};
 }
-// The same where it is symmetric.
+// a^T b if the result is symmetric.
 HH_INLINE WideSymmetric symmetric_product(const WideMat3& a, const WideMat3& b) {
     return {(a.x.x * b.x.x + a.y.x * b.y.x) + a.z.x * b.z.x,
             (a.x.y * b.x.y + a.y.y * b.y.y) + a.z.y * b.z.y,

@@ -1,3 +1,4 @@
+// Solver, packed: symbolic factorisation of an island's triads.
 #include "engine/solver/packed/triad_plan.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 constexpr std::uint32_t k_rows = 3;
 constexpr std::size_t k_block_size = 9;
 
-// A panel's rows are `stride` long, its blocks lie beside each other; here they follow each other.
+// In a panel, blocks lie side by side in rows of length `stride`; here they follow one another.
 std::uint32_t block_at(const EliminationPlan::Panel& panel, std::uint32_t value) {
     return panel.begin / (k_rows * k_rows) + (value - panel.begin) / k_rows;
 }
@@ -102,7 +103,8 @@ void TriadPlan::find_places() {
     }
 }
 
-// Nodes that go first come first: a product's block lies in the panel of the earlier of its two.
+// Ends of earlier eliminated nodes come first: a product's block lies in the panel of the earlier
+// one.
 void TriadPlan::find_groups() {
     const std::span<const std::uint32_t> slots = strands_.rest_slots();
     counts_.assign(strands_.rest_can_rotate().size(), 0);
@@ -116,8 +118,8 @@ void TriadPlan::find_groups() {
         }
     }
     groups_.clear();
-    auto four = static_cast<std::uint32_t>(strands_.row_count());
-    const std::uint32_t packed = 2 * four;
+    auto group_index = static_cast<std::uint32_t>(strands_.row_count());
+    const std::uint32_t packed = 2 * group_index;
     std::uint32_t ends = 0;
     std::uint32_t pairs = 0;
     for (std::size_t body = 0; body < slots.size(); body += k_lanes) {
@@ -126,15 +128,15 @@ void TriadPlan::find_groups() {
              slots.subspan(body, std::min(k_lanes, slots.size() - body))) {
             width = std::max(width, counts_[slot]);
         }
-        groups_.push_back({width, four++, packed + ends, ends, pairs});
+        groups_.push_back({width, group_index++, packed + ends, ends, pairs});
         ends += width;
         pairs += width * (width + 1) / 2;
     }
-    Lanes spare;
-    spare.fill(dummy_end());
-    ends_.assign(ends, spare);
-    spare.fill(dummy_block());
-    pairs_.assign(pairs, {spare});
+    Lanes dummy;
+    dummy.fill(dummy_end());
+    ends_.assign(ends, dummy);
+    dummy.fill(dummy_block());
+    pairs_.assign(pairs, {dummy});
     const auto first = static_cast<std::uint32_t>(strands_.row_count());
     for (std::uint32_t end = 0; end < dummy_end(); ++end) {
         const std::uint32_t slot = slot_of(end);
@@ -149,16 +151,16 @@ void TriadPlan::find_groups() {
 void TriadPlan::find_strand_packs() {
     strand_packs_.clear();
     anchored_ends_.clear();
-    Lanes spare;
-    spare.fill(dummy_block());
-    const auto or_spare = [this](Lanes ends) {
+    Lanes dummy;
+    dummy.fill(dummy_block());
+    const auto or_dummy = [this](Lanes ends) {
         std::ranges::replace(ends, k_no_slot, dummy_end());
         return ends;
     };
     for (const StrandPlan::StrandPack& from : strands_.strand_packs()) {
         const auto bound = static_cast<std::uint32_t>(from.links + 2 * strand_packs_.size());
-        strand_packs_.push_back({from.length, from.row, from.links, bound, or_spare(from.before),
-                                 or_spare(from.after), spare, spare, spare});
+        strand_packs_.push_back({from.length, from.row, from.links, bound, or_dummy(from.before),
+                                 or_dummy(from.after), dummy, dummy, dummy});
         for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
             if (strands_.bodies()[from.row][lane] == k_no_slot) {
                 anchored_ends_.push_back({strands_.links()[from.links][lane],
@@ -179,7 +181,7 @@ void TriadPlan::find_pairs() {
         const std::uint32_t row = place_in_body_[coupling.panel_end];
         const std::uint32_t column = place_in_body_[coupling.later_end];
         const Group& group = groups_[places_[slot] / k_lanes - first];
-        // Rows before this one have one pair less each.
+        // each row has one pair less than the row before
         const std::uint32_t before = row * group.width - row * (row + 1) / 2;
         pairs_[group.pairs + before + column].blocks[places_[slot] % k_lanes] =
             block_at(plan_.panel_of(coupling.panel_end / 2), coupling.target);
@@ -211,7 +213,7 @@ void TriadPlan::find_zeros() {
         for (const Lanes* const blocks :
              {&strand_pack.block_before, &strand_pack.block_after, &strand_pack.block_between}) {
             for (const std::uint32_t block : *blocks) {
-                counts_[block] += 2;  // never alone
+                counts_[block] += 2;  // never the only contribution
             }
         }
     }

@@ -1,18 +1,19 @@
+// Solver, packed: kernels for strands, four strands side by side in a register's lanes. Nothing
+// crosses lanes except at the strands' ends. Included by triad_kernels.cpp only, and inlined there
+// into functions for one processor type.
+// Sources: block LDL^T as in triad_factor.hpp; nested dissection after George (1973).
+
 #pragma once
 
-// Sources: block LDL^T as in triad_factor.hpp; nested dissection after George (1973).
 #include "engine/solver/packed/triad_bodies.hpp"
 #include "engine/solver/packed/triad_lane_blocks.hpp"
 
-// The triad kernels for strands: four of them side by side in a register's lanes, so that nothing
-// moves between lanes but at their ends. Included by triad_kernels.cpp alone: all is inlined into
-// functions for one kind of processor.
 namespace handhold::triads {
 
-// A braid's part of the arrays.
+// A strand pack's part of the arrays.
 struct StrandPackArrays {
     Bodies4* bodies;     // by row
-    Ends4* ends;         // 2 * row: those of the node before, then those of the node after
+    Ends4* ends;         // 2 * row: ends of the link before, then of the link after
     Links4* links;       // by step
     Wide3* multipliers;  // of `before`, of each step, of `after`
 };
@@ -23,11 +24,11 @@ HH_INLINE StrandPackArrays part_of(const TriadPlan::StrandPack& strand_pack,
             arrays.links.data() + strand_pack.step, arrays.multipliers.data() + strand_pack.bound};
 }
 
-// The steps whose links meet a row of a window, and the rows themselves.
+// The rows of a window, and the steps whose links have a body among them.
 struct StrandPackRange {
     std::size_t begin, end;            // rows
-    std::size_t first_step, end_step;  // step k lies between the rows k and k + 1
-    bool has_before, has_after;        // whether the braid's first and last row are among them
+    std::size_t first_step, end_step;  // step k connects rows k and k + 1
+    bool has_before, has_after;        // whether the strand pack's first and last row are included
 };
 HH_INLINE StrandPackRange part_in(const RowWindow& window,
                                   const TriadPlan::StrandPack& strand_pack) {
@@ -114,7 +115,7 @@ HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
 
 // --- J W J^T and the factor --------------------------------------------------------------------
 
-// What a row's bodies add to the blocks of their two nodes.
+// Contribution of a row's bodies to the blocks of their two nodes.
 struct WideCoupling {
     WideSymmetric before, after;
     WideMat3 between;  // rows of the node before
@@ -166,53 +167,56 @@ HH_INLINE void add(const WideSymmetric& m, const TriadPlan::Lanes& blocks,
     add_row({m.xz, m.yz, m.zz}, blocks, 2, arrays);
 }
 
-// Where the elimination of a braid stands.
+// State of a strand pack's elimination.
 struct StrandElimination {
-    WideCoupling row;  // of the bodies behind the last link
-    WideMat3 before;   // of the link at hand with `before`
-    WideSymmetric taken, taken_before;
-    Wide3 diagonal;  // of the last link, before anything was taken off
+    WideCoupling row;  // contribution of the bodies after the last link
+    WideMat3 before;   // couples the current link with `before`
+    WideSymmetric subtracted, subtracted_before;
+    Wide3 diagonal;  // of the last link, before elimination
     Double4 inverse_sum;
 };
 
-// `of_first` is what the link's first bodies add to its block; the row is that of its second ones.
+// Eliminates one link. `of_first` is the contribution of the link's first bodies to its block;
+// at.row is that of its second bodies.
 template <bool Carries>
 HH_INLINE void eliminate_link(const WideSymmetric& of_first, double joint_alpha, Links4& links,
                               StrandElimination& at) {
     const WideSymmetric own = of_first + at.row.before;
     const Wide3 diagonal{own.xx, own.yy, own.zz};
     at.inverse_sum += 9.0 / ((own.xx + own.yy) + own.zz);
-    WideSymmetric rest = own - at.taken;
+    WideSymmetric rest = own - at.subtracted;
     rest.xx += joint_alpha * diagonal.x;
     rest.yy += joint_alpha * diagonal.y;
     rest.zz += joint_alpha * diagonal.z;
     links.has_pivots = invert(rest, diagonal, links.inverse);
     apply_inverse(links, at.row.between, links.next);
-    at.taken = symmetric_product(at.row.between, links.next);
+    at.subtracted = symmetric_product(at.row.between, links.next);
     if (Carries) {
         apply_inverse(links, at.before, links.before);
-        at.taken_before = at.taken_before + symmetric_product(at.before, links.before);
+        at.subtracted_before = at.subtracted_before + symmetric_product(at.before, links.before);
         const WideMat3 carried = product(at.row.between, links.before);
         at.before = {zero_wide3() - carried.x, zero_wide3() - carried.y, zero_wide3() - carried.z};
     }
     assign(diagonal, at.diagonal);
 }
 
-// True where what ties the link at hand to `before` is nothing in all lanes, next to its own block:
-// it fades by a constant factor a link.
+// True if the coupling of the current link with `before` is negligible in all lanes, relative to
+// the link's own block. The coupling fades by a constant factor per link.
 HH_INLINE bool is_coupling_negligible(const StrandElimination& at) {
-    constexpr double k_nothing = 1e-30;
+    constexpr double k_negligible = 1e-30;
     const Double4 square = (dot(at.before.x, at.before.x) + dot(at.before.y, at.before.y)) +
                            dot(at.before.z, at.before.z);
-    return all_of(square <= (k_nothing * k_nothing) * dot(at.diagonal, at.diagonal));
+    return all_of(square <= (k_negligible * k_negligible) * dot(at.diagonal, at.diagonal));
 }
 
-// Each link goes as soon as both its bodies have been: in the shadow of its inverse, which takes
-// long, lies the next row's product. Returns the first step that is not tied to `before`.
+// Eliminates each link as soon as both its bodies have contributed, so that the next row's product
+// overlaps with the latency of the link's inverse. Returns the first step that is not coupled with
+// `before`.
 template <bool HasTurn>
 HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandPackArrays& of,
                                       double joint_alpha, StrandElimination& at) {
-    constexpr std::size_t k_look = 8;  // how often it is asked whether anything is left
+    constexpr std::size_t k_check_interval =
+        8;  // test for a negligible coupling every this many links
     const std::size_t end = part.has_after ? part.end_step : part.end_step - 1;
     std::size_t k = part.first_step;
     bool carries = part.has_before;
@@ -220,7 +224,7 @@ HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandP
         const WideSymmetric of_first = at.row.after;
         at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
         eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
-        carries = k % k_look != 0 || !is_coupling_negligible(at);
+        carries = k % k_check_interval != 0 || !is_coupling_negligible(at);
     }
     const std::size_t decoupled = k;
     if (!carries) {
@@ -231,7 +235,7 @@ HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandP
         at.row = couple<HasTurn>(of.bodies[k + 1], of.ends[2 * k + 2], of.ends[2 * k + 3]);
         eliminate_link<false>(of_first, joint_alpha, of.links[k], at);
     }
-    if (k < part.end_step) {  // between the last bodies and some that are held
+    if (k < part.end_step) {  // the link between the last active bodies and held ones
         const WideSymmetric of_first = at.row.after;
         at.row = no_coupling();
         eliminate_link<true>(of_first, joint_alpha, of.links[k], at);
@@ -242,10 +246,10 @@ HH_INLINE std::size_t eliminate_links(const StrandPackRange& part, const StrandP
 template <bool HasTurn>
 HH_INLINE void eliminate_strand_pack(const TriadPlan::StrandPack& strand_pack,
                                      const StrandPackRange& part, double joint_alpha,
-                                     const TriadArrays& arrays, Strands4& left) {
+                                     const TriadArrays& arrays, Strands4& remainder) {
     const StrandPackArrays of = part_of(strand_pack, arrays);
     const Double4 zero = zero4();
-    // Of all first: what one row's takes its time for, others do not wait for.
+    // All inertias first, so that their latencies overlap.
     for (std::size_t row = part.begin; row < part.end; ++row) {
         write_inertia(strand_pack.row + row, arrays);
     }
@@ -256,17 +260,17 @@ HH_INLINE void eliminate_strand_pack(const TriadPlan::StrandPack& strand_pack,
         add(at.row.before, strand_pack.block_before, arrays);
     }
     at.before = transposed(at.row.between);
-    at.taken = {zero, zero, zero, zero, zero, zero};
-    at.taken_before = at.taken;
+    at.subtracted = {zero, zero, zero, zero, zero, zero};
+    at.subtracted_before = at.subtracted;
     at.inverse_sum = zero;
-    left.decoupled_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
+    remainder.decoupled_step = eliminate_links<HasTurn>(part, of, joint_alpha, at);
     add(at.row.after, strand_pack.block_after, arrays);
-    assign(at.taken_before, left.before);
-    assign(at.taken, left.after);
-    assign(at.before.x, left.between.x);
-    assign(at.before.y, left.between.y);
-    assign(at.before.z, left.between.z);
-    left.inverse_sum = at.inverse_sum;
+    assign(at.subtracted_before, remainder.before);
+    assign(at.subtracted, remainder.after);
+    assign(at.before.x, remainder.between.x);
+    assign(at.before.y, remainder.between.y);
+    assign(at.before.z, remainder.between.z);
+    remainder.inverse_sum = at.inverse_sum;
 }
 
 HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) {
@@ -283,7 +287,7 @@ HH_INLINE void eliminate_strands(const TriadArrays& arrays, double joint_alpha) 
     }
 }
 
-// A block's rows are those of the node that goes first.
+// A block's rows are those of the node that is eliminated first.
 HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack& strand_pack,
                            const TriadArrays& arrays) {
     const WideMat3 turned = transposed(between);
@@ -302,16 +306,16 @@ HH_INLINE void add_between(const WideMat3& between, const TriadPlan::StrandPack&
     }
 }
 
-// From the rest's blocks.
+// Subtracts the strands' remainders from the rest's blocks.
 HH_INLINE void subtract_strands(const TriadArrays& arrays) {
     const std::span<const TriadPlan::StrandPack> strand_packs = arrays.plan->strand_packs();
     const Double4 zero = zero4();
     const WideSymmetric none{zero, zero, zero, zero, zero, zero};
     for (std::size_t i = 0; i < strand_packs.size(); ++i) {
-        const Strands4& left = arrays.strands[i];
-        add(none - left.before, strand_packs[i].block_before, arrays);
-        add(none - left.after, strand_packs[i].block_after, arrays);
-        add_between(left.between, strand_packs[i], arrays);
+        const Strands4& remainder = arrays.strands[i];
+        add(none - remainder.before, strand_packs[i].block_before, arrays);
+        add(none - remainder.after, strand_packs[i].block_after, arrays);
+        add_between(remainder.between, strand_packs[i], arrays);
     }
 }
 

@@ -1,4 +1,4 @@
-// Sources: as row_system.cpp and newton.cpp.
+// Solver, packed: loading, storing and sequencing of the packed solve.
 #include "engine/solver/packed/triad_system.hpp"
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 namespace handhold {
 namespace {
 
-// True where the block's rows hold in every state: none may let go, slide, stop or give way.
+// True if all rows of the block are bilateral in every state: none may release, slide, stop or give
+// way.
 bool always_holds(const RowBlock& block) {
     switch (block.kind) {
         case RowKind::drive_point:
@@ -46,7 +47,7 @@ void pack(const SolverBody& from, std::size_t lane, Bodies4& to) {
              to.inverse_inertia_bs);
     pack_velocity(from, lane, to);
 }
-// True where it has the mass and the pose that it was packed with, or stored with.
+// True if mass and pose are those with which the body was packed or stored.
 bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body) {
     return from.inverse_mass == body.inverse_mass[lane] &&
            is_lane(lane, body.position, from.pose_ws.position) &&
@@ -54,7 +55,7 @@ bool is_as_packed(const SolverBody& from, std::size_t lane, const Bodies4& body)
            (is_lane(lane, body.inverse_inertia_bs, from.inverse_inertia_bs) || !may_turn(from));
 }
 
-// Still, where an end is that nothing moves by forces.
+// A stand-in at the end of an immovable body: at the anchor point, with its velocity.
 SolverBody body_at(const SolverBody& body, const Vec3& point_bs) {
     const Vec3 arm = body.pose_ws.rotation * point_bs;
     SolverBody at;
@@ -79,17 +80,18 @@ void TriadSystem::read_bodies(const IslandView& island) {
 
 void TriadSystem::pack_bodies(const IslandView& island) {
     const TriadPlan& plan = plans_.current();
-    bodies_.resize(plan.four_count());  // of other islands: all that counts is written
+    // may hold another island; everything that is read is written below
+    bodies_.resize(plan.group_count());
     for (std::uint32_t place = 0; place < plan.slots().size(); ++place) {
         const std::uint32_t slot = plan.slots()[place];
         if (slot != k_no_slot) {
-            pack(island.bodies[body_indices_[slot]], place % k_lanes, four_of(place));
+            pack(island.bodies[body_indices_[slot]], place % k_lanes, group_of(place));
         }
     }
     for (const Anchor& anchor : anchors_) {
         if (anchor.place != k_no_slot) {
             pack(body_at(island.bodies[anchor.body], anchor.point_bs), anchor.place % k_lanes,
-                 four_of(anchor.place));
+                 group_of(anchor.place));
         }
     }
     for (std::size_t place = plan.slots().size(); place < k_lanes * bodies_.size(); ++place) {
@@ -102,18 +104,18 @@ void TriadSystem::pack_velocities(const IslandView& island) {
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
         if (slots[place] != k_no_slot) {
             pack_velocity(island.bodies[body_indices_[slots[place]]], place % k_lanes,
-                          four_of(place));
+                          group_of(place));
         }
     }
     for (const Anchor& anchor : anchors_) {
         if (anchor.place != k_no_slot) {
             pack_velocity(body_at(island.bodies[anchor.body], anchor.point_bs),
-                          anchor.place % k_lanes, four_of(anchor.place));
+                          anchor.place % k_lanes, group_of(anchor.place));
         }
     }
 }
 
-// False where more meet in one body than are served.
+// Adds a triad. False if more triads share a body than TriadSystem supports.
 bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_angular) {
     const RowBlock& block = island.blocks[index];
     const bool is_drive = handhold::is_drive(block);
@@ -145,7 +147,7 @@ bool TriadSystem::add(const IslandView& island, std::uint32_t index, bool is_ang
     return fits;
 }
 
-// Room for so many triads, and the spare ones.
+// Resizes to this many triads and the dummy end.
 void TriadSystem::resize(std::size_t triads) {
     triads_.resize(triads);
     nodes_.resize(triads);
@@ -192,7 +194,7 @@ bool TriadSystem::matches_loaded_state(const IslandView& island) const {
     const std::span<const std::uint32_t> slots = plans_.current().slots();
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
         if (slots[place] != k_no_slot && !is_as_packed(island.bodies[body_indices_[slots[place]]],
-                                                       place % k_lanes, four_of(place))) {
+                                                       place % k_lanes, group_of(place))) {
             return false;
         }
     }
@@ -264,16 +266,16 @@ void TriadSystem::load_ends() {
     const std::span<const TriadPlan::Lanes> ends = plans_.current().packed_ends();
     body_ends_.resize(ends.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        Ends4& four = body_ends_[i];
+        Ends4& ends4 = body_ends_[i];
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::uint32_t end = ends[i][lane];
             const Double4 point = end == k_no_slot ? zero4() : points_[end].v;
-            four.point_bs.x[lane] = point[0];
-            four.point_bs.y[lane] = point[1];
-            four.point_bs.z[lane] = point[2];
-            four.sign[lane] = point[3];
+            ends4.point_bs.x[lane] = point[0];
+            ends4.point_bs.y[lane] = point[1];
+            ends4.point_bs.z[lane] = point[2];
+            ends4.sign[lane] = point[3];
             const bool is_angular = has_turn_ && end != k_no_slot && triads_[end / 2].is_angular;
-            four.lever[lane] = is_angular ? k_angle_lever_m * sign_of(end) : 0.0;
+            ends4.lever[lane] = is_angular ? k_angle_lever_m * sign_of(end) : 0.0;
         }
     }
 }
@@ -287,7 +289,7 @@ TriadArrays TriadSystem::arrays() {
 void TriadSystem::store_poses(const IslandView& island) const {
     const std::span<const std::uint32_t> slots = plans_.current().slots();
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
-        const Bodies4& bodies = four_of(place);
+        const Bodies4& bodies = group_of(place);
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             Pose& pose_ws = island.bodies[body_indices_[slots[place]]].pose_ws;
@@ -300,7 +302,7 @@ void TriadSystem::store_poses(const IslandView& island) const {
 void TriadSystem::store_velocities(const IslandView& island) const {
     const std::span<const std::uint32_t> slots = plans_.current().slots();
     for (std::uint32_t place = 0; place < slots.size(); ++place) {
-        const Bodies4& bodies = four_of(place);
+        const Bodies4& bodies = group_of(place);
         const std::size_t lane = place % k_lanes;
         if (bodies.inverse_mass[lane] > 0.0) {
             SolverBody& body = island.bodies[body_indices_[slots[place]]];
@@ -333,7 +335,7 @@ Quat TriadSystem::rotation_at(const IslandView& island, std::uint32_t end) const
     const std::uint32_t slot = nodes_[end / 2].slots[end % 2];
     if (slot != k_no_slot) {
         const std::uint32_t place = plans_.current().places()[slot];
-        return quat_in_lane(place % k_lanes, four_of(place).rotation);
+        return quat_in_lane(place % k_lanes, group_of(place).rotation);
     }
     const RowBlock& block = island.blocks[triads_[end / 2].block];
     return island.bodies[end % 2 == 0 ? block.a : block.b].pose_ws.rotation;
@@ -403,26 +405,20 @@ void TriadSystem::gather_stiffness() {
     kernels_->gather_stiffness(arrays());
 }
 
-// The harmonic mean of the diagonal, by triads: what one hand holds weighs as much as the other's.
 double TriadSystem::drive_scale() const {
-    double inverse_sum = 0.0;
-    double count = 0.0;
+    HarmonicMean mean;
     for (const TriadPlan::Step& step : plans_.current().steps()) {
         const Rows3& block = blocks_[step.own];
-        const double sum = (block.row[0][0] + block.row[1][1]) + block.row[2][2];
-        if (sum > 0.0) {
-            inverse_sum += 9.0 / sum;
-            count += 3.0;
-        }
+        mean.add(3.0, (block.row[0][0] + block.row[1][1]) + block.row[2][2]);
     }
     for (const TriadPlan::StrandPack& strand_pack : plans_.current().strand_packs()) {
-        count += 3.0 * k_lanes * strand_pack.length;
+        mean.add_inverse(3.0 * k_lanes * strand_pack.length, 0.0);
     }
     for (const Strands4& strands : strands_) {
         const Double4& sum = strands.inverse_sum;
-        inverse_sum += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+        mean.add_inverse(0.0, (sum[0] + sum[1]) + (sum[2] + sum[3]));
     }
-    return inverse_sum > 0.0 ? count / inverse_sum : 0.0;
+    return mean.value();
 }
 
 void TriadSystem::factorise(const Regularisation& regularisation, double factor) {

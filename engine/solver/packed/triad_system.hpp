@@ -1,3 +1,55 @@
+// Solver, packed: islands whose rows are all bilateral: ropes, chains, rings, driven bodies.
+//
+// Solves the same equations as RowSystem (newton/active_set.hpp),
+//   K lambda = -C,   K = J W J^T + R,   dx = W J^T lambda
+//   C       residuals, metres (positions) or m/s (velocities); angles times k_angle_lever_m
+//   J       dC/dx, one row per residual, six columns per body (translation, rotation vector)
+//   W       inverse masses and world inverse inertias, 0 for bodies that a phase holds still
+//   R       diagonal regularisation (model/regularisation.hpp)
+//   lambda  multipliers: impulses, or displacements times mass
+//   dx      translations and rotation vectors of the bodies
+// but with 3x3 blocks only, and for four bodies at a time.
+//
+// Terms
+//   triad        three rows, one per world axis: point on point (ball, drive_point), or rotation on
+//                rotation (drive_direction). A weld is two triads. One 3x3 block row of K.
+//   end          one side of a triad: 2 * triad + 0 (body a) or + 1 (body b)
+//   slot         index of a body within its island, by persistent id
+//   lane         one of the four doubles of a vector register (Double4)
+//   place        where a body is packed: 4 * group + lane
+//   link         point triad of a joint that shares each of its bodies with at most one other triad
+//   run          links in a row, each sharing a body with the next
+//   separator    link that cuts a run
+//   strand       part of a run between two separators
+//   strand pack  four strands of equal length, one per lane
+//   rest         all triads that are in no strand: separators, drives, welds, branches, short runs
+//   anchor       an end at an immovable body
+//
+// Elimination order (nested dissection of each run, then minimum degree)
+//   run:     end - - lane 0 - -> S - - lane 1 - -> S <- - lane 2 - - S <- - lane 3 - - end
+//   1. Strands. Step k eliminates link k of all four strands. Strands are coupled only through
+//      separators (S), so the lanes need no exchange. The coupling with the separator `before` a
+//      strand fades from link to link; once negligible it is no longer carried.
+//   2. The rest, in the order of an EliminationPlan, block by block.
+//   Substitution runs through both in the same order, then back in the opposite order.
+//
+// Layout of a strand pack: row r holds four bodies, step k connects rows k and k + 1
+//                       lane 0   lane 1   lane 2   lane 3
+//   bodies[row + 0]     body     body     body     body      Bodies4 (structure of arrays)
+//   links[step + 0]     link     link     link     link      Links4: residual, factor row, impulse
+//   bodies[row + 1]     body     body     body     body
+//   links[step + 1]     link     link     link     link
+//   ...
+//   bodies[row + length]
+//   body_ends[2 * r], body_ends[2 * r + 1]: row r's ends of the link before and of the link after
+//   multipliers[bound + 0 .. length + 1]: lambda of `before`, of each step, of `after`
+//   Bodies of the rest follow in groups of four, with any number of ends each (TriadPlan::Group).
+//
+// Determinism: order and lane of every body and triad follow from the topology of the sorted graph.
+// Sums within a lane have a fixed order; AVX2 and portable kernels give the same bits.
+// Limits: at most k_hub_nodes triads per body; no unilateral, friction, motor or limit row in use.
+// Otherwise `load` returns false and the island is solved row by row.
+
 #pragma once
 
 #include <cstdint>
@@ -6,79 +58,78 @@
 #include <vector>
 
 #include "engine/solver/model/island_view.hpp"
-#include "engine/solver/newton/regularisation.hpp"
+#include "engine/solver/model/regularisation.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
 #include "engine/solver/packed/triad_plan.hpp"
 #include "engine/solver/sparse/plan_cache.hpp"
 
 namespace handhold {
 
-// The rows of an island that all hold, always, in threes: ropes, chains, rings, things in hands.
-// RowSystem's equations in a fraction of its instructions: every block is three by three, and
-// bodies and rows are packed copies, four bodies side by side, that are read in once a solve.
+// RowSystem's equations for an island all of whose rows are bilateral triads, at a fraction of its
+// instructions. Bodies and rows are packed copies, loaded once per solve.
 class TriadSystem {
   public:
     explicit TriadSystem(const TriadKernels& kernels = triad_kernels()) : kernels_(&kernels) {}
 
-    // Takes over the bodies of the island and its blocks that take part. False where one of them
-    // may let go, slide or stop, or where so many meet in one body that RowSystem's hubs serve
-    // better: nothing else may be called then. `touch_m`: contacts farther apart do not count; a
-    // solve of positions may bring any of them near.
+    // Loads the island's bodies and the blocks that take part. Returns false if a row may be
+    // unilateral, slide or stop, or if more than k_hub_nodes triads share a body; then no other
+    // function may be called. Contacts with a separation above `touch_m` are ignored; the position
+    // solve uses infinity, because any contact may close.
     bool load(const IslandView& island, double touch_m = std::numeric_limits<double>::infinity());
-    // Takes over the velocities alone, where it still has all the rest: `load` and `store_poses`
-    // came before, in the same revision of the graph, and masses and poses are as they were. False
-    // where it has not, or where contacts might count by now.
+    // Loads only the velocities and keeps the rest. Returns false unless `load` and `store_poses`
+    // were called in the same revision of the graph, masses and poses are unchanged and there are
+    // no contacts.
     bool resume(const IslandView& island);
-    // Writes the bodies back, those that something moves: poses; or velocities, and the impulses
-    // of the island's blocks that take part.
+    // Writes poses of the movable bodies; or their velocities, and the impulses of the blocks that
+    // take part.
     void store_poses(const IslandView& island) const;
     void store_velocities(const IslandView& island) const;
 
-    // What the triads lack at the present poses: `worst_residual` metres. Angles at
-    // k_angle_lever_m.
+    // Computes the residuals at the current poses, metres; angles times k_angle_lever_m.
     void evaluate(const IslandView& island);
-    // Where they have not been evaluated since they moved.
+    // The same, unless they have been evaluated since the last move.
     void evaluate_if_moved(const IslandView& island);
-    // The same of the velocities, m/s, against what drives the hands; at the arms of `evaluate`.
+    // Computes the residuals of the velocities, m/s, including the drives' own velocities, at the
+    // arms of the last `evaluate`.
     void evaluate_velocities(const IslandView& island);
     double worst_residual();
-    double worst_drive_residual() const;  // of the hands' alone
-    JointError worst_joints() const;      // of all others: points and rotations
+    double worst_drive_residual() const;  // of drives only
+    JointError worst_joints() const;      // of all other triads
 
-    // From here on only what is near to bodies that the last solve moved by this much or more, or
-    // turned by as much at k_angle_lever_m: a long rope is busy where it is pulled, and at rest
-    // elsewhere. Call where the errors are those of the present poses.
+    // Restricts the following steps to the rows near bodies that the last solve moved by at least
+    // `min_move_m` (rotations count times k_angle_lever_m). A long rope moves where it is pulled
+    // and is at rest elsewhere. Call only if the residuals are those of the current poses.
     void restrict_to_active(double min_move_m);
-    // All of them, as after `load` and `resume`.
+    // Undoes the restriction, as after `load` and `resume`.
     void activate_all_rows();
-    // Rows of strands, four bodies each, that steps move and that there are.
+    // Rows of strand packs (four bodies each): active, and in total.
     std::size_t active_rows() const;
     std::size_t strand_rows() const;
 
     void clear_stiffness() { has_stiffness_ = false; }
-    // From the last multipliers and the present arms.
+    // Computes geometric stiffness from the last multipliers and the current arms.
     void gather_stiffness();
-    // J W J^T + diag(alpha) at the present arms, and its factor. Alpha as `regularise` has it.
+    // Factorises J W J^T + R at the current arms; R as in model/regularisation.hpp.
     void factorise(const Regularisation& regularisation, double factor);
-    // Multipliers against the values with the last factor, and how they move the bodies.
+    // Solves for the multipliers and the bodies' moves with the last factor.
     void solve();
-    // Of the last solve: metres, radians.
+    // Longest translation and largest rotation of the last solve; metres, radians.
     double longest_move() const { return longest_move_; }
     double largest_rotation() const { return largest_rotation_; }
 
-    // Moves the bodies by so much of the last solve. Returns the longest step, metres.
+    // Moves the bodies by `scale` times the last solve. Returns the longest move, metres.
     double apply_moves(double scale);
-    // Adds the last solve to the velocities and impulses here.
+    // Adds the last solve to the velocities and impulses.
     void apply_impulses();
 
   private:
     struct Triad {
         std::uint32_t block = 0;  // into the graph's blocks
-        bool is_angular = false;  // rotation on rotation
+        bool is_angular = false;  // rotation on rotation, else point on point
         bool is_drive = false;
     };
-    // An end at a body that nothing moves. Where a strand begins with it, a still body at its point
-    // stands for it among the four; else it has no place there.
+    // An end at an immovable body. If a strand starts with it, a stand-in body at its point is
+    // packed at `place`; otherwise it is packed nowhere.
     struct Anchor {
         std::uint32_t end = 0;   // 2 * triad + side
         std::uint32_t body = 0;  // into the graph's bodies
@@ -96,8 +147,8 @@ class TriadSystem {
     void place_anchors();
     void clear_impulses();
     void load_ends();
-    Bodies4& four_of(std::uint32_t place) { return bodies_[place / TriadPlan::k_lanes]; }
-    const Bodies4& four_of(std::uint32_t place) const {
+    Bodies4& group_of(std::uint32_t place) { return bodies_[place / TriadPlan::k_lanes]; }
+    const Bodies4& group_of(std::uint32_t place) const {
         return bodies_[place / TriadPlan::k_lanes];
     }
     bool matches_loaded_state(const IslandView& island) const;
@@ -106,19 +157,19 @@ class TriadSystem {
     RowWindow active_window(const TriadPlan::StrandPack& strand_pack, const RowWindow& window,
                             double min_move_m) const;
 
-    // Made for each call: it points into this.
+    // Spans into this object's arrays; made for each kernel call.
     TriadArrays arrays();
 
     const TriadKernels* kernels_;
-    std::uint64_t revision_ = 0;               // of the graph that `resume` may go on with; 0: none
+    std::uint64_t revision_ = 0;  // of the graph loaded last; 0: `resume` is not possible
     std::vector<std::uint32_t> body_indices_;  // by slot: into the graph's bodies
     std::size_t triad_count_ = 0;
     std::vector<Triad> triads_;
     std::vector<Anchor> anchors_;
-    std::vector<TriadVector> points_;    // by end: times the sign; the sign
-    std::vector<TriadVector> impulses_;  // by triad of the rest: sums of lambdas
+    std::vector<TriadVector> points_;    // by end: anchor point times the sign; the sign
+    std::vector<TriadVector> impulses_;  // by triad of the rest: sum of lambdas
 
-    // What `arrays` is made of.
+    // Storage of `arrays`; documented at TriadArrays.
     std::vector<Bodies4> bodies_;
     std::vector<Ends4> body_ends_;
     std::vector<WideSymmetric> stiffness_;
@@ -132,16 +183,16 @@ class TriadSystem {
     std::vector<Rows3> blocks_;
     std::vector<Rows3> inverses_;
     std::vector<TriadVector> unknowns_;
-    std::vector<RowWindow> windows_;  // by braid
+    std::vector<RowWindow> windows_;  // by strand pack
 
     PlanCache<TriadPlan> plans_;
     std::vector<RowNode> nodes_;
     std::vector<std::uint8_t> may_turn_;  // by slot
-    std::vector<std::uint8_t> uses_;      // by slot: how many triads meet in it
-    double drive_scale_ = 0.0;            // of the last factor of all rows
+    std::vector<std::uint8_t> uses_;      // by slot: number of triads at the body
+    double drive_scale_ = 0.0;            // of the last unrestricted factor
     double longest_move_ = 0.0;
     double largest_rotation_ = 0.0;
-    bool is_evaluated_ = false;  // at the present poses
+    bool is_evaluated_ = false;  // residuals are those of the current poses
     bool is_restricted_ = false;
     bool has_stiffness_ = false;
     bool has_drive_rows_ = false;

@@ -1,5 +1,5 @@
-// Sources: right-looking LDL^T on panels, as in Golub and Van Loan, Matrix Computations, 4.1 and
-// 4.2.
+// Solver, sparse: numeric LDL^T factorisation on panels.
+// Source: right-looking LDL^T as in Golub and Van Loan, Matrix Computations, 4.1 and 4.2.
 #include "engine/solver/sparse/block_factor.hpp"
 
 #include <cmath>
@@ -9,19 +9,20 @@ namespace {
 
 using Panel = EliminationPlan::Panel;
 
-// Blocks are three or six wide nearly always: loops of a length known to the compiler cost half.
-// 0: known at run time only. The order of operations is the same.
+// Nearly all blocks are three or six wide. A loop length known to the compiler halves their cost;
+// 0: a length known at run time only. The order of operations is the same, and so are the bits.
 template <std::size_t KnownDepth, std::size_t KnownWidth>
 struct Kernels {
-    // u -> D L^T within a panel's own rows.
+    // Factorises a panel's diagonal block in place, u -> D L^T, and applies it to the rest of its
+    // rows.
     static void eliminate(const Panel& panel, std::span<const double> smallest_pivots, double* u,
                           double* inverse_pivots) {
         const std::size_t depth = KnownDepth != 0 ? KnownDepth : panel.width;
         const std::size_t stride = panel.stride;
         for (std::size_t m = 0; m < depth; ++m) {
             const double pivot = u[m * stride + m];
-            const bool counts = std::abs(pivot) > smallest_pivots[panel.scalar + m];
-            const double inverse = counts ? 1.0 / pivot : 0.0;
+            const bool is_independent = std::abs(pivot) > smallest_pivots[panel.scalar + m];
+            const double inverse = is_independent ? 1.0 / pivot : 0.0;
             inverse_pivots[panel.scalar + m] = inverse;
             for (std::size_t row = m + 1; row < depth; ++row) {
                 const double factor = u[m * stride + row] * inverse;
@@ -32,7 +33,8 @@ struct Kernels {
         }
     }
 
-    // c -= sum over m of u[m][from..] / d[m] u[m][to..]: two blocks' columns in one panel.
+    // c -= sum over m of u[m][from..] / d[m] * u[m][to..]: the update of one later block by one
+    // panel.
     static void subtract_product(const Panel& panel, const Panel& row_panel,
                                  const Panel& column_panel, const double* from, const double* to,
                                  const double* inverse_pivots, double* c) {
@@ -51,7 +53,7 @@ struct Kernels {
     }
 };
 
-// to -= sum over m of shares[m] rows[m].
+// to -= sum over m of shares[m] * rows[m].
 template <std::size_t KnownWidth>
 void subtract_rows(const double* rows, std::size_t stride, const double* shares, std::size_t depth,
                    std::size_t width, double* to) {
@@ -79,7 +81,7 @@ void subtract_products(const double* rows, std::size_t stride, const double* fro
     }
 }
 
-// A panel's unknowns are final: takes their share off the later ones.
+// Forward substitution: subtracts the contribution of a panel's unknowns from all later ones.
 template <std::size_t KnownWidth>
 void carry_forward(const EliminationPlan& plan, const Panel& panel, const double* u,
                    const double* inverse_pivots, double* unknowns) {
@@ -104,7 +106,7 @@ void carry_forward(const EliminationPlan& plan, const Panel& panel, const double
     }
 }
 
-// All later unknowns are solved: solves a panel's own.
+// Backward substitution: solves a panel's unknowns from the later ones, which are known.
 template <std::size_t KnownWidth>
 void solve_backward(const EliminationPlan& plan, const Panel& panel, const double* u,
                     const double* inverse_pivots, double* unknowns) {

@@ -1,3 +1,5 @@
+// Solver, sparse: the numeric half of the sparse LDL^T. elimination_plan.hpp is the symbolic half.
+
 #pragma once
 
 #include <span>
@@ -7,18 +9,18 @@
 
 namespace handhold {
 
-// The numeric half of a sparse LDL^T: of a symmetric quasi-definite matrix in the panels of a plan.
-// Plain loops over doubles in a fixed order: equal bits on every compiler.
+// LDL^T of a symmetric quasi-definite matrix stored in the panels of an EliminationPlan. Plain
+// loops over doubles in a fixed order: the same bits on every compiler.
 class BlockFactor {
   public:
-    // The matrix, to be written before `factorise`, which leaves D L^T in its place.
+    // The matrix, written by the caller before `factorise`, which replaces it by D L^T.
     std::span<double> values() { return values_; }
     void resize(const EliminationPlan& plan);
 
-    // `smallest_pivots` by unknown, >= 0: an unknown whose pivot is smaller repeats others beyond
-    // what rounding tells apart, and gets no share.
+    // `smallest_pivots`, by unknown, >= 0. An unknown with a smaller pivot is linearly dependent on
+    // others to within rounding; its solution is 0.
     void factorise(const EliminationPlan& plan, std::span<const double> smallest_pivots);
-    // Right-hand side in, solution out, by unknown.
+    // Right-hand side in, solution out; by unknown.
     void substitute(const EliminationPlan& plan, std::span<double> unknowns) const;
 
   private:

@@ -1,3 +1,4 @@
+// Solver, sparse: symbolic factorisation. The data structures are described in the header.
 // Sources: minimum degree as in George and Liu, The Evolution of the Minimum Degree Ordering
 // Algorithm (1989), on blocks; bodies as unknowns after Baraff, Linear-Time Dynamics using Lagrange
 // Multipliers (1996).
@@ -60,7 +61,7 @@ void EliminationPlan::reserve(const EliminationPlan& other) {
     reserve_as(other.candidates_, candidates_);
 }
 
-// The row nodes of each body, and which bodies are hubs.
+// Finds the row nodes of each body, and which bodies are hubs.
 void EliminationPlan::find_incidence() {
     ends_begin_.assign(can_rotate_.size() + 1, 0);
     rows_of_slot_.assign(can_rotate_.size(), 0);
@@ -136,39 +137,39 @@ std::uint32_t EliminationPlan::weight_of(std::uint32_t node) const {
     return weight;
 }
 
-// Rows whose bodies are all hubs, or cannot turn, have next to nothing on their diagonal: they wait
-// until a hub's elimination has put it there. Otherwise the hub's unknowns would be what is left of
-// numbers 1e10 times larger.
+// A row node all of whose bodies are hubs (or cannot rotate) has almost nothing on its diagonal
+// until a hub has been eliminated. Eliminated earlier, it would leave the hub's unknowns as
+// differences of numbers 1e10 times larger.
 bool EliminationPlan::can_eliminate(std::uint32_t node) const {
     if (node >= nodes_.size() || nodes_[node].is_regularised) {
         return true;
     }
-    bool waits = false;
+    bool needs_hub = false;
     for (const std::uint32_t slot : nodes_[node].slots) {
         if (slot == k_no_slot) {
             continue;
         }
         const std::uint32_t hub = hub_of_slot_[slot];
         if (hub != k_no_slot && eliminated_[nodes_.size() + hub] == 0) {
-            waits = true;
+            needs_hub = true;
         } else if (can_rotate_[slot] != 0) {
             return true;
         }
     }
-    return !waits;
+    return !needs_hub;
 }
 
 void EliminationPlan::order_nodes() {
     const std::size_t count = nodes_.size() + hubs_.size();
-    // Of equals the one that waits longest: a chain goes from both ends in turn, and neither end
-    // waits for the other's results.
+    // Equal weights: oldest first. A chain is then eliminated from both ends in turn, and neither
+    // end depends on the other's results.
     const auto is_later = [](const Candidate& x, const Candidate& y) {
-        return x.weight != y.weight ? x.weight > y.weight : x.turn > y.turn;
+        return x.weight != y.weight ? x.weight > y.weight : x.sequence > y.sequence;
     };
-    std::uint32_t turn = 0;
+    std::uint32_t sequence = 0;
     const auto offer = [&](std::uint32_t node) {
         if (can_eliminate(node)) {
-            candidates_.push_back({weight_of(node), turn++, node});
+            candidates_.push_back({weight_of(node), sequence++, node});
             std::ranges::push_heap(candidates_, is_later);
         }
     };
@@ -184,7 +185,7 @@ void EliminationPlan::order_nodes() {
         const Candidate candidate = candidates_.back();
         candidates_.pop_back();
         if (eliminated_[candidate.node] != 0 || candidate.weight != weight_of(candidate.node)) {
-            continue;  // out of date: offered again when its neighbours changed
+            continue;  // stale: was offered again when its neighbours changed
         }
         eliminate(candidate.node);
         for (const std::uint32_t other : neighbours_[candidate.node]) {
@@ -195,7 +196,8 @@ void EliminationPlan::order_nodes() {
     lay_out();
 }
 
-// Its neighbours become neighbours of each other. Its own list stays: the blocks of its panel.
+// The node's neighbours become neighbours of each other (fill). The node's own list is kept: it
+// holds the blocks of its panel.
 void EliminationPlan::eliminate(std::uint32_t node) {
     eliminated_[node] = 1;
     order_.push_back(node);
@@ -205,12 +207,12 @@ void EliminationPlan::eliminate(std::uint32_t node) {
         merged_.clear();
         std::ranges::set_union(of, around, std::back_inserter(merged_));
         std::erase_if(merged_, [&](std::uint32_t x) { return x == other || x == node; });
-        of.resize(merged_.size());  // unlike assign, it leaves room to grow
+        of.resize(merged_.size());  // unlike assign, keeps spare capacity
         std::ranges::copy(merged_, of.begin());
     }
 }
 
-// Panels and their blocks, one after the other in the order of elimination.
+// Lays out panels and their blocks in the order of elimination.
 void EliminationPlan::lay_out() {
     panel_of_node_.resize(order_.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
@@ -245,7 +247,7 @@ void EliminationPlan::lay_out() {
     scalar_count_ = scalar;
 }
 
-// Column of a later panel's node in the rows of this one; its own is 0.
+// Column of a later panel's node in this panel's rows; 0 for the panel's own node.
 std::uint32_t EliminationPlan::column_of(const Panel& panel, std::uint32_t later) const {
     const std::span<const Block> of = blocks(panel);
     const auto found = std::ranges::lower_bound(of, later, {}, &Block::panel);

@@ -1,3 +1,7 @@
+// Solver, sparse: the symbolic half of the sparse LDL^T, that is, the order in which the unknowns
+// of an island are eliminated and the memory layout of the factor. Depends only on which rows share
+// which bodies.
+
 #pragma once
 
 #include <cstdint>
@@ -5,13 +9,11 @@
 #include <span>
 #include <vector>
 
-// In which order the unknowns of an island are eliminated, and where every block of the factor
-// lies: the symbolic half of a sparse LDL^T. It depends on who is tied to whom and on nothing else.
 namespace handhold {
 
-inline constexpr std::uint32_t k_widest_node = 12;  // rows: four contacts with friction
-// Relative to the diagonal: smaller pivots belong to rows that repeat others beyond what alpha
-// tells apart.
+inline constexpr std::uint32_t k_widest_node = 12;  // rows; four contacts with friction
+// Relative to the diagonal. A smaller pivot means that the row is linearly dependent on others to a
+// degree that alpha cannot separate.
 inline constexpr double k_smallest_pivot = 1e-14;
 inline constexpr std::uint32_t k_hub_nodes = 4;  // bodies with more row nodes are hubs
 inline constexpr std::uint32_t k_no_slot = std::numeric_limits<std::uint32_t>::max();
@@ -21,56 +23,58 @@ void reserve_as(const std::vector<T>& other, std::vector<T>& here) {
     here.reserve(other.capacity());
 }
 
-// Rows between the same two bodies: one block of unknowns, their multipliers.
+// A node of unknowns: the multipliers of all rows between the same two bodies.
 struct RowNode {
-    std::uint32_t slots[2] = {k_no_slot, k_no_slot};  // of the bodies that move; a's, b's
-    std::uint32_t width = 0;                          // rows
-    bool is_regularised =
-        false;  // all of them have so large an alpha that it can serve as their pivot
-    bool is_point_link = false;  // a point held on a point by nothing soft: may lie in a strand
+    // Slots of a and b; k_no_slot for a body that cannot move.
+    std::uint32_t slots[2] = {k_no_slot, k_no_slot};
+    std::uint32_t width = 0;      // rows
+    bool is_regularised = false;  // All rows have an alpha large enough to serve as their pivot.
+    bool is_point_link = false;   // A point triad of a joint; may lie in a strand (packed/).
     bool operator==(const RowNode&) const = default;
 };
 
 // Nodes are numbered: row nodes first, in the order given, then hubs. A hub is a body with so many
-// row nodes that J W J^T would tie each of them to each other; its negative motion is an unknown of
-// its own instead, six wide, and the matrix is [[J_l W_l J_l^T + alpha, -J_h], [-J_h^T, -M_h]]:
-// symmetric quasi-definite, so that every order of elimination exists (Vanderbei 1995).
+// row nodes that J W J^T would couple each of them with every other. Instead, the hub's negative
+// motion is an unknown of its own, six wide, and the matrix is
+//   [ J_l W_l J_l^T + R   -J_h ]     l: the other bodies, h: hubs, M_h: their masses
+//   [ -J_h^T              -M_h ]
+// This matrix is symmetric quasi-definite, so an LDL^T exists for every order (Vanderbei 1995).
 //
-// Each node has a panel: `width` rows, each from the node's own diagonal block on over the blocks
-// of all later nodes that it meets: the upper triangle, by rows.
+// Each node has a panel: `width` rows, each from the node's own diagonal block over the blocks of
+// all later nodes that it is coupled with. Together the panels are the upper triangle, by rows.
 class EliminationPlan {
   public:
-    // `turns` by slot: false for what only moves along (players).
+    // `can_rotate` by slot; 0 for translating bodies.
     void build(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate);
-    // Room for what the other has room for: a build of its structure allocates nothing.
+    // Reserves the other plan's capacities, so that a build of its structure does not allocate.
     void reserve(const EliminationPlan& other);
-    // True where it was built from the same.
+    // True if the plan was built from the same input.
     bool fits(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) const;
 
     struct Panel {
         std::uint32_t node = 0;
         std::uint32_t width = 0;
         std::uint32_t stride = 0;        // length of a row
-        std::uint32_t begin = 0;         // of the panel, into the values
-        std::uint32_t scalar = 0;        // of the node's unknowns, into vectors of unknowns
-        std::uint32_t blocks_begin = 0;  // later nodes that it meets, into `blocks`
+        std::uint32_t begin = 0;         // of the panel, into the factor's values
+        std::uint32_t scalar = 0;        // of the node's first unknown
+        std::uint32_t blocks_begin = 0;  // coupled later nodes, into `blocks`
         std::uint32_t blocks_end = 0;
-        std::uint32_t updates = 0;  // into `updates`: a target for each two of its blocks, (0, 0),
-                                    // (0, 1) .. (1, 1), (1, 2) ..
+        // Into `updates`: one target per pair of its blocks: (0, 0), (0, 1) .. (1, 1), (1, 2) ..
+        std::uint32_t updates = 0;
     };
     struct Block {
         std::uint32_t panel = 0;   // of the later node
         std::uint32_t column = 0;  // in this panel's rows
     };
-    // A product that is added to the matrix, of two row nodes that share a body: rows of the
-    // earlier one's panel, columns of the later one's block.
+    // A product to be added to the matrix, of two row nodes that share a body: rows of the earlier
+    // node's panel, columns of the later node's block.
     struct Coupling {
         std::uint32_t panel_end = 0;  // 2 * node + side
         std::uint32_t later_end = 0;
         std::uint32_t target = 0;
         std::uint32_t stride = 0;
     };
-    // -J of a row node at a hub's rows or columns.
+    // Where -J of a row node lies in the rows or columns of a hub.
     struct HubCoupling {
         std::uint32_t end = 0;  // 2 * node + side
         std::uint32_t target = 0;
@@ -82,7 +86,7 @@ class EliminationPlan {
         std::uint32_t target = 0;  // its diagonal block
         std::uint32_t stride = 0;
     };
-    // Where the column of a node's unknown m stands in an earlier panel: begin + m, `rows` times.
+    // Where the column of a node's unknown m lies in an earlier panel: begin + m, `rows` times.
     struct Appearance {
         std::uint32_t begin = 0;
         std::uint32_t rows = 0;
@@ -104,8 +108,8 @@ class EliminationPlan {
             .subspan(appearances_begin_[node],
                      appearances_begin_[node + 1] - appearances_begin_[node]);
     }
-    std::size_t value_count() const { return value_count_; }    // of all panels
-    std::size_t scalar_count() const { return scalar_count_; }  // unknowns
+    std::size_t value_count() const { return value_count_; }    // number of values of all panels
+    std::size_t scalar_count() const { return scalar_count_; }  // number of unknowns
 
   private:
     void find_incidence();
@@ -141,18 +145,18 @@ class EliminationPlan {
     // Scratch of build.
     struct Candidate {
         std::uint32_t weight;
-        std::uint32_t turn;  // when it was offered
+        std::uint32_t sequence;  // order in which it was offered
         std::uint32_t node;
     };
     std::vector<std::uint32_t> ends_;  // 2 * node + side, by slot
     std::vector<std::uint32_t> ends_begin_;
     std::vector<std::uint32_t> rows_of_slot_;
     std::vector<std::uint32_t> hub_of_slot_;
-    std::vector<std::vector<std::uint32_t>> neighbours_;  // ascending; of nodes not yet eliminated
+    std::vector<std::vector<std::uint32_t>> neighbours_;  // ascending; nodes not yet eliminated
     std::vector<std::uint32_t> merged_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> eliminated_;
-    std::vector<Candidate> candidates_;  // a heap; entries may be out of date
+    std::vector<Candidate> candidates_;  // a heap; entries may be stale
 };
 
 }  // namespace handhold

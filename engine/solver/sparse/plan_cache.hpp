@@ -1,3 +1,5 @@
+// Solver, sparse: a small cache of elimination plans.
+
 #pragma once
 
 #include <array>
@@ -8,13 +10,14 @@
 
 namespace handhold {
 
-// The plans of the structures that an island has had of late. Structures come back: with and
-// without contacts, with the player held still or not. Which were kept changes nothing but the
-// cost. A Plan has `build`, `reserve` and `fits` as EliminationPlan.
+// Plans of the structures that an island had recently. Structures recur: with and without contacts,
+// with a body held still or not. The cache affects cost only, never the result. A Plan has `build`,
+// `reserve` and `fits`, as EliminationPlan.
 template <typename Plan>
 class PlanCache {
   public:
-    // The plan of this structure: a kept one, or a new one in place of the one used longest ago.
+    // Returns the plan of this structure: a cached one, or a new one in place of the least recently
+    // used.
     const Plan& choose(std::span<const RowNode> nodes, std::span<const std::uint8_t> can_rotate) {
         ++uses_;
         std::size_t oldest = current_;
@@ -26,13 +29,13 @@ class PlanCache {
             oldest = used_[candidate] < used_[oldest] ? candidate : oldest;
         }
         plans_[oldest].build(nodes, can_rotate);
-        // All grow together: it is the first of its size that allocates, not the first six.
+        // All plans reserve alike, so that only the first plan of a size allocates.
         for (Plan& plan : plans_) {
             plan.reserve(plans_[oldest]);
         }
         return use(oldest);
     }
-    // The one chosen last.
+    // The plan chosen last.
     const Plan& current() const { return plans_[current_]; }
 
   private:

@@ -1,4 +1,5 @@
-// J W J^T by blocks: products of the Jacobians of rows that share a body.
+// Solver, sparse: assembles J W J^T block by block, as products of the Jacobians of rows that share
+// a body.
 #include "engine/solver/sparse/row_matrix.hpp"
 
 #include <algorithm>
@@ -6,11 +7,11 @@
 namespace handhold {
 namespace {
 
-// Nodes are three rows wide nearly always: loops of a length known to the compiler cost half. 0:
-// known at run time only. The order of operations is the same.
+// Nearly all nodes are three rows wide. A loop length known to the compiler halves their cost; 0: a
+// length known at run time only. The order of operations is the same, and so are the bits.
 template <std::size_t KnownWidth>
 struct RowKernels {
-    // J and W J^T of one side of a node; adds J W J^T to its rows' diagonal.
+    // Writes J and W J^T of one side of a node, and adds J W J^T to the diagonal of its rows.
     static void write_end(std::span<const Row> rows, bool is_a, double inverse_mass,
                           const Mat3& inverse_inertia, double* jacobian, double* response,
                           double* diagonal) {
@@ -32,7 +33,7 @@ struct RowKernels {
         }
     }
 
-    // out += response^T jacobian over the six directions of a body's motion.
+    // out += response^T jacobian, summed over the six components of a body's motion.
     static void add_product(const double* response, std::size_t column_width,
                             const double* jacobian, std::size_t row_width, double* out,
                             std::size_t stride) {
@@ -48,7 +49,7 @@ struct RowKernels {
         }
     }
 
-    // The same of two points: along the axes they share only their mass.
+    // The same for two point nodes, whose linear parts are the identity: they share only the mass.
     static void add_point_product(const double* response, const double* jacobian, double* out,
                                   std::size_t stride) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -159,7 +160,7 @@ void RowMatrix::multiply_out() {
     }
 }
 
-// Hubs as unknowns: -J at their rows or columns, -M on their diagonal.
+// Writes the hubs' unknowns: -J at their rows or columns, -M on their diagonal.
 void RowMatrix::write_hubs(std::span<const SolverBody> bodies,
                            std::span<const Mat3> inverse_inertia_ws) {
     for (const EliminationPlan::HubCoupling& coupling : plan().hub_couplings()) {
@@ -209,7 +210,7 @@ void RowMatrix::assemble(std::span<const SolverBody> bodies,
     moves_.resize(inverse_inertia_ws.size());
 }
 
-// As if the row were not there: its multiplier is 0.
+// Removes a row from the factor; its multiplier becomes 0.
 void RowMatrix::exclude_row(std::uint32_t node, std::size_t row_in_node) {
     const std::span<double> values = factor_.values();
     const EliminationPlan::Panel& panel = plan().panel_of(node);
@@ -273,7 +274,7 @@ void RowMatrix::gather_moves(std::span<const double> lambda) {
     }
 }
 
-// How far the moves gathered carry a row: J W J^T lambda.
+// J W J^T lambda of one row, from the gathered moves.
 double RowMatrix::row_motion(std::size_t row) const {
     const std::uint32_t index = node_of_row_[row];
     const Node& node = nodes_[index];

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-namespace handhold::anim_crawler_leg_test {
+namespace handhold::crawler_leg_test {
 namespace {
 
 constexpr CrawlerGait k_gait = {1.25, 0.6, 0.3};
 
-// A torso 0.9 m over the plane y = 0, round a loop that turns by a whole turn.
+// A torso 0.9 m above the plane y = 0 on a circle, making one full turn.
 PosePath torso_path() {
     std::array<Pose, 8> poses;
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -32,7 +32,7 @@ CrawlerLeg leg() {
     return made;
 }
 
-TEST(TwoBonesBend, KeepTheirLengthsAndReachTheTarget) {
+TEST(PlaceTwoBones, KeepsLengthsAndReachesTarget) {
     for (const Vec3& target : {Vec3(1.0, 0.2, -0.4), Vec3(0.0, -1.2, 0.1), Vec3(-0.3, 0.2, 0.1)}) {
         const TwoBones bones =
             place_two_bones(Vec3(0.1, 0.2, 0.3), target, 0.8, 0.9, Vec3(1, 2, 3));
@@ -43,13 +43,13 @@ TEST(TwoBonesBend, KeepTheirLengthsAndReachTheTarget) {
     }
 }
 
-TEST(TwoBonesBend, OfThreeFourFiveMeetAtARightAngle) {
+TEST(PlaceTwoBones, ThreeFourFiveTriangleHasRightAngle) {
     const TwoBones bones =
         place_two_bones(Vec3::Zero(), Vec3(5.0, 0.0, 0.0), 3.0, 4.0, Vec3::UnitY());
     EXPECT_LT((bones.middle - Vec3(1.8, 2.4, 0.0)).norm(), 1e-14);
 }
 
-TEST(TwoBonesBend, OutOfReachEndOnTheLineToTheTargetJustShort) {
+TEST(PlaceTwoBones, ClampsTargetOutOfReach) {
     const Vec3 far(0.0, -9.0, 0.0);
     const TwoBones bones = place_two_bones(Vec3::Zero(), far, 0.8, 0.9, Vec3::UnitX());
     EXPECT_LT((bones.end - Vec3(0.0, -1.7 * 0.999, 0.0)).norm(), 1e-12);
@@ -60,7 +60,7 @@ TEST(TwoBonesBend, OutOfReachEndOnTheLineToTheTargetJustShort) {
     EXPECT_TRUE(is_finite(place_two_bones(far, far, 0.8, 0.9, Vec3::UnitX()).middle));
 }
 
-TEST(CrawlerFoot, StandsStillThenSwingsToTheNextFoothold) {
+TEST(CrawlerFoot, StandsStillThenSwingsToNextFoothold) {
     const PosePath torso = torso_path();
     for (int step = 0; step < 60; ++step) {
         const double from_s = (step - leg().phase) * k_gait.step_s;
@@ -71,7 +71,7 @@ TEST(CrawlerFoot, StandsStillThenSwingsToTheNextFoothold) {
             const double t_s = from_s + share * (until_s - from_s);
             EXPECT_EQ(crawler_foot(torso, k_gait, leg(), t_s), stands);
         }
-        // In the middle of the swing: half way, lifted by lift_m.
+        // Mid-swing: half way, raised by lift_m.
         const double next_s = from_s + k_gait.step_s;
         const Vec3 next = crawler_foot(torso, k_gait, leg(), next_s + 0.01);
         const Vec3 middle = crawler_foot(torso, k_gait, leg(), 0.5 * (until_s + next_s));
@@ -79,15 +79,14 @@ TEST(CrawlerFoot, StandsStillThenSwingsToTheNextFoothold) {
     }
 }
 
-// Footholds lie where the torso's pose in the middle of the stand puts them.
-TEST(CrawlerFoot, StandsUnderTheTorsosPoseInTheMiddleOfItsStand) {
+TEST(CrawlerFoot, StandsBelowTorsoPoseAtMidStance) {
     const PosePath torso = torso_path();
     const double middle_s = (7.0 - leg().phase + 0.5 * k_gait.standing) * k_gait.step_s;
     const Vec3 expected = transform_point(evaluate(torso, middle_s).pose, leg().foot_bs);
     EXPECT_LT((crawler_foot(torso, k_gait, leg(), middle_s) - expected).norm(), 1e-12);
 }
 
-TEST(CrawlerFoot, NeverJumps) {
+TEST(CrawlerFoot, SpeedAndAccelerationAreBounded) {
     const PosePath torso = torso_path();
     constexpr double k_step_s = 1e-3;
     Vec3 last = crawler_foot(torso, k_gait, leg(), 0.0);
@@ -95,7 +94,7 @@ TEST(CrawlerFoot, NeverJumps) {
     for (double t_s = k_step_s; t_s < 20.0; t_s += k_step_s) {
         const Vec3 foot = crawler_foot(torso, k_gait, leg(), t_s);
         const Vec3 velocity = (foot - last) / k_step_s;
-        // Swings of half a metre and 0.3 m up in half a second: below 4 m/s and 60 m/s^2.
+        // Swings of 0.5 m with 0.3 m lift in half a second stay below 4 m/s and 60 m/s^2.
         ASSERT_LT(velocity.norm(), 4.0) << t_s;
         ASSERT_LT((velocity - last_velocity).norm() / k_step_s, 60.0) << t_s;
         last = foot;
@@ -103,7 +102,7 @@ TEST(CrawlerFoot, NeverJumps) {
     }
 }
 
-TEST(CrawlerBones, MeetAtTheKneeAndHangFromTheTorso) {
+TEST(CrawlerBones, JoinAtKneeAndHip) {
     const PosePath torso = torso_path();
     for (double t_s = -3.0; t_s < 30.0; t_s += 0.137) {
         const Pose upper = crawler_bone_pose(torso, k_gait, leg(), LegBone::upper, t_s);
@@ -120,4 +119,4 @@ TEST(CrawlerBones, MeetAtTheKneeAndHangFromTheTorso) {
 }
 
 }  // namespace
-}  // namespace handhold::anim_crawler_leg_test
+}  // namespace handhold::crawler_leg_test

@@ -11,7 +11,7 @@
 
 #include "engine/core/check.hpp"
 
-namespace handhold::anim_pose_path_test {
+namespace handhold::pose_path_test {
 namespace {
 
 double angle_between(const Quat& a, const Quat& b) {
@@ -37,7 +37,7 @@ std::vector<Pose> random_poses(std::uint64_t seed) {
     return poses;
 }
 
-RC_GTEST_PROP(PosePath, IsAtItsPosesAtEqualStepsOfItsPeriod, (std::uint64_t seed)) {
+RC_GTEST_PROP(PosePath, PassesPosesAtEqualTimeSteps, (std::uint64_t seed)) {
     const std::vector<Pose> poses = random_poses(seed);
     const double period_s = 7.0;
     const PosePath path = make_pose_path(poses, period_s);
@@ -49,8 +49,9 @@ RC_GTEST_PROP(PosePath, IsAtItsPosesAtEqualStepsOfItsPeriod, (std::uint64_t seed
     }
 }
 
-// Central differences of step h: error h^2 / 6 of the third derivative, here below 1e-6.
-RC_GTEST_PROP(PosePath, VelocitiesAreTheDerivativeOfThePose, (std::uint64_t seed)) {
+// Central differences with step h have an error of h^2 / 6 times the third derivative, here below
+// 1e-6.
+RC_GTEST_PROP(PosePath, VelocityIsDerivativeOfPose, (std::uint64_t seed)) {
     const PosePath path = make_pose_path(random_poses(seed), 9.0);
     constexpr double k_step_s = 1e-5;
     for (double t_s = 0.05; t_s < 9.0; t_s += 0.311) {
@@ -66,8 +67,7 @@ RC_GTEST_PROP(PosePath, VelocitiesAreTheDerivativeOfThePose, (std::uint64_t seed
     }
 }
 
-// The spline of a straight line's curvature: across a key neither velocity nor acceleration jumps.
-RC_GTEST_PROP(PosePath, VelocityAndAccelerationDoNotJumpAtKeys, (std::uint64_t seed)) {
+RC_GTEST_PROP(PosePath, VelocityAndAccelerationAreContinuousAtKeys, (std::uint64_t seed)) {
     const std::vector<Pose> poses = random_poses(seed);
     const double period_s = static_cast<double>(poses.size());
     const PosePath path = make_pose_path(poses, period_s);
@@ -82,8 +82,8 @@ RC_GTEST_PROP(PosePath, VelocityAndAccelerationDoNotJumpAtKeys, (std::uint64_t s
     }
 }
 
-TEST(PosePath, EveryLapIsTheSame) {
-    const PosePath path = make_pose_path(random_poses(4), 8.0);  // a power of two: exact laps
+TEST(PosePath, EveryLapIsEqual) {
+    const PosePath path = make_pose_path(random_poses(4), 8.0);  // a power of two: laps are exact
     for (const double t_s : {0.25, 1.75, 5.5}) {
         const PosePathState once = evaluate(path, t_s);
         for (const double lap : {-3.0, 1.0, 1000.0}) {
@@ -95,16 +95,17 @@ TEST(PosePath, EveryLapIsTheSame) {
     }
 }
 
-// Round a circle of radius r with the heading along it: a spline through 16 points of it leaves the
-// circle by at most 5 / 384 (2 pi / 16)^4 of r (Hall 1968).
-TEST(PosePath, TurnsOnceAroundACircleWithItsHeading) {
+// Circle of radius r with the heading along it. A spline through 16 points deviates by at most 5 /
+// 384 (2 pi / 16)^4 r (Hall 1968).
+TEST(PosePath, FollowsCircleWithFullTurn) {
     constexpr double k_radius_m = 4.0;
     constexpr double k_period_s = 20.0;
     std::array<Pose, 16> poses;
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const double angle = 2.0 * k_pi * static_cast<double>(i) / 16.0;
         poses[i].position = k_radius_m * Vec3(std::cos(angle), 0.0, -std::sin(angle));
-        poses[i].rotation = rotation_about(Vec3::UnitY(), angle);  // -Z is the way it goes
+        // -Z along the direction of motion.
+        poses[i].rotation = rotation_about(Vec3::UnitY(), angle);
     }
     const PosePath path = make_pose_path(poses, k_period_s);
     const double bound_m = k_radius_m * 5.0 / 384.0 * std::pow(2.0 * k_pi / 16.0, 4);
@@ -118,7 +119,7 @@ TEST(PosePath, TurnsOnceAroundACircleWithItsHeading) {
     }
 }
 
-TEST(PosePath, SignsOfTheGivenQuaternionsDoNotMatter) {
+TEST(PosePath, IndependentOfQuaternionSigns) {
     std::vector<Pose> poses = random_poses(11);
     const PosePath path = make_pose_path(poses, 5.0);
     for (std::size_t i = 0; i < poses.size(); i += 2) {
@@ -132,7 +133,7 @@ TEST(PosePath, SignsOfTheGivenQuaternionsDoNotMatter) {
     }
 }
 
-TEST(PosePath, RefusesWhatIsNoPath) {
+TEST(PosePath, RejectsInvalidPaths) {
     const std::vector<Pose> one(1);
     const std::vector<Pose> two(2);
     const std::vector<Pose> many(k_max_path_keys + 1);
@@ -147,4 +148,4 @@ TEST(PosePath, RefusesWhatIsNoPath) {
 }
 
 }  // namespace
-}  // namespace handhold::anim_pose_path_test
+}  // namespace handhold::pose_path_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.hpp"
 
-namespace handhold::anim_skinning_test {
+namespace handhold::skinning_test {
 namespace {
 
 struct Strip {
@@ -27,7 +27,7 @@ struct Strip {
     }
 };
 
-TEST(SkinVertices, StayInTheBindPose) {
+TEST(SkinVertices, BindPoseChangesNothing) {
     Strip strip;
     strip.run(strip.bind);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -36,7 +36,7 @@ TEST(SkinVertices, StayInTheBindPose) {
     }
 }
 
-TEST(SkinVertices, MoveAsOneWithAllJoints) {
+TEST(SkinVertices, FollowCommonMotionOfAllJoints) {
     Strip strip;
     const Pose move{Vec3(3, -2, 1), rotation_about(Vec3(2, -1, 2) / 3.0, 0.9)};
     strip.run({move * strip.bind[0], move * strip.bind[1]});
@@ -47,9 +47,9 @@ TEST(SkinVertices, MoveAsOneWithAllJoints) {
     }
 }
 
-// The second joint turns by a quarter about Z through (1, 0, 0): (2, 0, 0) goes to (1, 1, 0), and
-// what both carry alike to the mean of where each takes it.
-TEST(SkinVertices, GoToTheMeanOfWhereTheirJointsCarryThem) {
+// The second joint turns a quarter about Z through (1, 0, 0): (2, 0, 0) moves to (1, 1, 0). A
+// vertex weighted equally to both joints moves to the mean.
+TEST(SkinVertices, BlendJointTransformsByWeight) {
     Strip strip;
     strip.weights[2] = {{0, 1, 0, 0}, {0.5F, 0.5F, 0, 0}};
     const Quat quarter = rotation_about(Vec3::UnitZ(), std::numbers::pi / 2.0);
@@ -60,10 +60,10 @@ TEST(SkinVertices, GoToTheMeanOfWhereTheirJointsCarryThem) {
     EXPECT_NEAR((strip.out_normals[2] - Vec3(-1, 1, 0).normalized()).norm(), 0.0, 1e-14);
 }
 
-TEST(SkinVertices, AskForAPoseOfEachJoint) {
+TEST(SkinVertices, RejectMissingJointPose) {
     Strip strip;
     EXPECT_THROW(strip.run({Pose()}), PreconditionError);
 }
 
 }  // namespace
-}  // namespace handhold::anim_skinning_test
+}  // namespace handhold::skinning_test

@@ -31,8 +31,8 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
     CollisionWorld world(shapes);
     std::vector<ColliderProxy> proxies;
     std::vector<ContactPoint> contacts;
-    std::size_t most = 0;
-    // The bodies go to and fro, and some are away in some rounds: the second hundred rounds repeat
+    std::size_t most_contacts = 0;
+    // Bodies move back and forth, and each is absent in some rounds. The second 110 rounds repeat
     // the first.
     const auto round_trip = [&](int round) {
         proxies.clear();
@@ -50,7 +50,7 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
         }
         world.set_proxies(proxies);
         world.find_contacts({}, contacts);
-        most = std::max(most, contacts.size());
+        most_contacts = std::max(most_contacts, contacts.size());
         for (int i = 0; i < 4; ++i) {
             (void)world.cast_ray({0.0, 0.1 * i, 0.0}, {2.0, 0.3, 0.1 * round});
             (void)world.cast_sphere(0.05, {0.0, 0.1 * i, 0.0}, {2.0, 0.3, 0.1});
@@ -60,15 +60,15 @@ TEST(CollisionWorld, WarmWorldAllocatesNothing) {
     for (int round = 0; round < 110; ++round) {
         round_trip(round);
     }
-    const std::size_t news = allocation_count();
-    const std::uint64_t library = collision_allocation_count();
-    EXPECT_GT(library, 0U);  // the hook works
+    const std::size_t allocations = allocation_count();
+    const std::uint64_t library_allocations = collision_allocation_count();
+    EXPECT_GT(library_allocations, 0U);  // the hook works
     for (int round = 110; round < 220; ++round) {
         round_trip(round);
     }
-    EXPECT_EQ(allocation_count() - news, 0U);
-    EXPECT_EQ(collision_allocation_count() - library, 0U);
-    EXPECT_GT(most, 50U);
+    EXPECT_EQ(allocation_count() - allocations, 0U);
+    EXPECT_EQ(collision_allocation_count() - library_allocations, 0U);
+    EXPECT_GT(most_contacts, 50U);
 }
 
 }  // namespace

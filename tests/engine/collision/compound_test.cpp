@@ -4,9 +4,9 @@
 
 #include "tests/engine/collision/scene.hpp"
 
-// Sweeps of every kind of body against every kind of thing, compounds and spinning included. The
-// oracle is the distance at rest (certified in collision_shapes_test.cpp) at small steps of the
-// way.
+// Sweeps of every kind of body, compounds and spinning ones included, against every kind of
+// obstacle. Oracle: the distance at rest (certified in shapes_test.cpp) at small steps of the
+// motion.
 namespace handhold::collision_compound_test {
 namespace {
 
@@ -51,7 +51,7 @@ Kinds make_kinds() {
     return kinds;
 }
 
-struct Way {
+struct Motion {
     Pose from;
     Pose to;
     Pose at(double fraction) const { return interpolate(from, to, fraction); }
@@ -64,17 +64,17 @@ class Oracle {
     Oracle(const ShapeLibrary& shapes, ShapeId body, ShapeId ground)
         : world_(shapes), body_(body), ground_(ground) {}
 
-    // Least separation of the two at rest; k_far_m where they are farther apart.
+    // Lowest separation of the two at rest; k_far_m if they are farther apart.
     double separation_m(const Pose& pose) {
         world_.set_proxies({{resting(1, ground_, {}, false), resting(2, body_, pose, true)}});
         world_.find_contacts({k_far_m, 0.005}, contacts_);
         return std::min(k_far_m, test::deepest(contacts_));
     }
-    // The first fraction in (low, high] at which they overlap by a micrometre; they do at `high`.
-    double touch(const Way& way, double low, double high) {
+    // The first fraction in (low, high] with an overlap of a micrometre; they overlap at `high`.
+    double touch(const Motion& motion, double low, double high) {
         for (int i = 0; i < 50; ++i) {
             const double middle = 0.5 * (low + high);
-            (separation_m(way.at(middle)) < -1e-6 ? high : low) = middle;
+            (separation_m(motion.at(middle)) < -1e-6 ? high : low) = middle;
         }
         return high;
     }
@@ -91,7 +91,7 @@ TEST(SweepOfAllKinds, StopsWithinAMicrometreOfTheFirstTouchAndMissesNone) {
     const Kinds kinds = make_kinds();
     int hits = 0;
     int misses = 0;
-    int brushed = 0;
+    int grazing = 0;
     for (int round = 0; round < 360; ++round) {
         const ShapeId body = kinds.bodies[static_cast<std::size_t>(round % 6)];
         const ShapeId ground = kinds.grounds[static_cast<std::size_t>(round / 6 % 6)];
@@ -100,52 +100,52 @@ TEST(SweepOfAllKinds, StopsWithinAMicrometreOfTheFirstTouchAndMissesNone) {
         const Vec3 aside = random.vector(1.0);
         const Quat turn = random.rotation();
         const Quat spun = round % 2 == 0 ? turn : random.rotation();
-        const Way way{at(start, turn), at(aside - start, spun)};
+        const Motion motion{at(start, turn), at(aside - start, spun)};
         constexpr int k_steps = 200;
-        double least = 1e9;
+        double lowest = 1e9;
         int first = 0;
         for (int i = 0; i <= k_steps; ++i) {
-            const double separation = oracle.separation_m(way.at(i / double{k_steps}));
+            const double separation = oracle.separation_m(motion.at(i / double{k_steps}));
             if (separation < -1e-6 && first == 0) {
                 first = i;
             }
-            least = std::min(least, separation);
+            lowest = std::min(lowest, separation);
         }
         const auto contacts = contacts_of(
-            kinds.shapes, {resting(1, ground, {}, false), {2, body, way.from, way.to, true}},
+            kinds.shapes, {resting(1, ground, {}, false), {2, body, motion.from, motion.to, true}},
             {1e-3, 0.005});
-        if (least > 0.02) {  // what turns between two steps is less
+        if (lowest > 0.02) {  // more than a body moves between two steps
             ++misses;
             ASSERT_TRUE(contacts.empty()) << round;
         }
-        if (least > -0.01) {
+        if (lowest > -0.01) {
             continue;
         }
         ++hits;
-        // A brush that ends clear along its own normal is no stop (collision_world.hpp).
+        // Grazing impacts are ignored (collision_world.hpp).
         const double touch =
-            oracle.touch(way, (first - 1) / double{k_steps}, first / double{k_steps});
-        const Pose there = way.at(touch);
+            oracle.touch(motion, (first - 1) / double{k_steps}, first / double{k_steps});
+        const Pose there = motion.at(touch);
         const bool stopped =
             std::any_of(contacts.begin(), contacts.end(), [&](const ContactPoint& contact) {
                 const Vec3 point = transform_point(there, contact.point_a_bs);
                 return std::abs(contact.normal_b_bs.dot(point - contact.point_b_bs)) < 5e-6;
             });
-        brushed += stopped ? 0 : 1;
+        grazing += stopped ? 0 : 1;
     }
     EXPECT_GT(hits, 150);
     EXPECT_GT(misses, 40);
-    EXPECT_LE(brushed, hits / 50);
+    EXPECT_LE(grazing, hits / 50);
 }
 
-TEST(SweepOfAllKinds, FlyingHammersArmIsCaughtThoughItsCentreMissesTheWall) {
-    // The head flies over the wall's edge; a bar 0.4 m below it does not.
+TEST(SweepOfAllKinds, PartThatHitsAWallStopsABodyWhoseCentreMissesIt) {
+    // One end flies over the wall's edge; the other, 0.4 m below, hits the wall.
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.05);
     const std::vector<CompoundChild> parts = {{ball, {}, 0}, {ball, at({0.0, -0.4, 0.0}), 0}};
     const ShapeId body = shapes.add_compound(parts);
     const ShapeId wall = shapes.add_mesh(test::make_floor(2.0, 5, test::Winding::mixed));
-    // The wall stands in the plane x = 0, up to y = 0; the body's centre goes along y = 0.2.
+    // The wall is in the plane x = 0, up to y = 0; the body's centre moves along y = 0.2.
     const Pose standing =
         at({0.0, -1.0, 0.0}, rotation_about(Vec3::UnitZ(), 1.57079632679489661923));
     const auto contacts =
@@ -156,8 +156,8 @@ TEST(SweepOfAllKinds, FlyingHammersArmIsCaughtThoughItsCentreMissesTheWall) {
     EXPECT_NEAR(contacts[0].point_a_bs.y(), -0.4, 1e-6);
 }
 
-TEST(SweepOfAllKinds, ArmSwungThroughAWallIsCaught) {
-    // A ball on an arm of 1 m swings by 1.5 rad; its chord, but not its arc, misses the post.
+TEST(SweepOfAllKinds, PartSwungThroughAWallIsStopped) {
+    // A ball on an arm of 1 m swings by 1.5 rad; its arc hits the post, its chord does not.
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.03);
     const std::vector<CompoundChild> parts = {{ball, {}, 0}, {ball, at({1.0, 0.0, 0.0}), 0}};
@@ -166,7 +166,7 @@ TEST(SweepOfAllKinds, ArmSwungThroughAWallIsCaught) {
     double sine = 0.0;
     double cosine = 0.0;
     sin_cos(0.75, sine, cosine);
-    const Pose there = at({cosine, 0.0, -sine});  // on the arc's middle
+    const Pose there = at({cosine, 0.0, -sine});  // at the middle of the arc
     const auto contacts = contacts_of(
         shapes, {resting(1, post, there, false),
                  {2, arm, {}, at(Vec3::Zero(), rotation_about(Vec3::UnitY(), 1.5)), true}});
@@ -177,9 +177,9 @@ TEST(SweepOfAllKinds, ArmSwungThroughAWallIsCaught) {
     }
 }
 
-// A ball that rolls on after it touched has turned the point that touched away: its depth is still
-// that of the ball.
-TEST(SweepOfAllKinds, BallThatTurnsAfterTheTouchIsAsDeepAsItIs) {
+// A ball that rolls on after its first contact: the point that touched rotates away, but the depth
+// stays that of the ball.
+TEST(SweepOfAllKinds, BallThatRotatesAfterTheTouchKeepsItsDepth) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
     const ShapeId floor = shapes.add_mesh(test::make_floor(3.0, 17, test::Winding::mixed));
@@ -199,8 +199,8 @@ TEST(SweepOfAllKinds, BallThatTurnsAfterTheTouchIsAsDeepAsItIs) {
     }
 }
 
-TEST(CompoundContacts, AllPartsHoldAndEachOutlineIsOne) {
-    // A table of a top and two ends, on a floor: the floor's outline is that of both feet.
+TEST(CompoundContacts, PartsOnOneSurfaceShareOneOutline) {
+    // A table of a top and two ends: both feet make one outline on the floor.
     ShapeLibrary shapes;
     const ShapeId foot = shapes.add_box({0.05, 0.1, 0.2});
     const ShapeId top = shapes.add_box({0.5, 0.05, 0.2});
@@ -223,8 +223,8 @@ TEST(CompoundContacts, AllPartsHoldAndEachOutlineIsOne) {
     }
 }
 
-TEST(CompoundContacts, ThingInItsHollowTouchesTheWallsNotTheHull) {
-    // A ball in a cup of five boxes: convex, the cup would hold it at its rim's height.
+TEST(CompoundContacts, BodyInAHollowTouchesTheWallsNotTheConvexHull) {
+    // A ball in a cup of five boxes; the cup's convex hull would support it at the rim's height.
     ShapeLibrary shapes;
     const ShapeId side = shapes.add_box({0.01, 0.1, 0.11});
     const std::vector<CompoundChild> parts = {

@@ -4,8 +4,8 @@
 
 #include "tests/engine/collision/scene.hpp"
 
-// Resting bodies against a flat floor (a box's top, a mesh of many triangles): every separation has
-// a closed form.
+// Resting bodies on a flat floor (the top of a box, or a mesh of many triangles). Every separation
+// has a closed form.
 namespace handhold::collision_contacts_test {
 namespace {
 
@@ -22,8 +22,8 @@ enum class Ground { box, mesh, mixed_mesh };
 struct Rest {
     const char* name;
     Quat rotation;
-    double height_m;     // of the centre above the floor when they just touch
-    std::size_t points;  // at equal height, hence in the manifold
+    double height_m;     // height of the centre above the floor at touch
+    std::size_t points;  // number of lowest points, all of which must be in the manifold
 };
 
 struct Scene {
@@ -44,7 +44,8 @@ Scene make_ground(Ground kind) {
     return scene;
 }
 
-// Checks a body's rest on the floor at each gap, with everything moved and turned by `world`.
+// Checks the contacts of a body above or in the floor for each gap, with the scene transformed by
+// `world`.
 void expect_rest(Ground ground, const Shape& shape, const Rest& rest, const Pose& world,
                  double tolerance_m) {
     Scene scene = make_ground(ground);
@@ -93,7 +94,7 @@ std::vector<Rest> box_rests() {
     const Vec3 h = box_shape().half_m;
     const double quarter = 1.57079632679489661923;
     const double diagonal = std::hypot(h.x(), h.y());
-    // Turned so that the edge along z, or the corner, is straight below the centre.
+    // Rotated so that the edge along z, or the corner, is straight below the centre.
     const Quat edge = rotation_between(Vec3(h.x(), h.y(), 0.0).normalized(), -Vec3::UnitY());
     const Quat corner = rotation_between(h.normalized(), -Vec3::UnitY());
     return {{"face y", rotation_about(Vec3::UnitY(), 0.3), h.y(), 4},
@@ -135,7 +136,7 @@ TEST(Contacts, CapsuleLiesOnTwoPointsAndStandsOnOne) {
     }
 }
 
-TEST(Contacts, AreAsGoodFarFromTheOriginAndTurned) {
+TEST(Contacts, StayExactFarFromTheOriginAndRotated) {
     Random random(11);
     for (const double distance_m : {1e4, 1e5}) {
         for (int round = 0; round < 4; ++round) {
@@ -164,27 +165,27 @@ TEST(Contacts, EndAtTheMargin) {
     EXPECT_EQ(count(0.0999, 0.1), 1U);
 }
 
-TEST(Contacts, OfTwoSpheresLieOnTheLineBetweenCentres) {
+TEST(Contacts, TwoSpheresTouchOnTheLineBetweenTheirCentres) {
     Random random(12);
     ShapeLibrary shapes;
     const ShapeId small = shapes.add_sphere(0.07);
     const ShapeId large = shapes.add_sphere(0.3);
     for (int round = 0; round < 50; ++round) {
-        const Vec3 way = random.direction();
+        const Vec3 direction = random.direction();
         const double distance = random.between(0.05, 0.38);
         const Pose a = at(random.vector(1.0), random.rotation());
-        const Pose b = at(a.position + distance * way, random.rotation());
+        const Pose b = at(a.position + distance * direction, random.rotation());
         const auto contacts =
             contacts_of(shapes, {resting(1, small, a, true), resting(2, large, b, true)});
         ASSERT_EQ(contacts.size(), 1U);
         EXPECT_NEAR(contacts[0].separation_m, distance - 0.37, 1e-12);
-        EXPECT_NEAR((b.rotation * contacts[0].normal_b_bs + way).norm(), 0.0, 1e-12);
+        EXPECT_NEAR((b.rotation * contacts[0].normal_b_bs + direction).norm(), 0.0, 1e-12);
         EXPECT_NEAR(contacts[0].point_a_bs.norm(), 0.07, 1e-12);
         EXPECT_NEAR(contacts[0].point_b_bs.norm(), 0.3, 1e-12);
     }
 }
 
-TEST(Contacts, CapsulesSideBySideHoldAtBothEndsOfTheirCommonPart) {
+TEST(Contacts, ParallelCapsulesTouchAtBothEndsOfTheirCommonPart) {
     ShapeLibrary shapes;
     const ShapeId capsule = shapes.add_capsule(0.05, 0.2);
     const auto contacts = contacts_of(shapes, {resting(1, capsule, at({0.0, 0.0, 0.0}), false),
@@ -195,7 +196,7 @@ TEST(Contacts, CapsulesSideBySideHoldAtBothEndsOfTheirCommonPart) {
         EXPECT_NEAR(contact.normal_b_bs.x(), 1.0, 1e-12);
     }
     EXPECT_NEAR(contacts[0].point_b_bs.y(), -0.1,
-                1e-9);  // the parts from -0.1 to 0.2 face each other
+                1e-9);  // they overlap from -0.1 to 0.2
     EXPECT_NEAR(contacts[1].point_b_bs.y(), 0.2, 1e-9);
 }
 
@@ -212,8 +213,8 @@ TEST(Contacts, BoxOverhangingABoxTouchesOnlyTheCommonPart) {
     }
 }
 
-TEST(Contacts, SeparatedCornersMeetAlongTheShortestWayNotAnAxis) {
-    // 5 mm apart along x and along y: an axis test says 5 mm, the way is 7.07 mm.
+TEST(Contacts, DisjointEdgesAreSeparatedAlongTheirShortestConnection) {
+    // 5 mm apart along x and along y: an axis test says 5 mm, the distance is 7.07 mm.
     ShapeLibrary shapes;
     const ShapeId cube = shapes.add_box(Vec3::Constant(0.1));
     const auto contacts = contacts_of(shapes, {resting(1, cube, at({0.0, 0.0, 0.0}), false),
@@ -224,7 +225,7 @@ TEST(Contacts, SeparatedCornersMeetAlongTheShortestWayNotAnAxis) {
     }
 }
 
-TEST(Contacts, DeepConvexPairsTakeTheShallowestWay) {
+TEST(Contacts, DeepConvexPairsTakeTheShortestExit) {
     ShapeLibrary shapes;
     const ShapeId cube = shapes.add_box({0.1, 0.3, 0.3});
     const ShapeId ball = shapes.add_sphere(0.05);

@@ -2,9 +2,9 @@
 
 #include "tests/engine/collision/oracle.hpp"
 
-// The oracle of most tests here is a certificate: two points, one on each convex body, are the
-// closest pair if and only if no point of either body lies between the planes through them across
-// the line between them.
+// Oracle of most tests here, an optimality certificate: two points, one on each convex body, are
+// the closest pair if and only if no point of either body lies between the planes through them,
+// perpendicular to their connection.
 namespace handhold::collision_distance_test {
 namespace {
 
@@ -20,22 +20,22 @@ Vec3 inside_triangle(Random& random, const Corners& c) {
     return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
 }
 
-TEST(ClosestPoint, OnTriangleNoOtherPointIsNearer) {
+TEST(ClosestPoint, NoPointOfTheTriangleIsNearer) {
     Random random(1);
     for (int round = 0; round < 2000; ++round) {
         const Corners corners{random.vector(1.0), random.vector(1.0), random.vector(1.0)};
         const Vec3 point = random.vector(2.0);
         const Vec3 closest = closest_on_triangle(point, corners);
-        const Vec3 way = point - closest;
+        const Vec3 offset = point - closest;
         for (const Vec3& corner : corners) {
-            ASSERT_LE((corner - closest).dot(way), 1e-12);
+            ASSERT_LE((corner - closest).dot(offset), 1e-12);
         }
-        // On the triangle: its own closest point.
+        // A point of the triangle is its own closest point.
         ASSERT_LT((closest_on_triangle(closest, corners) - closest).norm(), 1e-12);
     }
 }
 
-TEST(ClosestPoint, OnSliversAndPointsIsStillOnThem) {
+TEST(ClosestPoint, DegenerateTrianglesHaveTheirClosestPoint) {
     Random random(2);
     for (int round = 0; round < 2000; ++round) {
         const Vec3 a = random.vector(1.0);
@@ -52,7 +52,7 @@ TEST(ClosestPoint, OnSliversAndPointsIsStillOnThem) {
               Vec3::Zero());
 }
 
-TEST(ClosestPoint, BetweenSegmentsIsNoFartherThanAnySample) {
+TEST(ClosestPoint, NoSampleOfTwoSegmentsIsNearer) {
     Random random(3);
     for (int round = 0; round < 300; ++round) {
         const std::array<Vec3, 2> a{random.vector(1.0), random.vector(1.0)};
@@ -118,7 +118,7 @@ Meeting meet(Random& random, int kind_a, int kind_b, double spread) {
     return meeting;
 }
 
-TEST(Separation, OfDisjointPairsCarriesItsCertificate) {
+TEST(Separation, DisjointPairsAreCertified) {
     Random random(4);
     int disjoint = 0;
     for (int round = 0; round < 4000; ++round) {
@@ -137,7 +137,7 @@ TEST(Separation, OfDisjointPairsCarriesItsCertificate) {
     EXPECT_GT(disjoint, 2000);
 }
 
-TEST(Separation, OfOverlappingPairsIsTheLeastWayOut) {
+TEST(Separation, OverlappingPairsHaveTheShortestExit) {
     Random random(5);
     int overlapping = 0;
     for (int round = 0; round < 3000; ++round) {
@@ -149,7 +149,7 @@ TEST(Separation, OfOverlappingPairsIsTheLeastWayOut) {
         }
         ++overlapping;
         ASSERT_NEAR(gap_along(m.a, m.b, c.normal_b_bs), c.separation_m,
-                    1e-9);  // moved out by it they just touch
+                    1e-9);  // moved by the depth, they just touch
         for (int i = 0; i < 100; ++i) {
             ASSERT_LE(gap_along(m.a, m.b, random.direction()), c.separation_m + 2e-7);
         }
@@ -157,7 +157,7 @@ TEST(Separation, OfOverlappingPairsIsTheLeastWayOut) {
     EXPECT_GT(overlapping, 500);
 }
 
-TEST(Separation, OfACapsuleThroughATriangleIsItsLowerEnds) {
+TEST(Separation, CapsuleThroughATriangleIsMeasuredAtItsLowerEnd) {
     ShapeLibrary shapes;
     auto mesh = std::make_shared<Mesh>();
     mesh->positions = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 3.0}, {3.0, 0.0, -1.0}};
@@ -171,7 +171,7 @@ TEST(Separation, OfACapsuleThroughATriangleIsItsLowerEnds) {
     EXPECT_NEAR(contacts[0].normal_b_bs.y(), 1.0, 1e-12);
 }
 
-TEST(Separation, OfCoincidentSpheresTakesAlwaysTheSameWayOut) {
+TEST(Separation, CoincidentSpheresHaveADeterministicExit) {
     ShapeLibrary shapes;
     const ShapeId sphere = shapes.add_sphere(0.1);
     const auto contacts = test::contacts_of(
@@ -181,7 +181,7 @@ TEST(Separation, OfCoincidentSpheresTakesAlwaysTheSameWayOut) {
     EXPECT_EQ(contacts[0].normal_b_bs, Vec3::UnitY());
 }
 
-TEST(ClosestPoint, InsidePointsOfATriangleAreTheirOwn) {
+TEST(ClosestPoint, PointsInATriangleAreTheirOwnClosestPoint) {
     Random random(8);
     for (int round = 0; round < 500; ++round) {
         const Corners corners{random.vector(1.0), random.vector(1.0), random.vector(1.0)};

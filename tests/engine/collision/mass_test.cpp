@@ -4,7 +4,7 @@
 #include "engine/core/check.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// Expected values are the textbooks' closed forms, of boxes and cylinders put together.
+// Expected values: textbook closed forms of boxes and cylinders, combined.
 namespace handhold::collision_mass_test {
 namespace {
 
@@ -25,7 +25,7 @@ void expect_near(const Mat3& a, const Mat3& b, double tolerance) {
     EXPECT_LT((a - b).cwiseAbs().maxCoeff(), tolerance);
 }
 
-TEST(MassProperties, OfACylinderAreTheTextbooks) {
+TEST(MassProperties, CylinderMatchesTheClosedForm) {
     ShapeLibrary shapes;
     const Shape& shape = shapes.at(shapes.add_cylinder(0.3, 0.5));
     const MassProperties p = mass_properties(shape);
@@ -38,7 +38,7 @@ TEST(MassProperties, OfACylinderAreTheTextbooks) {
     EXPECT_DOUBLE_EQ(thinnest_half_extent(shape), 0.3);
 }
 
-TEST(MassProperties, OfABoxAsHullAreTheBoxes) {
+TEST(MassProperties, HullOfABoxMatchesTheBox) {
     Random random(81);
     for (int round = 0; round < 50; ++round) {
         const Vec3 half(random.between(0.05, 1.0), random.between(0.05, 1.0),
@@ -57,7 +57,7 @@ TEST(MassProperties, OfABoxAsHullAreTheBoxes) {
     }
 }
 
-TEST(MassProperties, OfATetrahedronAreTheClosedForm) {
+TEST(MassProperties, TetrahedronMatchesTheClosedForm) {
     // Right-angled, legs of length 1: volume 1/6, centre at 1/4, int x^2 = 1/60, int x y = 1/120.
     ShapeLibrary shapes;
     const std::vector<Vec3> corners = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
@@ -70,8 +70,8 @@ TEST(MassProperties, OfATetrahedronAreTheClosedForm) {
     EXPECT_NEAR(p.inertia_per_kg_m2(0, 1), -product, 1e-15);
 }
 
-TEST(MassProperties, OfACutBoxAreTheWholeBoxes) {
-    // A box, cut into parts of one density that are put together again.
+TEST(MassProperties, CompoundOfABoxesPartsMatchesTheBox) {
+    // A box cut into parts of one density and reassembled.
     Random random(82);
     ShapeLibrary shapes;
     const ShapeId left = shapes.add_box({0.1, 0.2, 0.3});
@@ -107,7 +107,7 @@ TEST(MassProperties, GivenMassesMoveTheCentre) {
     EXPECT_THROW(solid_inertia(shapes.at(id), 4.0), PreconditionError);  // not about its centre
 }
 
-TEST(AddCentred, MovesTheSolidNowhere) {
+TEST(AddCentred, KeepsTheSolidInPlace) {
     // A corner of the old shape, seen from the new frame, is a corner of the new one.
     Random random(83);
     for (int round = 0; round < 100; ++round) {
@@ -125,14 +125,14 @@ TEST(AddCentred, MovesTheSolidNowhere) {
         for (std::size_t i = 0; i < before.size(); ++i) {
             ASSERT_LT((transform_point(centred.frame, after[i]) - before[i]).norm(), 1e-12);
         }
-        // Once is enough.
+        // Recentring is idempotent.
         const CentredShape again = shapes.add_centred(centred.shape);
         ASSERT_EQ(again.shape, centred.shape);
         ASSERT_EQ(again.frame.position, Vec3::Zero());
     }
 }
 
-TEST(AddCentred, TurnsTheAxesAsLittleAsItCan) {
+TEST(AddCentred, ChoosesTheAxesNearestToTheShapes) {
     ShapeLibrary shapes;
     const Pose pose = at({1.0, 2.0, 3.0}, rotation_about(Vec3(1.0, 1.0, 0.0).normalized(), 0.3));
     const ShapeId hull = shapes.add_hull(box_corners({0.1, 0.2, 0.5}, pose));

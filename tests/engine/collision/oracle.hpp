@@ -3,17 +3,19 @@
 #include "engine/collision/closest_point.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// Distances of convex shapes found without the library under test: all features are compared.
+// Distances of convex shapes by brute force over their features, independent of the library under
+// test.
 namespace handhold::test {
 
-// A convex shape's core at a place: its corners, edges as pairs of corners, and a radius about it.
+// A placed convex core: corners, edges as pairs of corner indices, and the radius it is inflated
+// by.
 struct Core {
     std::vector<Vec3> corners;
     std::vector<std::pair<std::size_t, std::size_t>> edges;
     double radius_m = 0.0;
     Pose pose;
     Vec3 half_m = Vec3::Zero();  // box
-    double barrel_m = 0.0;       // radius of a cylinder about the line between its two corners
+    double barrel_m = 0.0;       // cylinder: radius about the line between its two corners; else 0
 
     Vec3 support(const Vec3& direction) const {
         if (barrel_m > 0.0) {
@@ -64,7 +66,8 @@ inline Core make_triangle_core(const Corners& c) {
     return {{c[0], c[1], c[2]}, {{0, 1}, {1, 2}, {2, 0}}, 0.0, {}, Vec3::Zero(), 0.0};
 }
 
-// How far apart a's and b's planes across `direction` (from b towards a) are, radii included.
+// Signed gap between the supporting planes of a and b perpendicular to `direction` (from b towards
+// a), radii included.
 inline double gap_along(const Core& a, const Core& b, const Vec3& direction) {
     return direction.dot(a.support(-direction) - b.support(direction)) - a.radius_m - b.radius_m;
 }
@@ -81,11 +84,11 @@ inline bool pierces(const Vec3& from, const Vec3& to, const Corners& corners) {
 }
 
 struct Gap {
-    double distance_m = 1e9;      // of the surfaces; at most -radius where the cores meet
-    Vec3 normal = Vec3::UnitY();  // from the triangle; means nothing where the cores meet
+    double distance_m = 1e9;      // between the surfaces; at most -radius if the cores intersect
+    Vec3 normal = Vec3::UnitY();  // unit, away from the triangle; undefined if the cores intersect
 };
 
-// Of a shape and a triangle.
+// Gap between a convex shape and a triangle.
 inline Gap gap_to_triangle(const Core& core, const Corners& corners) {
     Gap gap;
     const auto offer = [&](const Vec3& on_core, const Vec3& on_triangle) {
@@ -107,13 +110,13 @@ inline Gap gap_to_triangle(const Core& core, const Corners& corners) {
             gap.distance_m = 0.0;
         }
     }
-    if (core.half_m != Vec3::Zero()) {  // the triangle's corners against, or inside, the box
+    if (core.half_m != Vec3::Zero()) {  // the triangle's corners outside or inside the box
         for (const Vec3& corner : corners) {
             const Vec3 local = inverse_transform_point(core.pose, corner);
             offer(transform_point(core.pose, local.cwiseMax(-core.half_m).cwiseMin(core.half_m)),
                   corner);
         }
-        for (std::size_t k = 0; k < 3; ++k) {  // edges right through the box: a point inside
+        for (std::size_t k = 0; k < 3; ++k) {  // edges through the box: look for a sample inside
             for (int i = 1; i < 64; ++i) {
                 const Vec3 point = corners[k] + i / 64.0 * (corners[(k + 1) % 3] - corners[k]);
                 if ((inverse_transform_point(core.pose, point).cwiseAbs() - core.half_m)

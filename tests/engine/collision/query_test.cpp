@@ -42,7 +42,7 @@ TEST(CastRay, HitsEachShapeOnItsExactSurface) {
         const Vec3 from = pose.position + 0.9 * random.direction();
         const Vec3 to = pose.position + random.vector(0.5);
         const auto hit = world.cast_ray(from, to);
-        // Oracle: how far the surface is from a point, in the shape's own frame.
+        // Oracle: signed distance of a point to the surface, in the shape's own frame.
         const auto surface_gap = [&](const Vec3& point_ws) {
             const Vec3 p = inverse_transform_point(pose, point_ws);
             if (index == 0) {
@@ -67,7 +67,7 @@ TEST(CastRay, HitsEachShapeOnItsExactSurface) {
     }
 }
 
-TEST(CastRay, FromInsideLeavesThroughTheSurface) {
+TEST(CastRay, FromInsideHitsTheExit) {
     World w;
     w.add(w.shapes.add_box({0.5, 0.5, 0.5}), {});
     w.add(w.shapes.add_sphere(0.5), at({3.0, 0.0, 0.0}));
@@ -97,11 +97,11 @@ TEST(CastRay, HitsBothSidesOfTriangles) {
     }
 }
 
-TEST(CastRay, DoesNotSlipBetweenNeighbours) {
+TEST(CastRay, DoesNotPassBetweenNeighbouringTriangles) {
     World w;
     w.add(w.shapes.add_mesh(test::make_floor(4.0, 8)), {});
     CollisionWorld& world = w.make();
-    for (int x = -7; x <= 7; ++x) {  // every vertex and edge of the middle
+    for (int x = -7; x <= 7; ++x) {  // every vertex and edge except the rim
         for (int z = -7; z <= 7; ++z) {
             const Vec3 point(0.25 * x, 0.0, 0.25 * z);
             EXPECT_TRUE(world.cast_ray(point + Vec3::UnitY(), point - Vec3::UnitY()));
@@ -110,7 +110,7 @@ TEST(CastRay, DoesNotSlipBetweenNeighbours) {
     }
 }
 
-TEST(CastRay, SkipsTakesTheFirstAndMissesBeyondItsEnd) {
+TEST(CastRay, ReturnsTheFirstHitThatIsNotSkippedWithinItsLength) {
     World w;
     const ShapeId ball = w.shapes.add_sphere(0.1);
     for (int i = 1; i <= 3; ++i) {
@@ -124,7 +124,7 @@ TEST(CastRay, SkipsTakesTheFirstAndMissesBeyondItsEnd) {
     EXPECT_FALSE(world.cast_ray(Vec3::Zero(), Vec3::Zero()));
 }
 
-TEST(CastRay, OnAMeshAgreesWithEveryTriangleInTurn) {
+TEST(CastRay, OnAMeshAgreesWithBruteForce) {
     World w;
     const auto mesh = test::make_wavy_ball(1.0, 40, 60);
     const Pose pose = at({3.0, -2.0, 1.0}, rotation_from_vector({0.4, -0.9, 0.3}));
@@ -173,13 +173,13 @@ TEST(CastSphere, StopsARadiusBeforeAPlane) {
         const auto hit = world.cast_sphere(0.2, from, to);
         ASSERT_TRUE(hit);
         EXPECT_NEAR(hit->distance_m, 0.4 * (to - from).norm(),
-                    2e-6);  // the centre sinks 2 m on the way and stops after 0.8
+                    2e-6);  // the centre descends 2 m in all and stops after 0.8 m
         EXPECT_NEAR(hit->normal_ws.y(), 1.0, 1e-9);
         EXPECT_NEAR(hit->point_ws.y(), 0.0, 1e-12);
     }
 }
 
-TEST(CastSphere, StartingInTouchIsAtZeroAndPassingByIsNothing) {
+TEST(CastSphere, HitsAtZeroIfItStartsInTouchAndMissesInPassing) {
     World w;
     const ShapeId ball = w.shapes.add_sphere(0.5);
     w.add(ball, {});
@@ -193,7 +193,7 @@ TEST(CastSphere, StartingInTouchIsAtZeroAndPassingByIsNothing) {
     EXPECT_FALSE(world.cast_sphere(0.2, {-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, skip));
 }
 
-TEST(ClosestPointQuery, OnConvexShapesIsTheClosedForm) {
+TEST(ClosestPointQuery, OnConvexShapesMatchesTheClosedForm) {
     World w;
     w.add(w.shapes.add_box({0.3, 0.2, 0.4}), at({0.0, 0.0, 0.0}));
     w.add(w.shapes.add_sphere(0.25), at({5.0, 0.0, 0.0}));
@@ -211,7 +211,7 @@ TEST(ClosestPointQuery, OnConvexShapesIsTheClosedForm) {
     EXPECT_FALSE(world.closest_point({2.5, 0.0, 0.0}, 1.0));
 }
 
-TEST(ClosestPointQuery, OnAMeshAgreesWithEveryTriangleInTurn) {
+TEST(ClosestPointQuery, OnAMeshAgreesWithBruteForce) {
     World w;
     const auto mesh = test::make_wavy_ball(1.0, 30, 50);
     const Pose pose = at({300.0, -2.0, 1.0}, rotation_from_vector({0.4, -0.9, 0.3}));
@@ -238,7 +238,7 @@ TEST(ClosestPointQuery, OnAMeshAgreesWithEveryTriangleInTurn) {
     }
 }
 
-TEST(ClosestPointQuery, OnTheSurfaceTheNormalIsTheTriangles) {
+TEST(ClosestPointQuery, PointOnTheSurfaceHasTheTrianglesNormal) {
     World w;
     w.add(w.shapes.add_mesh(test::make_floor(4.0, 7)), at({0.0, 5.0, 0.0}));
     const auto found = w.make().closest_point({0.3, 5.0, 0.2}, 1.0);
@@ -247,8 +247,8 @@ TEST(ClosestPointQuery, OnTheSurfaceTheNormalIsTheTriangles) {
     EXPECT_NEAR(found->normal_ws.y(), 1.0, 1e-12);
 }
 
-// Each collider by itself gives what the nearest of all gives where it is alone in the world.
-TEST(ClosestPointOn, IsThatOfAWorldWithNothingElse) {
+// Oracle: closest_point with all other colliders skipped.
+TEST(ClosestPointOn, EqualsClosestPointWithAllOthersSkipped) {
     World all;
     const std::vector<std::pair<ShapeId, Pose>> bodies = {
         {all.shapes.add_sphere(0.3), at({2.0, 0.0, 0.0})},

@@ -5,7 +5,7 @@
 #include "engine/io/gltf.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// A scaled mesh is the mesh whose positions were multiplied: that one is the oracle.
+// Oracle: a mesh with its positions multiplied by the scale.
 namespace handhold::collision_scaled_mesh_test {
 namespace {
 
@@ -21,7 +21,7 @@ std::shared_ptr<const Mesh> stretched(const Mesh& mesh, const Vec3& scale) {
     return result;
 }
 
-TEST(ScaledMesh, AnswersAsTheStretchedMeshDoes) {
+TEST(ScaledMesh, AnswersLikeAMeshWithScaledPositions) {
     Random random(101);
     const auto ball = test::make_wavy_ball(1.2, 24, 40);
     int hits = 0;
@@ -50,7 +50,7 @@ TEST(ScaledMesh, AnswersAsTheStretchedMeshDoes) {
             };
             const auto [contacts, ray, near, sphere] = answers(scaled);
             const auto [o_contacts, o_ray, o_near, o_sphere] = answers(oracle);
-            // The two trees may give triangles in another order: what meets on an edge may then
+            // The two trees may yield triangles in different orders, so contacts on an edge may
             // differ by rounding.
             ASSERT_EQ(ray.has_value(), o_ray.has_value());
             ASSERT_EQ(near.has_value(), o_near.has_value());
@@ -71,8 +71,8 @@ TEST(ScaledMesh, AnswersAsTheStretchedMeshDoes) {
     EXPECT_GT(touches, 100);
 }
 
-TEST(ScaledMesh, NormalsStandOnTheStretchedSurface) {
-    // A plane through the axes' unit points, stretched: its normal goes by the inverse scale.
+TEST(ScaledMesh, NormalsArePerpendicularToTheScaledSurface) {
+    // A plane through the unit points of the axes; its normal transforms by the inverse scale.
     auto mesh = std::make_shared<Mesh>();
     mesh->positions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
     mesh->triangles = {{0, 1, 2}};

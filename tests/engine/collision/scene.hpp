@@ -7,7 +7,7 @@
 #include "engine/collision/collision_world.hpp"
 #include "tests/random.hpp"
 
-// What the collision tests share: small scenes, meshes made on the spot.
+// Helpers of the collision tests: small scenes and generated meshes.
 namespace handhold::test {
 
 inline Pose at(const Vec3& position, const Quat& rotation = Quat::Identity()) {
@@ -31,15 +31,15 @@ inline std::vector<ContactPoint> contacts_of(const ShapeLibrary& shapes,
 }
 
 inline double deepest(const std::vector<ContactPoint>& contacts) {
-    double least = 1e9;
+    double lowest = 1e9;
     for (const ContactPoint& contact : contacts) {
-        least = std::min(least, contact.separation_m);
+        lowest = std::min(lowest, contact.separation_m);
     }
-    return least;
+    return lowest;
 }
 
-// A floor in the plane y = 0, `cells` by `cells` squares of two triangles, about the origin.
-// Winding: up, down, or both in turn.
+// A floor in the plane y = 0, centred on the origin, of `cells` x `cells` squares with two
+// triangles each. Winding: up, down, or alternating.
 enum class Winding { up, down, mixed };
 inline std::shared_ptr<Mesh> make_floor(double size_m, std::uint32_t cells,
                                         Winding winding = Winding::up) {
@@ -65,7 +65,7 @@ inline std::shared_ptr<Mesh> make_floor(double size_m, std::uint32_t cells,
     return mesh;
 }
 
-// A closed box of 12 triangles that share their vertices.
+// A closed box of 12 triangles with shared vertices.
 inline std::shared_ptr<Mesh> make_box_mesh(const Vec3& half_m) {
     auto mesh = std::make_shared<Mesh>();
     for (unsigned i = 0; i < 8; ++i) {
@@ -78,7 +78,7 @@ inline std::shared_ptr<Mesh> make_box_mesh(const Vec3& half_m) {
     return mesh;
 }
 
-// A ball of 2 * rings * sectors triangles, wavy, centred at the origin: about as dense as a part of
+// A wavy ball of 2 * rings * sectors triangles, centred on the origin; about as dense as a part of
 // a level.
 inline std::shared_ptr<Mesh> make_wavy_ball(double radius_m, std::uint32_t rings,
                                             std::uint32_t sectors) {

@@ -56,7 +56,7 @@ TEST(ShapeLibrary, MeshesHaveExtentButNoInside) {
     EXPECT_THROW(solid_inertia(shape, 1.0), PreconditionError);
 }
 
-TEST(ShapeLibrary, BoundsHoldTheFarthestPoint) {
+TEST(ShapeLibrary, BoundingRadiusReachesTheFarthestPoint) {
     ShapeLibrary shapes;
     EXPECT_DOUBLE_EQ(bounding_radius(shapes.at(shapes.add_box({2.0, 3.0, 6.0}))), 7.0);
     EXPECT_DOUBLE_EQ(bounding_radius(shapes.at(shapes.add_sphere(0.5))), 0.5);
@@ -65,8 +65,8 @@ TEST(ShapeLibrary, BoundsHoldTheFarthestPoint) {
     EXPECT_DOUBLE_EQ(thinnest_half_extent(shapes.at({2})), 0.5);
 }
 
-// Oracle: the body cut into discs across y, each disc's moments in closed form, Simpson's rule over
-// the discs.
+// Oracle: the body sliced into discs across y, each disc's moments in closed form, integrated with
+// Simpson's rule.
 TEST(ShapeLibrary, CapsuleInertiaAgreesWithASumOfDiscs) {
     ShapeLibrary shapes;
     const double r = 0.3;
@@ -82,7 +82,7 @@ TEST(ShapeLibrary, CapsuleInertiaAgreesWithASumOfDiscs) {
         along += weight * r2 * r2 / 2.0;
         across += weight * r2 * (r2 / 4.0 + y * y);
     };
-    // Each cap and the cylinder is a polynomial of degree 4 at most in y.
+    // The integrand is a polynomial in y of degree 4 at most, in the cylinder and in each cap.
     const auto integrate = [&](double from, double to) {
         constexpr int k_parts = 200;
         const double step = (to - from) / k_parts;
@@ -100,7 +100,7 @@ TEST(ShapeLibrary, CapsuleInertiaAgreesWithASumOfDiscs) {
     EXPECT_EQ(inertia.x(), inertia.z());
 }
 
-TEST(ShapeLibrary, BoxAndSphereInertiaAreTheTextbooks) {
+TEST(ShapeLibrary, BoxAndSphereInertiaMatchTheClosedForms) {
     ShapeLibrary shapes;
     const Vec3 box = solid_inertia(shapes.at(shapes.add_box({0.5, 1.0, 1.5})), 12.0);
     EXPECT_TRUE(

@@ -5,8 +5,8 @@
 #include "engine/core/check.hpp"
 #include "tests/engine/collision/oracle.hpp"
 
-// Cylinders, hulls and compounds: distances carry their certificate (collision_distance_test.cpp),
-// and what is a box by other means behaves as the box does.
+// Cylinders, hulls and compounds. Distances are certified (distance_test.cpp), and boxes built as
+// hulls or compounds behave as boxes.
 namespace handhold::collision_shapes_test {
 namespace {
 
@@ -35,7 +35,7 @@ ShapeId random_shape(Random& random, ShapeLibrary& shapes, Kind kind) {
             break;
     }
     std::vector<Vec3> points;
-    const Vec3 middle = random.vector(0.2);  // a hull's frame may be anywhere
+    const Vec3 middle = random.vector(0.2);  // a hull's origin may lie outside it
     points.resize(static_cast<std::size_t>(random.between(8.0, 60.0)));
     for (Vec3& point : points) {
         point = middle + random.vector(0.05 + y);
@@ -49,7 +49,7 @@ ContactPoint nearest(const std::vector<ContactPoint>& contacts) {
     });
 }
 
-// Climbs from a direction to one along which the two are farther apart, or less deep.
+// Hill climbing: improves a direction to one along which the gap is larger.
 double climb(Random& random, const test::Core& a, const test::Core& b, Vec3 direction) {
     double best = gap_along(a, b, direction);
     for (double step = 0.3; step > 1e-7;) {
@@ -67,7 +67,7 @@ double climb(Random& random, const test::Core& a, const test::Core& b, Vec3 dire
     return best;
 }
 
-TEST(ShapeSeparation, CarriesItsCertificateForAllPairsOfKinds) {
+TEST(ShapeSeparation, IsCertifiedForAllPairsOfKinds) {
     Random random(91);
     int apart = 0;
     int deep = 0;
@@ -104,7 +104,7 @@ TEST(ShapeSeparation, CarriesItsCertificateForAllPairsOfKinds) {
 
 std::vector<Vec3> corners_of_box(const Vec3& half) { return test::make_box_mesh(half)->positions; }
 
-// The floor as a box's face, as a mesh, and as a hull's face: its top is y = 0.
+// The floor y = 0 as the face of a box, as a mesh, and as the face of a hull.
 struct Ground {
     ShapeLibrary shapes;
     ShapeId shape;
@@ -124,7 +124,7 @@ std::vector<Ground> make_grounds() {
     return grounds;
 }
 
-TEST(CylinderContacts, FlatEndStandsOnPointsAllRoundItsRim) {
+TEST(CylinderContacts, FlatEndTouchesAllAroundItsRim) {
     for (Ground& ground : make_grounds()) {
         const ShapeId cylinder = ground.shapes.add_cylinder(0.2, 0.3);
         for (const double gap : {0.004, 0.0, -0.002}) {
@@ -142,14 +142,15 @@ TEST(CylinderContacts, FlatEndStandsOnPointsAllRoundItsRim) {
                 angles.push_back(std::atan2(contact.point_a_bs.z(), contact.point_a_bs.x()));
             }
             std::sort(angles.begin(), angles.end());
-            for (std::size_t i = 1; i < angles.size(); ++i) {  // nowhere more than an eighth
+            for (std::size_t i = 1; i < angles.size();
+                 ++i) {  // no gap above an eighth of the circle
                 EXPECT_LT(angles[i] - angles[i - 1], 0.8);
             }
         }
     }
 }
 
-TEST(CylinderContacts, SideLiesOnTwoPointsAtEveryAngleOfItsRoll) {
+TEST(CylinderContacts, SideTouchesAtTwoPointsAtEveryRollAngle) {
     for (Ground& ground : make_grounds()) {
         const ShapeId cylinder = ground.shapes.add_cylinder(0.2, 0.3);
         const Quat lying = rotation_about(Vec3::UnitY(), 0.3) *
@@ -170,7 +171,7 @@ TEST(CylinderContacts, SideLiesOnTwoPointsAtEveryAngleOfItsRoll) {
     }
 }
 
-TEST(CylinderContacts, TiltedStandsOnTheDeepestPointOfItsRim) {
+TEST(CylinderContacts, TiltedCylinderTouchesAtTheDeepestPointOfItsRim) {
     for (Ground& ground : make_grounds()) {
         const ShapeId cylinder = ground.shapes.add_cylinder(0.2, 0.3);
         for (const double tilt : {0.001, 0.05, 0.3, 0.9, 1.4}) {
@@ -181,30 +182,30 @@ TEST(CylinderContacts, TiltedStandsOnTheDeepestPointOfItsRim) {
                 const auto contacts = contacts_of(
                     ground.shapes, {resting(1, ground.shape, ground.pose, false),
                                     resting(2, cylinder, at({0, height, 0}, turn), true)});
-                // What is no deeper than a micrometre below the rim's other points is left out.
+                // A point that is deeper than the rest by less than a micrometre is left out.
                 ASSERT_NEAR(test::deepest(contacts), -0.001, 1.1e-6) << tilt << " " << i;
             }
         }
     }
 }
 
-TEST(CylinderContacts, OverhangingALedgeTouchesOnlyTheCommonPart) {
+TEST(CylinderContacts, OverhangingCylinderTouchesOnlyTheCommonPart) {
     ShapeLibrary shapes;
     const ShapeId ledge = shapes.add_box({0.5, 0.5, 0.5});
     const ShapeId cylinder = shapes.add_cylinder(0.2, 0.3);
     const auto contacts = contacts_of(
         shapes, {resting(1, ledge, {}, false), resting(2, cylinder, at({0.55, 0.799, 0.0}), true)});
     ASSERT_GE(contacts.size(), 4U);
-    double most = -1.0;
+    double farthest_x = -1.0;
     for (const ContactPoint& contact : contacts) {
         EXPECT_NEAR(contact.separation_m, -0.001, 1e-9);
         EXPECT_LE(contact.point_b_bs.x(), 0.5 + 2e-9);
-        most = std::max(most, contact.point_b_bs.x());
+        farthest_x = std::max(farthest_x, contact.point_b_bs.x());
     }
-    EXPECT_NEAR(most, 0.5, 2e-9);
+    EXPECT_NEAR(farthest_x, 0.5, 2e-9);
 }
 
-// Two ways to say the same solid; where = its frame's place in the body's.
+// The same solid in another representation; `frame`: its own frame in the body's.
 struct Alias {
     ShapeId shape;
     Pose frame;
@@ -239,7 +240,7 @@ void expect_same_contacts(const std::vector<ContactPoint>& expected, const Alias
     }
 }
 
-TEST(Alias, BoxAsHullOrCompoundMakesTheBoxesContacts) {
+TEST(Alias, HullAndCompoundBoxesMakeTheContactsOfABox) {
     Random random(92);
     const Vec3 half(0.2, 0.1, 0.3);
     int met = 0;
@@ -273,7 +274,7 @@ TEST(Alias, BoxAsHullOrCompoundMakesTheBoxesContacts) {
     EXPECT_GT(met, 100);
 }
 
-TEST(Alias, BoxAsHullOrCompoundIsHitByTheSameRays) {
+TEST(Alias, HullAndCompoundBoxesAreHitByTheSameRays) {
     Random random(93);
     ShapeLibrary shapes;
     const Vec3 half(0.2, 0.1, 0.3);
@@ -314,7 +315,7 @@ TEST(Alias, BoxAsHullOrCompoundIsHitByTheSameRays) {
     EXPECT_GT(hits, 150);
 }
 
-TEST(CylinderQueries, RaysAndNearestPointsAreTheClosedForms) {
+TEST(CylinderQueries, RaysAndClosestPointsMatchTheClosedForms) {
     ShapeLibrary shapes;
     const ShapeId cylinder = shapes.add_cylinder(0.2, 0.3);
     CollisionWorld world(shapes);
@@ -336,7 +337,7 @@ TEST(CylinderQueries, RaysAndNearestPointsAreTheClosedForms) {
     EXPECT_LT((rim->normal_ws - Vec3(0.6, 0.8, 0.0)).norm(), 1e-12);
 }
 
-TEST(CompoundQueries, RaysFromInsideGoOnThroughAllPartsThatOverlap) {
+TEST(CompoundQueries, RaysFromInsideExitTheUnionOfOverlappingParts) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
     const std::vector<CompoundChild> row = {{ball, at({0.0, 0.0, 0.0}), 0},
@@ -348,13 +349,13 @@ TEST(CompoundQueries, RaysFromInsideGoOnThroughAllPartsThatOverlap) {
     world.set_proxies({{resting(1, chain, {}, false)}});
     const auto out = world.cast_ray({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
     ASSERT_TRUE(out.has_value());
-    EXPECT_NEAR(out->distance_m, 0.4, 1e-12);  // where the third ball ends
+    EXPECT_NEAR(out->distance_m, 0.4, 1e-12);  // end of the third ball
     const auto in = world.cast_ray({0.45, 0.0, 0.0}, {1.0, 0.0, 0.0});
     ASSERT_TRUE(in.has_value());
     EXPECT_NEAR(in->point_ws.x(), 0.5, 1e-12);
 }
 
-TEST(Shapes, RefuseWhatTheyCannotBe) {
+TEST(Shapes, InvalidShapesAreRefused) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
     const ShapeId mesh = shapes.add_mesh(test::make_floor(1.0, 1));

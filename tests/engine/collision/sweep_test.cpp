@@ -4,7 +4,7 @@
 
 #include "tests/engine/collision/oracle.hpp"
 
-// Bodies that move far in one call: contacts where they first touch, depth at the end of the way.
+// Bodies that move far in one frame: contacts at the first impact, depth at the end of the motion.
 namespace handhold::collision_sweep_test {
 namespace {
 
@@ -18,7 +18,7 @@ ColliderProxy moving(std::uint64_t id, ShapeId shape, const Pose& from, const Po
     return {id, shape, from, to, free};
 }
 
-TEST(Sweep, BoxShotThroughAThinBoxMeetsItsNearSide) {
+TEST(Sweep, FastBoxStopsAtTheNearSideOfAThinBox) {
     ShapeLibrary shapes;
     const ShapeId wall = shapes.add_box({1.0, 0.005, 1.0});
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
@@ -29,12 +29,12 @@ TEST(Sweep, BoxShotThroughAThinBoxMeetsItsNearSide) {
     for (const ContactPoint& contact : contacts) {
         EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-12);
         EXPECT_NEAR(contact.separation_m, -2.0 - 0.105,
-                    1e-9);  // the centre is that far below where it would rest
+                    1e-9);  // depth of the centre below its resting height
         EXPECT_NEAR(contact.point_b_bs.y(), 0.005, 1e-12);
     }
 }
 
-TEST(Sweep, BoxShotThroughAMeshMeetsItFromBothSides) {
+TEST(Sweep, FastBoxStopsAtAMeshFromEitherSide) {
     ShapeLibrary shapes;
     const ShapeId wall = shapes.add_mesh(test::make_floor(4.0, 12, test::Winding::mixed));
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
@@ -53,7 +53,7 @@ TEST(Sweep, BoxShotThroughAMeshMeetsItFromBothSides) {
 TEST(Sweep, FreeBodiesStopEachOther) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
-    // Head on, both 1 m: they pass each other within the frame. Relative to b, a goes from -1 to
+    // Head on, 1 m each: they pass each other within the frame. Relative to b, a moves from -1 to
     // +1.
     const auto contacts =
         contacts_of(shapes, {moving(1, ball, at({-0.5, 0.0, 0.0}), at({0.5, 0.0, 0.0})),
@@ -71,19 +71,19 @@ TEST(Sweep, LeavingAndSlidingBodiesAreNotStopped) {
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
     for (const auto& ground :
          {resting(1, floor, {}, false), resting(1, slab, at({0.0, -0.5, 0.0}), false)}) {
-        for (const double sunk : {1e-7, 0.0, -1e-7, -1e-5, -0.001}) {
-            // Sliding 0.7 m: contacts are under the place where it ends.
-            const auto slid = contacts_of(
-                shapes,
-                {ground, moving(2, box, at({-0.3, 0.1 + sunk, 0.0}), at({0.4, 0.1 + sunk, 0.1}))});
-            ASSERT_GE(slid.size(), 4U) << sunk;
+        for (const double height_m : {1e-7, 0.0, -1e-7, -1e-5, -0.001}) {
+            // Sliding 0.7 m: the contacts are under the final position.
+            const auto slid =
+                contacts_of(shapes, {ground, moving(2, box, at({-0.3, 0.1 + height_m, 0.0}),
+                                                    at({0.4, 0.1 + height_m, 0.1}))});
+            ASSERT_GE(slid.size(), 4U) << height_m;
             for (const ContactPoint& contact : slid) {
-                EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-9) << sunk;
-                EXPECT_NEAR(contact.separation_m, sunk, 1e-9);
+                EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-9) << height_m;
+                EXPECT_NEAR(contact.separation_m, height_m, 1e-9);
                 EXPECT_NEAR(contact.point_b_bs.x(), 0.4, 0.1001);
             }
-            // Leaving upwards: nothing holds it.
-            EXPECT_TRUE(contacts_of(shapes, {ground, moving(2, box, at({0.0, 0.1 + sunk, 0.0}),
+            // Leaving upwards: not stopped.
+            EXPECT_TRUE(contacts_of(shapes, {ground, moving(2, box, at({0.0, 0.1 + height_m, 0.0}),
                                                             at({0.0, 0.6, 0.0}))})
                             .empty());
         }
@@ -100,16 +100,16 @@ TEST(Sweep, BodySlidingOverTheFloorIsStoppedByTheWallOfTheSameMesh) {
     ShapeLibrary shapes;
     const ShapeId room = shapes.add_mesh(mesh);
     for (const ShapeId body : {shapes.add_box(Vec3::Constant(0.1)), shapes.add_sphere(0.1)}) {
-        for (const double sink :
-             {0.0, 1e-7, 1e-5}) {  // the solver's residual: it slides ever so slightly down
+        for (const double depth_m :
+             {0.0, 1e-7, 1e-5}) {  // it slides down by as little as a solver's residual
             const auto contacts = contacts_of(
                 shapes, {resting(1, room, {}, false),
-                         moving(2, body, at({-0.3, 0.1, 0.0}), at({0.9, 0.1 - sink, 0.0}))});
+                         moving(2, body, at({-0.3, 0.1, 0.0}), at({0.9, 0.1 - depth_m, 0.0}))});
             int on_wall = 0;
             for (const ContactPoint& contact : contacts) {
                 const bool floor = contact.normal_b_bs.y() > 0.5;
                 on_wall += floor ? 0 : 1;
-                EXPECT_NEAR(contact.separation_m, floor ? -sink : -0.7, 2e-6);
+                EXPECT_NEAR(contact.separation_m, floor ? -depth_m : -0.7, 2e-6);
                 EXPECT_NEAR(contact.normal_b_bs.x(), floor ? 0.0 : -1.0, 1e-6);
             }
             EXPECT_GE(on_wall, 1);
@@ -117,9 +117,9 @@ TEST(Sweep, BodySlidingOverTheFloorIsStoppedByTheWallOfTheSameMesh) {
     }
 }
 
-TEST(Sweep, TurningBoxIsCaughtByItsCorner) {
-    // A bar 0.5 m long that turns by a right angle about its middle, 0.3 m above the floor: its tip
-    // sweeps below it.
+TEST(Sweep, RotatingBoxIsStoppedAtItsCorner) {
+    // A bar of half length 0.5 m, 0.3 m above the floor, rotates about its centre by 1.5 rad; its
+    // tip sweeps below the floor.
     ShapeLibrary shapes;
     const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
     const ShapeId bar = shapes.add_box({0.5, 0.02, 0.02});
@@ -131,13 +131,13 @@ TEST(Sweep, TurningBoxIsCaughtByItsCorner) {
     for (const ContactPoint& contact : contacts) {
         EXPECT_NEAR(contact.normal_b_bs.y(), 1.0, 1e-9);
     }
-    // At the end the tip that touched first (its left lower edge) stands at this height.
+    // Final height of the tip that touched first (its lower left edge).
     EXPECT_NEAR(test::deepest(contacts), 0.3 - 0.5 * std::sin(1.5) - 0.02 * std::cos(1.5), 1e-6);
 }
 
-TEST(Sweep, ShipThatTurnsSweepsRelativeToItself) {
-    // Ship and passenger turn and fly together: nothing moves relative to the ship, however far
-    // both go.
+TEST(Sweep, BodyAtRestOnARotatingFloorIsNotSwept) {
+    // Floor and box move and rotate together: relative to the floor nothing moves, however far both
+    // go.
     Random random(31);
     ShapeLibrary shapes;
     const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
@@ -155,9 +155,9 @@ TEST(Sweep, ShipThatTurnsSweepsRelativeToItself) {
     }
 }
 
-TEST(Sweep, ShallowAndSweptPathsAgreeOnDepth) {
-    // The same motion, met at its end or at first touch: the contacts' plane is the same, hence the
-    // depth too.
+TEST(Sweep, SweptAndUnsweptMotionsGiveTheSameDepth) {
+    // The same motion evaluated at its end and at its first impact: the contact plane is the same,
+    // hence the depth too.
     ShapeLibrary shapes;
     const ShapeId floor = shapes.add_mesh(test::make_floor(4.0, 8));
     const ShapeId box = shapes.add_box(Vec3::Constant(0.1));
@@ -168,14 +168,13 @@ TEST(Sweep, ShallowAndSweptPathsAgreeOnDepth) {
     EXPECT_NEAR(test::deepest(contacts_of(shapes, proxies, {0.02, 0.001})), -0.003, 1e-9);
 }
 
-// Oracle: small steps along the way with the exact distance at each.
-// A brush whose end is clear along its own normal is no stop (collision_world.hpp): of fast turning
-// bodies about one in a hundred meets the triangle like that.
-TEST(Sweep, OfATriangleIsMetByWhatMeetsItAndByNothingThatMissesIt) {
+// Oracle: exact distances at small steps of the motion. Grazing impacts are ignored
+// (collision_world.hpp): about one hit of a fast rotating body in a hundred.
+TEST(Sweep, TriangleStopsExactlyTheBodiesThatHitIt) {
     Random random(32);
     int hits = 0;
     int misses = 0;
-    int brushed = 0;
+    int grazing = 0;
     for (int round = 0; round < 600; ++round) {
         ShapeLibrary shapes;
         const ShapeId body = round % 3 == 0   ? shapes.add_sphere(0.05)
@@ -188,26 +187,27 @@ TEST(Sweep, OfATriangleIsMetByWhatMeetsItAndByNothingThatMissesIt) {
         const ShapeId triangle = shapes.add_mesh(mesh);
         const Vec3 start = random.direction();
         const Pose from = at(start, random.rotation());
-        const Vec3 aside = random.vector(0.3);  // first: compilers order arguments as they like
+        // Drawn first: the order of evaluation of arguments is unspecified.
+        const Vec3 aside = random.vector(0.3);
         const Pose to = at(aside - start, random.rotation());
-        double least = 1e9;
+        double lowest = 1e9;
         for (int i = 0; i <= 400; ++i) {
             const Pose pose = interpolate(from, to, i / 400.0);
-            least = std::min(
-                least,
+            lowest = std::min(
+                lowest,
                 test::gap_to_triangle(test::make_core(shapes.at(body), pose), corners).distance_m);
         }
         const auto contacts = contacts_of(
             shapes, {resting(1, triangle, {}, false), moving(2, body, from, to)}, {1e-3, 0.005});
-        if (least < -0.01) {
+        if (lowest < -0.01) {
             ++hits;
-            brushed += contacts.empty() ? 1 : 0;
-        } else if (least > 0.015) {  // what turns between two steps is less
+            grazing += contacts.empty() ? 1 : 0;
+        } else if (lowest > 0.015) {  // more than a body moves between two steps
             ++misses;
             ASSERT_TRUE(contacts.empty()) << round;
         }
     }
-    EXPECT_LE(brushed, hits / 100);
+    EXPECT_LE(grazing, hits / 100);
     EXPECT_GT(hits, 150);
     EXPECT_GT(misses, 50);
 }
@@ -220,13 +220,13 @@ double deepest_m(const std::vector<ContactPoint>& contacts) {
     return deepest;
 }
 
-// Oracle: small steps again. At the step where the first of many triangles is met, a contact's
-// plane must just be reached: that of a triangle met later would still be far. Nor does the
-// depth depend on their order.
-TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
+// Oracle: small steps again. At the first step that overlaps any of many triangles, the plane of
+// some contact must just be reached; that of a later triangle would still be far. The depth must
+// not depend on the triangles' order.
+TEST(Sweep, FirstOfManyTrianglesStops) {
     Random random(33);
     constexpr int k_steps = 200;
-    constexpr double k_reached_m = 0.03;  // a step, with what a fast end turns in it
+    constexpr double k_reached_m = 0.03;  // displacement per step, rotation included
     int hits = 0;
     int missed = 0;
     for (int round = 0; round < 80; ++round) {
@@ -247,7 +247,8 @@ TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
         const ShapeId soup = shapes.add_mesh(mesh);
         const Vec3 start = 1.5 * random.direction();
         const Pose from = at(start, random.rotation());
-        const Vec3 aside = random.vector(0.3);  // first: compilers order arguments as they like
+        // Drawn first: the order of evaluation of arguments is unspecified.
+        const Vec3 aside = random.vector(0.3);
         const Pose to = at(aside - start, random.rotation());
         std::optional<double> met;
         for (int i = 0; i <= k_steps && !met; ++i) {
@@ -266,8 +267,8 @@ TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
             shapes, {resting(1, soup, {}, false), moving(2, body, from, to)}, {1e-3, 0.005});
         const Pose there = interpolate(from, to, *met);
         const bool reached = std::ranges::any_of(contacts, [&](const ContactPoint& contact) {
-            const Vec3 way = transform_point(there, contact.point_a_bs) - contact.point_b_bs;
-            return std::abs(contact.normal_b_bs.dot(way)) < k_reached_m;
+            const Vec3 offset = transform_point(there, contact.point_a_bs) - contact.point_b_bs;
+            return std::abs(contact.normal_b_bs.dot(offset)) < k_reached_m;
         });
         missed += reached ? 0 : 1;
         std::ranges::reverse(mesh->triangles);
@@ -277,7 +278,7 @@ TEST(Sweep, OfManyTrianglesTheFirstOnTheWayStops) {
         EXPECT_NEAR(deepest_m(again), deepest_m(contacts), 1e-9);
     }
     EXPECT_GT(hits, 30);
-    EXPECT_LE(missed, hits / 50);  // brushes whose end is clear along their own normal
+    EXPECT_LE(missed, hits / 50);  // grazing impacts
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "engine/core/parallel.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// Four threads ask one world at the same time; preset tsan runs what is called Threaded.
+// Queries from four threads on one world. The tsan preset runs suites whose names contain Threaded.
 namespace handhold::collision_threaded_test {
 namespace {
 
@@ -19,7 +19,7 @@ struct Crowd {
     std::vector<ColliderProxy> proxies;
 };
 
-// A wavy room with things of every kind in it.
+// A wavy room with bodies of every kind.
 Crowd make_crowd() {
     Crowd crowd;
     ShapeLibrary& shapes = crowd.shapes;
@@ -48,8 +48,8 @@ Crowd make_crowd() {
     return crowd;
 }
 
-// The answers to one row of questions, as numbers.
-std::vector<double> ask(const CollisionWorld& world, std::uint64_t seed) {
+// The results of a fixed sequence of queries, as numbers.
+std::vector<double> run_queries(const CollisionWorld& world, std::uint64_t seed) {
     Random random(seed);
     std::vector<double> answers;
     for (int i = 0; i < 300; ++i) {
@@ -65,25 +65,25 @@ std::vector<double> ask(const CollisionWorld& world, std::uint64_t seed) {
     return answers;
 }
 
-TEST(CollisionThreaded, QueriesFromFourThreadsAnswerAsFromOne) {
+TEST(CollisionThreaded, QueriesFromFourThreadsEqualThoseFromOne) {
     const Crowd crowd = make_crowd();
     CollisionWorld world(crowd.shapes);
     world.set_proxies(crowd.proxies);
     std::array<std::vector<double>, 4> expected;
     std::array<std::vector<double>, 4> found;
     for (std::size_t i = 0; i < 4; ++i) {
-        expected[i] = ask(world, i);
+        expected[i] = run_queries(world, i);
     }
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < 4; ++i) {
-        threads.emplace_back([&, i] { found[i] = ask(world, i); });
+        threads.emplace_back([&, i] { found[i] = run_queries(world, i); });
     }
     for (std::thread& thread : threads) {
         thread.join();
     }
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(found[i], expected[i]);
-        EXPECT_NE(std::count(found[i].begin(), found[i].end(), -1.0), 900);  // something was hit
+        EXPECT_NE(std::count(found[i].begin(), found[i].end(), -1.0), 900);  // some queries hit
     }
 }
 
@@ -100,14 +100,14 @@ TEST(CollisionThreaded, ContactsDoNotDependOnTheNumberOfThreads) {
         return contacts;
     };
     Random random(112);
-    std::size_t most = 0;
+    std::size_t most_contacts = 0;
     for (int round = 0; round < 5; ++round) {
         for (ColliderProxy& proxy : proxies) {
             proxy.to_ws.position += random.vector(0.05);
         }
         world.set_proxies(proxies);
         const auto expected = contacts_with(1);
-        most = std::max(most, expected.size());
+        most_contacts = std::max(most_contacts, expected.size());
         for (const int threads : {2, 4, 7}) {
             const auto found = contacts_with(threads);
             ASSERT_EQ(found.size(), expected.size());
@@ -122,7 +122,7 @@ TEST(CollisionThreaded, ContactsDoNotDependOnTheNumberOfThreads) {
             }
         }
     }
-    EXPECT_GT(most, 50U);
+    EXPECT_GT(most_contacts, 50U);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "engine/core/hash.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// The world as a cache: equal proxies give equal answers, whatever it saw before.
+// CollisionWorld is a cache: equal proxies give equal contacts, whatever it held before.
 namespace handhold::collision_world_test {
 namespace {
 
@@ -42,7 +42,7 @@ struct Crowd {
                  shapes.add_capsule(0.06, 0.15)};
         level = shapes.add_mesh(test::make_wavy_ball(1.2, 24, 40));
     }
-    // Everything drifts with `time`; a body is there in some frames and not in others.
+    // All bodies drift with `time`; each is absent in some frames.
     std::vector<ColliderProxy> frame(int time) const {
         std::vector<ColliderProxy> proxies;
         proxies.push_back(
@@ -64,26 +64,26 @@ struct Crowd {
     }
 };
 
-TEST(CollisionWorld, RebuiltWorldAnswersBitForBitAlike) {
+TEST(CollisionWorld, RebuiltWorldGivesBitwiseEqualContacts) {
     const Crowd crowd;
     CollisionWorld lasting(crowd.shapes);
     std::vector<ContactPoint> contacts;
-    std::vector<ContactPoint> afresh;
-    std::size_t most = 0;
+    std::vector<ContactPoint> rebuilt_contacts;
+    std::size_t most_contacts = 0;
     for (int time = 0; time < 30; ++time) {
         const auto proxies = crowd.frame(time);
         lasting.set_proxies(proxies);
         lasting.find_contacts({}, contacts);
         CollisionWorld rebuilt(crowd.shapes);
         rebuilt.set_proxies(proxies);
-        rebuilt.find_contacts({}, afresh);
-        ASSERT_EQ(hash_of(contacts), hash_of(afresh)) << "frame " << time;
-        most = std::max(most, contacts.size());
+        rebuilt.find_contacts({}, rebuilt_contacts);
+        ASSERT_EQ(hash_of(contacts), hash_of(rebuilt_contacts)) << "frame " << time;
+        most_contacts = std::max(most_contacts, contacts.size());
     }
-    EXPECT_GT(most, 50U);  // the scene does meet
+    EXPECT_GT(most_contacts, 50U);  // the scene does have contacts
 }
 
-TEST(CollisionWorld, HistoriesInAnyOrderEndAlike) {
+TEST(CollisionWorld, ContactsDoNotDependOnHistory) {
     const Crowd crowd;
     Random random(51);
     const auto last = crowd.frame(7);
@@ -167,7 +167,7 @@ TEST(CollisionWorld, IgnoredAndFixedPairsMakeNoContacts) {
     world.set_proxies(proxies);
     std::vector<ContactPoint> contacts;
     world.find_contacts({}, contacts);
-    EXPECT_EQ(contacts.size(), 5U);  // six pairs but for 3 and 4, which are both fixed
+    EXPECT_EQ(contacts.size(), 5U);  // six pairs minus (3, 4), which are both fixed
     const std::array<IgnoredPair, 2> ignored = {IgnoredPair{1, 2}, IgnoredPair{1, 3}};
     world.set_ignored_pairs(ignored);
     world.find_contacts({}, contacts);
@@ -180,7 +180,7 @@ TEST(CollisionWorld, IgnoredAndFixedPairsMakeNoContacts) {
     EXPECT_EQ(contacts.size(), 5U);
 }
 
-TEST(CollisionWorld, RefusesWhatBreaksItsContract) {
+TEST(CollisionWorld, RefusesInvalidProxiesAndLimits) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
     const ShapeId mesh = shapes.add_mesh(test::make_floor(1.0, 1));
@@ -199,7 +199,7 @@ TEST(CollisionWorld, RefusesWhatBreaksItsContract) {
     EXPECT_NO_THROW(world.find_contacts({}, contacts));
 }
 
-TEST(CollisionWorld, LeavesOutWhatHasNoPlaceUntilItHasOneAgain) {
+TEST(CollisionWorld, IgnoresAProxyWhileItsPoseIsInvalid) {
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.1);
     CollisionWorld world(shapes);

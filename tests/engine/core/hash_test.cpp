@@ -11,7 +11,7 @@
 namespace handhold::hash_test {
 namespace {
 
-// First outputs of SplitMix64 from the seed 1234567, as its users publish them.
+// First published outputs of SplitMix64 for the seed 1234567.
 TEST(Hash, Mix64IsTheFinaliserOfSplitMix64) {
     constexpr std::uint64_t k_step = 0x9e3779b97f4a7c15ULL;
     std::uint64_t state = 1234567;
@@ -23,20 +23,20 @@ TEST(Hash, Mix64IsTheFinaliserOfSplitMix64) {
     }
 }
 
-// Test vectors of the FNV authors.
+// Test vectors by the FNV authors.
 TEST(Hash, HashTextIsFnv1aOf64Bits) {
     EXPECT_EQ(hash_text(""), 0xcbf29ce484222325ULL);
     EXPECT_EQ(hash_text("a"), 0xaf63dc4c8601ec8cULL);
     EXPECT_EQ(hash_text("foobar"), 0x85944171f73967e8ULL);
 }
 
-TEST(Hash, HashTextTakesBytesAboveSevenBitsAsUnsigned) {
+TEST(Hash, HashTextTreatsBytesAsUnsigned) {
     constexpr std::uint64_t k_basis = 0xcbf29ce484222325ULL;
     constexpr std::uint64_t k_prime = 0x100000001b3ULL;
     EXPECT_EQ(hash_text("\xff"), (k_basis ^ 0xffU) * k_prime);
 }
 
-TEST(Hash, StreamTellsOrdersLengthsAndZerosApart) {
+TEST(Hash, StreamDistinguishesOrderLengthAndSignOfZero) {
     const auto hash = [](std::initializer_list<double> values) {
         HashStream stream;
         for (const double value : values) {
@@ -51,7 +51,7 @@ TEST(Hash, StreamTellsOrdersLengthsAndZerosApart) {
     EXPECT_EQ(hash({1, 2}), hash({1, 2}));
 }
 
-TEST(Hash, StreamComparesTheBitsOfNotANumber) {
+TEST(Hash, StreamHashesBitsOfNaN) {
     HashStream quiet;
     HashStream negative;
     quiet.add(std::numeric_limits<double>::quiet_NaN());
@@ -59,7 +59,7 @@ TEST(Hash, StreamComparesTheBitsOfNotANumber) {
     EXPECT_NE(quiet.value(), negative.value());
 }
 
-TEST(Hash, PersistentIdFollowsTheNameAndIsNeverNobody) {
+TEST(Hash, PersistentIdDependsOnNameAndIsNeverNone) {
     EXPECT_EQ(persistent_id_from_name("crate"), persistent_id_from_name("crate"));
     EXPECT_NE(persistent_id_from_name("crate"), persistent_id_from_name("door"));
     EXPECT_NE(persistent_id_from_name(""), PersistentId{});

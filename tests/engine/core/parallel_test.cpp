@@ -15,7 +15,7 @@
 namespace handhold::parallel_test {
 namespace {
 
-// Sets the count for one test.
+// Sets the thread count for one test.
 class ThreadCount {
   public:
     explicit ThreadCount(int count) : before_(thread_count()) { set_thread_count(count); }
@@ -27,12 +27,12 @@ class ThreadCount {
     int before_;
 };
 
-TEST(ParallelThreaded, TwoWorkersReallyRun) {
+TEST(ParallelThreaded, TwoWorkersRunConcurrently) {
     using Clock = std::chrono::steady_clock;
     const ThreadCount threads(2);
     std::atomic<int> present = 0;
     std::atomic<int> met = 0;
-    // Each task waits for the other: one thread alone could never let them meet.
+    // Each task waits for the other, which a single thread could never satisfy.
     auto wait_for_other = [&](std::size_t) {
         ++present;
         const Clock::time_point give_up = Clock::now() + std::chrono::seconds(20);
@@ -57,7 +57,7 @@ TEST(ParallelThreaded, EveryIndexRunsExactlyOnce) {
     }
 }
 
-TEST(ParallelThreaded, WritesAreSeenByTheCaller) {
+TEST(ParallelThreaded, WritesAreVisibleToCaller) {
     const ThreadCount threads(4);
     std::vector<std::uint64_t> values(2000);
     for (std::uint64_t round = 0; round < 100; ++round) {
@@ -73,25 +73,25 @@ TEST(ParallelThreaded, WritesAreSeenByTheCaller) {
     }
 }
 
-TEST(ParallelThreaded, NestedCallsRunOnTheirOwnThreadInOrder) {
+TEST(ParallelThreaded, NestedCallsRunSeriallyOnSameThread) {
     const ThreadCount threads(4);
     constexpr std::size_t k_outer = 64;
     std::vector<std::vector<std::size_t>> order(k_outer);
-    std::atomic<int> strangers = 0;
+    std::atomic<int> on_other_threads = 0;
     auto outer = [&](std::size_t i) {
         const std::thread::id own = std::this_thread::get_id();
         auto inner = [&](std::size_t j) {
-            strangers += std::this_thread::get_id() == own ? 0 : 1;
+            on_other_threads += std::this_thread::get_id() == own ? 0 : 1;
             order[i].push_back(j);
         };
         parallel_for(3, inner);
     };
     parallel_for(k_outer, outer);
-    EXPECT_EQ(strangers, 0);
+    EXPECT_EQ(on_other_threads, 0);
     EXPECT_EQ(order, std::vector<std::vector<std::size_t>>(k_outer, {0, 1, 2}));
 }
 
-TEST(ParallelThreaded, CallsOfTwoHostThreadsDoNotDisturbEachOther) {
+TEST(ParallelThreaded, CallsFromTwoThreadsAreIndependent) {
     const ThreadCount threads(2);
     const auto count_up = [](std::vector<int>& runs) {
         auto run = [&](std::size_t i) { ++runs[i]; };
@@ -108,7 +108,7 @@ TEST(ParallelThreaded, CallsOfTwoHostThreadsDoNotDisturbEachOther) {
     EXPECT_EQ(there, std::vector<int>(500, 50));
 }
 
-TEST(Parallel, OneThreadIsSerialInOrderOnTheCallersThread) {
+TEST(Parallel, OneThreadRunsSeriallyInOrderOnCaller) {
     const ThreadCount threads(1);
     const std::thread::id caller = std::this_thread::get_id();
     std::vector<std::size_t> order;
@@ -133,7 +133,7 @@ TEST(Parallel, SerialPathAllocatesNothing) {
     EXPECT_EQ(sum, 499500U);
 }
 
-TEST(ParallelThreaded, OneIndexStaysOnTheCallersThread) {
+TEST(ParallelThreaded, SingleIndexRunsOnCaller) {
     const ThreadCount threads(4);
     std::thread::id runner;
     auto run = [&](std::size_t) { runner = std::this_thread::get_id(); };
@@ -141,7 +141,7 @@ TEST(ParallelThreaded, OneIndexStaysOnTheCallersThread) {
     EXPECT_EQ(runner, std::this_thread::get_id());
 }
 
-TEST(Parallel, CountBelowOneIsRefusedAndChangesNothing) {
+TEST(Parallel, RejectsCountBelowOne) {
     const int before = thread_count();
     EXPECT_THROW(set_thread_count(0), PreconditionError);
     EXPECT_THROW(set_thread_count(-3), PreconditionError);

@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-// An empty folder for one test, gone with it.
+// An empty temporary folder, removed with the test.
 class TraceFolder {
   public:
     TraceFolder() {
@@ -45,7 +45,7 @@ Json written_trace() {
     return Json::parse(in);
 }
 
-// The events of one name, in the order of the file.
+// The events of one name, in file order.
 std::vector<Json> events_named(const Json& trace, const std::string& name) {
     std::vector<Json> found;
     for (const Json& event : trace.at("traceEvents")) {
@@ -88,7 +88,7 @@ TEST(Profile, NamesAreEscaped) {
     EXPECT_EQ(written_trace().at("traceEvents").at(0).at("name"), "a \"quoted\\\"   name");
 }
 
-TEST(Profile, NestedZonesLieInsideTheirParents) {
+TEST(Profile, NestedZonesLieInsideParents) {
     start_trace();
     {
         HH_ZONE("outer");
@@ -100,7 +100,8 @@ TEST(Profile, NestedZonesLieInsideTheirParents) {
     const Json& events = trace.at("traceEvents");
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].at("name"), "outer") << "parents stand before their children";
-    // The file has nanoseconds: a sum of two such numbers in microseconds may err in the last bit.
+    // The file has nanosecond resolution; sums of such numbers in microseconds round in the last
+    // bit.
     constexpr double k_rounding_us = 1e-4;
     for (const int child : {1, 2}) {
         const Json& event = events[static_cast<std::size_t>(child)];
@@ -111,7 +112,7 @@ TEST(Profile, NestedZonesLieInsideTheirParents) {
     EXPECT_GE(begin_us(events[2]) + k_rounding_us, end_us(events[1]));
 }
 
-TEST(Profile, OnlyZonesInsideOneTraceAreKept) {
+TEST(Profile, KeepsOnlyZonesInsideTrace) {
     { HH_ZONE("before"); }
     {
         HH_ZONE("begun before");
@@ -128,7 +129,7 @@ TEST(Profile, OnlyZonesInsideOneTraceAreKept) {
     EXPECT_EQ(events_named(trace, "inside").size(), 1U);
 }
 
-TEST(Profile, ZoneThatOutlivesItsTraceStaysOutOfTheNext) {
+TEST(Profile, ZoneThatOutlivesTraceIsNotInNextTrace) {
     start_trace();
     {
         HH_ZONE("of the first");
@@ -139,7 +140,7 @@ TEST(Profile, ZoneThatOutlivesItsTraceStaysOutOfTheNext) {
     EXPECT_TRUE(written_trace().at("traceEvents").empty());
 }
 
-TEST(Profile, NewTraceForgetsTheLast) {
+TEST(Profile, NewTraceDiscardsLastTrace) {
     start_trace();
     { HH_ZONE("old"); }
     stop_trace();
@@ -150,7 +151,7 @@ TEST(Profile, NewTraceForgetsTheLast) {
     EXPECT_TRUE(written_trace().at("traceEvents").empty());
 }
 
-TEST(Profile, ZonesAboveTheLimitAreCountedAsDropped) {
+TEST(Profile, CountsZonesAboveLimitAsDropped) {
     start_trace(3);
     for (int i = 0; i < 10; ++i) {
         HH_ZONE("zone");
@@ -161,7 +162,7 @@ TEST(Profile, ZonesAboveTheLimitAreCountedAsDropped) {
     EXPECT_EQ(trace.at("otherData").at("dropped_zones"), 7);
 }
 
-TEST(Profile, WritingReplacesTheFileAndLeavesNothingElse) {
+TEST(Profile, WritingReplacesFileAtomically) {
     const TraceFolder folder;
     const fs::path path = folder.path() / "trace.json";
     std::ofstream(path) << "an old file";
@@ -173,7 +174,7 @@ TEST(Profile, WritingReplacesTheFileAndLeavesNothingElse) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(Profile, PathThatCannotBeWrittenIsReportedAndNothingIsLeft) {
+TEST(Profile, ReportsUnwritablePathAndLeavesNoFile) {
     const TraceFolder folder;
     EXPECT_FALSE(write_trace((folder.path() / "absent" / "trace.json").string()));
     fs::create_directories(folder.path() / "occupied" / "inside");
@@ -181,7 +182,7 @@ TEST(Profile, PathThatCannotBeWrittenIsReportedAndNothingIsLeft) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(Profile, ZonesAllocateNothingWithoutATraceNorInOneThatIsWarm) {
+TEST(Profile, ZonesDoNotAllocateUntracedOrWarm) {
     if (!counts_allocations()) {
         GTEST_SKIP() << "a sanitizer's own operator new does not count";
     }
@@ -201,7 +202,7 @@ TEST(Profile, ZonesAllocateNothingWithoutATraceNorInOneThatIsWarm) {
     EXPECT_EQ(written_trace().at("traceEvents").size(), 1001U);
 }
 
-TEST(Profile, ClockDoesNotRunBackwards) {
+TEST(Profile, ClockIsMonotonic) {
     std::int64_t last_ns = now_ns();
     for (int i = 0; i < 1000; ++i) {
         const std::int64_t next_ns = now_ns();
@@ -210,10 +211,10 @@ TEST(Profile, ClockDoesNotRunBackwards) {
     }
 }
 
-TEST(ProfileThreaded, ZonesOfTwoThreadsHaveTheirOwnTids) {
+TEST(ProfileThreaded, ZonesOfTwoThreadsHaveSeparateTids) {
     start_trace();
     { HH_ZONE("here"); }
-    // Also kept where the thread is gone before the trace is written.
+    // Zones are kept even if their thread ends before the trace is written.
     std::thread([] { HH_ZONE("there"); }).join();
     stop_trace();
     const Json trace = written_trace();

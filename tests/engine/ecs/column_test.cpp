@@ -41,7 +41,7 @@ TEST(Column, EmptyFindsNothing) {
     EXPECT_FALSE(column.remove(entity_of(0)));
 }
 
-TEST(Column, NullEntityIsRefusedAndNeverFound) {
+TEST(Column, RejectsNullEntityAndNeverFindsIt) {
     Column<int> column = column_of({0});
     EXPECT_THROW(column.add(k_no_entity), PreconditionError);
     EXPECT_EQ(column.find(k_no_entity), nullptr);
@@ -49,14 +49,14 @@ TEST(Column, NullEntityIsRefusedAndNeverFound) {
     EXPECT_EQ(column.size(), 1U);
 }
 
-TEST(Column, SecondRowOfAnEntityIsRefusedAndTheFirstStays) {
+TEST(Column, RejectsSecondRowAndKeepsFirst) {
     Column<int> column = column_of({4});
     EXPECT_THROW(column.add(entity_of(4), 99), PreconditionError);
     EXPECT_EQ(column.size(), 1U);
     EXPECT_EQ(column.at(entity_of(4)), 4);
 }
 
-TEST(Column, RowOfADestroyedPredecessorMustGoFirst) {
+TEST(Column, RejectsRowInSlotOfStalePredecessor) {
     Column<int> column = column_of({4});
     const Entity next = entity_of(4, 2);
     EXPECT_EQ(column.find(next), nullptr);
@@ -68,7 +68,7 @@ TEST(Column, RowOfADestroyedPredecessorMustGoFirst) {
     EXPECT_EQ(column.find(entity_of(4)), nullptr) << "the old handle is stale";
 }
 
-TEST(Column, AtThrowsWithTheFunctionAndTheSlotWhereThereIsNoRow) {
+TEST(Column, AtNamesFunctionAndSlotIfThereIsNoRow) {
     const Column<int> column = column_of({1});
     try {
         column.at(entity_of(12));
@@ -80,7 +80,7 @@ TEST(Column, AtThrowsWithTheFunctionAndTheSlotWhereThereIsNoRow) {
     }
 }
 
-TEST(Column, RemoveMovesTheLastRowIntoTheHoleAndKeepsTheOthers) {
+TEST(Column, RemoveMovesLastRowIntoGap) {
     Column<int> column = column_of({0, 1, 2, 3, 4});
     EXPECT_TRUE(column.remove(entity_of(1)));
     EXPECT_EQ(slots_in_order(column), (std::vector<std::uint32_t>{0, 4, 2, 3}));
@@ -90,7 +90,7 @@ TEST(Column, RemoveMovesTheLastRowIntoTheHoleAndKeepsTheOthers) {
     EXPECT_FALSE(column.remove(entity_of(3)));
 }
 
-TEST(Column, AddReturnsTheRowThatFindFinds) {
+TEST(Column, AddReturnsSameRowAsFind) {
     Column<int> column = column_of({9});
     int& row = column.add(entity_of(3));
     EXPECT_EQ(row, 0);
@@ -100,7 +100,7 @@ TEST(Column, AddReturnsTheRowThatFindFinds) {
     EXPECT_EQ(&std::as_const(column).at(entity_of(3)), &row);
 }
 
-TEST(Column, ReferencesHoldThroughChangesOfValues) {
+TEST(Column, ReferencesSurviveValueChanges) {
     Column<int> column = column_of({0, 1, 2});
     int& row = column.at(entity_of(1));
     for (int& value : column.rows()) {
@@ -120,7 +120,7 @@ TEST(Column, EqualHistoriesGiveEqualOrders) {
     EXPECT_EQ(slots_in_order(play()), slots_in_order(play()));
 }
 
-TEST(Column, CopyIsASnapshot) {
+TEST(Column, CopyIsIndependent) {
     Column<int> column = column_of({0, 1, 2});
     const Column<int> snapshot = column;
     column.remove(entity_of(0));
@@ -131,7 +131,7 @@ TEST(Column, CopyIsASnapshot) {
     EXPECT_TRUE(column.contains(entity_of(0)));
 }
 
-TEST(Column, ClearForgetsAllRows) {
+TEST(Column, ClearRemovesAllRows) {
     Column<int> column = column_of({0, 1, 2});
     column.clear();
     EXPECT_TRUE(column.empty());
@@ -140,7 +140,7 @@ TEST(Column, ClearForgetsAllRows) {
     EXPECT_EQ(column.at(entity_of(1)), 5);
 }
 
-TEST(Column, TakesTypesThatOnlyMove) {
+TEST(Column, AcceptsMoveOnlyTypes) {
     Column<std::unique_ptr<int>> column;
     column.add(entity_of(0), std::make_unique<int>(1));
     column.add(entity_of(1), std::make_unique<int>(2));
@@ -148,7 +148,7 @@ TEST(Column, TakesTypesThatOnlyMove) {
     EXPECT_EQ(*column.at(entity_of(1)), 2);
 }
 
-TEST(Column, RunIsWhatFollowsBySlotInOneGeneration) {
+TEST(Column, RunHasConsecutiveSlotsAndOneGeneration) {
     EXPECT_TRUE(column_of({4, 5, 6}).is_run(0));
     EXPECT_FALSE(column_of({4, 6}).is_run(0));
     Column<int> generations = column_of({4});
@@ -156,7 +156,7 @@ TEST(Column, RunIsWhatFollowsBySlotInOneGeneration) {
     EXPECT_FALSE(generations.is_run(0));
 }
 
-// Whatever happens, a block that calls itself a run is one.
+// After any operations, a block that reports a run is one.
 bool runs_are_true(const Column<int>& column) {
     const auto owners = column.owners();
     for (std::size_t row = 0; row < owners.size(); ++row) {
@@ -169,9 +169,9 @@ bool runs_are_true(const Column<int>& column) {
     return true;
 }
 
-RC_GTEST_PROP(Column, AgreesWithAMapUnderAnyOperations, ()) {
+RC_GTEST_PROP(Column, MatchesMapUnderAnyOperations, ()) {
     EntityPool pool;
-    std::vector<Entity> handles = {k_no_entity};  // also the stale ones
+    std::vector<Entity> handles = {k_no_entity};  // including stale ones
     Column<int> column;
     std::map<std::uint64_t, int> oracle;
     const auto key = [](Entity entity) {

@@ -11,7 +11,7 @@
 namespace handhold::entity_test {
 namespace {
 
-TEST(EntityPool, NullIsNeverAliveNorDestroyed) {
+TEST(EntityPool, NullIsNeverAliveOrDestroyed) {
     EntityPool pool;
     pool.create();
     EXPECT_TRUE(is_null(Entity{}));
@@ -25,7 +25,7 @@ TEST(EntityPool, UnknownSlotIsNotAlive) {
     EXPECT_FALSE(pool.is_alive({7, 1}));
 }
 
-TEST(EntityPool, DestroyedHandleIsStaleAlsoAfterItsSlotIsGivenOutAgain) {
+TEST(EntityPool, DestroyedHandleStaysStaleAfterSlotReuse) {
     EntityPool pool;
     const Entity old = pool.create();
     EXPECT_TRUE(pool.destroy(old));
@@ -47,7 +47,7 @@ TEST(EntityPool, SecondDestroyChangesNothing) {
     EXPECT_NE(pool.create(), pool.create()) << "a slot freed twice would be given out twice";
 }
 
-TEST(EntityPool, StaleHandleDoesNotDestroyTheSlotsNextEntity) {
+TEST(EntityPool, StaleHandleDoesNotDestroyNextEntityInSlot) {
     EntityPool pool;
     const Entity old = pool.create();
     pool.destroy(old);
@@ -56,7 +56,7 @@ TEST(EntityPool, StaleHandleDoesNotDestroyTheSlotsNextEntity) {
     EXPECT_TRUE(pool.is_alive(next));
 }
 
-TEST(EntityPool, FreedSlotsComeBackLastFirst) {
+TEST(EntityPool, ReusesFreedSlotsLastFirst) {
     EntityPool pool;
     const Entity a = pool.create();
     const Entity b = pool.create();
@@ -79,7 +79,7 @@ TEST(EntityPool, GenerationSkipsNullWhenItWrapsAround) {
     EXPECT_FALSE(pool.is_alive(last));
 }
 
-TEST(EntityPool, RestoredPoolGivesOutTheSameEntities) {
+TEST(EntityPool, RestoredPoolCreatesSameEntities) {
     EntityPool pool;
     std::vector<Entity> entities;
     for (int i = 0; i < 10; ++i) {
@@ -98,7 +98,7 @@ TEST(EntityPool, RestoredPoolGivesOutTheSameEntities) {
     }
 }
 
-TEST(EntityPool, BrokenSnapshotIsRefused) {
+TEST(EntityPool, RejectsInvalidSnapshot) {
     EXPECT_THROW(EntityPool({1, 1}, {2}), PreconditionError);
     EXPECT_THROW(EntityPool({1, 1}, {1, 1}), PreconditionError);
     EXPECT_THROW(EntityPool({1, 0}, {}), PreconditionError);

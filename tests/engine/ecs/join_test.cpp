@@ -23,7 +23,7 @@ std::vector<Entity> make_entities(EntityPool& pool, std::size_t count) {
     return entities;
 }
 
-// A column whose values are `factor` times the slot, filled in the given order.
+// A column with values of `factor` times the slot, filled in the given order.
 Column<int> column_of(const std::vector<Entity>& entities, int factor) {
     Column<int> column;
     for (const Entity entity : entities) {
@@ -40,7 +40,7 @@ Visited visit_all(const Column<int>& driver, const Column<int>& other) {
     return visited;
 }
 
-// The definition of a join: a look-up for each of the driver's rows.
+// Definition of a join: look up each of the driver's rows.
 Visited visit_all_one_by_one(const Column<int>& driver, const Column<int>& other) {
     Visited visited;
     for (const Entity entity : driver.owners()) {
@@ -51,7 +51,7 @@ Visited visit_all_one_by_one(const Column<int>& driver, const Column<int>& other
     return visited;
 }
 
-TEST(Join, EmptyColumnsVisitNobody) {
+TEST(Join, EmptyColumnsVisitNothing) {
     EntityPool pool;
     const Column<int> some = column_of(make_entities(pool, 3), 1);
     const Column<int> none;
@@ -90,7 +90,7 @@ TEST(Join, WritesThroughMutableColumnsAndReadsConstOnes) {
     }
 }
 
-TEST(Join, PartialOverlapVisitsTheIntersectionInTheDriversOrder) {
+TEST(Join, PartialOverlapVisitsIntersectionInDriverOrder) {
     EntityPool pool;
     const std::vector<Entity> entities = make_entities(pool, 1000);
     const Column<int> driver = column_of({entities.begin(), entities.begin() + 700}, 1);
@@ -103,7 +103,7 @@ TEST(Join, PartialOverlapVisitsTheIntersectionInTheDriversOrder) {
     }
 }
 
-TEST(Join, ThirdColumnNarrowsTheIntersection) {
+TEST(Join, ThirdColumnNarrowsIntersection) {
     EntityPool pool;
     const std::vector<Entity> entities = make_entities(pool, 600);
     const Column<int> all = column_of(entities, 1);
@@ -117,7 +117,7 @@ TEST(Join, ThirdColumnNarrowsTheIntersection) {
     EXPECT_EQ(slots.back(), 399U);
 }
 
-TEST(Join, ShuffledOrdersFindTheSamePairs) {
+TEST(Join, ShuffledOrdersGiveSamePairs) {
     EntityPool pool;
     std::vector<Entity> entities = make_entities(pool, 1000);
     const Column<int> driver = column_of(entities, 1);
@@ -134,8 +134,8 @@ TEST(Join, ColumnMayBeJoinedWithItself) {
     EXPECT_EQ(visit_all(column, column), visit_all_one_by_one(column, column));
 }
 
-// Equal first owners and equal lengths prove nothing: the swap hides inside a block.
-TEST(Join, TwoOwnersExchangedInsideABlockAreNotMistaken) {
+// Equal first owners and equal lengths do not make blocks equal.
+TEST(Join, DetectsOwnersSwappedInsideBlock) {
     EntityPool pool;
     std::vector<Entity> entities = make_entities(pool, 512);
     const Column<int> driver = column_of(entities, 1);
@@ -148,7 +148,7 @@ TEST(Join, TwoOwnersExchangedInsideABlockAreNotMistaken) {
     }
 }
 
-TEST(Join, EqualSlotsOfOtherGenerationsDoNotMeet) {
+TEST(Join, EqualSlotsOfDifferentGenerationsDoNotMatch) {
     EntityPool pool;
     const std::vector<Entity> old = make_entities(pool, 300);
     const Column<int> stale = column_of(old, 1);
@@ -158,13 +158,14 @@ TEST(Join, EqualSlotsOfOtherGenerationsDoNotMeet) {
     EXPECT_TRUE(visit_all(stale, column_of(fresh, 1)).empty());
 }
 
-RC_GTEST_PROP(Join, AgreesWithOneByOneLookUpsAfterAnyHistory, ()) {
+RC_GTEST_PROP(Join, MatchesIndividualLookUpsAfterAnyHistory, ()) {
     EntityPool pool;
     const auto count = *rc::gen::inRange<std::size_t>(1, 1200);
     const std::vector<Entity> entities = make_entities(pool, count);
     Column<int> a = column_of(entities, 1);
     Column<int> b = column_of(entities, 10);
-    // Few changes leave whole blocks equal, shifted or torn: what the walk has to tell apart.
+    // A few changes leave blocks equal, shifted or broken: all cases that the block comparison
+    // distinguishes.
     const int changes = *rc::gen::inRange(0, 12);
     for (int i = 0; i < changes; ++i) {
         const Entity entity = entities[*rc::gen::inRange<std::size_t>(0, count)];
@@ -177,8 +178,8 @@ RC_GTEST_PROP(Join, AgreesWithOneByOneLookUpsAfterAnyHistory, ()) {
     RC_ASSERT(visit_all(b, a) == visit_all_one_by_one(b, a));
 }
 
-// Every third entity dies and its slot is given out again: all sums are known in closed form.
-TEST(Join, AMillionEntitiesAreCreatedDestroyedAndJoined) {
+// Every third entity is destroyed and its slot reused; all sums have closed forms.
+TEST(Join, MillionEntitiesAreCreatedDestroyedAndJoined) {
     constexpr std::size_t k_count = 1'000'000;
     EntityPool pool;
     std::vector<Entity> entities = make_entities(pool, k_count);

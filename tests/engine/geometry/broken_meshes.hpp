@@ -5,12 +5,12 @@
 
 #include "tests/engine/collision/scene.hpp"
 
-// Meshes as people make them, from clean ones: each function breaks one thing.
+// Meshes with typical defects, made from clean ones: each function adds one defect.
 namespace handhold::test {
 
 inline double chance(Random& random) { return random.between(0.0, 1.0); }
 
-// Every triangle with corners of its own, each up to jitter_m off along each axis.
+// Separate corners for every triangle, each displaced by up to jitter_m along each axis.
 inline Mesh as_soup(const Mesh& mesh, double jitter_m, Random& random) {
     Mesh soup;
     for (const auto& triangle : mesh.triangles) {
@@ -39,7 +39,7 @@ inline Mesh with_flips(const Mesh& mesh, double share, Random& random) {
     return result;
 }
 
-// Splits triangles at a point of one edge; the neighbour there stays whole.
+// Splits triangles at a point of one edge but not the neighbour at that edge.
 inline Mesh with_t_junctions(const Mesh& mesh, double share, Random& random) {
     Mesh result = mesh;
     const std::size_t count = mesh.triangles.size();
@@ -57,7 +57,7 @@ inline Mesh with_t_junctions(const Mesh& mesh, double share, Random& random) {
     return result;
 }
 
-// Splits triangles next to a corner: needles a thousandth as wide as they are long.
+// Splits triangles near a corner into needles, a thousandth as wide as long.
 inline Mesh with_slivers(const Mesh& mesh, double share, Random& random) {
     Mesh result = mesh;
     const std::size_t count = mesh.triangles.size();
@@ -75,7 +75,7 @@ inline Mesh with_slivers(const Mesh& mesh, double share, Random& random) {
     return result;
 }
 
-// Every triangle a second time, with the other side out.
+// Adds the reverse side of every triangle.
 inline Mesh doubled(const Mesh& mesh) {
     Mesh result = mesh;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -105,7 +105,7 @@ inline Mesh with_wild_vertices(const Mesh& mesh, double share, Random& random) {
     return result;
 }
 
-// A closed wavy ball without twin vertices or triangles without area.
+// A closed wavy ball without duplicate vertices or degenerate triangles.
 inline Mesh make_clean_ball(double radius_m, std::uint32_t rings, std::uint32_t sectors) {
     const std::shared_ptr<Mesh> ball = make_wavy_ball(radius_m, rings, sectors);
     const auto place = [&](std::uint32_t v) -> std::uint32_t {

@@ -4,24 +4,17 @@
 
 #include "engine/geometry/chain_fit.hpp"
 #include "surface_cuts.hpp"
+#include "tests/engine/geometry/three_link_chain.hpp"
 
-// The oracle is find_penetration, which gathers afresh and has an oracle of its own (FindSunk).
+// Oracle: find_penetration, which gathers again for each query and is itself tested against an
+// oracle (FindPenetration).
 namespace handhold::chain_follow_test {
 namespace {
 
-// An index finger, stretched along -Z, that curls down.
-HingeChain finger_at(const Vec3& position) {
-    constexpr double k_rad_per_deg = M_PI / 180.0;
-    HingeChain chain;
-    chain.base.position = position;
-    chain.length_m = {0.045, 0.026, 0.022};
-    chain.radius_m = {0.009, 0.008, 0.007};
-    chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
-    chain.rest_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
-    return chain;
-}
+using test::chain_fit_settings;
+using test::three_link_chain;
 
-// A bar along x, 35 mm thick, its top at the height 0.
+// A bar along x, 35 mm thick, with its top at height 0.
 struct FollowChain : testing::Test {
     GripMesh bar = build_grip_mesh(test::make_tube(0.0175, 0.4, 48, 40));
     std::vector<PlacedMesh> meshes{{&bar, {Vec3(0.0, -0.0175, -0.03), Quat::Identity()}}};
@@ -31,7 +24,7 @@ struct FollowChain : testing::Test {
     std::optional<FollowedChain> follow(const HingeChain& chain, const ChainAngles& from_rad) {
         ChainReach reach =
             chain_reach(chain, chain.open_rad, chain.closed_rad, settings.query_gap_m);
-        reach.half_width_m = half_width_m(chain, ChainFitSettings{}.plane_offset);
+        reach.half_width_m = half_width_m(chain, chain_fit_settings().plane_offset);
         scratch.patch.gather(reach, meshes);
         const ChainDepth depth =
             chain_depth(chain, from_rad, scratch.patch, {.extra_radius_m = settings.query_gap_m});
@@ -48,15 +41,16 @@ struct FollowChain : testing::Test {
     }
 };
 
-TEST_F(FollowChain, KeepsTheTouchOfASurfaceThatMovesByMillimetres) {
+TEST_F(FollowChain, KeepsContactWithSurfaceThatMovesMillimetres) {
     int followed = 0;
     int moves = 0;
     test::Random random(41);
     for (int i = 0; i < 200; ++i) {
         const Vec3 place = Vec3(0.0, 0.017, 0.0) + random.vector(0.003);
-        const HingeChain chain = finger_at(place);
-        const ChainAngles from_rad = fit_chain(chain, meshes, {}, {}, scratch).angle_rad;
-        const HingeChain moved = finger_at(place + random.vector(0.0012));
+        const HingeChain chain = three_link_chain(place);
+        const ChainAngles from_rad =
+            fit_chain(chain, meshes, {}, chain_fit_settings(), scratch).angle_rad;
+        const HingeChain moved = three_link_chain(place + random.vector(0.0012));
         const auto found = follow(moved, from_rad);
         if (!found) {
             continue;
@@ -72,32 +66,34 @@ TEST_F(FollowChain, KeepsTheTouchOfASurfaceThatMovesByMillimetres) {
             EXPECT_LE(found->angle_rad[hinge], chain.closed_rad[hinge]);
         }
     }
-    EXPECT_GT(followed, 150);  // nearly all: what is left is closed anew
+    EXPECT_GT(followed, 150);  // the others would be fitted from scratch
     EXPECT_GT(moves, 100);
 }
 
-TEST_F(FollowChain, ChangesNothingWhereTheTouchIsKept) {
-    const HingeChain chain = finger_at({0.0, 0.017, 0.0});
-    const ChainAngles from_rad = fit_chain(chain, meshes, {}, {}, scratch).angle_rad;
-    const auto found = follow(finger_at({0.0, 0.0171, 0.0}), from_rad);
+TEST_F(FollowChain, LeavesChainInContactUnchanged) {
+    const HingeChain chain = three_link_chain(Vec3{0.0, 0.017, 0.0});
+    const ChainAngles from_rad =
+        fit_chain(chain, meshes, {}, chain_fit_settings(), scratch).angle_rad;
+    const auto found = follow(three_link_chain(Vec3{0.0, 0.0171, 0.0}), from_rad);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->angle_rad, from_rad);
 }
 
-TEST_F(FollowChain, SaysNothingWhereNothingIsNear) {
-    EXPECT_FALSE(follow(finger_at({0.0, 0.3, 0.0}), {}));
+TEST_F(FollowChain, FailsIfNothingIsNear) {
+    EXPECT_FALSE(follow(three_link_chain(Vec3{0.0, 0.3, 0.0}), {}));
 }
 
-TEST_F(FollowChain, SaysNothingWhereASurfaceGoesThroughTheChain) {
-    const HingeChain chain = finger_at({0.0, -0.01, 0.02});
+TEST_F(FollowChain, FailsIfSurfaceCrossesAxis) {
+    const HingeChain chain = three_link_chain(Vec3{0.0, -0.01, 0.02});
     ASSERT_GE(depth_m(chain, {}, 0.0), chain.radius_m[0]);
     EXPECT_FALSE(follow(chain, {}));
 }
 
-TEST_F(FollowChain, TurnsNoFartherThanItMay) {
-    const HingeChain chain = finger_at({0.0, 0.017, 0.0});
-    const ChainAngles from_rad = fit_chain(chain, meshes, {}, {}, scratch).angle_rad;
-    const HingeChain moved = finger_at({0.0, 0.0155, 0.0});
+TEST_F(FollowChain, FailsBeyondMaxOpening) {
+    const HingeChain chain = three_link_chain(Vec3{0.0, 0.017, 0.0});
+    const ChainAngles from_rad =
+        fit_chain(chain, meshes, {}, chain_fit_settings(), scratch).angle_rad;
+    const HingeChain moved = three_link_chain(Vec3{0.0, 0.0155, 0.0});
     ASSERT_TRUE(follow(moved, from_rad));
     settings.max_opening = 1e-3;
     EXPECT_FALSE(follow(moved, from_rad));

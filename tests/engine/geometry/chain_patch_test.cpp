@@ -17,7 +17,7 @@ namespace {
 
 using test::Random;
 
-// At full detail: what is cut by hand is the very same.
+// Full detail, so that reference cuts use the same triangles.
 GripMesh full_mesh(const Mesh& source) {
     GripMeshSettings settings;
     settings.contact.deviation_m = 0.0;
@@ -28,7 +28,7 @@ ChainReach random_reach(Random& random) {
     return {{random.vector(0.1), random.rotation()}, random.between(0.02, 0.12), 0.008};
 }
 
-// The disc that a reach's plane is, in the mesh's frame.
+// The disc of a reach's plane at `offset_m`, in the mesh's frame.
 Disc disc_of(const ChainReach& reach, const Pose& mesh, double offset_m) {
     const Pose base = inverse(mesh) * reach.base;
     Disc disc;
@@ -40,8 +40,8 @@ Disc disc_of(const ChainReach& reach, const Pose& mesh, double offset_m) {
     return disc;
 }
 
-// Long segments are clipped to near the disc: that all of `found` lies on `cut`, and what of `cut`
-// is in the disc on `found`.
+// Long segments are clipped to near the disc. True if `found` lies on `cut` and the part of `cut`
+// within the disc lies on `found`.
 bool is_same_segment(const DiscSegment& found, const DiscSegment& cut, double radius_m,
                      double same_m) {
     for (const Vec2& end : {found.a_ds, found.b_ds}) {
@@ -61,38 +61,39 @@ bool is_same_segment(const DiscSegment& found, const DiscSegment& cut, double ra
     return true;
 }
 
-// How much farther along a cut edge than across the plane what a corner's height is off goes; of
-// the two edges the more.
+// Amplification of a corner's height error along a cut edge: edge length over height difference,
+// the larger of the two cut edges, at least 1.
 double slant(const SurfaceGraph& graph, std::uint32_t triangle, const Disc& disc) {
-    double most = 1.0;
+    double max_slant = 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3& a = graph.positions[graph.triangles[triangle][i]];
         const Vec3& b = graph.positions[graph.triangles[triangle][(i + 1) % 3]];
         const double height_a = disc.normal.dot(a - disc.center);
         const double height_b = disc.normal.dot(b - disc.center);
         if ((height_a >= 0.0) != (height_b >= 0.0)) {
-            most = std::max(most, (b - a).norm() / std::abs(height_b - height_a));
+            max_slant = std::max(max_slant, (b - a).norm() / std::abs(height_b - height_a));
         }
     }
-    return most;
+    return max_slant;
 }
 
-// The triangle's corner that is nearest to the plane.
+// Distance from the plane to the nearest corner.
 double nearest_height_m(const SurfaceGraph& graph, std::uint32_t triangle, const Disc& disc) {
-    double least_m = std::numeric_limits<double>::infinity();
+    double min_m = std::numeric_limits<double>::infinity();
     for (const std::uint32_t corner : graph.triangles[triangle]) {
         const Vec3 from_center = graph.positions[corner] - disc.center;
-        least_m = std::min(least_m, std::abs(disc.normal.dot(from_center)));
+        min_m = std::min(min_m, std::abs(disc.normal.dot(from_center)));
     }
-    return least_m;
+    return min_m;
 }
 
 struct Comparison {
     int cuts = 0;
-    int friction_unconverged = 0;  // of a corner in the plane, or at the disc's edge
+    int undecided = 0;  // a corner lies in the plane, or the cut touches the disc's edge
 };
 
-// Expected: every triangle, in doubles; floats are off as if the plane were by `rounding_m`.
+// Oracle: cuts every triangle in doubles. Float rounding acts like shifting the plane by
+// `rounding_m`.
 void compare_cuts(const SurfaceGraph& graph, const Disc& disc, double rounding_m,
                   std::vector<DiscSegment> segments, Comparison& comparison) {
     std::sort(segments.begin(), segments.end(),
@@ -112,7 +113,7 @@ void compare_cuts(const SurfaceGraph& graph, const Disc& disc, double rounding_m
         }
         if (found == segments.end() || found->triangle != cut.triangle) {
             ASSERT_FALSE(is_decided(cut)) << "left out: " << cut.triangle;
-            ++comparison.friction_unconverged;
+            ++comparison.undecided;
             continue;
         }
         if (nearest_height_m(graph, cut.triangle, disc) > rounding_m) {
@@ -126,7 +127,7 @@ void compare_cuts(const SurfaceGraph& graph, const Disc& disc, double rounding_m
     }
 }
 
-TEST(ChainPatch, CutsEveryTriangleThatAPlaneMeets) {
+TEST(ChainPatch, CutsEveryTriangleThatPlaneCrosses) {
     constexpr double k_rounding_m = 2e-7;  // of coordinates below 0.2 m
     Random random(1506);
     const GripMesh mesh =
@@ -152,10 +153,10 @@ TEST(ChainPatch, CutsEveryTriangleThatAPlaneMeets) {
         }
     }
     EXPECT_GT(comparison.cuts, 2000);
-    EXPECT_LT(comparison.friction_unconverged, comparison.cuts / 1000);
+    EXPECT_LT(comparison.undecided, comparison.cuts / 1000);
 }
 
-TEST(ChainPatch, CutsOfTheFirstMeshComeFirstAndAreCounted) {
+TEST(ChainPatch, CutsOfFirstMeshComeFirstAndAreCounted) {
     const GripMesh ball = full_mesh(*test::make_wavy_ball(0.06, 16, 24));
     const GripMesh box = full_mesh(*test::make_box_mesh({0.04, 0.02, 0.03}));
     const ChainReach reach = {{}, 0.1, 0.01};
@@ -176,7 +177,7 @@ TEST(ChainPatch, CutsOfTheFirstMeshComeFirstAndAreCounted) {
     }
 }
 
-TEST(ChainPatch, AsksOnlyWhatIsInReach) {
+TEST(ChainPatch, GathersOnlyTrianglesInReach) {
     const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
     const std::vector<PlacedMesh> placed = {{&mesh, {}}};
     ChainPatch patch;
@@ -187,20 +188,19 @@ TEST(ChainPatch, AsksOnlyWhatIsInReach) {
     EXPECT_EQ(patch.size(), 0U);
 }
 
-// What lies in no box is left out, and whatever is asked within the boxes has the same answer.
-TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
+TEST(ChainPatch, BoxesDoNotChangeQueriesWithinThem) {
     Random random(1507);
     const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
     const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-    std::size_t of_all = 0;
-    std::size_t of_boxes = 0;
+    std::size_t gathered_in_all = 0;
+    std::size_t gathered_in_boxes = 0;
     for (int i = 0; i < 300; ++i) {
         ChainReach reach = random_reach(random);
         ChainPatch all;
         all.gather(reach, placed);
         const double radius_m = reach.half_width_m;
-        std::array<std::array<Vec2, 2>, 2> middles;
-        for (std::array<Vec2, 2>& centre : middles) {
+        std::array<std::array<Vec2, 2>, 2> axes;
+        for (std::array<Vec2, 2>& centre : axes) {
             centre[0] = random.vector(0.5 * reach.radius_m).head<2>();
             centre[1] = centre[0] + random.vector(0.3 * reach.radius_m).head<2>();
             ReachBox& box = reach.boxes[reach.box_count++];
@@ -209,19 +209,19 @@ TEST(ChainPatch, BoxesLeaveOutNothingThatIsAskedWithinThem) {
         }
         ChainPatch boxed;
         boxed.gather(reach, placed);
-        of_all += all.size();
-        of_boxes += boxed.size();
-        for (std::size_t box = 0; box < middles.size(); ++box) {
-            const CapsulePenetration expected = all.find_penetration(middles[box], radius_m, box);
-            const CapsulePenetration found = boxed.find_penetration(middles[box], radius_m, box);
+        gathered_in_all += all.size();
+        gathered_in_boxes += boxed.size();
+        for (std::size_t box = 0; box < axes.size(); ++box) {
+            const CapsulePenetration expected = all.find_penetration(axes[box], radius_m, box);
+            const CapsulePenetration found = boxed.find_penetration(axes[box], radius_m, box);
             EXPECT_EQ(found.depth_m, expected.depth_m);
             EXPECT_EQ(found.crossed_at, expected.crossed_at);
         }
     }
-    EXPECT_LT(of_boxes, of_all / 2);
+    EXPECT_LT(gathered_in_boxes, gathered_in_all / 2);
 }
 
-// A ring somewhere in a mesh that is as wide as a hall, its floor of a few huge triangles.
+// A torus in a mesh as wide as a hall, with a floor of two huge triangles.
 Mesh ring_in_a_hall(const Vec3& at, double half_m) {
     Mesh mesh = test::make_torus(0.08, 0.03, 60, 32);
     for (Vec3& position : mesh.positions) {
@@ -238,14 +238,14 @@ Mesh ring_in_a_hall(const Vec3& at, double half_m) {
     return mesh;
 }
 
-// What floats leave out is far wherever the mesh is. Expected: nearest_between, over all triangles.
-TEST(ChainPatch, FindsTheDeepestFarFromTheMeshsMiddleToo) {
+// Float rejection has to be safe anywhere in the mesh. Oracle: nearest_between over all triangles.
+TEST(ChainPatch, FindsDeepestFarFromMeshCentre) {
     Random random(1510);
     for (const double half_m : {0.2, 5.0, 100.0}) {
         const Vec3 at(0.9 * half_m, 0.3 * half_m, -0.8 * half_m);
         const GripMesh mesh = full_mesh(ring_in_a_hall(at, half_m));
         const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-        int sunk = 0;
+        int penetrating = 0;
         for (int i = 0; i < 200; ++i) {
             ChainReach reach = random_reach(random);
             reach.base.position += at;
@@ -266,14 +266,14 @@ TEST(ChainPatch, FindsTheDeepestFarFromTheMeshsMiddleToo) {
             }
             const CapsulePenetration found = patch.find_penetration(centre, reach.half_width_m, 0);
             ASSERT_NEAR(found.nearest_m, nearest_m, 1e-9) << half_m << ", " << i;
-            sunk += found.depth_m > 0.0 ? 1 : 0;
+            penetrating += found.depth_m > 0.0 ? 1 : 0;
         }
-        EXPECT_GT(sunk, 50) << half_m;
+        EXPECT_GT(penetrating, 50) << half_m;
     }
 }
 
-// Cuts far from a mesh's middle are off by some roundings of how far that is: 0.05 mm at 200 m.
-TEST(ChainPatch, CutsFarFromTheMeshsMiddleToo) {
+// Cut errors grow with the distance from the mesh's centre: 0.05 mm in a mesh of 200 m.
+TEST(ChainPatch, CutsFarFromMeshCentre) {
     Random random(1511);
     for (const double half_m : {0.2, 5.0, 100.0}) {
         const Vec3 at(0.9 * half_m, 0.3 * half_m, -0.8 * half_m);
@@ -296,11 +296,11 @@ TEST(ChainPatch, CutsFarFromTheMeshsMiddleToo) {
             }
         }
         EXPECT_GT(comparison.cuts, 1000) << half_m;
-        EXPECT_LT(comparison.friction_unconverged, comparison.cuts / 50) << half_m;
+        EXPECT_LT(comparison.undecided, comparison.cuts / 50) << half_m;
     }
 }
 
-// Lanes of floats that hold the boxes: a mesh's tree rounds its own outwards too.
+// Stores boxes rounded outwards, as the tree does.
 void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, Boxes4& boxes) {
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -310,9 +310,9 @@ void put_rounded(const Vec3& low, const Vec3& high, std::size_t lane, Boxes4& bo
     }
 }
 
-// A corner of the upright box lies on a face of the turned one, and all the rest of it beyond: the
-// least rounding the wrong way would take them for apart. 4 cm further they are.
-TEST(OrientedBoxTest, NeverTellsBoxesApartThatTouch) {
+// A corner of the aligned box lies on a face of the oriented one and the rest lies outside. The
+// smallest rounding in the wrong direction would reject it. Boxes 4 cm farther away are rejected.
+TEST(OrientedBoxTest, TouchingBoxesAreNeverRejected) {
     Random random(1508);
     int apart = 0;
     constexpr int k_boxes = 20000;
@@ -349,12 +349,11 @@ TEST(OrientedBoxTest, NeverTellsBoxesApartThatTouch) {
     EXPECT_EQ(apart, 3 * k_boxes);
 }
 
-// A thicker chain's depth says what the chain itself would be asked for.
-TEST(ChainDepth, OfAThickerChainHoldsThatOfTheChain) {
+TEST(ChainDepth, ThickerChainDeterminesDepthOfChain) {
     Random random(1509);
     const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
     const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-    int sunk = 0;
+    int penetrating = 0;
     for (int i = 0; i < 500; ++i) {
         HingeChain chain;
         chain.base = {random.vector(0.1), random.rotation()};
@@ -364,27 +363,27 @@ TEST(ChainDepth, OfAThickerChainHoldsThatOfTheChain) {
                                        random.between(0.0, 1.0)};
         ChainPatch patch;
         patch.gather({chain.base, reach_m(chain) + 1e-3, 0.01}, placed);
-        const ChainDepth asked = chain_depth(chain, angle_rad, patch);
+        const ChainDepth expected = chain_depth(chain, angle_rad, patch);
         const ChainDepth derived =
             own_depth(chain, chain_depth(chain, angle_rad, patch, {.extra_radius_m = 5e-4}), 3);
-        EXPECT_NEAR(derived.depth_m, asked.depth_m, 1e-15);
-        EXPECT_EQ(derived.link, asked.link);
-        // Where as much is enough, no less than that is said.
+        EXPECT_NEAR(derived.depth_m, expected.depth_m, 1e-15);
+        EXPECT_EQ(derived.link, expected.link);
+        // A query that stops at a sufficient depth reports at least that depth.
         const ChainDepth enough =
-            chain_depth(chain, angle_rad, patch, {.sufficient_depth_m = 0.5 * asked.depth_m});
-        EXPECT_GE(enough.depth_m, 0.5 * asked.depth_m);
-        EXPECT_LE(enough.depth_m, asked.depth_m);
-        sunk += asked.depth_m > 0.0 ? 1 : 0;
+            chain_depth(chain, angle_rad, patch, {.sufficient_depth_m = 0.5 * expected.depth_m});
+        EXPECT_GE(enough.depth_m, 0.5 * expected.depth_m);
+        EXPECT_LE(enough.depth_m, expected.depth_m);
+        penetrating += expected.depth_m > 0.0 ? 1 : 0;
     }
-    EXPECT_GT(sunk, 50);
+    EXPECT_GT(penetrating, 50);
 }
 
-// Asked for in any order, and for more first links than are remembered.
-TEST(ChainDepths, AreThoseOfEachPoseAlone) {
+// More poses of the first link than are cached, in any order.
+TEST(ChainDepths, EqualDepthOfEachPoseAlone) {
     Random random(1512);
     const GripMesh mesh = full_mesh(test::make_torus(0.08, 0.03, 90, 48));
     const std::vector<PlacedMesh> placed = {{&mesh, {}}};
-    int sunk = 0;
+    int penetrating = 0;
     int crossed = 0;
     for (int i = 0; i < 200; ++i) {
         HingeChain chain;
@@ -408,11 +407,11 @@ TEST(ChainDepths, AreThoseOfEachPoseAlone) {
                 ASSERT_GE(found_m, sufficient_depth_m) << i << ", " << pose;
                 ASSERT_LE(found_m, expected.depth_m) << i << ", " << pose;
             }
-            sunk += expected.depth_m > 0.0 ? 1 : 0;
+            penetrating += expected.depth_m > 0.0 ? 1 : 0;
             crossed += expected.beyond_m[0] > 0.0 ? 1 : 0;
         }
     }
-    EXPECT_GT(sunk, 500);
+    EXPECT_GT(penetrating, 500);
     EXPECT_GT(crossed, 50);
 }
 

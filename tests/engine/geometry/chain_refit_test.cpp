@@ -4,25 +4,17 @@
 
 #include "surface_cuts.hpp"
 #include "tests/engine/allocation_count.hpp"
+#include "tests/engine/geometry/three_link_chain.hpp"
 
 namespace handhold::chain_refit_test {
 namespace {
 
-constexpr double k_rad_per_deg = M_PI / 180.0;
+using test::chain_fit_settings;
+using test::three_link_chain;
+
 constexpr double k_turn_rad = 0.1;
 
-// An index finger, stretched along -Z, that curls down.
-HingeChain finger_at(const Vec3& position) {
-    HingeChain chain;
-    chain.base.position = position;
-    chain.length_m = {0.045, 0.026, 0.022};
-    chain.radius_m = {0.009, 0.008, 0.007};
-    chain.closed_rad = {75.0 * k_rad_per_deg, 105.0 * k_rad_per_deg, 75.0 * k_rad_per_deg};
-    chain.rest_rad = {20.0 * k_rad_per_deg, 30.0 * k_rad_per_deg, 15.0 * k_rad_per_deg};
-    return chain;
-}
-
-double most_turned_rad(const ChainAngles& from, const ChainAngles& to) {
+double max_turn_between(const ChainAngles& from, const ChainAngles& to) {
     double max_rad = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         max_rad = std::max(max_rad, std::abs(to[i] - from[i]));
@@ -30,20 +22,22 @@ double most_turned_rad(const ChainAngles& from, const ChainAngles& to) {
     return max_rad;
 }
 
-// A bar along x, 35 mm thick, its top at the height 0.
+// A bar along x, 35 mm thick, with its top at height 0.
 struct RefitChain : testing::Test {
     GripMesh bar = build_grip_mesh(test::make_tube(0.0175, 0.4, 48, 40));
     std::vector<PlacedMesh> meshes{{&bar, {Vec3(0.0, -0.0175, -0.03), Quat::Identity()}}};
     ChainFitScratch scratch;
 
-    ChainFit fit(const HingeChain& chain) { return fit_chain(chain, meshes, {}, {}, scratch); }
+    ChainFit fit(const HingeChain& chain) {
+        return fit_chain(chain, meshes, {}, chain_fit_settings(), scratch);
+    }
     ChainFit refit(const HingeChain& chain, const ChainAngles& last_rad,
                    double max_turn_rad = k_turn_rad) {
         ChainRefitSettings settings;
         settings.max_turn_rad = max_turn_rad;
-        return refit_chain(chain, last_rad, meshes, {}, settings, scratch);
+        return refit_chain(chain, last_rad, meshes, chain_fit_settings(), settings, scratch);
     }
-    // By the code that has an oracle of its own (FindSunk).
+    // find_penetration is itself tested against an oracle (FindPenetration).
     double depth_m(const HingeChain& chain, const ChainAngles& angle_rad) const {
         double deepest_m = 0.0;
         for (const Capsule& capsule : chain_capsules(chain, angle_rad)) {
@@ -53,8 +47,8 @@ struct RefitChain : testing::Test {
     }
 };
 
-TEST_F(RefitChain, WhatStillTouchesStays) {
-    const HingeChain chain = finger_at({0.0, 0.015, 0.0});
+TEST_F(RefitChain, ChainInContactStays) {
+    const HingeChain chain = three_link_chain(Vec3{0.0, 0.015, 0.0});
     const ChainFit first = fit(chain);
     ASSERT_NE(first.contact_link, DiscClosure::k_none);
     HingeChain moved = chain;
@@ -64,8 +58,8 @@ TEST_F(RefitChain, WhatStillTouchesStays) {
     EXPECT_NE(kept.contact_link, DiscClosure::k_none);
 }
 
-TEST_F(RefitChain, FollowsASurfaceWithoutSinkingOrLeavingIt) {
-    HingeChain chain = finger_at({0.0, 0.017, 0.0});
+TEST_F(RefitChain, FollowsSurfaceWithoutPenetratingOrLosingContact) {
+    HingeChain chain = three_link_chain(Vec3{0.0, 0.017, 0.0});
     ChainAngles angle_rad = fit(chain).angle_rad;
     for (int step = 0; step < 200; ++step) {
         chain.base.position.y() = 0.017 + 0.006 * std::sin(0.1 * step);
@@ -74,13 +68,13 @@ TEST_F(RefitChain, FollowsASurfaceWithoutSinkingOrLeavingIt) {
         const double depth = depth_m(chain, kept.angle_rad);
         EXPECT_LE(depth, 8e-4) << "step " << step;
         EXPECT_NE(kept.contact_link, DiscClosure::k_none) << "step " << step;
-        EXPECT_LE(most_turned_rad(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
+        EXPECT_LE(max_turn_between(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
         angle_rad = kept.angle_rad;
     }
 }
 
-TEST_F(RefitChain, OpensOutOfWhatItIsSunkIn) {
-    HingeChain chain = finger_at({0.0, 0.02, 0.0});
+TEST_F(RefitChain, OpensUntilClear) {
+    HingeChain chain = three_link_chain(Vec3{0.0, 0.02, 0.0});
     const ChainAngles before = fit(chain).angle_rad;
     chain.base.position.y() -= 0.002;
     ASSERT_GT(depth_m(chain, before), 1e-3);
@@ -89,31 +83,31 @@ TEST_F(RefitChain, OpensOutOfWhatItIsSunkIn) {
     EXPECT_LT(kept.angle_rad[0], before[0]);
 }
 
-TEST_F(RefitChain, SaysThatItStaysSunkWhereOpeningALittleDoesNotDo) {
-    HingeChain chain = finger_at({0.0, 0.02, 0.0});
+TEST_F(RefitChain, ReportsDepthThatOpeningCannotRemove) {
+    HingeChain chain = three_link_chain(Vec3{0.0, 0.02, 0.0});
     const ChainAngles before = fit(chain).angle_rad;
-    chain.base.position.y() -= 0.025;  // its first link goes into the bar, however far it opens
+    chain.base.position.y() -= 0.025;  // the first link penetrates the bar however far it opens
     EXPECT_GT(refit(chain, before).depth_m, 8e-4);
 }
 
-TEST_F(RefitChain, ClosesStepByStepOnWhatIsFarAndIsRelaxedStepByStepWhereNothingIs) {
-    const HingeChain chain = finger_at({0.0, 0.015, 0.0});
+TEST_F(RefitChain, ClosesAndReturnsToRestWithinTurnLimit) {
+    const HingeChain chain = three_link_chain(Vec3{0.0, 0.015, 0.0});
     const ChainFit first = fit(chain);
     ChainAngles angle_rad = chain.open_rad;
     int steps = 0;
     for (bool is_turn_limited = true; is_turn_limited && steps < 100; ++steps) {
         const ChainFit kept = refit(chain, angle_rad);
-        EXPECT_LE(most_turned_rad(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
+        EXPECT_LE(max_turn_between(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
         is_turn_limited = kept.is_turn_limited;
         angle_rad = kept.angle_rad;
     }
     EXPECT_GT(steps, 3);
-    EXPECT_LT(most_turned_rad(angle_rad, first.angle_rad), 0.05);  // as if closed at once
+    EXPECT_LT(max_turn_between(angle_rad, first.angle_rad), 0.05);  // as if closed in one step
     meshes.front().pose.position.y() -= 1.0;
     for (steps = 0; angle_rad != chain.rest_rad && steps < 100; ++steps) {
         const ChainFit kept = refit(chain, angle_rad);
         EXPECT_EQ(kept.fallback, ChainFallback::rest_pose);
-        EXPECT_LE(most_turned_rad(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
+        EXPECT_LE(max_turn_between(angle_rad, kept.angle_rad), k_turn_rad + 1e-9);
         angle_rad = kept.angle_rad;
     }
     EXPECT_GT(steps, 1);
@@ -122,11 +116,11 @@ TEST_F(RefitChain, ClosesStepByStepOnWhatIsFarAndIsRelaxedStepByStepWhereNothing
 
 TEST_F(RefitChain, AllocatesNothingOnceWarm) {
     if (!counts_allocations()) {
-        GTEST_SKIP() << "the sanitizers bring operators of their own";
+        GTEST_SKIP() << "sanitizers replace operator new";
     }
     std::size_t before = 0;
     for (int round = 0; round < 2; ++round) {
-        HingeChain chain = finger_at({0.0, 0.015, 0.0});
+        HingeChain chain = three_link_chain(Vec3{0.0, 0.015, 0.0});
         ChainAngles angle_rad = fit(chain).angle_rad;
         before = allocation_count();
         for (int step = 0; step < 100; ++step) {

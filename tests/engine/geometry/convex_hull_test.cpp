@@ -12,19 +12,19 @@
 #include "tests/engine/collision/scene.hpp"
 #include "tests/places.hpp"
 
-// The oracle is what a hull is: no given point outside of it, every corner a given point, and a
-// surface that closes.
+// Oracle: the definition of a hull. No point is outside, every corner is an input point, and the
+// surface is closed.
 namespace handhold::convex_hull_test {
 namespace {
 
 using test::Random;
 
 double outside_m(const ConvexHull& hull, const Vec3& point) {
-    double most = -1e9;
+    double max_m = -1e9;
     for (const HullFace& face : hull.faces) {
-        most = std::max(most, face.normal.dot(point) - face.offset_m);
+        max_m = std::max(max_m, face.normal.dot(point) - face.offset_m);
     }
-    return most;
+    return max_m;
 }
 
 void expect_hull(const ConvexHull& hull, const std::vector<Vec3>& points) {
@@ -52,11 +52,11 @@ void expect_hull(const ConvexHull& hull, const std::vector<Vec3>& points) {
     for (const auto& [edge, count] : edges) {
         ASSERT_EQ(count, 0) << edge.first << " to " << edge.second;
     }
-    // Euler's formula for what is a ball's surface.
+    // Euler's formula for a sphere's topology.
     ASSERT_EQ(hull.corners.size() + hull.faces.size(), edges.size() / 2 + 2);
 }
 
-TEST(ConvexHull, HoldsAllPointsAndCloses) {
+TEST(ConvexHull, ContainsAllPointsAndIsWatertight) {
     Random random(71);
     for (int round = 0; round < 300; ++round) {
         std::vector<Vec3> points(static_cast<std::size_t>(random.between(4.0, 60.0)));
@@ -70,7 +70,7 @@ TEST(ConvexHull, HoldsAllPointsAndCloses) {
     }
 }
 
-TEST(ConvexHull, OfABoxFullOfPointsIsEightCornersAndSixFaces) {
+TEST(ConvexHull, FilledBoxGivesEightCornersAndSixFaces) {
     Random random(72);
     for (int round = 0; round < 50; ++round) {
         const Vec3 half(random.between(0.01, 2.0), random.between(0.01, 2.0),
@@ -102,7 +102,7 @@ TEST(ConvexHull, OfABoxFullOfPointsIsEightCornersAndSixFaces) {
     }
 }
 
-TEST(ConvexHull, DoesNotDependOnTheOrderOfThePoints) {
+TEST(ConvexHull, IndependentOfPointOrder) {
     Random random(73);
     std::vector<Vec3> points(500);
     for (Vec3& point : points) {
@@ -120,7 +120,7 @@ TEST(ConvexHull, DoesNotDependOnTheOrderOfThePoints) {
     }
 }
 
-TEST(ConvexHull, OfTooManyPointsSaysWhatItLeavesOut) {
+TEST(ConvexHull, ReportsOmittedDistanceBeyondCornerLimit) {
     Random random(74);
     std::vector<Vec3> points(3000);
     for (Vec3& point : points) {
@@ -130,16 +130,17 @@ TEST(ConvexHull, OfTooManyPointsSaysWhatItLeavesOut) {
     ASSERT_TRUE(hull.has_value());
     EXPECT_EQ(hull->corners.size(), k_max_hull_corners);
     expect_hull(*hull, points);
-    double most = 0.0;
+    double max_m = 0.0;
     for (const Vec3& point : points) {
-        most = std::max(most, outside_m(*hull, point));
+        max_m = std::max(max_m, outside_m(*hull, point));
     }
-    EXPECT_NEAR(hull->omitted_m, most, 1e-5);
-    // Caps between 64 well spread points of a unit sphere: each takes 4 pi / 124 of its area or so.
-    EXPECT_LT(most, 0.1);
+    EXPECT_NEAR(hull->omitted_m, max_m, 1e-5);
+    // 64 well-spread points on a unit sphere: the caps between them have about 4 pi / 124 of its
+    // area.
+    EXPECT_LT(max_m, 0.1);
 }
 
-TEST(ConvexHull, RefusesWhatHasNoVolume) {
+TEST(ConvexHull, RejectsPointsWithoutVolume) {
     Random random(75);
     std::vector<Vec3> points;
     EXPECT_FALSE(make_convex_hull(points));
@@ -153,14 +154,14 @@ TEST(ConvexHull, RefusesWhatHasNoVolume) {
     EXPECT_FALSE(make_convex_hull(std::vector<Vec3>(10, Vec3::UnitX())));
 }
 
-TEST(ConvexHull, SurvivesPointsThatAreNearlyInOnePlaneOrLine) {
+TEST(ConvexHull, HandlesNearlyCoplanarAndCollinearPoints) {
     Random random(76);
     for (int round = 0; round < 400; ++round) {
         const double flatness = std::pow(10.0, random.between(-8.0, -2.0));
         const double noise = std::pow(10.0, random.between(-9.0, -5.0));
         const Quat turn = random.rotation();
         std::vector<Vec3> points;
-        for (int i = 0; i < 80; ++i) {  // a thin grid whose points are a little off
+        for (int i = 0; i < 80; ++i) {  // a thin grid with noise
             const Vec3 grid(i % 4, i / 4 % 4, (i / 16 % 5) * flatness);
             points.push_back(turn * Vec3(grid + random.vector(noise)));
         }
@@ -175,7 +176,7 @@ TEST(ConvexHull, SurvivesPointsThatAreNearlyInOnePlaneOrLine) {
     }
 }
 
-TEST(ConvexHull, OfRealObjectsHoldsThem) {
+TEST(ConvexHull, ContainsRealObjects) {
     const std::filesystem::path folder = data_dir() / "objects";
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no object data";

@@ -8,7 +8,7 @@
 #include "engine/io/gltf.hpp"
 #include "tests/places.hpp"
 
-// Real meshes for the geometry tests: every part of a file as one mesh.
+// Real meshes for the geometry tests: all parts of a file merged.
 namespace handhold::test {
 
 inline std::vector<std::filesystem::path> data_files(const char* folder) {
@@ -25,7 +25,7 @@ inline std::vector<std::filesystem::path> data_files(const char* folder) {
     return files;
 }
 
-// Empty where the loader refuses the file.
+// Empty if the loader rejects the file.
 inline Mesh load_whole(const std::filesystem::path& path) {
     Mesh whole;
     const Result<GltfLevel> level = load_gltf_level(path);

@@ -15,16 +15,17 @@ namespace {
 using test::ClosingOracle;
 using test::Random;
 
-constexpr double k_promised_m = 5e-5;  // disc_contact.hpp: contacts are found within 0.05 mm
+constexpr double k_tolerance_m = 5e-5;  // disc_contact.hpp: each contact is found within 0.05 mm
 
 int case_count() {
     const char* const text = std::getenv("HANDHOLD_CHAIN_CASES");
     return text != nullptr ? std::atoi(text) : 20000;
 }
 
-// One hinge, its link a stadium about the origin: every angle at which it just touches, in closed
-// form. By a corner of the segment: on the link's side, or on the round about its end; by the
-// segment's inside: on that round. Angles at which something else is in the way too are no touch.
+// All angles at which a one-link chain (a stadium about the origin) just touches the segment, in
+// closed form. A corner of the segment touches the link's side or its round end; the segment's
+// interior touches the round end. Drops angles at which another part overlaps. Returns the first
+// touch as a closing fraction.
 std::optional<double> first_touch_of_one_hinge(const DiscChain& chain, const DiscSegment& segment) {
     const double length_m = chain.length_m[0];
     const double radius_m = chain.radius_m[segment.plane][0];
@@ -52,10 +53,10 @@ std::optional<double> first_touch_of_one_hinge(const DiscChain& chain, const Dis
                   (normal.dot(segment.a_ds) + side * radius_m) / length_m);
     }
     std::optional<double> first;
-    const double way_rad = chain.closed_rad[0] - chain.open_rad[0];
+    const double range_rad = chain.closed_rad[0] - chain.open_rad[0];
     for (const double angle : angles) {
         for (const double whole_turn : {-2.0 * M_PI, 0.0, 2.0 * M_PI}) {
-            const double at = (angle + whole_turn - chain.open_rad[0]) / way_rad;
+            const double at = (angle + whole_turn - chain.open_rad[0]) / range_rad;
             const ClosingOracle oracle{chain};
             if (at > 0.0 && at <= 1.0 && at < first.value_or(2.0) &&
                 std::abs(oracle.separation_m(0, segment, at)) < 1e-9) {
@@ -67,17 +68,17 @@ std::optional<double> first_touch_of_one_hinge(const DiscChain& chain, const Dis
 }
 
 struct Tally {
-    double worst_sunk_m = 0.0;     // of a link in a segment on the way
-    double worst_early_m = 0.0;    // between a link and what is said to have stopped it
-    double worst_tip_m = 0.0;      // of the end of the link that was stopped, where contact is firm
-    double worst_any_tip_m = 0.0;  // the same, contact firm or not
+    double worst_depth_m = 0.0;    // of a link in a segment during the motion
+    double worst_early_m = 0.0;    // gap between a link and the segment that stopped it
+    double worst_tip_m = 0.0;      // error of the stopped link's end, firm contacts only
+    double worst_any_tip_m = 0.0;  // the same for all contacts
     int firm = 0;
     int contacts = 0;
     int far_tips = 0;
     int missed = 0;
 };
 
-// Steps from `from` to `to`, and halves the step in which a link comes nearer than `gap_m`.
+// Steps from `from` to `to` and bisects the first step in which a link comes nearer than `gap_m`.
 std::optional<double> first_nearer(const ClosingOracle& oracle,
                                    std::span<const DiscSegment> segments, double from, double to,
                                    double gap_m) {
@@ -85,10 +86,10 @@ std::optional<double> first_nearer(const ClosingOracle& oracle,
     double before = from;
     for (int i = 1; i <= k_steps; ++i) {
         double after = from + (to - from) * i / k_steps;
-        if (oracle.least_separation_m(segments, after) < gap_m) {
+        if (oracle.min_separation_m(segments, after) < gap_m) {
             for (int halving = 0; halving < 50; ++halving) {
                 const double middle = 0.5 * (before + after);
-                (oracle.least_separation_m(segments, middle) < gap_m ? after : before) = middle;
+                (oracle.min_separation_m(segments, middle) < gap_m ? after : before) = middle;
             }
             return after;
         }
@@ -97,19 +98,19 @@ std::optional<double> first_nearer(const ClosingOracle& oracle,
     return std::nullopt;
 }
 
-// How fast the nearest link comes nearer, as a share of how fast the link's end moves.
+// Approach speed of the nearest link relative to the speed of the link's end.
 double firmness(const ClosingOracle& oracle, std::span<const DiscSegment> segments,
                 std::size_t link, double at) {
     constexpr double k_step = 1e-6;
     const double approach_m =
-        oracle.least_separation_m(segments, at - k_step) - oracle.least_separation_m(segments, at);
-    const Vec2 way = oracle.points_at(at)[link + 1] - oracle.points_at(at - k_step)[link + 1];
-    return approach_m / way.norm();
+        oracle.min_separation_m(segments, at - k_step) - oracle.min_separation_m(segments, at);
+    const Vec2 motion = oracle.points_at(at)[link + 1] - oracle.points_at(at - k_step)[link + 1];
+    return approach_m / motion.norm();
 }
 
-// The end of the stopped link against where the oracle stops it. A contact is firm where the link
-// comes towards what stops it at least half as fast as its end moves: what only grazes has no sharp
-// angle, a rounding error decides whether it touches.
+// Compares the end of the stopped link with the oracle's. A contact is firm if the approach speed
+// is at least half the end's speed. A grazing contact has no sharp angle: a rounding error decides
+// whether it touches.
 void compare_tips(const ClosingOracle& oracle, std::span<const DiscSegment> segments,
                   std::size_t link, double at, double from, Tally& tally) {
     const auto exact = first_nearer(oracle, segments, from, 1.0, 0.0);
@@ -119,18 +120,18 @@ void compare_tips(const ClosingOracle& oracle, std::span<const DiscSegment> segm
     const double tip_m =
         (oracle.points_at(at)[link + 1] - oracle.points_at(*exact)[link + 1]).norm();
     ++tally.contacts;
-    tally.far_tips += tip_m > k_promised_m ? 1 : 0;
+    tally.far_tips += tip_m > k_tolerance_m ? 1 : 0;
     tally.worst_any_tip_m = std::max(tally.worst_any_tip_m, tip_m);
-    constexpr double k_firm = 0.5;
-    if (firmness(oracle, segments, link, at) > k_firm &&
-        firmness(oracle, segments, link, *exact) > k_firm) {
+    constexpr double k_firm_share = 0.5;
+    if (firmness(oracle, segments, link, at) > k_firm_share &&
+        firmness(oracle, segments, link, *exact) > k_firm_share) {
         ++tally.firm;
         tally.worst_tip_m = std::max(tally.worst_tip_m, tip_m);
     }
 }
 
-// Goes the way that the closure says, stop by stop. Where a link overlaps at the beginning of a
-// stretch (the next link at a joint that has just touched) that segment is left out for it.
+// Replays the closure stop by stop. A segment that overlaps a link at the beginning of an interval
+// (the next link at a hinge that just touched) is left out there.
 void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
             const DiscClosure& closure, Tally& tally) {
     ClosingOracle oracle{chain};
@@ -147,13 +148,13 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
                                   : 1.0;
         std::vector<DiscSegment> clear;
         for (const DiscSegment& segment : segments) {
-            if (oracle.least_separation_m({&segment, 1}, from) > 2.0 * k_promised_m) {
+            if (oracle.min_separation_m({&segment, 1}, from) > 2.0 * k_tolerance_m) {
                 clear.push_back(segment);
             }
         }
-        const auto sunk = first_nearer(oracle, clear, from, at, -k_promised_m);
-        tally.missed += sunk ? 1 : 0;
-        tally.worst_sunk_m = std::max(tally.worst_sunk_m, -oracle.least_separation_m(clear, at));
+        const auto penetrating = first_nearer(oracle, clear, from, at, -k_tolerance_m);
+        tally.missed += penetrating ? 1 : 0;
+        tally.worst_depth_m = std::max(tally.worst_depth_m, -oracle.min_separation_m(clear, at));
         if (touches) {
             double gap_m = std::numeric_limits<double>::infinity();
             for (const DiscSegment& segment : segments) {
@@ -166,7 +167,7 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
         }
         const std::size_t last = touches ? stopped : chain.link_count - 1;
         for (std::size_t i = oracle.first_free_hinge; i <= last; ++i) {
-            oracle.kept_rad[i] = closure.angle_rad[i];
+            oracle.frozen_rad[i] = closure.angle_rad[i];
             EXPECT_NEAR(closure.angle_rad[i],
                         chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]), 1e-12);
         }
@@ -175,7 +176,7 @@ void replay(const DiscChain& chain, std::span<const DiscSegment> segments,
     }
 }
 
-TEST(DiscDistance, IsTheClosedFormWithinHalfAMicrometre) {
+TEST(DiscDistance, MatchesClosedFormWithinHalfMicrometre) {
     Random random(1401);
     for (int i = 0; i < 20000; ++i) {
         const auto point = [&] {
@@ -192,7 +193,7 @@ TEST(DiscDistance, IsTheClosedFormWithinHalfAMicrometre) {
     }
 }
 
-TEST(CloseChain, OneHingeStopsAtTheClosedFormsAngle) {
+TEST(CloseChain, SingleHingeStopsAtClosedFormAngle) {
     Random random(1402);
     int contacts = 0;
     int firm = 0;
@@ -200,7 +201,7 @@ TEST(CloseChain, OneHingeStopsAtTheClosedFormsAngle) {
         DiscChain chain = test::random_chain(random);
         chain.link_count = 1;
         const DiscSegment segment =
-            test::random_clear_segments(chain, 2.0 * k_promised_m, random).front();
+            test::random_clear_segments(chain, 2.0 * k_tolerance_m, random).front();
         if (chain.radius_m[segment.plane][0] < 0.0) {
             continue;
         }
@@ -210,52 +211,52 @@ TEST(CloseChain, OneHingeStopsAtTheClosedFormsAngle) {
         const double at =
             (closure.angle_rad[0] - chain.open_rad[0]) / (chain.closed_rad[0] - chain.open_rad[0]);
         const ClosingOracle oracle{chain};
-        ASSERT_GT(oracle.separation_m(0, segment, at), -k_promised_m) << "case " << i;
+        ASSERT_GT(oracle.separation_m(0, segment, at), -k_tolerance_m) << "case " << i;
         if (closure.contact_link == DiscClosure::k_none) {
-            // What only grazes, less deep than promised, may pass.
+            // A grazing contact shallower than the tolerance may be missed.
             const double deepest_at = std::min(exact.value_or(1.0) + 1e-3, 1.0);
-            ASSERT_TRUE(!exact || oracle.separation_m(0, segment, deepest_at) > -k_promised_m)
+            ASSERT_TRUE(!exact || oracle.separation_m(0, segment, deepest_at) > -k_tolerance_m)
                 << "case " << i << " is to touch at " << *exact;
             continue;
         }
         ++contacts;
-        ASSERT_LT(oracle.separation_m(0, segment, at), k_promised_m) << "case " << i;
+        ASSERT_LT(oracle.separation_m(0, segment, at), k_tolerance_m) << "case " << i;
         const Vec2 tip = oracle.points_at(at)[1];
         const double exact_at = exact.value_or(at);
         const double rise = oracle.separation_m(0, segment, exact_at - 1e-6) / 1e-6;
         const double speed = chain.length_m[0] * (chain.closed_rad[0] - chain.open_rad[0]);
         if (rise > 0.5 * speed) {
             ++firm;
-            ASSERT_LT((tip - oracle.points_at(exact_at)[1]).norm(), k_promised_m) << "case " << i;
+            ASSERT_LT((tip - oracle.points_at(exact_at)[1]).norm(), k_tolerance_m) << "case " << i;
         }
     }
     EXPECT_GT(contacts, case_count() / 50);
     EXPECT_GT(firm, contacts / 2);
 }
 
-TEST(CloseChain, StopsWhereSmallStepsAndHalvingStopAndMissesNothing) {
+TEST(CloseChain, StopsWhereBisectionStopsAndMissesNoContact) {
     Random random(1403);
     Tally tally;
     DiscScratch scratch;
     for (int i = 0; i < case_count(); ++i) {
         const DiscChain chain = test::random_chain(random);
-        const auto segments = test::random_clear_segments(chain, 2.0 * k_promised_m, random);
+        const auto segments = test::random_clear_segments(chain, 2.0 * k_tolerance_m, random);
         replay(chain, segments, close_chain(chain, segments, {}, scratch), tally);
     }
     std::cout << "contacts " << tally.contacts << ", firm " << tally.firm << ", tips off by more "
               << "than 0.05 mm " << tally.far_tips << ", worst " << 1e3 * tally.worst_any_tip_m
-              << " mm; firm ones " << 1e3 * tally.worst_tip_m << " mm; sunk "
-              << 1e3 * tally.worst_sunk_m << " mm, early " << 1e3 * tally.worst_early_m
+              << " mm; firm ones " << 1e3 * tally.worst_tip_m << " mm; penetrating "
+              << 1e3 * tally.worst_depth_m << " mm, early " << 1e3 * tally.worst_early_m
               << " mm, missed " << tally.missed << "\n";
     RecordProperty("worst_tip_mm", std::to_string(1e3 * tally.worst_tip_m));
     EXPECT_GT(tally.firm, case_count() / 4);
     EXPECT_EQ(tally.missed, 0);
-    EXPECT_LT(tally.worst_sunk_m, k_promised_m);
-    EXPECT_LT(tally.worst_early_m, k_promised_m);
-    EXPECT_LT(tally.worst_tip_m, k_promised_m);
+    EXPECT_LT(tally.worst_depth_m, k_tolerance_m);
+    EXPECT_LT(tally.worst_early_m, k_tolerance_m);
+    EXPECT_LT(tally.worst_tip_m, k_tolerance_m);
 }
 
-TEST(CloseChain, OrderOfSegmentsDoesNotMatter) {
+TEST(CloseChain, IndependentOfSegmentOrder) {
     Random random(1404);
     DiscScratch scratch;
     for (int i = 0; i < 2000; ++i) {
@@ -270,7 +271,7 @@ TEST(CloseChain, OrderOfSegmentsDoesNotMatter) {
     }
 }
 
-// One link of 10 cm, 1 cm thick, that turns from +X to +Y.
+// One link, 10 cm long and of 1 cm radius, that turns from +X to +Y.
 DiscChain quarter_turn() {
     DiscChain chain;
     chain.link_count = 1;
@@ -282,7 +283,7 @@ DiscChain quarter_turn() {
     return chain;
 }
 
-TEST(CloseChain, LetsGoWhatOverlapsAndComesApart) {
+TEST(CloseChain, IgnoresOverlapThatMovesApart) {
     const DiscChain chain = quarter_turn();
     const std::vector<DiscSegment> below = {{{0.03, -0.006}, {0.09, -0.006}, 0, 7}};
     DiscScratch scratch;
@@ -292,8 +293,8 @@ TEST(CloseChain, LetsGoWhatOverlapsAndComesApart) {
     EXPECT_DOUBLE_EQ(closure.angle_rad[0], M_PI / 2.0);
 }
 
-// Whether what overlaps gets deeper is looked at 64 times on the way: between, it may by a little.
-TEST(CloseChain, WhatOverlapsIsLetGoOnlyAsLongAsItDoesNotGetDeeper) {
+// Deepening is checked in 64 steps of the closing, so that it may deepen slightly in between.
+TEST(CloseChain, IgnoresOverlapOnlyWhileItDoesNotDeepen) {
     Random random(1406);
     DiscScratch scratch;
     double worst_m = 0.0;
@@ -302,7 +303,7 @@ TEST(CloseChain, WhatOverlapsIsLetGoOnlyAsLongAsItDoesNotGetDeeper) {
         const DiscChain chain = test::random_chain(random);
         const DiscSegment segment = test::random_segment(random);
         const ClosingOracle oracle{chain};
-        const double before_m = oracle.least_separation_m({&segment, 1}, 0.0);
+        const double before_m = oracle.min_separation_m({&segment, 1}, 0.0);
         if (before_m > -2e-4 || before_m < -4e-3) {
             continue;
         }
@@ -311,15 +312,15 @@ TEST(CloseChain, WhatOverlapsIsLetGoOnlyAsLongAsItDoesNotGetDeeper) {
         const double stop =
             (closure.angle_rad[0] - chain.open_rad[0]) / (chain.closed_rad[0] - chain.open_rad[0]);
         for (int i = 0; i <= 400; ++i) {
-            const double least_m = oracle.separation_m(0, segment, stop * i / 400.0);
+            const double min_m = oracle.separation_m(0, segment, stop * i / 400.0);
             const double first_m = oracle.separation_m(0, segment, 0.0);
-            worst_m = std::max(worst_m, std::min(first_m, 0.0) - least_m);
+            worst_m = std::max(worst_m, std::min(first_m, 0.0) - min_m);
         }
     }
     EXPECT_LT(worst_m, 3e-4);
 }
 
-TEST(CloseChain, StopsAtWhatOverlapsAndGetsDeeper) {
+TEST(CloseChain, StopsAtOverlapThatDeepens) {
     const DiscChain chain = quarter_turn();
     const std::vector<DiscSegment> above = {{{0.03, 0.006}, {0.09, 0.006}, 0, 7}};
     DiscScratch scratch;
@@ -329,23 +330,23 @@ TEST(CloseChain, StopsAtWhatOverlapsAndGetsDeeper) {
     EXPECT_EQ(closure.angle_rad[0], 0.0);
 }
 
-TEST(CloseChain, WhatWasLetGoStopsTheChainWhenItComesBack) {
-    // The link turns the whole way round, out of the segment below and into it from the other side:
-    // its end touches it again where the line's near end is 1 cm off the link's other side.
+TEST(CloseChain, IgnoredSegmentStopsChainOnceItHasSeparated) {
+    // The link turns almost a full circle: out of the segment below it, and into it again from the
+    // other side.
     DiscChain chain = quarter_turn();
     chain.closed_rad = {6.2};
     const std::vector<DiscSegment> below = {{{0.05, -0.009}, {0.05, -0.03}, 0, 7}};
     DiscScratch scratch;
     const DiscClosure closure = close_chain(chain, below, {}, scratch);
     EXPECT_EQ(closure.contact_link, 0);
-    // Its first touch from that side is with the corner farthest back: (0.05, -0.03).
+    // From that side it first touches the far corner (0.05, -0.03).
     const double far_m = std::hypot(0.05, 0.03);
     const double exact = 2.0 * M_PI - std::atan2(0.03, 0.05) - std::asin(0.01 / far_m);
-    EXPECT_NEAR(0.1 * closure.angle_rad[0], 0.1 * exact, k_promised_m);
+    EXPECT_NEAR(0.1 * closure.angle_rad[0], 0.1 * exact, k_tolerance_m);
 }
 
-TEST(CloseChain, LinksBeyondTheFirstContactGoOn) {
-    // Two links; a wall stops the first at 45 degrees, the second closes as if nothing was.
+TEST(CloseChain, LinksBeyondFirstContactGoOnClosing) {
+    // A wall stops the first of two links at 45 degrees; the second closes unhindered.
     DiscChain chain = quarter_turn();
     chain.link_count = 2;
     chain.length_m = {0.05, 0.03};
@@ -353,18 +354,18 @@ TEST(CloseChain, LinksBeyondTheFirstContactGoOn) {
         radius_m = {0.008, 0.006};
     }
     chain.closed_rad = {M_PI / 2.0, M_PI / 2.0};
-    // The corner that the first link's side comes to at 45 degrees.
+    // Point that the first link's side reaches at 45 degrees.
     const Vec2 side(-std::sqrt(0.5), std::sqrt(0.5));
     const Vec2 corner = 0.03 * Vec2(std::sqrt(0.5), std::sqrt(0.5)) + 0.008 * side;
     const std::vector<DiscSegment> wall = {{corner, corner + 0.02 * side, 1, 3}};
     DiscScratch scratch;
     const DiscClosure closure = close_chain(chain, wall, {}, scratch);
     EXPECT_EQ(closure.touching, 1U);
-    EXPECT_NEAR(0.05 * closure.angle_rad[0], 0.05 * M_PI / 4.0, k_promised_m);
+    EXPECT_NEAR(0.05 * closure.angle_rad[0], 0.05 * M_PI / 4.0, k_tolerance_m);
     EXPECT_DOUBLE_EQ(closure.angle_rad[1], M_PI / 2.0);
 }
 
-TEST(CloseChain, APlaneThatMissesALinkDoesNotStopIt) {
+TEST(CloseChain, PlaneThatMissesLinkDoesNotStopIt) {
     DiscChain chain = quarter_turn();
     chain.radius_m[2][0] = -1.0;
     const std::vector<DiscSegment> wall = {{{-0.02, 0.05}, {0.2, 0.05}, 2, 0}};
@@ -372,7 +373,7 @@ TEST(CloseChain, APlaneThatMissesALinkDoesNotStopIt) {
     EXPECT_EQ(close_chain(chain, wall, {}, scratch).contact_link, DiscClosure::k_none);
 }
 
-TEST(CloseChain, EndsWhereItsSweepEnds) {
+TEST(CloseChain, EndsAtEndOfSweep) {
     DiscScratch scratch;
     const DiscClosure closure = close_chain(quarter_turn(), {}, {0.25, 0.5}, scratch);
     EXPECT_DOUBLE_EQ(closure.angle_rad[0], M_PI / 4.0);

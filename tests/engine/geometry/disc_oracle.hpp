@@ -8,8 +8,8 @@
 #include "engine/geometry/disc_contact.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// Distances in the plane in closed form, in double precision, and chains replayed in small steps:
-// nothing of the code under test.
+// Closed-form planar distances in doubles, and chains replayed in small steps. Independent of the
+// code under test.
 namespace handhold::test {
 
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -21,7 +21,7 @@ inline double point_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) 
     return (point - a - t * along).norm();
 }
 
-// Zero where they cross; else one of the four ends is nearest.
+// Zero if they cross; otherwise attained at one of the four ends.
 inline double exact_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, const Vec2& b1) {
     const bool b_on_both_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0) < 0.0;
     const bool a_on_both_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0) < 0.0;
@@ -32,10 +32,10 @@ inline double exact_distance(const Vec2& a0, const Vec2& a1, const Vec2& b0, con
                      point_to_segment(b0, a0, a1), point_to_segment(b1, a0, a1)});
 }
 
-// A chain on its way: hinges before first_free_hinge stay, the others go on together.
+// A closing chain: hinges before first_free_hinge are frozen, the others turn together.
 struct ClosingOracle {
     const DiscChain& chain;
-    std::array<double, k_max_disc_links> kept_rad = {};
+    std::array<double, k_max_disc_links> frozen_rad = {};
     std::size_t first_free_hinge = 0;
 
     std::array<Vec2, k_max_disc_links + 1> points_at(double at) const {
@@ -44,14 +44,14 @@ struct ClosingOracle {
         double angle = 0.0;
         for (std::size_t i = 0; i < chain.link_count; ++i) {
             angle += i < first_free_hinge
-                         ? kept_rad[i]
+                         ? frozen_rad[i]
                          : chain.open_rad[i] + at * (chain.closed_rad[i] - chain.open_rad[i]);
             points[i + 1] = points[i] + chain.length_m[i] * Vec2(std::cos(angle), std::sin(angle));
         }
         return points;
     }
 
-    // Infinite where the plane misses the link.
+    // Infinite if the plane misses the link.
     double separation_m(std::size_t link, const DiscSegment& segment, double at) const {
         const double radius_m = chain.radius_m[segment.plane][link];
         if (radius_m < 0.0) {
@@ -62,14 +62,14 @@ struct ClosingOracle {
                radius_m;
     }
 
-    double least_separation_m(std::span<const DiscSegment> segments, double at) const {
-        double least = std::numeric_limits<double>::infinity();
+    double min_separation_m(std::span<const DiscSegment> segments, double at) const {
+        double min_m = std::numeric_limits<double>::infinity();
         for (std::size_t link = first_free_hinge; link < chain.link_count; ++link) {
             for (const DiscSegment& segment : segments) {
-                least = std::min(least, separation_m(link, segment, at));
+                min_m = std::min(min_m, separation_m(link, segment, at));
             }
         }
-        return least;
+        return min_m;
     }
 };
 
@@ -88,7 +88,7 @@ inline DiscChain random_chain(Random& random) {
     return chain;
 }
 
-// Anywhere in reach, from slivers of a tenth of a millimetre to 6 cm.
+// Anywhere in reach, 0.1 mm to 6 cm long.
 inline DiscSegment random_segment(Random& random) {
     const double turn = random.between(-3.14159, 3.14159);
     const double length_m = 1e-4 * std::pow(600.0, random.between(0.0, 1.0));
@@ -99,7 +99,7 @@ inline DiscSegment random_segment(Random& random) {
     return segment;
 }
 
-// None of them nearer to the open chain than clear_m.
+// Segments that keep clear_m from the open chain.
 inline std::vector<DiscSegment> random_clear_segments(const DiscChain& chain, double clear_m,
                                                       Random& random) {
     const ClosingOracle open{chain};
@@ -107,7 +107,7 @@ inline std::vector<DiscSegment> random_clear_segments(const DiscChain& chain, do
     const double count = random.between(1.0, 9.0);
     while (static_cast<double>(segments.size()) < count) {
         const DiscSegment segment = random_segment(random);
-        if (open.least_separation_m({&segment, 1}, 0.0) > clear_m) {
+        if (open.min_separation_m({&segment, 1}, 0.0) > clear_m) {
             segments.push_back(segment);
         }
     }

@@ -15,7 +15,7 @@ namespace {
 using test::cut_by_hand;
 using test::Random;
 
-constexpr double k_straight_m = 2.5e-4;  // disc_trace.hpp: corners this near to a line are left out
+constexpr double k_straight_m = 2.5e-4;  // disc_trace.hpp: simplification tolerance
 
 double nearest_m(const Vec2& point, const std::vector<DiscSegment>& segments) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -25,7 +25,7 @@ double nearest_m(const Vec2& point, const std::vector<DiscSegment>& segments) {
     return nearest;
 }
 
-// How many segments end at each point; points nearer than a micrometre are one.
+// Number of segments that end at each point; points within a micrometre count as one.
 std::map<std::pair<long, long>, int> count_ends(const std::vector<DiscSegment>& segments) {
     std::map<std::pair<long, long>, int> ends;
     for (const DiscSegment& segment : segments) {
@@ -55,7 +55,7 @@ std::vector<DiscSegment> walk(const SurfaceGraph& graph, const Disc& disc, std::
     return segments;
 }
 
-// All of `cut` is in `walked`, but for corners left out, and nothing else is.
+// All of `cut` is in `walked` up to the simplification tolerance, and nothing else is.
 void expect_same_line(const std::vector<DiscSegment>& walked, const std::vector<DiscSegment>& cut) {
     for (const DiscSegment& segment : cut) {
         ASSERT_LT(nearest_m(segment.a_ds, walked), k_straight_m + 1e-9);
@@ -68,7 +68,7 @@ void expect_same_line(const std::vector<DiscSegment>& walked, const std::vector<
     }
 }
 
-TEST(WalkCrossing, GoesRoundAConvexSolidOnceAndCloses) {
+TEST(WalkCrossing, WalksAroundConvexSolidOnceAndCloses) {
     Random random(1501);
     for (const Mesh& mesh :
          {*test::make_box_mesh({0.03, 0.05, 0.08}), test::make_clean_ball(0.06, 12, 20)}) {
@@ -86,8 +86,8 @@ TEST(WalkCrossing, GoesRoundAConvexSolidOnceAndCloses) {
     }
 }
 
-TEST(WalkCrossing, StaysOnItsOwnRingOfATorus) {
-    // The plane x = 0 cuts two circles out of the ring: only the one walked on is found, whole.
+TEST(WalkCrossing, StaysOnOneRingOfTorus) {
+    // The plane x = 0 cuts the torus in two circles; the walk covers only the one it starts on.
     const SurfaceGraph graph = build_surface_graph(test::make_torus(0.06, 0.02, 37, 24));
     Disc disc;
     disc.x_axis = Vec3::UnitY();
@@ -123,7 +123,7 @@ TEST(WalkCrossing, EndsAtBorders) {
     }
 }
 
-TEST(WalkCrossing, KeepsToTheDiscsRadius) {
+TEST(WalkCrossing, KeepsWithinDiscRadius) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     Random random(1503);
     for (int i = 0; i < 100; ++i) {
@@ -141,17 +141,17 @@ TEST(WalkCrossing, KeepsToTheDiscsRadius) {
     }
 }
 
-TEST(WalkCrossing, OfATriangleThatIsNotCutIsNothing) {
+TEST(WalkCrossing, EmptyForTriangleThatIsNotCut) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(0.2, 4));
-    Disc disc;  // in the plane z = 0 moved beyond the floor
+    Disc disc;  // the plane z = 0, moved beyond the floor
     disc.center = Vec3(0.0, 0.0, 0.3);
     std::uint32_t walked = 1;
     EXPECT_TRUE(walk(graph, disc, 0, &walked).empty());
     EXPECT_EQ(walked, 0U);
 }
 
-TEST(WalkCrossing, ACornerOnThePlaneCutsEachNeighbourhoodOnce) {
-    // A disc right through rows of vertices, and through a ball's pole.
+TEST(WalkCrossing, CornerOnPlaneIsCrossedOnce) {
+    // A disc through a row of vertices, and through a ball's pole.
     const SurfaceGraph floor = build_surface_graph(*test::make_floor(0.2, 4));
     Disc disc;
     disc.radius_m = 0.5;
@@ -172,10 +172,10 @@ struct Pops {
     std::uint32_t best = 0;
     std::uint32_t breadth = 0;
     std::uint32_t searches = 0;
-    std::uint32_t most_best = 0;
+    std::uint32_t max_best = 0;
 };
 
-// From random triangles, in both orders; whatever is found is cut by the disc.
+// Searches from a random start in both orders; any triangle found has to be cut by the disc.
 Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& near, double size_m,
                       Random& random) {
     const TriangleBvh bvh(graph.positions, graph.triangles);
@@ -201,8 +201,9 @@ Pops search_at_random(const SurfaceGraph& graph, const Disc& disc, const Vec3& n
     return {best.pops, breadth.pops, 1, best.pops};
 }
 
-TEST(FindCrossing, PopsFewOnAPlaneAndFewerThanAFlood) {
-    // Cells of 20 mm, and a disc that stands on the floor: a straight way over 6 cm passes 3 cells.
+TEST(FindCrossing, PopsFewOnPlaneAndFewerThanBreadthFirst) {
+    // Cells of 20 mm and a disc perpendicular to the floor: a straight path of 6 cm crosses 3
+    // cells.
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     Random random(1504);
     Pops sum;
@@ -216,15 +217,15 @@ TEST(FindCrossing, PopsFewOnAPlaneAndFewerThanAFlood) {
         const Pops one = search_at_random(graph, disc, disc.center, 0.04, random);
         sum.best += one.best;
         sum.breadth += one.breadth;
-        sum.most_best = std::max(sum.most_best, one.best);
+        sum.max_best = std::max(sum.max_best, one.best);
     }
-    // A way of at most 4 * sqrt(2) cm comes into at most 4 rows and 4 columns of cells.
-    EXPECT_LE(sum.most_best, 16U);
+    // A path of at most 4 * sqrt(2) cm enters at most 4 rows and 4 columns of cells.
+    EXPECT_LE(sum.max_best, 16U);
     EXPECT_LE(sum.best, 5U * 500U);
     EXPECT_LT(sum.best, sum.breadth);
 }
 
-TEST(FindCrossing, FindsWhatAFloodFindsWithFewerPopsOnRoundThings) {
+TEST(FindCrossing, PopsFewerThanBreadthFirstOnRoundMeshes) {
     Random random(1505);
     Pops sum;
     for (const Mesh& mesh :
@@ -241,9 +242,9 @@ TEST(FindCrossing, FindsWhatAFloodFindsWithFewerPopsOnRoundThings) {
     EXPECT_LT(sum.best, sum.breadth);
 }
 
-// A floor is one sheet, and a sphere's part of it hangs together: all triangles with a common edge
-// in reach are looked at, each once.
-TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
+// A floor is one component and its part within a sphere is connected: the flood visits each
+// triangle with a shared edge in reach once.
+TEST(FindCrossing, FloodVisitsAllInReachAndFindsSameAsBreadthFirst) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     const TriangleBvh bvh(graph.positions, graph.triangles);
     Random random(1506);
@@ -274,11 +275,10 @@ TEST(FindCrossing, AFloodLooksAtAllInReachAndFindsWhatStoppingFinds) {
     }
 }
 
-// Two floors, one above the other, and a disc that cuts the upper one only: from the lower one no
-// neighbour leads there, though much of it is near enough to be looked at. As only one start leads
-// anywhere their order does not matter to what is found; a start without a triangle is none, and
-// one that is given twice is looked at once.
-TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
+// Two floors, one above the other, and a disc that cuts only the upper one. The lower floor has no
+// neighbour there, although much of it is in reach. The order of starts therefore does not change
+// the result. A start without a triangle is ignored, and a start given twice is visited once.
+TEST(FindCrossing, FindsComponentOnlyFromStartOnIt) {
     constexpr double k_up_m = 0.14;
     Mesh floors = *test::make_floor(1.0, 50);
     const auto lower_count = static_cast<std::uint32_t>(floors.positions.size());
@@ -295,12 +295,12 @@ TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
     const TriangleBvh bvh(graph.positions, graph.triangles);
     Random random(1507);
     TraceScratch scratch;
-    std::uint32_t most_in_vain = 0;
+    std::uint32_t max_failed_pops = 0;
     int compared = 0;
     for (int i = 0; i < 100; ++i) {
         Disc disc = test::random_disc(Vec3(0.0, k_up_m, 0.0) + random.vector(0.02), 0.1, random);
         if (std::abs(disc.normal.y()) > 0.9) {
-            continue;  // it may lie beside both
+            continue;  // it may pass beside both
         }
         const GraphPoint lower = nearest_on(bvh, random.vector(0.05));
         const GraphPoint upper = nearest_on(bvh, Vec3(0.0, k_up_m, 0.0) + random.vector(0.05));
@@ -312,23 +312,23 @@ TEST(FindCrossing, FindsAnotherPartOnlyFromAStartOnIt) {
             const CrossingSearch alone = search(lower);
             const CrossingSearch there = search(upper);
             EXPECT_EQ(alone.triangle, k_no_triangle);
-            most_in_vain = std::max(most_in_vain, alone.pops);
+            max_failed_pops = std::max(max_failed_pops, alone.pops);
             ASSERT_NE(there.triangle, k_no_triangle);
             EXPECT_EQ(search(upper, upper).pops, there.pops);
             EXPECT_EQ(search({}, upper).point, there.point);
             EXPECT_EQ(search({}).pops, 0U);
-            if (alone.pops + there.pops <= k_max_pops) {  // which both share
+            if (alone.pops + there.pops <= k_max_pops) {  // the starts share k_max_pops
                 ++compared;
                 EXPECT_EQ(search(lower, upper).point, there.point);
                 EXPECT_EQ(search(upper, lower).point, there.point);
             }
         }
     }
-    EXPECT_GT(most_in_vain, 10U);
+    EXPECT_GT(max_failed_pops, 10U);
     EXPECT_GT(compared, 100);
 }
 
-TEST(FindCrossing, GivesUpWhereNothingIsInReach) {
+TEST(FindCrossing, GivesUpIfNothingIsInReach) {
     const SurfaceGraph graph = build_surface_graph(*test::make_floor(1.0, 50));
     Disc disc;
     disc.center = Vec3(0.0, 0.5, 0.0);

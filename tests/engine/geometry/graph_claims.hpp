@@ -9,8 +9,7 @@
 
 #include "engine/geometry/surface_graph.hpp"
 
-// What is true of every surface graph, whatever it was built from. Found by walking over the
-// triangles, without the code under test.
+// Invariants of every surface graph. Checked by brute force, without the code under test.
 namespace handhold::test {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -19,7 +18,7 @@ inline Edge edge_of(const SurfaceGraph& graph, std::uint32_t t, std::size_t side
     return {graph.triangles[t][side], graph.triangles[t][(side + 1) % 3]};
 }
 
-// Links are mutual and share the edge: as often as t names n over an edge, n names t over it.
+// Links are mutual and share the edge: t links to n over an edge as often as n links to t.
 inline void expect_mutual_links(const SurfaceGraph& graph) {
     using Link = std::tuple<Edge, std::uint32_t, std::uint32_t>;  // edge, from, to
     std::multiset<Link> links;
@@ -40,14 +39,14 @@ inline void expect_mutual_links(const SurfaceGraph& graph) {
     }
 }
 
-// Nobody on an edge is left without a neighbour where another is left too, and none of those is
-// wound along with its neighbour while two neighbours' pairs could have been crossed.
+// No two half-edges of one edge are both left unpaired, and no more pairs run the same way than
+// their directions force.
 inline void expect_best_pairs(const SurfaceGraph& graph) {
     struct Sides {
         int forward = 0;
         int backward = 0;
         int borders = 0;
-        int along = 0;  // links of two that run the same way, counted from both
+        int flipped = 0;  // links of half-edges in the same direction, counted from both
     };
     std::map<Edge, Sides> edges;
     for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
@@ -63,28 +62,28 @@ inline void expect_best_pairs(const SurfaceGraph& graph) {
                     opposed = opposed || (graph.neighbours[n][i] == t &&
                                           edge_of(graph, n, i) == Edge(edge.second, edge.first));
                 }
-                sides.along += opposed ? 0 : 1;
+                sides.flipped += opposed ? 0 : 1;
             }
         }
     }
     std::uint32_t borders = 0;
-    std::uint32_t crowded = 0;
-    std::uint32_t along = 0;
+    std::uint32_t non_manifold = 0;
+    std::uint32_t flipped = 0;
     for (const auto& [edge, sides] : edges) {
         const int all = sides.forward + sides.backward;
         const int unmatched = std::abs(sides.forward - sides.backward);
         ASSERT_EQ(sides.borders, all % 2);
-        ASSERT_EQ(sides.along, unmatched - all % 2);
+        ASSERT_EQ(sides.flipped, unmatched - all % 2);
         borders += static_cast<std::uint32_t>(sides.borders);
-        crowded += all > 2 ? 1U : 0U;
-        along += static_cast<std::uint32_t>(sides.along) / 2;
+        non_manifold += all > 2 ? 1U : 0U;
+        flipped += static_cast<std::uint32_t>(sides.flipped) / 2;
     }
     EXPECT_EQ(graph.report.border_edges, borders);
-    EXPECT_EQ(graph.report.non_manifold_edges, crowded);
-    EXPECT_EQ(graph.report.flipped_links, along);
+    EXPECT_EQ(graph.report.non_manifold_edges, non_manifold);
+    EXPECT_EQ(graph.report.flipped_links, flipped);
 }
 
-inline void expect_sound_graph(const SurfaceGraph& graph, const Mesh& source) {
+inline void expect_valid_graph(const SurfaceGraph& graph, const Mesh& source) {
     const std::size_t count = graph.triangles.size();
     ASSERT_EQ(graph.neighbours.size(), count);
     ASSERT_EQ(graph.normals.size(), count);

@@ -11,7 +11,7 @@ namespace {
 
 using test::Random;
 
-// Of a ball about the origin: how many triangles look away from it.
+// Number of triangles of a ball about the origin that face outward.
 std::size_t outward(const SurfaceGraph& graph) {
     std::size_t count = 0;
     for (std::size_t t = 0; t < graph.triangles.size(); ++t) {
@@ -20,18 +20,19 @@ std::size_t outward(const SurfaceGraph& graph) {
     return count;
 }
 
-TEST(WindAlike, TurnsTheLesserShareOfEachSheet) {
+TEST(OrientConsistently, FlipsSmallerShareOfEachSheet) {
     Random random(830);
     for (const double share : {0.05, 0.3, 0.45, 0.6, 1.0}) {
         const Mesh ball = test::with_holes(test::make_clean_ball(0.2, 20, 30), 0.05, random);
         SurfaceGraph graph = build_surface_graph(test::with_flips(ball, share, random));
         const std::size_t before = outward(graph);
         const std::uint32_t turned = orient_consistently(graph);
-        test::expect_sound_graph(graph, ball);
+        test::expect_valid_graph(graph, ball);
         EXPECT_EQ(graph.report.flipped_links, 0U);
         const std::size_t all = graph.triangles.size();
         if (share < 0.5) {
-            EXPECT_GT(outward(graph), all * 99 / 100);  // single triangles between holes may differ
+            // Isolated triangles between holes may differ.
+            EXPECT_GT(outward(graph), all * 99 / 100);
             EXPECT_NEAR(turned, static_cast<double>(all - before), 0.01 * static_cast<double>(all));
         } else {
             EXPECT_LT(outward(graph), all / 100);
@@ -40,7 +41,7 @@ TEST(WindAlike, TurnsTheLesserShareOfEachSheet) {
     }
 }
 
-TEST(WindAlike, LeavesWhatHasOneSideOnlyLinked) {
+TEST(OrientConsistently, MoebiusStripKeepsOneFlippedLink) {
     // A Moebius strip of 40 squares.
     Mesh strip;
     constexpr std::uint32_t k_squares = 40;
@@ -61,13 +62,13 @@ TEST(WindAlike, LeavesWhatHasOneSideOnlyLinked) {
     }
     SurfaceGraph graph = build_surface_graph(strip);
     orient_consistently(graph);
-    test::expect_sound_graph(graph, strip);
+    test::expect_valid_graph(graph, strip);
     EXPECT_EQ(graph.report.flipped_links, 1U);
     EXPECT_EQ(graph.report.border_edges, 2 * k_squares);
     EXPECT_EQ(graph.report.parts, 1U);
 }
 
-TEST(TurnOutsideOut, TurnsAMeshThatIsInsideOutAndNoHollow) {
+TEST(OrientOutward, FlipsInsideOutMeshButNotHollow) {
     const Mesh ball = test::make_clean_ball(0.2, 12, 20);
     SurfaceGraph right = build_surface_graph(ball);
     EXPECT_EQ(orient_outward(right), 0U);
@@ -78,7 +79,7 @@ TEST(TurnOutsideOut, TurnsAMeshThatIsInsideOutAndNoHollow) {
     SurfaceGraph wrong = build_surface_graph(inside_out);
     EXPECT_EQ(orient_outward(wrong), ball.triangles.size());
     EXPECT_EQ(outward(wrong), ball.triangles.size());
-    test::expect_sound_graph(wrong, inside_out);
+    test::expect_valid_graph(wrong, inside_out);
     Mesh hollow = ball;
     const auto first = static_cast<std::uint32_t>(hollow.positions.size());
     for (const Vec3& position : ball.positions) {
@@ -92,7 +93,7 @@ TEST(TurnOutsideOut, TurnsAMeshThatIsInsideOutAndNoHollow) {
     EXPECT_EQ(outward(shell), ball.triangles.size());
 }
 
-TEST(WindAlike, OfRealMeshesLeavesLinksAndBordersSound) {
+TEST(OrientConsistently, RealMeshesKeepValidGraphs) {
     int meshes = 0;
     for (const auto& path : test::data_files("nasty")) {
         SCOPED_TRACE(path);
@@ -100,7 +101,7 @@ TEST(WindAlike, OfRealMeshesLeavesLinksAndBordersSound) {
         SurfaceGraph graph = build_surface_graph(mesh);
         const std::uint32_t flipped = graph.report.flipped_links;
         orient_consistently(graph);
-        test::expect_sound_graph(graph, mesh);
+        test::expect_valid_graph(graph, mesh);
         EXPECT_LE(graph.report.flipped_links, flipped);
         ++meshes;
     }

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::Random;
 
-// Gone with the test.
+// A temporary folder, removed with the test.
 struct Folder {
     fs::path path = fs::temp_directory_path() /
                     ("handhold_grip_cache_" +
@@ -70,7 +70,7 @@ void overwrite(const fs::path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-TEST(GripMeshCache, GivesWhatWasBuilt) {
+TEST(GripMeshCache, ReturnsWhatWasBuilt) {
     const Folder folder;
     const Mesh mesh = make_level(1);
     const GripMesh built = build_grip_mesh(mesh);
@@ -81,8 +81,8 @@ TEST(GripMeshCache, GivesWhatWasBuilt) {
     EXPECT_EQ(fs::last_write_time(files_in(folder.path)[0]), stamp);
 }
 
-TEST(GripMeshCache, ReadsItsOwnFileInsteadOfBuilding) {
-    // A grip mesh of something else under the key: only a reader gives that.
+TEST(GripMeshCache, ReadsFileInsteadOfBuilding) {
+    // Another grip mesh under the key: returned only if the file is read.
     const Folder folder;
     const Mesh mesh = make_level(1);
     (void)cached_grip_mesh(mesh, {}, folder.path);
@@ -91,7 +91,7 @@ TEST(GripMeshCache, ReadsItsOwnFileInsteadOfBuilding) {
     expect_same(cached_grip_mesh(mesh, {}, folder.path), other);
 }
 
-TEST(GripMeshCache, KeysDifferByMeshAndEverySetting) {
+TEST(GripMeshCache, KeyDependsOnMeshAndEverySetting) {
     const Mesh mesh = make_level(1);
     std::vector<std::uint64_t> keys = {grip_mesh_key(mesh, {}), grip_mesh_key(make_level(2), {})};
     Mesh moved = mesh;
@@ -115,7 +115,7 @@ TEST(GripMeshCache, KeysDifferByMeshAndEverySetting) {
     EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
-TEST(GripMeshCache, RefusesEveryDamage) {
+TEST(GripMeshCache, RejectsEveryDamagedFile) {
     const Mesh mesh = make_level(3);
     const std::uint64_t key = grip_mesh_key(mesh, {});
     const std::string bytes = write_grip_mesh(build_grip_mesh(mesh), key);
@@ -134,7 +134,7 @@ TEST(GripMeshCache, RefusesEveryDamage) {
     }
 }
 
-TEST(GripMeshCache, MakesADamagedFileAgain) {
+TEST(GripMeshCache, ReplacesDamagedFile) {
     const Folder folder;
     const Mesh mesh = make_level(4);
     const GripMesh built = cached_grip_mesh(mesh, {}, folder.path);
@@ -147,15 +147,15 @@ TEST(GripMeshCache, MakesADamagedFileAgain) {
         expect_same(cached_grip_mesh(mesh, {}, folder.path), built);
         EXPECT_EQ(bytes_of(file), whole);
     }
-    EXPECT_EQ(files_in(folder.path).size(), 1U);  // nothing half written stays
+    EXPECT_EQ(files_in(folder.path).size(), 1U);  // no temporary file is left
 }
 
-TEST(GripMeshCache, WithoutADirectoryOnlyBuilds) {
+TEST(GripMeshCache, BuildsWithoutUsableDirectory) {
     const Folder folder;
     const Mesh mesh = make_level(5);
     const GripMesh built = build_grip_mesh(mesh);
     expect_same(cached_grip_mesh(mesh, {}, {}), built);
-    // A path that cannot become a directory: a file is there.
+    // A path that cannot become a directory because a file is in its place.
     overwrite(folder.path, "a file");
     expect_same(cached_grip_mesh(mesh, {}, folder.path / "below"), built);
     EXPECT_EQ(bytes_of(folder.path), "a file");

@@ -9,7 +9,7 @@
 namespace handhold::grip_mesh_library_test {
 namespace {
 
-TEST(GripMeshLibraryThreaded, SharesWhatIsEqualAndDoesNotDependOnThreads) {
+TEST(GripMeshLibraryThreaded, SharesEqualShapesForAnyThreadCount) {
     ShapeLibrary shapes;
     const auto ball = std::make_shared<const Mesh>(test::make_clean_ball(0.2, 20, 30));
     const ShapeId plain = shapes.add_mesh(ball);
@@ -35,7 +35,7 @@ TEST(GripMeshLibraryThreaded, SharesWhatIsEqualAndDoesNotDependOnThreads) {
     }
 }
 
-TEST(GripMeshLibrary, HasOnlyWhatWasAskedFor) {
+TEST(GripMeshLibrary, HasOnlyWantedShapes) {
     ShapeLibrary shapes;
     const ShapeId box = shapes.add_box({0.1, 0.2, 0.3});
     const ShapeId ball = shapes.add_sphere(0.1);
@@ -48,7 +48,7 @@ TEST(GripMeshLibrary, HasOnlyWhatWasAskedFor) {
     EXPECT_FALSE(GripMeshLibrary().has(box));
 }
 
-TEST(GripMeshLibrary, AddMakesOnlyWhatIsMissing) {
+TEST(GripMeshLibrary, AddBuildsOnlyMissingMeshes) {
     ShapeLibrary shapes;
     const ShapeId box = shapes.add_box({0.1, 0.2, 0.3});
     GripMeshLibrary library(shapes);

@@ -9,13 +9,13 @@
 #include "graph_claims.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// The closed forms of shape_query.hpp and plain formulas are the oracle for tessellated shapes.
+// Oracle for tessellated shapes: the closed forms of shape_query.hpp.
 namespace handhold::grip_mesh_test {
 namespace {
 
 using test::Random;
 
-// How far points of the triangles are from the true surface, at most, over a grid on each.
+// Largest distance of the triangles from the true surface, sampled on a grid on each triangle.
 double worst_deviation_m(const Shape& shape, const SurfaceGraph& graph) {
     double worst = 0.0;
     constexpr int k_grid = 8;
@@ -44,7 +44,7 @@ void expect_closed_and_outward(const SurfaceGraph& graph) {
     }
 }
 
-TEST(GripMesh, OfConvexShapesIsWithinATenthOfAMillimetreOfThem) {
+TEST(GripMesh, ConvexShapesDeviateAtMostTenthOfMillimetre) {
     Random random(820);
     for (int round = 0; round < 12; ++round) {
         ShapeLibrary shapes;
@@ -69,7 +69,7 @@ TEST(GripMesh, OfConvexShapesIsWithinATenthOfAMillimetreOfThem) {
             const GripMesh grip = build_grip_mesh(shapes.at({i}));
             expect_closed_and_outward(grip.contact);
             EXPECT_LE(worst_deviation_m(shapes.at({i}), grip.contact), 1e-4);
-            // The other way: no point of the shape is far from the triangles.
+            // The other direction: no point of the shape is far from the triangles.
             for (int k = 0; k < 200; ++k) {
                 const Vec3 out = 10.0 * random.direction();
                 const Vec3 on_shape = closest_on_shape(shapes.at({i}), out).point;
@@ -81,7 +81,7 @@ TEST(GripMesh, OfConvexShapesIsWithinATenthOfAMillimetreOfThem) {
     }
 }
 
-TEST(GripMesh, OfHugeRoundShapesKeepsItsBoundAndItsSize) {
+TEST(GripMesh, HugeRoundShapesKeepDeviationAndSizeBounds) {
     ShapeLibrary shapes;
     shapes.add_sphere(30.0);
     shapes.add_cylinder(30.0, 2.0);
@@ -92,7 +92,7 @@ TEST(GripMesh, OfHugeRoundShapesKeepsItsBoundAndItsSize) {
     }
 }
 
-TEST(GripMesh, OfACompoundIsNearestWhereItsPartsAre) {
+TEST(GripMesh, CompoundMatchesDistanceToItsParts) {
     Random random(821);
     ShapeLibrary shapes;
     const ShapeId box = shapes.add_box({0.05, 0.1, 0.02});
@@ -115,7 +115,7 @@ TEST(GripMesh, OfACompoundIsNearestWhereItsPartsAre) {
     }
 }
 
-TEST(GripMesh, OfAScaledMeshIsTheStretchedMesh) {
+TEST(GripMesh, ScaledMeshEqualsMeshOfScaledPositions) {
     ShapeLibrary shapes;
     const auto ball = test::make_wavy_ball(0.5, 12, 20);
     const Vec3 scale(0.5, 1.0, 3.0);
@@ -127,7 +127,7 @@ TEST(GripMesh, OfAScaledMeshIsTheStretchedMesh) {
     const SurfaceGraph oracle = build_surface_graph(stretched);
     EXPECT_EQ(grip.contact.positions, oracle.positions);
     EXPECT_EQ(grip.contact.triangles, oracle.triangles);
-    test::expect_sound_graph(grip.contact, stretched);
+    test::expect_valid_graph(grip.contact, stretched);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include "engine/geometry/chain_fit.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// How deep capsules are sunk, found by looking at every triangle. A point's distance from a
-// triangle is convex along a line: halving finds where it is least.
+// Penetration depth of capsules by brute force over all triangles. A point's distance from a
+// triangle is convex along a line, so ternary search finds the minimum.
 namespace handhold::test {
 
 inline double segment_to_triangle_m(const std::array<Vec3, 2>& segment, const Corners& corners) {
@@ -36,9 +36,9 @@ inline Corners corners_of(const PlacedMesh& placed, std::uint32_t triangle) {
             transform_point(placed.pose, graph.positions[c])};
 }
 
-// Negative: sunk so deep. What is farther than 2 cm counts as that far.
+// Negative: penetration depth. Larger gaps than 2 cm are reported as 2 cm.
 inline double gap_m(const Capsule& capsule, std::span<const PlacedMesh> meshes) {
-    double least_m = capsule.radius_m + 0.02;
+    double min_m = capsule.radius_m + 0.02;
     const Vec3 low = capsule.ends[0].cwiseMin(capsule.ends[1]);
     const Vec3 high = capsule.ends[0].cwiseMax(capsule.ends[1]);
     for (const PlacedMesh& placed : meshes) {
@@ -46,12 +46,12 @@ inline double gap_m(const Capsule& capsule, std::span<const PlacedMesh> meshes) 
             const Corners corners = corners_of(placed, t);
             const Vec3 box_low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
             const Vec3 box_high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-            if ((box_low - high).cwiseMax(low - box_high).maxCoeff() < least_m) {
-                least_m = std::min(least_m, segment_to_triangle_m(capsule.ends, corners));
+            if ((box_low - high).cwiseMax(low - box_high).maxCoeff() < min_m) {
+                min_m = std::min(min_m, segment_to_triangle_m(capsule.ends, corners));
             }
         }
     }
-    return least_m - capsule.radius_m;
+    return min_m - capsule.radius_m;
 }
 
 }  // namespace handhold::test

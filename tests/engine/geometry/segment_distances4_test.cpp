@@ -8,12 +8,12 @@
 #include "engine/geometry/segment_triangle.hpp"
 #include "tests/random.hpp"
 
-namespace handhold::four_distances_test {
+namespace handhold::segment_distances4_test {
 namespace {
 
 using test::Random;
 
-// Of all shapes: some slivers, some no more than a line or a point, some large, some near.
+// Triangles of all shapes: slivers, degenerate ones, large ones and near ones.
 Corners random_triangle(Random& random) {
     const Vec3 middle = random.vector(0.05);
     const double size = std::pow(10.0, random.between(-4.0, 0.0));
@@ -46,11 +46,12 @@ Corners4 side_by_side(const std::array<Corners, 4>& triangles) {
     return four;
 }
 
-// Expected: nearest_between, in doubles. What is told far must be far; what is told near is mostly.
-TEST(SegmentDistances4, AreNeverMoreThanTheDistances) {
+// Oracle: nearest_between in doubles. A lower bound must never exceed the distance and should
+// mostly be tight.
+TEST(SegmentDistances4, NeverExceedTheTrueDistances) {
     Random random(1620);
     int compared = 0;
-    int less = 0;
+    int loose = 0;
     for (int i = 0; i < 50000; ++i) {
         std::array<Corners, 4> triangles;
         for (Corners& triangle : triangles) {
@@ -72,11 +73,11 @@ TEST(SegmentDistances4, AreNeverMoreThanTheDistances) {
             const double found_m = std::sqrt(static_cast<double>(squared[lane]));
             ASSERT_LE(found_m, expected_m + rounding_m) << i << ", " << lane;
             ++compared;
-            less += found_m < expected_m - 8.0 * rounding_m ? 1 : 0;
+            loose += found_m < expected_m - 8.0 * rounding_m ? 1 : 0;
         }
     }
-    EXPECT_LT(less, compared / 100);  // slivers whose normals floats do not know
+    EXPECT_LT(loose, compared / 100);  // slivers whose normals are inexact in floats
 }
 
 }  // namespace
-}  // namespace handhold::four_distances_test
+}  // namespace handhold::segment_distances4_test

@@ -11,7 +11,7 @@ namespace {
 
 using test::Random;
 
-// Triangles of all shapes: some slivers, some as long as they are far, some cut by the segment.
+// Triangles of all shapes: slivers, large ones, and ones that the segment crosses.
 Corners random_triangle(Random& random) {
     const Vec3 middle = random.vector(0.05);
     const double size = std::pow(10.0, random.between(-3.0, -1.0));
@@ -25,7 +25,7 @@ Corners random_triangle(Random& random) {
     return corners;
 }
 
-TEST(NearestBetween, IsTheLeastOverTheSegmentsPoints) {
+TEST(NearestBetween, MatchesTernarySearchAlongSegment) {
     Random random(1601);
     int passing = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -44,7 +44,7 @@ TEST(NearestBetween, IsTheLeastOverTheSegmentsPoints) {
     EXPECT_GT(passing, 100);
 }
 
-TEST(NearestBetween, IsSymmetricInTheSegmentsEndsAndInTheTrianglesWinding) {
+TEST(NearestBetween, IndependentOfEndOrderAndWinding) {
     Random random(1602);
     for (int i = 0; i < 5000; ++i) {
         const Corners corners = random_triangle(random);
@@ -57,7 +57,7 @@ TEST(NearestBetween, IsSymmetricInTheSegmentsEndsAndInTheTrianglesWinding) {
     }
 }
 
-TEST(NearestBetween, TakesAPointForASegment) {
+TEST(NearestBetween, AcceptsSegmentOfZeroLength) {
     Random random(1603);
     for (int i = 0; i < 2000; ++i) {
         const Corners corners = random_triangle(random);

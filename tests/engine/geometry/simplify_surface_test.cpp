@@ -12,9 +12,9 @@
 #include "engine/geometry/surface_distance.hpp"
 #include "graph_claims.hpp"
 
-// Oracle: distances of points spread over one surface to the other, by number only; what is claimed
-// is proven in the code by other means.
-namespace handhold::detail_test {
+// Oracle: distances of points sampled on one surface to the other. The code proves its limits by
+// other means.
+namespace handhold::simplify_surface_test {
 namespace {
 
 using test::Random;
@@ -52,7 +52,7 @@ void expect_coarser_within(const SurfaceGraph& fine, const DetailLimits& limits,
     }
 }
 
-TEST(Coarser, StaysWithinItsDeviationBothWaysOnBrokenMeshes) {
+TEST(SimplifySurface, KeepsDeviationBothWaysOnBrokenMeshes) {
     Random random(840);
     const Mesh ball = test::make_clean_ball(0.15, 60, 90);
     const std::vector<Mesh> meshes = {
@@ -74,7 +74,7 @@ TEST(Coarser, StaysWithinItsDeviationBothWaysOnBrokenMeshes) {
     }
 }
 
-TEST(Coarser, StaysWithinItsDeviationOnRealMeshes) {
+TEST(SimplifySurface, KeepsDeviationOnRealMeshes) {
     Random random(841);
     int meshes = 0;
     for (const char* folder : {"objects", "nasty"}) {
@@ -94,10 +94,10 @@ TEST(Coarser, StaysWithinItsDeviationOnRealMeshes) {
     }
 }
 
-TEST(Coarser, LeavesFewTrianglesOfWhatIsFlatAndLargeOnesAsTheyAre) {
+TEST(SimplifySurface, MergesFlatTrianglesAndKeepsLargeOnes) {
     const SurfaceGraph fine = build_surface_graph(*test::make_floor(1.0, 100));
     EXPECT_LE(simplify_surface(fine, {5e-4, 0.0}).triangles.size(), 10U);
-    // About as many as equilateral ones of 20 mm would be.
+    // About as many as equilateral triangles with an edge of 20 mm.
     const double full = 1.0 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
     EXPECT_NEAR(static_cast<double>(simplify_surface(fine, {2.5e-3, 0.02}).triangles.size()), full,
                 0.05 * full);
@@ -105,9 +105,9 @@ TEST(Coarser, LeavesFewTrianglesOfWhatIsFlatAndLargeOnesAsTheyAre) {
     EXPECT_EQ(simplify_surface(large, {2.5e-3, 0.02}).triangles, large.triangles);
 }
 
-TEST(Coarser, MakesSearchTrianglesOfAnEdgesLengthOnABall) {
-    // A sphere of radius r and triangles of edge a deviate by a^2 / 6 r: 2.5 mm at 150 mm is 47 mm,
-    // so the edge's length decides; its count follows from the area.
+TEST(SimplifySurface, ReachesTargetEdgeLengthOnBall) {
+    // On a sphere of radius r, triangles of edge a deviate by a^2 / (6 r). At r = 150 mm, 2.5 mm of
+    // deviation would allow a = 47 mm, so the target edge decides; the count follows from the area.
     const SurfaceGraph fine = build_surface_graph(test::make_clean_ball(0.15, 100, 200));
     const SurfaceGraph coarse = simplify_surface(fine, {2.5e-3, 0.02});
     const double full = 4.0 * 3.14159 * 0.15 * 0.15 / (std::sqrt(3.0) / 4.0 * 0.02 * 0.02);
@@ -142,7 +142,7 @@ TEST(Simplify, KeepsLockedPoints) {
     }
 }
 
-TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
+TEST(SurfaceDistance, MatchesDistanceOfShiftedSheet) {
     const Mesh sheet = *test::make_floor(0.3, 20);
     const Mesh coarse = *test::make_floor(0.3, 3);
     for (const double gap : {2e-4, 1e-3}) {
@@ -161,7 +161,7 @@ TEST(SurfaceDistance, ProvesExactlyWhatAShiftedSheetIs) {
     }
 }
 
-TEST(SurfaceDistance, SeesAHoleThatNoCornerIsIn) {
+TEST(SurfaceDistance, FindsHoleThatContainsNoCorner) {
     Random random(842);
     const Mesh whole = *test::make_floor(0.3, 1);
     Mesh holed = *test::make_floor(0.3, 30);
@@ -176,4 +176,4 @@ TEST(SurfaceDistance, SeesAHoleThatNoCornerIsIn) {
 }
 
 }  // namespace
-}  // namespace handhold::detail_test
+}  // namespace handhold::simplify_surface_test

@@ -7,10 +7,10 @@
 #include "engine/geometry/disc_trace.hpp"
 #include "engine/geometry/surface_graph.hpp"
 
-// What a plane cuts out of a surface, triangle by triangle; and surfaces to cut.
+// Brute-force plane cuts of surfaces, and surfaces to cut.
 namespace handhold::test {
 
-// Every triangle's cut that comes into the disc, in the triangles' order.
+// The cuts of all triangles that reach into the disc, in triangle order.
 inline std::vector<DiscSegment> cut_by_hand(const SurfaceGraph& graph, const Disc& disc) {
     std::vector<DiscSegment> cuts;
     for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
@@ -43,7 +43,7 @@ inline Disc random_disc(const Vec3& center, double radius_m, Random& random) {
     return disc;
 }
 
-// A ring of round cross-section about the y axis; where it is not closed, a bent tube.
+// A torus about the y axis.
 inline Mesh make_torus(double ring_m, double tube_m, std::uint32_t around, std::uint32_t across) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < around; ++i) {

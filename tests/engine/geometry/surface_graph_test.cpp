@@ -13,7 +13,7 @@
 namespace handhold::surface_graph_test {
 namespace {
 
-using test::expect_sound_graph;
+using test::expect_valid_graph;
 using test::Random;
 
 void expect_closed(const SurfaceGraph& graph) {
@@ -23,28 +23,28 @@ void expect_closed(const SurfaceGraph& graph) {
     EXPECT_EQ(graph.report.parts, 1U);
 }
 
-TEST(SurfaceGraph, OfASoupIsThatOfTheWhole) {
+TEST(SurfaceGraph, SoupGivesGraphOfWholeMesh) {
     Random random(810);
-    // The ball's seam and poles have their points twice, and triangles without an area.
+    // The ball's seam and poles have duplicate points and degenerate triangles.
     const auto ball = test::make_wavy_ball(0.5, 20, 30);
     const Mesh soup = test::as_soup(*ball, 1e-6, random);
     const SurfaceGraph graph = build_surface_graph(soup);
-    expect_sound_graph(graph, soup);
+    expect_valid_graph(graph, soup);
     expect_closed(graph);
     EXPECT_EQ(graph.positions.size(), 19U * 30U + 2U);
     EXPECT_EQ(graph.triangles.size(), 2U * 19U * 30U);
     EXPECT_EQ(graph.report.degenerate, 2U * 30U);
 }
 
-TEST(SurfaceGraph, SewsJitteredSoupButKeepsFineDetail) {
+TEST(SurfaceGraph, MergesJitteredSoupButKeepsFineDetail) {
     Random random(811);
     const auto ball = test::make_wavy_ball(0.1, 20, 30);
-    // The poles' triangles without an area tremble too.
+    // The poles' degenerate triangles are jittered too.
     const SurfaceGraph graph = build_surface_graph(test::as_soup(*ball, 3e-5, random));
     expect_closed(graph);
     EXPECT_EQ(graph.positions.size(), 19U * 30U + 2U);
-    // The same ball at 2 mm: its edges are as short as the seam's tolerance, its points are not
-    // one.
+    // The same ball scaled to 2 mm: its edges are as short as the seam tolerance, but its points
+    // must not merge.
     Mesh small = *ball;
     for (Vec3& position : small.positions) {
         position *= 0.02;
@@ -54,9 +54,9 @@ TEST(SurfaceGraph, SewsJitteredSoupButKeepsFineDetail) {
     EXPECT_EQ(fine.positions.size(), 19U * 30U + 2U);
 }
 
-TEST(SurfaceGraph, KeepsTwoSolidsThatTouchInAnEdgeOnTheirOuterSides) {
-    // Two boxes with one edge in common, at x = y = 0: four triangles lie on it. What bounds one
-    // open wedge is linked, so a link joins faces of different boxes.
+TEST(SurfaceGraph, LinksOuterSidesOfSolidsThatTouchAtEdge) {
+    // Two boxes share the edge x = y = 0, with four triangles on it. Triangles that bound the same
+    // open wedge are linked, so links join faces of different boxes.
     const auto box = test::make_box_mesh({0.5, 0.5, 0.5});
     Mesh two;
     for (const double side : {0.5, -0.5}) {
@@ -69,7 +69,7 @@ TEST(SurfaceGraph, KeepsTwoSolidsThatTouchInAnEdgeOnTheirOuterSides) {
         }
     }
     const SurfaceGraph graph = build_surface_graph(two);
-    expect_sound_graph(graph, two);
+    expect_valid_graph(graph, two);
     EXPECT_EQ(graph.report.non_manifold_edges, 1U);
     EXPECT_EQ(graph.report.border_edges, 0U);
     EXPECT_EQ(graph.report.parts, 1U);
@@ -79,24 +79,24 @@ TEST(SurfaceGraph, KeepsTwoSolidsThatTouchInAnEdgeOnTheirOuterSides) {
             const std::uint32_t n = graph.neighbours[t][i];
             if (n >= 12) {
                 ++across;
-                // Both look into the same quarter of space.
+                // Both face into the same quadrant.
                 const Vec3 middle = graph.normals[t] + graph.normals[n];
                 EXPECT_NEAR(middle.norm(), std::sqrt(2.0), 1e-12);
-                EXPECT_LT(middle.x() * middle.y(), 0.0);  // neither box is there
+                EXPECT_LT(middle.x() * middle.y(), 0.0);  // neither box is in that quadrant
             }
         }
     }
     EXPECT_EQ(across, 2);
 }
 
-TEST(SurfaceGraph, KeepsTheSidesOfADoubledSheetApartButAtItsRim) {
+TEST(SurfaceGraph, LinksSidesOfDoubledSheetOnlyAtRim) {
     const auto floor = test::make_floor(1.0, 4);
     Mesh sheet = *floor;
     for (const auto& [a, b, c] : floor->triangles) {
         sheet.triangles.push_back({a, c, b});
     }
     const SurfaceGraph graph = build_surface_graph(sheet);
-    expect_sound_graph(graph, sheet);
+    expect_valid_graph(graph, sheet);
     EXPECT_EQ(graph.report.duplicate, 0U);
     EXPECT_EQ(graph.report.border_edges, 0U);
     EXPECT_EQ(graph.report.flipped_links, 0U);
@@ -112,12 +112,12 @@ TEST(SurfaceGraph, KeepsTheSidesOfADoubledSheetApartButAtItsRim) {
 TEST(SurfaceGraph, LinksNeighboursOfMixedWinding) {
     const auto floor = test::make_floor(1.0, 6, test::Winding::mixed);
     const SurfaceGraph graph = build_surface_graph(*floor);
-    expect_sound_graph(graph, *floor);
+    expect_valid_graph(graph, *floor);
     EXPECT_EQ(graph.report.border_edges, 24U);
     EXPECT_EQ(graph.report.parts, 1U);
 }
 
-TEST(SurfaceGraph, DropsWhatIsNoTriangle) {
+TEST(SurfaceGraph, DropsInvalidAndDuplicateTriangles) {
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double k_infinity = std::numeric_limits<double>::infinity();
     Mesh mesh;
@@ -133,7 +133,7 @@ TEST(SurfaceGraph, DropsWhatIsNoTriangle) {
                       {7, 1, 2},
                       {3, 0, 2} /* again */};
     const SurfaceGraph graph = build_surface_graph(mesh);
-    expect_sound_graph(graph, mesh);
+    expect_valid_graph(graph, mesh);
     EXPECT_EQ(graph.source_triangle, (std::vector<std::uint32_t>{0, 1, 3}));
     EXPECT_EQ(graph.report.not_finite, 2U);
     EXPECT_EQ(graph.report.degenerate, 2U);
@@ -141,16 +141,16 @@ TEST(SurfaceGraph, DropsWhatIsNoTriangle) {
     EXPECT_EQ(graph.positions.size(), 4U);
 }
 
-TEST(SurfaceGraph, CutsTrianglesAtVerticesOnTheirOpenEdges) {
+TEST(SurfaceGraph, SplitsTrianglesAtTJunctions) {
     Random random(812);
     const Mesh ball = test::make_clean_ball(0.3, 20, 30);
     const Mesh broken = test::with_t_junctions(ball, 0.3, random);
     const std::size_t split = broken.triangles.size() - ball.triangles.size();
     ASSERT_GT(split, 100U);
     const SurfaceGraph graph = build_surface_graph(broken);
-    expect_sound_graph(graph, broken);
+    expect_valid_graph(graph, broken);
     expect_closed(graph);
-    EXPECT_EQ(graph.report.cut_in, split);  // one at each: the neighbour's side
+    EXPECT_EQ(graph.report.cut_in, split);  // one split per T-junction, in the neighbour
     const auto area = [](const auto& positions, const auto& triangles) {
         double sum = 0.0;
         for (const auto& [a, b, c] : triangles) {
@@ -161,8 +161,8 @@ TEST(SurfaceGraph, CutsTrianglesAtVerticesOnTheirOpenEdges) {
     EXPECT_NEAR(area(graph.positions, graph.triangles), area(ball.positions, ball.triangles), 1e-9);
 }
 
-TEST(SurfaceGraph, LeavesBordersThatAreApart) {
-    // Two floors beside each other with a slit of 0.4 mm, of another fineness each.
+TEST(SurfaceGraph, KeepsSeparateBordersApart) {
+    // Two adjacent floors with different grids and a gap of 0.4 mm.
     Mesh two = *test::make_floor(0.5, 4);
     const auto other = test::make_floor(0.5, 7);
     const auto first = static_cast<std::uint32_t>(two.positions.size());
@@ -177,32 +177,32 @@ TEST(SurfaceGraph, LeavesBordersThatAreApart) {
         two.positions[v].x() -= 0.0003;
     }
     const SurfaceGraph sewn = build_surface_graph(two);
-    expect_sound_graph(sewn, two);
+    expect_valid_graph(sewn, two);
     EXPECT_EQ(sewn.report.parts, 1U);
-    // What was a border of 4 and one of 7 is one of 10 now, linked; the outer ones stay.
+    // The borders of 4 and 7 edges became one linked border of 10 edges; the outer borders remain.
     EXPECT_EQ(sewn.report.border_edges, 3U * 4U + 3U * 7U);
 }
 
-TEST(SurfaceGraph, OfNothingIsEmpty) {
+TEST(SurfaceGraph, EmptyMeshGivesEmptyGraph) {
     const SurfaceGraph graph = build_surface_graph(Mesh{});
     EXPECT_TRUE(graph.triangles.empty());
     EXPECT_EQ(graph.report.parts, 0U);
 }
 
-TEST(SurfaceGraph, RefusesIndicesOutOfRange) {
+TEST(SurfaceGraph, RejectsIndicesOutOfRange) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}};
     mesh.triangles = {{0, 0, 1}};
     EXPECT_THROW(build_surface_graph(mesh), PreconditionError);
 }
 
-TEST(SurfaceGraph, OfEveryRealMeshIsSound) {
+TEST(SurfaceGraph, ValidForEveryRealMesh) {
     int meshes = 0;
     for (const char* folder : {"objects", "nasty", "level"}) {
         for (const auto& path : test::data_files(folder)) {
             SCOPED_TRACE(path);
             const Mesh mesh = test::load_whole(path);
-            expect_sound_graph(build_surface_graph(mesh), mesh);
+            expect_valid_graph(build_surface_graph(mesh), mesh);
             meshes += mesh.triangles.empty() ? 0 : 1;
         }
     }
@@ -211,7 +211,8 @@ TEST(SurfaceGraph, OfEveryRealMeshIsSound) {
     }
 }
 
-// Few places, so that corners, edges and whole triangles meet by chance, in every winding.
+// Few distinct points, so that corners, edges and whole triangles coincide by chance in any
+// winding.
 Mesh crowded_mesh(std::uint64_t seed, std::size_t triangles) {
     Random random(seed);
     Mesh mesh;
@@ -234,13 +235,13 @@ Mesh crowded_mesh(std::uint64_t seed, std::size_t triangles) {
     return mesh;
 }
 
-RC_GTEST_PROP(SurfaceGraph, OfAnyCrowdedMeshIsSound, (std::uint64_t seed)) {
+RC_GTEST_PROP(SurfaceGraph, ValidForAnyCrowdedMesh, (std::uint64_t seed)) {
     const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
-    expect_sound_graph(build_surface_graph(mesh), mesh);
+    expect_valid_graph(build_surface_graph(mesh), mesh);
     RC_ASSERT(!::testing::Test::HasFailure());
 }
 
-RC_GTEST_PROP(SurfaceGraph, OfAnyBrokenMeshIsSound, (std::uint64_t seed)) {
+RC_GTEST_PROP(SurfaceGraph, ValidForAnyBrokenMesh, (std::uint64_t seed)) {
     Random random(seed);
     Mesh mesh = test::make_clean_ball(0.1, 8, 12);
     for (int i = 0; i < 4; ++i) {
@@ -256,14 +257,14 @@ RC_GTEST_PROP(SurfaceGraph, OfAnyBrokenMeshIsSound, (std::uint64_t seed)) {
                            : test::with_wild_vertices(mesh, 0.1 * share, random);
     }
     SurfaceGraph graph = build_surface_graph(mesh);
-    expect_sound_graph(graph, mesh);
+    expect_valid_graph(graph, mesh);
     orient_consistently(graph);
     orient_outward(graph);
-    expect_sound_graph(graph, mesh);
+    expect_valid_graph(graph, mesh);
     RC_ASSERT(!::testing::Test::HasFailure());
 }
 
-RC_GTEST_PROP(SurfaceGraph, LinksDoNotDependOnHowTheMeshLies, (std::uint64_t seed)) {
+RC_GTEST_PROP(SurfaceGraph, LinksAreInvariantUnderRigidMotion, (std::uint64_t seed)) {
     const Mesh mesh = crowded_mesh(seed, *rc::gen::inRange<std::size_t>(0, 60));
     const SurfaceGraph graph = build_surface_graph(mesh);
     Random random(seed + 1);

@@ -11,7 +11,7 @@
 #include "tests/engine/allocation_count.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// The oracle looks at every triangle.
+// Oracle: brute force over all triangles.
 namespace handhold::triangle_bvh_test {
 namespace {
 
@@ -22,7 +22,7 @@ Corners corners_of(const Mesh& mesh, std::size_t t) {
     return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
 }
 
-// Triangles of sizes from a thousandth to the whole, slivers, points and lines among them.
+// Triangles of sizes from 0.001 to 1, including slivers, lines and points.
 Mesh make_soup(Random& random, std::size_t count) {
     Mesh mesh;
     for (std::size_t t = 0; t < count; ++t) {
@@ -47,31 +47,30 @@ Mesh make_soup(Random& random, std::size_t count) {
     return mesh;
 }
 
-// Möller and Trumbore, 1997, in long double: shares nothing with the tested form. Fraction of the
-// way; negative: no hit, or nearer to an edge than rounding can tell.
+// Möller and Trumbore 1997 in long double, independent of the tested form.
 struct OracleRay {
     long double fraction = 2.0L;
-    bool clear = true;  // no triangle's edge comes near enough to the ray for rounding to decide
+    bool clear = true;  // false: an edge is so near to the ray that rounding decides
 };
 OracleRay oracle_ray(const Mesh& mesh, const Vec3& from, const Vec3& to) {
     using V = Eigen::Matrix<long double, 3, 1>;
     OracleRay result;
     const V start = from.cast<long double>();
-    const V way = to.cast<long double>() - start;
+    const V displacement = to.cast<long double>() - start;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Corners c = corners_of(mesh, t);
         const V a = c[0].cast<long double>();
         const V ab = c[1].cast<long double>() - a;
         const V ac = c[2].cast<long double>() - a;
-        const V p = way.cross(ac);
+        const V p = displacement.cross(ac);
         const long double det = ab.dot(p);
-        if (std::abs(det) < 1e-14L * ab.norm() * ac.norm() * way.norm()) {
-            continue;  // from the edge, or a sliver: found by neither, or by chance
+        if (std::abs(det) < 1e-14L * ab.norm() * ac.norm() * displacement.norm()) {
+            continue;  // edge-on, or a sliver: neither test has to hit it
         }
         const V s = start - a;
         const long double u = s.dot(p) / det;
         const V q = s.cross(ab);
-        const long double v = way.dot(q) / det;
+        const long double v = displacement.dot(q) / det;
         const long double fraction = ac.dot(q) / det;
         constexpr long double k_near = 1e-7L;
         if (u < -k_near || v < -k_near || u + v > 1.0L + k_near || fraction < -k_near ||
@@ -88,9 +87,10 @@ OracleRay oracle_ray(const Mesh& mesh, const Vec3& from, const Vec3& to) {
     return result;
 }
 
-std::optional<TriangleHit> oracle_closest(const Mesh& mesh, const Vec3& point, double most_m) {
+std::optional<TriangleHit> oracle_closest(const Mesh& mesh, const Vec3& point,
+                                          double max_distance_m) {
     std::optional<TriangleHit> best;
-    double best_squared = most_m * most_m;
+    double best_squared = max_distance_m * max_distance_m;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 on_triangle = closest_on_triangle(point, corners_of(mesh, t));
         const double squared = (on_triangle - point).squaredNorm();
@@ -103,11 +103,11 @@ std::optional<TriangleHit> oracle_closest(const Mesh& mesh, const Vec3& point, d
 }
 
 double size_of(const Mesh& mesh) {
-    double most = 0.0;
+    double max_m = 0.0;
     for (const Vec3& position : mesh.positions) {
-        most = std::max(most, (position - mesh.positions[0]).norm());
+        max_m = std::max(max_m, (position - mesh.positions[0]).norm());
     }
-    return most;
+    return max_m;
 }
 
 void expect_rays(const Mesh& mesh, const TriangleBvh& bvh, Random& random, int rounds) {
@@ -149,11 +149,11 @@ void expect_nearest_and_spheres(const Mesh& mesh, const TriangleBvh& bvh, Random
             random.between(0.0, static_cast<double>(mesh.positions.size())));
         const double away = size * std::pow(10.0, random.between(-5.0, 0.5));
         const Vec3 point = mesh.positions[some] + random.vector(away);
-        const double most = round % 3 == 0 ? std::numeric_limits<double>::infinity() : away;
-        const auto hit = bvh.closest_point(point, most);
-        const auto oracle = oracle_closest(mesh, point, most);
+        const double max_m = round % 3 == 0 ? std::numeric_limits<double>::infinity() : away;
+        const auto hit = bvh.closest_point(point, max_m);
+        const auto oracle = oracle_closest(mesh, point, max_m);
         ASSERT_EQ(hit.has_value(), oracle.has_value());
-        if (hit) {  // the same closed form on the same triangles: the same bits
+        if (hit) {  // the same closed form on the same triangles gives the same bits
             ASSERT_EQ(hit->triangle, oracle->triangle);
             ASSERT_EQ(hit->distance_m, oracle->distance_m);
             ASSERT_EQ(hit->point, oracle->point);
@@ -169,7 +169,7 @@ void expect_nearest_and_spheres(const Mesh& mesh, const TriangleBvh& bvh, Random
     }
 }
 
-TEST(TriangleBvh, AnswersAsALookAtEveryTriangleOfASoup) {
+TEST(TriangleBvh, MatchesBruteForceOnSoup) {
     Random random(801);
     for (const std::size_t count : {1U, 2U, 3U, 9U, 40U, 300U, 2000U}) {
         SCOPED_TRACE(count);
@@ -183,7 +183,7 @@ TEST(TriangleBvh, AnswersAsALookAtEveryTriangleOfASoup) {
     }
 }
 
-TEST(TriangleBvh, AnswersAsALookAtEveryTriangleOfRealMeshes) {
+TEST(TriangleBvh, MatchesBruteForceOnRealMeshes) {
     Random random(802);
     int meshes = 0;
     for (const char* folder : {"objects", "nasty"}) {
@@ -204,7 +204,7 @@ TEST(TriangleBvh, AnswersAsALookAtEveryTriangleOfRealMeshes) {
     }
 }
 
-TEST(TriangleBvh, LetsNoRaySlipThroughSharedEdgesAndCorners) {
+TEST(TriangleBvh, RaysNeverPassSharedEdgesAndCorners) {
     Random random(803);
     const auto ball = test::make_wavy_ball(1.0, 24, 40);
     const TriangleBvh bvh(ball->positions, ball->triangles);
@@ -212,7 +212,7 @@ TEST(TriangleBvh, LetsNoRaySlipThroughSharedEdgesAndCorners) {
     for (std::size_t t = 0; t < ball->triangles.size(); ++t) {
         const Corners corners = corners_of(*ball, t);
         for (const double share : {0.0, 0.25, 0.5, random.between(0.0, 1.0)}) {
-            // From the middle to beyond a point of an edge, the poles' points without length too.
+            // From inside to beyond a point of an edge, including the poles' zero-length edges.
             const Vec3 target = (1.0 - share) * corners[0] + share * corners[1];
             ASSERT_TRUE(bvh.cast_ray(random.vector(0.3), 1.5 * target).has_value());
             ++rays;
@@ -221,7 +221,7 @@ TEST(TriangleBvh, LetsNoRaySlipThroughSharedEdgesAndCorners) {
     EXPECT_GT(rays, 5000);
 }
 
-TEST(TriangleBvh, SeesBothSidesOfATriangle) {
+TEST(TriangleBvh, HitsBothSidesOfTriangle) {
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
     const TriangleBvh bvh(positions, triangles);
@@ -231,11 +231,11 @@ TEST(TriangleBvh, SeesBothSidesOfATriangle) {
         EXPECT_EQ(hit->point, Vec3(0.25, 0.25, 0.0));
         EXPECT_EQ(hit->distance_m, 1.0);
     }
-    EXPECT_FALSE(bvh.cast_ray({0.25, 0.25, 1.0}, {0.25, 0.25, 0.01}));  // ends before it
+    EXPECT_FALSE(bvh.cast_ray({0.25, 0.25, 1.0}, {0.25, 0.25, 0.01}));  // ends before the triangle
     EXPECT_FALSE(bvh.cast_ray({0.6, 0.6, 1.0}, {0.6, 0.6, -1.0}));
 }
 
-TEST(TriangleBvh, FindsNothingWhereNothingIsFinite) {
+TEST(TriangleBvh, NonFiniteInputFindsNothing) {
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double k_infinity = std::numeric_limits<double>::infinity();
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {k_nan, 0, 0}};
@@ -249,20 +249,20 @@ TEST(TriangleBvh, FindsNothingWhereNothingIsFinite) {
         bvh.visit_in_sphere({bad, 0.0, 0.0}, 1.0, [](std::uint32_t) { FAIL(); });
     }
     EXPECT_FALSE(bvh.closest_point({0.0, 0.0, 0.0}, k_nan));
-    EXPECT_FALSE(bvh.cast_ray({0.1, 0.1, 1.0}, {0.1, 0.1, 1.0}));  // no way
+    EXPECT_FALSE(bvh.cast_ray({0.1, 0.1, 1.0}, {0.1, 0.1, 1.0}));  // zero length
     EXPECT_FALSE(TriangleBvh().closest_point(Vec3::Zero(), k_infinity));
     EXPECT_FALSE(TriangleBvh({}, {}).cast_ray(Vec3::Zero(), Vec3::UnitX()));
 }
 
-TEST(TriangleBvh, HandlesManyTrianglesInOnePlace) {
-    // No plane parts them: the tree must not grow into a list.
+TEST(TriangleBvh, HandlesManyCoincidentTriangles) {
+    // No plane separates the triangles: the tree must not degenerate into a list.
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles.assign(5000, {0, 1, 2});
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
     EXPECT_EQ(bvh.closest_point({0.2, 0.2, 1.0}, 2.0)->triangle, 0U);
     EXPECT_EQ(bvh.cast_ray({0.2, 0.2, 1.0}, {0.2, 0.2, -1.0})->triangle, 0U);
-    // Each ten times as far and large as the last: every split takes off one.
+    // Each is 1.5 times as far and large as the last: every split separates one triangle.
     Mesh row;
     for (std::uint32_t i = 0; i < 300; ++i) {
         const double size = std::pow(1.5, i % 150) * (i < 150 ? 1e-12 : -1e-12);
@@ -290,18 +290,18 @@ TEST(TriangleBvh, QueriesDoNotAllocate) {
     EXPECT_GT(found, 100U);
 }
 
-TEST(TriangleBvh, RefusesIndicesOutOfRange) {
+TEST(TriangleBvh, RejectsIndicesOutOfRange) {
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 3}};
     EXPECT_THROW(TriangleBvh(positions, triangles), PreconditionError);
 }
 
-// All of it is in the sphere: what counts is told by each triangle's own cross product.
-TEST(TriangleBvh, SumsTheAreasThatLookTowardsASide) {
+// The sphere encloses the mesh. Oracle: each triangle's cross product.
+TEST(TriangleBvh, SumsAreasThatFaceSide) {
     Random random(72);
     const Mesh mesh = make_soup(random, 400);
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
-    constexpr double k_most_m2 = 0.5;
+    constexpr double k_max_area_m2 = 0.5;
     for (int i = 0; i < 20; ++i) {
         const Vec3 side = random.vector(1.0);
         Vec3 expected = Vec3::Zero();
@@ -309,10 +309,10 @@ TEST(TriangleBvh, SumsTheAreasThatLookTowardsASide) {
             const Corners c = corners_of(mesh, t);
             const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]);
             if (area.dot(side) > 0.0) {
-                expected += std::min(1.0, k_most_m2 / area.norm()) * area;
+                expected += std::min(1.0, k_max_area_m2 / area.norm()) * area;
             }
         }
-        const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), 10.0, side, k_most_m2);
+        const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), 10.0, side, k_max_area_m2);
         EXPECT_LT((sum - expected).norm(), 1e-4 * expected.norm()) << i;
     }
     EXPECT_EQ(bvh.areas_in_sphere(Vec3(50.0, 0.0, 0.0), 1.0, Vec3::UnitX(), 1.0), Vec3::Zero());
@@ -321,14 +321,14 @@ TEST(TriangleBvh, SumsTheAreasThatLookTowardsASide) {
     EXPECT_EQ(TriangleBvh().areas_in_sphere(Vec3::Zero(), 1.0, Vec3::UnitX(), 1.0), Vec3::Zero());
 }
 
-// What is surely within the sphere counts, what is surely beyond does not.
-TEST(TriangleBvh, SumsNoAreasBeyondTheSphere) {
+// Triangles within the sphere must count; those beyond twice its radius must not.
+TEST(TriangleBvh, SumsOnlyAreasWithinSphere) {
     Random random(73);
     const Mesh mesh = make_soup(random, 300);
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
     constexpr double k_radius_m = 0.4;
     Vec3 nearer = Vec3::Zero();
-    Vec3 hardly_farther = Vec3::Zero();
+    Vec3 within_twice = Vec3::Zero();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Corners c = corners_of(mesh, t);
         const double distance_m = closest_on_triangle(Vec3::Zero(), c).norm();
@@ -337,42 +337,40 @@ TEST(TriangleBvh, SumsNoAreasBeyondTheSphere) {
             nearer += area;
         }
         if (area.z() > 0.0 && distance_m <= 2.0 * k_radius_m) {
-            hardly_farther += area;
+            within_twice += area;
         }
     }
     const Vec3 sum = bvh.areas_in_sphere(Vec3::Zero(), k_radius_m, Vec3::UnitZ(), 1e9);
     EXPECT_GE(sum.z(), nearer.z() * (1.0 - 1e-5));
-    EXPECT_LE(sum.z(), hardly_farther.z() * (1.0 + 1e-5));
-    EXPECT_LT(nearer.z(), 0.9 * hardly_farther.z());
+    EXPECT_LE(sum.z(), within_twice.z() * (1.0 + 1e-5));
+    EXPECT_LT(nearer.z(), 0.9 * within_twice.z());
 }
 
-// Of all triangles of a soup, slivers, lines and points among them, four by four, from points near
-// and far: neither bound is more than the distance, and the close one is hardly less.
-TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
+TEST(DistanceLowerBound, NeverExceedsDistanceAndTightBoundIsTight) {
     Random random(806);
     const Mesh mesh = make_soup(random, 400);
     const TriangleBvh bvh(mesh.positions, mesh.triangles);
     OrientedBox everything;
     everything.half_extents = Vec3::Constant(10.0);
-    constexpr double k_room = 1e-5;  // ten times what is left for rounding
+    constexpr double k_rounding = 1e-5;  // ten times the rounding error
     for (int i = 0; i < 200; ++i) {
         const Vec3 local = random.vector(std::pow(10.0, random.between(-2.0, 1.0)));
-        const DistanceLowerBound least(local, bvh.reach_m());
-        const double clearance_m = k_room * (bvh.reach_m() + local.norm());
+        const DistanceLowerBound lower_bound(local, bvh.reach_m());
+        const double clearance_m = k_rounding * (bvh.reach_m() + local.norm());
         std::size_t seen = 0;
         bvh.visit_near_box(
             everything, [&](std::uint32_t first_slot, std::uint32_t count, const Triangles4& four) {
-                const Float4 roughly = least.squared(four);
-                const Float4 closely = least.squared_tight(four);
+                const Float4 loose = lower_bound.squared(four);
+                const Float4 tight = lower_bound.squared_tight(four);
                 for (std::uint32_t lane = 0; lane < count; ++lane) {
                     const Corners corners = bvh.corners_at(first_slot + lane);
                     const Vec3 point = local + bvh.origin();
                     const double distance_m = (closest_on_triangle(point, corners) - point).norm();
-                    const double roughly_m = std::sqrt(static_cast<double>(roughly[lane]));
-                    const double closely_m = std::sqrt(static_cast<double>(closely[lane]));
-                    ASSERT_LE(roughly_m, distance_m * (1.0 + 1e-6)) << i;
-                    ASSERT_LE(closely_m, distance_m * (1.0 + 1e-6)) << i;
-                    ASSERT_GE(closely_m, distance_m - clearance_m) << i;
+                    const double loose_m = std::sqrt(static_cast<double>(loose[lane]));
+                    const double tight_m = std::sqrt(static_cast<double>(tight[lane]));
+                    ASSERT_LE(loose_m, distance_m * (1.0 + 1e-6)) << i;
+                    ASSERT_LE(tight_m, distance_m * (1.0 + 1e-6)) << i;
+                    ASSERT_GE(tight_m, distance_m - clearance_m) << i;
                 }
                 seen += count;
             });
@@ -380,8 +378,8 @@ TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceAndCloselyHardlyLess) {
     }
 }
 
-// So are distances of boxes: of random ones, some of them flat, and some around the point.
-TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceOfABox) {
+// Random boxes, some flat, some containing the point.
+TEST(DistanceLowerBound, NeverExceedsDistanceOfBox) {
     Random random(807);
     for (int i = 0; i < 5000; ++i) {
         const double scale = std::pow(10.0, random.between(-2.0, 2.0));
@@ -405,18 +403,18 @@ TEST(DistanceLowerBound, IsNeverMoreThanTheDistanceOfABox) {
             }
             distance_m[lane] = (low - point).cwiseMax(point - high).cwiseMax(0.0).norm();
         }
-        const DistanceLowerBound least(point, reach_m);
-        const Float4 squared = least.squared(boxes);
+        const DistanceLowerBound lower_bound(point, reach_m);
+        const Float4 squared = lower_bound.squared(boxes);
         for (std::size_t lane = 0; lane < 4; ++lane) {
-            const double least_m = std::sqrt(static_cast<double>(squared[lane]));
-            ASSERT_LE(least_m, distance_m[lane] * (1.0 + 1e-6)) << i;
-            ASSERT_GE(least_m, distance_m[lane] - 1e-5 * (reach_m + point.norm())) << i;
+            const double bound_m = std::sqrt(static_cast<double>(squared[lane]));
+            ASSERT_LE(bound_m, distance_m[lane] * (1.0 + 1e-6)) << i;
+            ASSERT_GE(bound_m, distance_m[lane] - 1e-5 * (reach_m + point.norm())) << i;
         }
     }
 }
 
-// Squares of floats are infinite from there on.
-TEST(TriangleBvh, FindsWhatIsNearestFromVeryFarAway) {
+// Squares of such distances overflow floats.
+TEST(TriangleBvh, FindsNearestFromVeryFar) {
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
     const TriangleBvh bvh(positions, triangles);

@@ -15,14 +15,14 @@
 namespace handhold::math_test {
 namespace {
 
-constexpr double k_above_pi = k_pi * (1.0 + 1e-15);  // pi and what a length's last bits may add
+constexpr double k_above_pi = k_pi * (1.0 + 1e-15);  // pi plus the rounding of a vector's length
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_tiny = std::numeric_limits<double>::denorm_min();
 constexpr double k_huge = std::numeric_limits<double>::max();
 
-// Both signs of: every size of number, all of [0, 1e3], and the neighbours of the multiples of
-// pi/2.
+// With both signs: numbers of all magnitudes, samples of [0, 1e3], and neighbours of the multiples
+// of pi/2.
 std::vector<double> many_angles() {
     std::vector<double> angles = {0.0, k_tiny, 1e3};
     for (double angle = 1e-320; angle < 1e3; angle *= 1.7) {
@@ -49,7 +49,7 @@ std::vector<double> many_angles() {
     return angles;
 }
 
-// The oracle is the C library in 64-bit mantissas.
+// Oracle: the C library in long double (64-bit mantissa).
 double sin_cos_error(double angle_rad) {
     double sine = 0.0;
     double cosine = 0.0;
@@ -65,7 +65,7 @@ double arc_tangent_error(double y, double x) {
     return static_cast<double>(std::abs(static_cast<long double>(arc_tangent2(y, x)) - exact));
 }
 
-TEST(SinCos, AgreesWithLongDoubleWithin1e15UpTo1e3) {
+TEST(SinCos, MatchesLongDoubleWithin1e15UpTo1e3) {
     double worst = 0.0;
     for (const double angle : many_angles()) {
         worst = std::max(worst, sin_cos_error(angle));
@@ -74,7 +74,7 @@ TEST(SinCos, AgreesWithLongDoubleWithin1e15UpTo1e3) {
     EXPECT_LT(worst, 1e-15);
 }
 
-TEST(SinCos, AgreesWithLongDoubleWithin1e14UpTo1e6) {
+TEST(SinCos, MatchesLongDoubleWithin1e14UpTo1e6) {
     std::mt19937_64 random(12);
     std::uniform_real_distribution<double> any(-1e6, 1e6);
     double worst = 0.0;
@@ -98,7 +98,7 @@ TEST(SinCos, TinyAnglesAreTheirOwnSine) {
     EXPECT_FALSE(std::signbit(sine)) << "-0.0 is 0.0: one state, one hash";
 }
 
-TEST(SinCos, WhatIsNoAngleGivesTheDirectionOfZero) {
+TEST(SinCos, InvalidAngleActsAsZero) {
     for (const double angle : {k_nan, k_infinity, -k_infinity, k_huge, -1e6}) {
         double sine = 7.0;
         double cosine = 7.0;
@@ -108,7 +108,7 @@ TEST(SinCos, WhatIsNoAngleGivesTheDirectionOfZero) {
     }
 }
 
-TEST(ArcTangent2, AgreesWithLongDoubleWithin1e15InAllDirections) {
+TEST(ArcTangent2, MatchesLongDoubleWithin1e15InAllDirections) {
     double worst = 0.0;
     std::mt19937_64 random(13);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -124,7 +124,7 @@ TEST(ArcTangent2, AgreesWithLongDoubleWithin1e15InAllDirections) {
     EXPECT_LT(worst, 1e-15);
 }
 
-TEST(ArcTangent2, AgreesWithLongDoubleOnAxesAndDiagonalsAndAtExtremes) {
+TEST(ArcTangent2, MatchesLongDoubleOnAxesDiagonalsAndExtremes) {
     const std::vector<double> numbers = {0.0, k_tiny, 1e-300, 1e-8,      1.0,
                                          3.0, 1e300,  k_huge, k_infinity};
     for (const double ay : numbers) {
@@ -143,7 +143,7 @@ TEST(ArcTangent2, AgreesWithLongDoubleOnAxesAndDiagonalsAndAtExtremes) {
     }
 }
 
-TEST(ArcTangent2, ZeroVectorAndNotANumberGiveZero) {
+TEST(ArcTangent2, ZeroVectorAndNaNGiveZero) {
     for (const double zero : {0.0, -0.0}) {
         EXPECT_EQ(arc_tangent2(zero, 0.0), 0.0);
         EXPECT_EQ(arc_tangent2(zero, -0.0), 0.0);
@@ -188,26 +188,25 @@ Pose any_pose() {
     return {position, any_rotation()};
 }
 
-// The angle between two rotations.
 double angle_between(const Quat& a, const Quat& b) {
     return rotation_to_vector(a.conjugate() * b).norm();
 }
 
-RC_GTEST_PROP(Rotation, VectorRoundTripsBelowHalfATurn, ()) {
+RC_GTEST_PROP(Rotation, VectorRoundTripsBelowHalfTurn, ()) {
     const Vec3 vector = any_direction() * *number_between(0.0, k_pi - 1e-6);
     const Vec3 back = rotation_to_vector(rotation_from_vector(vector));
     RC_ASSERT((back - vector).norm() < 1e-9);
     RC_ASSERT(back.norm() <= k_above_pi);
 }
 
-RC_GTEST_PROP(Rotation, SmallVectorsRoundTripToTheirOwnPrecision, ()) {
+RC_GTEST_PROP(Rotation, SmallVectorsRoundTripToRelativePrecision, ()) {
     const double size = std::pow(10.0, *number_between(-150.0, -3.0));
     const Vec3 vector = any_direction() * size;
     const Vec3 back = rotation_to_vector(rotation_from_vector(vector));
     RC_ASSERT((back - vector).norm() < 4e-15 * size);
 }
 
-RC_GTEST_PROP(Rotation, VectorNearHalfATurnComesBackOrItsEqualOnTheOtherSide, ()) {
+RC_GTEST_PROP(Rotation, VectorNearHalfTurnRoundTripsUpToFullTurn, ()) {
     const Vec3 axis = any_direction();
     const double over = std::pow(10.0, *number_between(-17.0, -1.0));
     for (const double angle : {k_pi - over, k_pi + over}) {
@@ -220,7 +219,7 @@ RC_GTEST_PROP(Rotation, VectorNearHalfATurnComesBackOrItsEqualOnTheOtherSide, ()
     }
 }
 
-RC_GTEST_PROP(Rotation, QuaternionRoundTripsUpToItsSign, ()) {
+RC_GTEST_PROP(Rotation, QuaternionRoundTripsUpToSign, ()) {
     const Quat rotation = any_rotation();
     const Quat back = rotation_from_vector(rotation_to_vector(rotation));
     const double off = std::min((back.coeffs() - rotation.coeffs()).norm(),
@@ -234,13 +233,12 @@ TEST(Rotation, ZeroVectorIsIdentity) {
     EXPECT_EQ(rotation_to_vector(Quat(-1.0, 0.0, 0.0, 0.0)), Vec3::Zero());
 }
 
-TEST(Rotation, QuarterTurnAboutYCarriesForwardToLeft) {
+TEST(Rotation, QuarterTurnAboutYMapsForwardToLeft) {
     const Vec3 turned = rotation_about(Vec3::UnitY(), 0.5 * k_pi) * -Vec3::UnitZ();
     EXPECT_LT((turned + Vec3::UnitX()).norm(), 1e-15);
 }
 
-// Rodrigues' formula.
-RC_GTEST_PROP(Rotation, AboutAnAxisAgreesWithRodrigues, ()) {
+RC_GTEST_PROP(Rotation, AboutAxisMatchesRodriguesFormula, ()) {
     const Vec3 axis = any_direction();
     const Vec3 v = any_vector(1.0);
     const double angle = *number_between(-10.0, 10.0);
@@ -249,7 +247,7 @@ RC_GTEST_PROP(Rotation, AboutAnAxisAgreesWithRodrigues, ()) {
     RC_ASSERT((rotation_about(axis, angle) * v - expected).norm() < 5e-15);
 }
 
-RC_GTEST_PROP(RotationBetween, CarriesFromOntoToByTheAngleBetweenThem, ()) {
+RC_GTEST_PROP(RotationBetween, MapsFromToToByAngleBetweenThem, ()) {
     const Vec3 from = any_direction();
     const Vec3 to = any_direction();
     const Quat rotation = rotation_between(from, to);
@@ -259,14 +257,14 @@ RC_GTEST_PROP(RotationBetween, CarriesFromOntoToByTheAngleBetweenThem, ()) {
     RC_ASSERT(std::abs(rotation_to_vector(rotation).norm() - angle) < 4e-15);
 }
 
-RC_GTEST_PROP(RotationBetween, IsExactForNearlyOppositeDirections, ()) {
+RC_GTEST_PROP(RotationBetween, AccurateForNearlyOppositeDirections, ()) {
     const Vec3 from = any_direction();
     const double off = std::pow(10.0, *number_between(-20.0, -1.0));
     const Vec3 to = (any_direction() * off - from).normalized();
     RC_ASSERT((rotation_between(from, to) * from - to).norm() < 2e-14);
 }
 
-TEST(RotationBetween, OppositeDirectionsAreHalfATurnApart) {
+TEST(RotationBetween, OppositeDirectionsGiveHalfTurn) {
     const std::vector<Vec3> directions = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
                                           Vec3(1, 1, 1).normalized(), Vec3(-3, 0, 4).normalized()};
     for (const Vec3& from : directions) {
@@ -276,24 +274,24 @@ TEST(RotationBetween, OppositeDirectionsAreHalfATurnApart) {
     }
 }
 
-TEST(RotationBetween, EqualDirectionsNeedNone) {
+TEST(RotationBetween, EqualDirectionsGiveIdentity) {
     const Vec3 direction = Vec3(1.0, -2.0, 0.5).normalized();
     EXPECT_LT(rotation_to_vector(rotation_between(direction, direction)).norm(), 1e-15);
 }
 
-RC_GTEST_PROP(LookRotation, LooksForwardWithUpInItsPlane, ()) {
+RC_GTEST_PROP(LookRotation, LooksForwardWithUpInVerticalPlane, ()) {
     const Vec3 forward = any_direction();
     const Vec3 up = any_direction();
     const Quat turn = look_rotation(2.0 * forward, 3.0 * up);
     const double apart = forward.cross(up).norm();
     RC_PRE(apart > 1e-5);
-    // The nearer the two are to one line, the less is known of the turn about it.
+    // The more parallel the two are, the less accurate the roll is.
     RC_ASSERT((turn * -Vec3::UnitZ() - forward).norm() < 1e-14 / apart);
     RC_ASSERT(std::abs((turn * Vec3::UnitX()).dot(up)) < 1e-14 / apart);
     RC_ASSERT((turn * Vec3::UnitY()).dot(up) > 0.0);
 }
 
-TEST(LookRotation, AnyTurnWhereUpIsForward) {
+TEST(LookRotation, ValidIfUpIsParallelToForward) {
     for (const double up : {1.0, -1.0}) {
         const Quat turn = look_rotation(Vec3::UnitY(), Vec3(0.0, up, 0.0));
         EXPECT_NEAR(turn.norm(), 1.0, 1e-15);
@@ -301,7 +299,7 @@ TEST(LookRotation, AnyTurnWhereUpIsForward) {
     }
 }
 
-RC_GTEST_PROP(TurnNormal, StaysSquareToTheSurfaceAndOutside, ()) {
+RC_GTEST_PROP(TransformNormal, StaysPerpendicularAndOutward, ()) {
     const Vec3 a = any_direction();
     const Vec3 b = any_direction();
     RC_PRE(a.cross(b).norm() > 1e-2);
@@ -315,7 +313,7 @@ RC_GTEST_PROP(TurnNormal, StaysSquareToTheSurfaceAndOutside, ()) {
     RC_ASSERT((normal - side * (linear * a).cross(linear * b)).norm() < 1e-12);
 }
 
-RC_GTEST_PROP(PoseAlgebra, ProductAppliesTheRightFactorFirst, ()) {
+RC_GTEST_PROP(PoseAlgebra, ProductAppliesRightFactorFirst, ()) {
     const Pose a = any_pose();
     const Pose b = any_pose();
     const Vec3 point = any_vector(10.0);
@@ -324,7 +322,7 @@ RC_GTEST_PROP(PoseAlgebra, ProductAppliesTheRightFactorFirst, ()) {
         1e-13);
 }
 
-RC_GTEST_PROP(PoseAlgebra, InverseUndoes, ()) {
+RC_GTEST_PROP(PoseAlgebra, InverseUndoesPose, ()) {
     const Pose a = any_pose();
     const Vec3 point = any_vector(10.0);
     RC_ASSERT((inverse_transform_point(a, transform_point(a, point)) - point).norm() < 1e-13);
@@ -334,13 +332,13 @@ RC_GTEST_PROP(PoseAlgebra, InverseUndoes, ()) {
     RC_ASSERT(rotation_to_vector(identity.rotation).norm() < 1e-14);
 }
 
-RC_GTEST_PROP(PoseAlgebra, CrossMatrixIsTheCrossProduct, ()) {
+RC_GTEST_PROP(PoseAlgebra, CrossMatrixEqualsCrossProduct, ()) {
     const Vec3 v = any_vector(5.0);
     const Vec3 u = any_vector(5.0);
     RC_ASSERT((cross_matrix(v) * u - v.cross(u)).norm() < 1e-14);
 }
 
-TEST(PoseAlgebra, ValidPosesAreFiniteAndOfUnitRotation) {
+TEST(PoseAlgebra, ValidPosesAreFiniteWithUnitRotation) {
     EXPECT_TRUE(is_valid(Pose{}));
     EXPECT_TRUE(is_valid({Vec3::Zero(), Quat(1.0005, 0.0, 0.0, 0.0)}));
     EXPECT_FALSE(is_valid({Vec3::Zero(), Quat(1.002, 0.0, 0.0, 0.0)}));
@@ -352,7 +350,7 @@ TEST(PoseAlgebra, ValidPosesAreFiniteAndOfUnitRotation) {
     EXPECT_FALSE(is_finite(Vec3(0.0, 0.0, k_nan)));
 }
 
-RC_GTEST_PROP(Interpolate, EndsAreThePoses, ()) {
+RC_GTEST_PROP(Interpolate, EndsEqualPoses, ()) {
     const Pose a = any_pose();
     const Pose b = any_pose();
     const Pose first = interpolate(a, b, 0.0);
@@ -363,7 +361,7 @@ RC_GTEST_PROP(Interpolate, EndsAreThePoses, ()) {
     RC_ASSERT(angle_between(last.rotation, b.rotation) < 4e-15);
 }
 
-RC_GTEST_PROP(Interpolate, TurnsAtConstantSpeedAlongTheShorterArc, ()) {
+RC_GTEST_PROP(Interpolate, RotatesAtConstantSpeedAlongShorterArc, ()) {
     const Pose a = any_pose();
     const Pose b = any_pose();
     const double t = *number_between(0.0, 1.0);
@@ -375,7 +373,7 @@ RC_GTEST_PROP(Interpolate, TurnsAtConstantSpeedAlongTheShorterArc, ()) {
     RC_ASSERT((between.position - ((1.0 - t) * a.position + t * b.position)).norm() < 1e-14);
 }
 
-TEST(Interpolate, NegatedQuaternionIsTheSamePose) {
+TEST(Interpolate, NegatedQuaternionIsSamePose) {
     const Pose a;
     const Quat turn = rotation_about(Vec3::UnitY(), 0.4);
     const Pose b = {Vec3(2.0, 0.0, 0.0), Quat(-turn.w(), -turn.x(), -turn.y(), -turn.z())};
@@ -406,8 +404,8 @@ void add_to_hash(HashStream& hash, const Vec3& vector) {
     }
 }
 
-// Golden: guards only that every compiler and optimisation gives the same bits. It says nothing
-// about their being right; a change of the formulas changes it, and every state hash with it.
+// Golden value: only checks that all compilers and optimisation levels give the same bits, not that
+// they are right. Changing a formula changes it and every state hash.
 TEST(MathGolden, BitsAreEqualOnAllCompilers) {
     constexpr std::uint64_t k_golden = 0x52856c04b9bef65eULL;
     HashStream hash;
@@ -437,7 +435,7 @@ TEST(MathGolden, BitsAreEqualOnAllCompilers) {
     EXPECT_EQ(hash.value(), k_golden) << std::hex << "0x" << hash.value();
 }
 
-TEST(ShareOfLine, PointsWhereThatShareOfTheAngleDoes) {
+TEST(ShareOfLine, PointsAtShareOfAngle) {
     for (double angle = 0.0; std::cos(angle) > 0.95; angle += 0.003) {
         for (double share = 0.0; share <= 1.0; share += 0.01) {
             const double on_line = share_of_line(share, std::cos(angle));
@@ -448,7 +446,7 @@ TEST(ShareOfLine, PointsWhereThatShareOfTheAngleDoes) {
     }
 }
 
-TEST(AnySquareTo, IsUnitAndSquare) {
+TEST(AnyPerpendicular, IsUnitAndPerpendicular) {
     test::Random random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 axis = i < 3 ? Vec3(Vec3::Unit(i)) : random.direction();

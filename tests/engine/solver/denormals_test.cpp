@@ -13,13 +13,13 @@
 #include "tests/engine/solver/scene.hpp"
 #include "triad_steps.hpp"
 
-// What pulls at one end of a long rope fades on its way.
+// A pull at one end of a long rope fades from link to link, below the smallest normal number.
 namespace handhold::solver_denormals_test {
 namespace {
 
 using test::SolverScene;
 
-// Laid out straight; its last link moves across, the others less and less.
+// A straight rope whose last link moves across; the others respond less and less.
 SolverScene rope_pulled_across() {
     constexpr std::uint32_t k_links = 600;
     SolverScene scene;
@@ -44,7 +44,7 @@ std::ptrdiff_t denormal_velocities(const SolverScene& scene) {
     });
 }
 
-TEST(Denormals, OfARopePulledAcrossAreNothing) {
+TEST(Denormals, VelocitySolveOfALongRopeLeavesNone) {
     SolverScene scene = rope_pulled_across();
     test::solve_a_step(scene.scratch.triads, scene.view(scene.graph.islands.front()));
     EXPECT_GT(denormal_velocities(scene), 0);  // what the solver has to take care of
@@ -60,8 +60,8 @@ std::ptrdiff_t denormal_heights(const SolverScene& scene) {
     });
 }
 
-// The same of positions: its last link lies beside where it should.
-TEST(Denormals, OfARopeThatIsPutTogetherAreNothing) {
+// The same for positions: the last link is displaced across.
+TEST(Denormals, PositionSolveOfALongRopeLeavesNone) {
 #ifndef __SSE2__
     GTEST_SKIP() << "nothing is flushed on this processor";
 #endif
@@ -76,8 +76,8 @@ TEST(Denormals, OfARopeThatIsPutTogetherAreNothing) {
     EXPECT_NE(scene.body(300).pose_ws.position.y(), 0.0);
 }
 
-// A guard around the loop over islands would serve the caller's thread only.
-TEST(DenormalsThreaded, OfIslandsOnWorkersAreNothing) {
+// A guard around the loop over islands would cover the calling thread only.
+TEST(DenormalsThreaded, SolvesOnWorkerThreadsLeaveNone) {
 #ifndef __SSE2__
     GTEST_SKIP() << "nothing is flushed on this processor";
 #endif
@@ -86,7 +86,7 @@ TEST(DenormalsThreaded, OfIslandsOnWorkersAreNothing) {
     std::array<SolverScene, 2> positions = velocities;
     std::atomic<int> present = 0;
     auto solve = [&](std::size_t i) {
-        ++present;  // the other island waits for another thread
+        ++present;  // both islands must be solved at the same time, on two threads
         const Clock::time_point give_up = Clock::now() + std::chrono::seconds(20);
         while (present < 2 && Clock::now() < give_up) {
             std::this_thread::yield();
@@ -106,7 +106,7 @@ TEST(DenormalsThreaded, OfIslandsOnWorkersAreNothing) {
     }
 }
 
-TEST(Denormals, AreFlushedWhileTheGuardLives) {
+TEST(Denormals, AreFlushedDuringTheGuardsLifetime) {
 #ifndef __SSE2__
     GTEST_SKIP() << "nothing is flushed on this processor";
 #endif

@@ -24,7 +24,7 @@ struct Body {
     Vec3 spin_radps;
 };
 
-// Spheres, tops about each axis, and what has three different moments; slow and fast.
+// Spheres, symmetric tops about each axis and bodies with three different moments; slow and fast.
 Body random_body(std::size_t kind, Random& random) {
     const double a = random.between(0.1, 1.0);
     const double b = random.between(0.1, 1.0);
@@ -54,7 +54,7 @@ void expect_same_bits(const Body& x, const Body& y) {
     EXPECT_EQ(x.spin_radps, y.spin_radps);
 }
 
-TEST(FreeRotations, OfOneBodyDoNotDependOnWhomItIsWith) {
+TEST(FreeRotations, BodyDoesNotDependOnTheOthersOfItsBatch) {
     Random random(1);
     std::vector<Body> together = random_bodies(random);
     std::vector<Body> alone = together;
@@ -68,7 +68,7 @@ TEST(FreeRotations, OfOneBodyDoNotDependOnWhomItIsWith) {
     }
 }
 
-TEST(FreeRotations, HaveTheSameBitsWithAndWithoutAvx2) {
+TEST(FreeRotations, BitsAreEqualWithAndWithoutAvx2) {
     if (fastest_vectors() == Vectors::portable) {
         GTEST_SKIP() << "this processor has no AVX2";
     }
@@ -85,7 +85,7 @@ TEST(FreeRotations, HaveTheSameBitsWithAndWithoutAvx2) {
     }
 }
 
-TEST(FreeRotations, LeaveAloneWhatDoesNotTurnOrClaimsToTurnTooFast) {
+TEST(FreeRotations, ZeroExcessiveAndInvalidSpinsAreLeftUnchanged) {
     Random random(3);
     for (const Vec3& spin : {Vec3(0.0, 0.0, 0.0), Vec3(2e6, 0.0, 0.0),
                              Vec3(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0)}) {
@@ -97,8 +97,8 @@ TEST(FreeRotations, LeaveAloneWhatDoesNotTurnOrClaimsToTurnTooFast) {
     }
 }
 
-// Four at a time, as math.hpp's one by one.
-TEST(SinCos, OfFourAnglesHaveTheBitsOfOne) {
+// Compared with math.hpp's scalar sin_cos.
+TEST(SinCos, FourLanesHaveTheBitsOfTheScalarFunction) {
     Random random(4);
     constexpr double k_infinity = std::numeric_limits<double>::infinity();
     std::vector<double> angles = {

@@ -22,8 +22,8 @@ std::uint32_t below(std::size_t count, Random& random) {
     return static_cast<std::uint32_t>(random.engine()() % count);
 }
 
-// Bodies with ids that are sorted but not dense; about one in four is fixed. No block joins two
-// fixed ones, as in a frame.
+// Bodies with sorted, not contiguous ids; about one in four is fixed. No block connects two fixed
+// bodies, as in a frame.
 ConstraintGraph random_graph(Random& random) {
     ConstraintGraph graph;
     const std::uint32_t bodies = 2 + below(30, random);
@@ -59,8 +59,7 @@ std::set<Members> islands_of(const ConstraintGraph& graph) {
     return islands;
 }
 
-// The oracle: from each body not yet seen, over blocks between bodies that can move, until nothing
-// new is found.
+// Oracle: flood fill from each unvisited body over blocks between movable bodies.
 std::set<Members> flood_filled(const ConstraintGraph& graph) {
     const auto moves = [&graph](std::uint32_t i) {
         return graph.bodies[i].role != BodyRole::fixed;
@@ -91,14 +90,14 @@ std::set<Members> flood_filled(const ConstraintGraph& graph) {
     return islands;
 }
 
-RC_GTEST_PROP(Islands, AreWhatAFloodFillFinds, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, EqualTheComponentsOfAFloodFill, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
     RC_ASSERT(islands_of(graph) == flood_filled(graph));
 }
 
-RC_GTEST_PROP(Islands, HoldEveryBlockOnceBesideItsBodies, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, ContainEveryBlockOnceWithItsBodies, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
@@ -120,7 +119,7 @@ RC_GTEST_PROP(Islands, HoldEveryBlockOnceBesideItsBodies, (std::uint64_t seed)) 
     }
 }
 
-RC_GTEST_PROP(Islands, AreSortedAndSlotsCountTheirBodies, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, AreSortedAndSlotsNumberTheirBodies, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
@@ -138,7 +137,7 @@ RC_GTEST_PROP(Islands, AreSortedAndSlotsCountTheirBodies, (std::uint64_t seed)) 
     }
 }
 
-RC_GTEST_PROP(Islands, AreTheSameInWhateverOrderBlocksWereFound, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, DoNotDependOnTheOrderOfDetection, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     ConstraintGraph shuffled = graph;
@@ -154,8 +153,8 @@ RC_GTEST_PROP(Islands, AreTheSameInWhateverOrderBlocksWereFound, (std::uint64_t 
     RC_ASSERT(graph.island_blocks == shuffled.island_blocks);
 }
 
-// As a frame does: bodies are written anew, and tied as before.
-RC_GTEST_PROP(Islands, StayAsLongAsTheSameBodiesAreTied, (std::uint64_t seed)) {
+// As in a frame: bodies are rewritten, the topology is unchanged.
+RC_GTEST_PROP(Islands, AreKeptWhileTheTopologyIsUnchanged, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
@@ -172,8 +171,8 @@ RC_GTEST_PROP(Islands, StayAsLongAsTheSameBodiesAreTied, (std::uint64_t seed)) {
     }
 }
 
-// One body can no longer move: what it held together falls apart.
-RC_GTEST_PROP(Islands, AreFoundAnewWhenARoleChanges, (std::uint64_t seed)) {
+// One body becomes fixed, which separates the bodies it connected.
+RC_GTEST_PROP(Islands, AreRebuiltWhenARoleChanges, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
@@ -186,7 +185,7 @@ RC_GTEST_PROP(Islands, AreFoundAnewWhenARoleChanges, (std::uint64_t seed)) {
     RC_ASSERT(islands_of(graph) == flood_filled(graph));
 }
 
-RC_GTEST_PROP(Islands, BuiltAgainAfterAnotherGraphShowNothingOfIt, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, DoNotDependOnThePreviousGraph, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph fresh = random_graph(random);
     ConstraintGraph reused = random_graph(random);
@@ -199,7 +198,7 @@ RC_GTEST_PROP(Islands, BuiltAgainAfterAnotherGraphShowNothingOfIt, (std::uint64_
     RC_ASSERT(fresh.island_blocks == reused.island_blocks);
 }
 
-RC_GTEST_PROP(Islands, LargestGoFirstOfEqualOnesTheEarlier, (std::uint64_t seed)) {
+RC_GTEST_PROP(Islands, SortPutsTheLargestFirstAndTiesByIndex, (std::uint64_t seed)) {
     Random random(seed);
     ConstraintGraph graph = random_graph(random);
     build_islands(graph);
@@ -214,8 +213,8 @@ RC_GTEST_PROP(Islands, LargestGoFirstOfEqualOnesTheEarlier, (std::uint64_t seed)
     }
 }
 
-TEST(Islands, FixedBodiesCutThem) {
-    // Ball, wall, ball; the second ball touches a third.
+TEST(Islands, FixedBodiesSeparateThem) {
+    // Ball, fixed body, ball; the second ball touches a third.
     ConstraintGraph graph;
     graph.bodies = {test::ball(1, 1.0, 0.1), test::fixed_body(2), test::ball(3, 1.0, 0.1),
                     test::ball(4, 1.0, 0.1)};
@@ -226,10 +225,10 @@ TEST(Islands, FixedBodiesCutThem) {
     EXPECT_EQ(islands_of(graph), (std::set<Members>{{0}, {2, 3}}));
 }
 
-TEST(Islands, PlayersAndHeavyBodiesJoinThem) {
+TEST(Islands, TranslatingAndHeavyBodiesConnectThem) {
     // Which phases move them changes within a frame; the islands do not.
     ConstraintGraph graph;
-    graph.bodies = {test::player_body(1, 80.0), test::ball(2, 5000.0, 0.5),
+    graph.bodies = {test::translating_body(1, 80.0), test::ball(2, 5000.0, 0.5),
                     test::ball(3, 1.0, 0.1)};
     graph.bodies[1].role = BodyRole::heavy;
     graph.bodies[1].inverse_mass = 0.0;
@@ -239,7 +238,7 @@ TEST(Islands, PlayersAndHeavyBodiesJoinThem) {
     EXPECT_EQ(islands_of(graph), (std::set<Members>{{0, 1, 2}}));
 }
 
-TEST(Islands, BodiesWithoutABlockHaveNone) {
+TEST(Islands, BodyWithoutABlockBelongsToNone) {
     ConstraintGraph graph;
     graph.bodies = {test::ball(1, 1.0, 0.1), test::ball(2, 1.0, 0.1)};
     build_islands(graph);
@@ -261,9 +260,9 @@ TEST(FindBody, FindsEveryIdAndNoOther) {
 
 // --- Contact rows --------------------------------------------------------------------------------
 
-ConstraintGraph player_before_a_wall() {
+ConstraintGraph driver_at_a_wall() {
     ConstraintGraph graph;
-    graph.bodies = {test::fixed_body(3), test::player_body(7, 80.0)};
+    graph.bodies = {test::fixed_body(3), test::translating_body(7, 80.0)};
     graph.bodies[0].restitution = 0.6;
     graph.bodies[1].restitution = 0.2;
     graph.bodies[1].collider_offset_bs = Vec3(0.1, 1.6, 0.0);
@@ -272,8 +271,8 @@ ConstraintGraph player_before_a_wall() {
     return graph;
 }
 
-TEST(ReplaceContactRows, KeepHandsAndTakeTheColliderOffsetAndTheLargerRestitution) {
-    ConstraintGraph graph = player_before_a_wall();
+TEST(ReplaceContactRows, KeepsDrivesAndUsesColliderOffsetAndLargerRestitution) {
+    ConstraintGraph graph = driver_at_a_wall();
     ContactPoint contact;
     contact.id_a = 7;
     contact.id_b = 3;
@@ -296,15 +295,15 @@ TEST(ReplaceContactRows, KeepHandsAndTakeTheColliderOffsetAndTheLargerRestitutio
     EXPECT_EQ(graph.islands.size(), 1U);
 }
 
-TEST(ReplaceContactRows, NoContactsLeaveOnlyHands) {
-    ConstraintGraph graph = player_before_a_wall();
+TEST(ReplaceContactRows, WithoutContactsOnlyDrivesRemain) {
+    ConstraintGraph graph = driver_at_a_wall();
     replace_contact_rows({}, graph);
     ASSERT_EQ(graph.blocks.size(), 1U);
     EXPECT_TRUE(is_drive(graph.blocks[0]));
 }
 
 TEST(ReplaceContactRows, ContactOfAnUnknownBodyIsRefused) {
-    ConstraintGraph graph = player_before_a_wall();
+    ConstraintGraph graph = driver_at_a_wall();
     ContactPoint contact;
     contact.id_a = 7;
     contact.id_b = 4;

@@ -1,4 +1,5 @@
-// Rows of joints against their slopes, measured by central differences.
+// Jacobians of joint rows against central differences; friction, motors and locks against closed
+// forms.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -20,8 +21,9 @@ std::vector<SolverBody> two_random_bodies(Random& random) {
     return {test::random_free_body(1, random), test::random_free_body(2, random)};
 }
 
-// A joint that is met, its free coordinate moved by `way` (rad or m; a ball leans by it).
-RowBlock met_joint(RowKind kind, std::vector<SolverBody>& bodies, double way, Random& random) {
+// A satisfied joint, displaced along its free coordinate (rad or m; a ball is tilted by it).
+RowBlock met_joint(RowKind kind, std::vector<SolverBody>& bodies, double displacement,
+                   Random& random) {
     RowBlock block = test::random_block(kind, 0, 1, random);
     test::meet(bodies, block);
     const Quat frame = bodies[0].pose_ws.rotation * block.rotation_a_bs;
@@ -29,7 +31,7 @@ RowBlock met_joint(RowKind kind, std::vector<SolverBody>& bodies, double way, Ra
     Pose& b = bodies[1].pose_ws;
     const auto turn_b = [&](const Vec3& about) {
         const Vec3 point = transform_point(b, block.point_b_bs);
-        b.rotation = (rotation_about(about, way) * b.rotation).normalized();
+        b.rotation = (rotation_about(about, displacement) * b.rotation).normalized();
         b.position = point - b.rotation * block.point_b_bs;
     };
     if (kind == RowKind::hinge) {
@@ -37,11 +39,11 @@ RowBlock met_joint(RowKind kind, std::vector<SolverBody>& bodies, double way, Ra
     } else if (kind == RowKind::ball) {
         turn_b(frame * Vec3::UnitZ());
     } else if (kind == RowKind::slider || kind == RowKind::distance) {
-        b.position += way * axis;
+        b.position += displacement * axis;
     }
     block.joint.limited = kind != RowKind::fixed;
-    block.joint.lower = way - 0.05;
-    block.joint.upper = way + 0.15;
+    block.joint.lower = displacement - 0.05;
+    block.joint.upper = displacement + 0.15;
     return block;
 }
 
@@ -53,7 +55,7 @@ std::vector<SolverBody> nudged(std::vector<SolverBody> bodies, std::uint32_t bod
     return bodies;
 }
 
-RC_GTEST_PROP(JointRows, JacobianIsTheSlopeWhereTheJointIsMet, (std::uint64_t seed)) {
+RC_GTEST_PROP(JointRows, JacobianEqualsFiniteDifferencesAtTheSolution, (std::uint64_t seed)) {
     Random random(seed);
     for (const RowKind kind : k_joints) {
         std::vector<SolverBody> bodies = two_random_bodies(random);
@@ -79,22 +81,22 @@ RC_GTEST_PROP(JointRows, JacobianIsTheSlopeWhereTheJointIsMet, (std::uint64_t se
     }
 }
 
-RC_GTEST_PROP(JointRows, CoordinateIsTheWayThatTheJointWasMoved, (std::uint64_t seed)) {
+RC_GTEST_PROP(JointRows, CoordinateEqualsTheJointsDisplacement, (std::uint64_t seed)) {
     Random random(seed);
     for (const RowKind kind : k_joints) {
         std::vector<SolverBody> bodies = two_random_bodies(random);
-        const double way = random.between(0.1, 3.0);
-        const RowBlock block = met_joint(kind, bodies, way, random);
+        const double displacement = random.between(0.1, 3.0);
+        const RowBlock block = met_joint(kind, bodies, displacement, random);
         const JointError error = joint_error(bodies, block);
         RC_ASSERT(error.point_m < 1e-12 && error.angle_rad < 1e-7);
         if (kind != RowKind::fixed) {
-            RC_ASSERT(std::abs(joint_coordinate(bodies, block) - way) < 1e-9);
+            RC_ASSERT(std::abs(joint_coordinate(bodies, block) - displacement) < 1e-9);
         }
     }
 }
 
-// The oracle: difference of the coordinate over a small time.
-RC_GTEST_PROP(JointRows, SpeedIsTheRateOfTheCoordinate, (std::uint64_t seed)) {
+// Oracle: central difference of the coordinate over time.
+RC_GTEST_PROP(JointRows, SpeedIsTheTimeDerivativeOfTheCoordinate, (std::uint64_t seed)) {
     Random random(seed);
     for (const RowKind kind : {RowKind::hinge, RowKind::slider, RowKind::distance}) {
         std::vector<SolverBody> bodies = two_random_bodies(random);
@@ -104,7 +106,7 @@ RC_GTEST_PROP(JointRows, SpeedIsTheRateOfTheCoordinate, (std::uint64_t seed)) {
         bodies[0].spin_radps = random.vector(1.0);
         bodies[1].spin_radps = random.vector(1.0);
         if (kind == RowKind::hinge) {
-            // Across the axis a hinge does not turn.
+            // a hinge transmits all rotation across its axis
             const Vec3 axis = bodies[0].pose_ws.rotation * (block.rotation_a_bs * Vec3::UnitX());
             bodies[1].spin_radps = bodies[0].spin_radps + random.between(-1.0, 1.0) * axis;
         }
@@ -121,7 +123,7 @@ RC_GTEST_PROP(JointRows, SpeedIsTheRateOfTheCoordinate, (std::uint64_t seed)) {
     }
 }
 
-TEST(JointRows, HingeGoesOnCountingWholeTurnsFromWhereItWas) {
+TEST(JointRows, HingeAngleContinuesOverWholeTurns) {
     Random random(3);
     for (const double before : {-20.0, -3.0, 0.0, 7.5, 100.0}) {
         std::vector<SolverBody> bodies = two_random_bodies(random);
@@ -133,7 +135,7 @@ TEST(JointRows, HingeGoesOnCountingWholeTurnsFromWhereItWas) {
     }
 }
 
-TEST(JointRows, LimitsPastTheirReachAreLeftOutAndALockIsOneRow) {
+TEST(JointRows, DistantLimitsHaveNoRowAndALockHasOne) {
     Random random(4);
     std::vector<SolverBody> bodies = two_random_bodies(random);
     RowBlock block = met_joint(RowKind::slider, bodies, 0.5, random);
@@ -149,21 +151,20 @@ TEST(JointRows, LimitsPastTheirReachAreLeftOutAndALockIsOneRow) {
     EXPECT_EQ(count(0.01), 6U);
 }
 
-// From far off: every joint comes together, the free coordinate within its limits, and the centre
-// of mass stays where it was. A rod whose ends lie near each other may take more than 30 steps (1
-// of 800 starts as far off as the others'), so it starts less far off: more than a frame ever
-// moves.
-RC_GTEST_PROP(JointRows, SolvedFromAnywhereWithinAMetre, (std::uint64_t seed)) {
+// From a metre away, every joint converges within its limits, and the centre of mass is unchanged.
+// A distance joint whose points are close together may need more than 30 iterations (1 in 800 of
+// the others' starts), so it starts closer, still farther than a frame ever moves.
+RC_GTEST_PROP(JointRows, EveryJointConvergesFromAMetreAway, (std::uint64_t seed)) {
     Random random(seed);
     for (const RowKind kind : k_joints) {
         test::SolverScene scene;
         scene.graph.bodies = two_random_bodies(random);
         RowBlock block = met_joint(kind, scene.graph.bodies, random.between(0.3, 1.2), random);
         Pose& pose = scene.body(1).pose_ws;
-        const double far = kind == RowKind::distance ? 0.4 : 1.0;
-        pose.position += random.vector(0.5 * far);
+        const double scale = kind == RowKind::distance ? 0.4 : 1.0;
+        pose.position += random.vector(0.5 * scale);
         pose.rotation =
-            (rotation_from_vector(random.vector(0.6 * far)) * pose.rotation).normalized();
+            (rotation_from_vector(random.vector(0.6 * scale)) * pose.rotation).normalized();
         scene.graph.blocks.push_back(block);
         const auto centre = [&]() -> Vec3 {
             return scene.body(0).mass_kg * scene.body(0).pose_ws.position +
@@ -182,7 +183,7 @@ RC_GTEST_PROP(JointRows, SolvedFromAnywhereWithinAMetre, (std::uint64_t seed)) {
 constexpr double k_radius_m = 0.1;
 constexpr double k_mass_kg = 2.0;
 
-// A solid ball that touches a floor (y = 0) and comes in at an angle, spinning.
+// A solid ball that touches a floor (y = 0), with oblique velocity and spin.
 test::SolverScene ball_on_floor(double friction, double restitution, const Vec3& velocity_mps,
                                 const Vec3& spin_radps) {
     test::SolverScene scene;
@@ -199,9 +200,9 @@ test::SolverScene ball_on_floor(double friction, double restitution, const Vec3&
     return scene;
 }
 
-// Impulses of a ball against a wall: m (1 + e) v_n along the normal; along the floor what stops the
-// contact point, 2/7 m u for a solid ball, but at most mu times the normal's.
-RC_GTEST_PROP(Friction, BallBouncesAsCoulombAndNewtonSay, (std::uint64_t seed)) {
+// Closed form: normal impulse m (1 + e) v_n. Tangential impulse: 2/7 m u (u: slip velocity), which
+// stops the contact point of a solid ball, but at most mu times the normal impulse.
+RC_GTEST_PROP(Friction, BouncingBallFollowsCoulombAndNewton, (std::uint64_t seed)) {
     Random random(seed);
     const double friction = random.between(0.01, 1.5);
     const double restitution = random.between(0.0, 1.0);
@@ -222,14 +223,14 @@ RC_GTEST_PROP(Friction, BallBouncesAsCoulombAndNewtonSay, (std::uint64_t seed)) 
     RC_ASSERT((scene.body(1).spin_radps - (spin + arm.cross(impulse) / inertia)).norm() < 1e-5);
 }
 
-TEST(Friction, NoneLeavesTheMotionAlongTheFloorAlone) {
+TEST(Friction, ZeroFrictionKeepsTangentialVelocity) {
     test::SolverScene scene = ball_on_floor(0.0, 0.5, Vec3(1.0, -2.0, 0.5), Vec3(1.0, 2.0, 3.0));
     scene.solve_velocities();
     EXPECT_LE((scene.body(1).velocity_mps - Vec3(1.0, 1.0, 0.5)).norm(), 1e-7);
     EXPECT_LE((scene.body(1).spin_radps - Vec3(1.0, 2.0, 3.0)).norm(), 1e-9);
 }
 
-// A wheel of 0.5 kg m^2 about the x axis of a hinge in something fixed.
+// A wheel of 0.5 kg m^2 on a hinge along x, on a fixed body.
 test::SolverScene spinning_wheel(double spin_radps) {
     test::SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
@@ -238,7 +239,7 @@ test::SolverScene spinning_wheel(double spin_radps) {
     return scene;
 }
 
-TEST(Friction, HingeFrictionTakesItsImpulseAndNoMore) {
+TEST(Friction, HingeFrictionIsLimitedToItsImpulse) {
     for (const double impulse : {0.01, 0.2, 10.0}) {
         test::SolverScene scene = spinning_wheel(1.0);
         JointRows& hinge = scene.block(0).joint;
@@ -248,7 +249,7 @@ TEST(Friction, HingeFrictionTakesItsImpulseAndNoMore) {
     }
 }
 
-TEST(Friction, DriveReachesItsSpeedWithinItsImpulse) {
+TEST(Friction, MotorReachesItsSpeedWithinItsImpulse) {
     for (const double impulse : {0.1, 10.0}) {
         test::SolverScene scene;
         scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 4.0, Vec3::Constant(0.4))};
@@ -262,7 +263,7 @@ TEST(Friction, DriveReachesItsSpeedWithinItsImpulse) {
     }
 }
 
-TEST(JointRows, LockOfAStrengthTakesNoMoreThanThat) {
+TEST(JointRows, LockYieldsAtItsLimitImpulse) {
     for (const double strength : {0.25, 0.75, 1.5}) {
         test::SolverScene scene = spinning_wheel(2.0);
         JointRows& hinge = scene.block(0).joint;
@@ -274,8 +275,8 @@ TEST(JointRows, LockOfAStrengthTakesNoMoreThanThat) {
     }
 }
 
-// A body that swings through the middle of its cone is not stopped there.
-TEST(JointRows, ConeHoldsNothingInItsMiddle) {
+// A body passing through the cone's centre must not be stopped there.
+TEST(JointRows, ConeLimitDoesNotActAtItsCentre) {
     test::SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1), test::free_body(2, 3.0, Vec3(0.5, 0.4, 0.3))};
     RowBlock ball = test::row_block(RowKind::ball, 0, 1);
@@ -289,7 +290,7 @@ TEST(JointRows, ConeHoldsNothingInItsMiddle) {
     }
 }
 
-TEST(JointRows, LockTellsTheImpulseThatItTook) {
+TEST(JointRows, LockReportsItsImpulse) {
     test::SolverScene scene = spinning_wheel(2.0);
     scene.block(0).joint.limited = true;
     scene.solve_velocities();

@@ -10,7 +10,7 @@
 #include "engine/solver/newton/newton.hpp"
 #include "tests/engine/solver/scene.hpp"
 
-namespace handhold::led_hands_test {
+namespace handhold::solver_load_stepping_test {
 namespace {
 
 using test::Random;
@@ -21,10 +21,10 @@ bool is_same(const RowBlock& a, const RowBlock& b) {
            a.point_b_bs == b.point_b_bs && a.rotation_b_bs.coeffs() == b.rotation_b_bs.coeffs();
 }
 
-RC_GTEST_PROP(LoadSteppedDrives, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
+RC_GTEST_PROP(LoadSteppedDrives, WithheldShareOfTheErrorIsNotAskedFor, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
+    scene.graph.bodies = {test::translating_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
     const bool is_weld = random.between(0.0, 1.0) < 0.5;
     scene.graph.blocks = {
@@ -32,29 +32,29 @@ RC_GTEST_PROP(LoadSteppedDrives, LackWhatIsNotHeldBack, (std::uint64_t seed)) {
     build_islands(scene.graph);
     const IslandView island = scene.view(scene.graph.islands.front());
     const RowBlock taken = scene.block(0);
-    const auto point_lack_m = [&] {
+    const auto point_error_m = [&] {
         return point_error(scene.graph.bodies, scene.block(0)).norm();
     };
-    const auto turn_lack_rad = [&] {
+    const auto rotation_error_rad = [&] {
         return rotation_error(scene.body(0).pose_ws.rotation, scene.body(1).pose_ws.rotation,
                               scene.block(0))
             .norm();
     };
-    const double far_m = point_lack_m();
-    const double turned_rad = turn_lack_rad();
+    const double initial_m = point_error_m();
+    const double initial_rad = rotation_error_rad();
     LoadSteppedDrives load_stepped;
     load_stepped.take(island);
     for (const double share : {1.0, 0.75, 0.25}) {
         load_stepped.withhold_load(island, share);
-        RC_ASSERT(std::abs(point_lack_m() - (1.0 - share) * far_m) < 1e-12);
-        RC_ASSERT(!is_weld || std::abs(turn_lack_rad() - (1.0 - share) * turned_rad) < 1e-9);
+        RC_ASSERT(std::abs(point_error_m() - (1.0 - share) * initial_m) < 1e-12);
+        RC_ASSERT(!is_weld || std::abs(rotation_error_rad() - (1.0 - share) * initial_rad) < 1e-9);
     }
     load_stepped.withhold_load(island, 0.0);
     RC_ASSERT(is_same(scene.block(0), taken));
 }
 
-// A chain on a wall, every other link a thousand times as heavy as those beside it, and a hand that
-// has its end `reach` of the chain's length away from the wall, to the side.
+// A chain on a fixed body, every other link a thousand times as heavy as its neighbours, and a
+// drive whose target for the last link is to the side, at `reach` times the chain's length.
 SolverScene chain_to(double reach) {
     constexpr std::uint32_t k_links = 16;
     constexpr double k_half_m = 0.05;
@@ -70,11 +70,11 @@ SolverScene chain_to(double reach) {
         scene.graph.blocks.push_back(
             test::row_block(RowKind::ball, i, i + 1, i == 0 ? Vec3(Vec3::Zero()) : end, -end));
     }
-    scene.graph.bodies.push_back(test::player_body(k_links + 2, 80.0));
+    scene.graph.bodies.push_back(test::translating_body(k_links + 2, 80.0));
     scene.body(k_links + 1).inverse_mass = 0.0;
-    const Vec3 hand = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
+    const Vec3 target = reach * 2.0 * k_half_m * k_links * Vec3(1.0, 2.0, 0.0).normalized();
     scene.graph.blocks.push_back(
-        test::row_block(RowKind::drive_point, k_links + 1, k_links, hand, end));
+        test::row_block(RowKind::drive_point, k_links + 1, k_links, target, end));
     return scene;
 }
 
@@ -86,12 +86,12 @@ double worst_error_m(const SolverScene& scene) {
     return worst_m;
 }
 
-// With fewer steps than it takes at once, but enough for a part of the way.
-TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
+// With fewer iterations than the full load needs, but enough for one load step.
+TEST(SolvePositions, DriveThatRunsOutOfIterationsIsLoadStepped) {
     SolverScene scene = chain_to(0.8);
     build_islands(scene.graph);
     const std::vector<RowBlock> blocks = scene.graph.blocks;
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 12;
     const NewtonResult result = scene.solve_positions(settings);
     EXPECT_EQ(result.load_stepping, LoadStepping::converged);
@@ -106,11 +106,11 @@ TEST(SolvePositions, HandsThatRunOutOfStepsAreLedPartByPart) {
     EXPECT_TRUE(with_more.converged);
 }
 
-TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
+TEST(SolvePositions, FailedLoadSteppingRestoresTheFullLoadResult) {
     SolverScene scene = chain_to(1.5);
     build_islands(scene.graph);
     const std::vector<RowBlock> blocks = scene.graph.blocks;
-    NewtonSettings settings;
+    NewtonSettings settings = test::tight_settings();
     settings.max_iterations = 8;
     const NewtonResult result = scene.solve_positions(settings);
     EXPECT_EQ(result.load_stepping, LoadStepping::failed);
@@ -121,17 +121,17 @@ TEST(SolvePositions, WhatLeadingCannotReachEitherStaysAsStepsLeftIt) {
     EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), scene.graph.blocks.begin(), &is_same));
 }
 
-// Nothing that steps can do takes a hand nearer that has pulled its rope taut, or that stretches
-// it: parts of its way would be paid for in every frame.
-TEST(SolvePositions, HandsOnTautRopesAreNotLed) {
+// No number of iterations reaches the target of a drive that overstretches its rope. Load steps
+// would cost time in every frame.
+TEST(SolvePositions, TautRopeIsNotLoadStepped) {
     for (const double beyond_m : {0.001, 0.02, 0.2}) {
         SolverScene scene = chain_to(1.0 + beyond_m / 1.6);
         build_islands(scene.graph);
-        NewtonSettings settings;
+        NewtonSettings settings = test::tight_settings();
         settings.max_iterations = 300;
         settings.load_stepping_from_m = std::numeric_limits<double>::infinity();
-        scene.solve_positions(settings);  // as earlier frames have left it
-        settings = NewtonSettings{};
+        scene.solve_positions(settings);  // the state left by earlier frames
+        settings = test::tight_settings();
         for (int frame = 1; frame <= 5; ++frame) {
             scene.graph.blocks.back().point_a_bs *= 1.001;
             const NewtonResult result = scene.solve_positions(settings);
@@ -143,4 +143,4 @@ TEST(SolvePositions, HandsOnTautRopesAreNotLed) {
 }
 
 }  // namespace
-}  // namespace handhold::led_hands_test
+}  // namespace handhold::solver_load_stepping_test

@@ -1,6 +1,6 @@
-// Random constraint graphs: trees, loops, joints given twice, masses that differ a thousandfold.
-// The same 500 in every run: one in some thousands ends in a pose that no small step improves (a
-// hinge turned over by hands that tear at it), and is no news.
+// Random constraint networks: trees, loops, repeated joints, mass ratios up to 1000. The same 500
+// seeds in every run: about one network in some thousands ends in a local minimum (a hinge inverted
+// by contradicting drives), which is a known limitation.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -19,10 +19,10 @@ std::uint32_t random_index(std::uint32_t count, Random& random) {
     return static_cast<std::uint32_t>(random.engine()() % count);
 }
 
-// Body 0 is `first`; every other one is a box of 30 g to 30 kg, tied to an earlier one: in one net
-// of two by any joint, some of them twice, so that rows repeat each other; in the other by balls,
-// with loops (a loop of hinges closes in one pose only, and where that is a double root no Newton
-// step is fast). All are met.
+// Body 0 is `first`; every other body is a box of 30 g to 30 kg attached to an earlier one. Half of
+// the networks use joints of any kind, some of them repeated, so that rows are redundant. The other
+// half use balls with loops: a loop of hinges closes in one pose only, and Newton converges slowly
+// where that pose is a double root. All joints are satisfied.
 SolverScene make_net(const SolverBody& first, Random& random) {
     SolverScene scene;
     const std::uint32_t count = 3 + random_index(30, random);
@@ -86,9 +86,9 @@ double worst_joint_m(const SolverScene& scene) {
 
 constexpr std::uint64_t k_nets = 500;
 
-// By as much as fast play does in a frame. One in a thousand is all but stretched out, where errors
-// fall slowly: it takes another frame or two.
-TEST(Nets, AreMetAfterADisturbance) {
+// Disturbed by as much as fast motion in one frame. About one in a thousand is almost stretched out
+// and converges slowly: it takes another frame or two.
+TEST(ConstraintNetworks, ConvergeAfterADisturbance) {
     for (std::uint64_t seed = 1; seed <= k_nets; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -101,27 +101,28 @@ TEST(Nets, AreMetAfterADisturbance) {
     }
 }
 
-// As the contradiction phase does it: what hands pull taut is solved again without them. A net left
-// where it is all but stretched out may still be micrometres off: once in a thousand.
-TEST(Nets, HoldTogetherAfterHandsThatContradictEachOther) {
+// As in the contradiction phase: after drives have stretched the network, it is solved again
+// without them. About one in a thousand, left almost stretched out, may still be micrometres off.
+TEST(ConstraintNetworks, JointsConvergeAfterContradictingDrivesAreRemoved) {
     for (std::uint64_t seed = 1; seed <= k_nets; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         SolverScene scene = make_net(test::fixed_body(1, test::random_pose(random)), random);
         const auto count = static_cast<std::uint32_t>(scene.graph.bodies.size());
-        scene.graph.bodies.push_back(test::player_body(count + 1, 80.0));
+        scene.graph.bodies.push_back(test::translating_body(count + 1, 80.0));
         scene.body(count).inverse_mass = 0.0;
-        for (std::uint64_t hand = 0; hand < 2; ++hand) {
-            const std::uint32_t held = 1 + random_index(count - 1, random);
-            RowBlock block = test::row_block(RowKind::drive_point, held, count, random.vector(0.2));
+        for (std::uint64_t drive = 0; drive < 2; ++drive) {
+            const std::uint32_t driven = 1 + random_index(count - 1, random);
+            RowBlock block =
+                test::row_block(RowKind::drive_point, driven, count, random.vector(0.2));
             block.point_b_bs =
-                transform_point(scene.body(held).pose_ws, block.point_a_bs) + random.vector(0.2);
-            block.key = hand;
+                transform_point(scene.body(driven).pose_ws, block.point_a_bs) + random.vector(0.2);
+            block.key = drive;
             scene.graph.blocks.push_back(block);
         }
         sort_blocks(scene.graph);
         scene.solve_positions();
-        scene.solve_positions({}, BlockFilter::without_drives);
+        scene.solve_positions(test::tight_settings(), BlockFilter::without_drives);
         EXPECT_LE(worst_joint_m(scene), 2e-5);
         for (const SolverBody& body : scene.graph.bodies) {
             ASSERT_TRUE(body.pose_ws.position.allFinite());
@@ -133,7 +134,7 @@ TEST(Nets, HoldTogetherAfterHandsThatContradictEachOther) {
 struct Momentum {
     Vec3 linear = Vec3::Zero();
     Vec3 angular = Vec3::Zero();
-    double size = 0.0;  // sum of the bodies' own
+    double size = 0.0;  // sum of magnitudes: scale of the tolerance
 };
 Momentum momentum_of(const SolverScene& scene) {
     Momentum sum;
@@ -150,7 +151,7 @@ Momentum momentum_of(const SolverScene& scene) {
     return sum;
 }
 
-TEST(Nets, ThatFloatFreelyKeepTheirMomentumAndMoveAsJointsAllow) {
+TEST(ConstraintNetworks, FreeNetworksKeepMomentumAndSatisfyTheirJoints) {
     for (std::uint64_t seed = 1; seed <= k_nets; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -169,7 +170,7 @@ TEST(Nets, ThatFloatFreelyKeepTheirMomentumAndMoveAsJointsAllow) {
             const SolverBody& b = scene.body(row.b);
             const double speed = row.linear_a.dot(a.velocity_mps - b.velocity_mps) +
                                  row.angular_a.dot(a.spin_radps) + row.angular_b.dot(b.spin_radps);
-            // 1e-9 nearly always; rows that nearly repeat each other leave some 1e-5.
+            // 1e-9 in nearly all networks; nearly redundant rows leave up to 1e-5.
             EXPECT_LT(std::abs(speed), 2e-4);
         }
     }

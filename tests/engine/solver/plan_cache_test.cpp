@@ -13,17 +13,17 @@
 namespace handhold::solver_plan_cache_test {
 namespace {
 
-// A rope that hangs on nothing that moves; one of its nodes is told the other way round.
-std::vector<RowNode> rope(std::uint32_t bodies, std::uint32_t turned) {
+// A rope on an immovable body; one of its nodes has its ends swapped.
+std::vector<RowNode> rope(std::uint32_t bodies, std::uint32_t swapped) {
     std::vector<RowNode> nodes{{{k_no_slot, 0}, 3, false, true}};
     for (std::uint32_t i = 1; i < bodies; ++i) {
         nodes.push_back({{i - 1, i}, 3, false, true});
     }
-    std::swap(nodes[turned].slots[0], nodes[turned].slots[1]);
+    std::swap(nodes[swapped].slots[0], nodes[swapped].slots[1]);
     return nodes;
 }
 
-// How often it allocates to plan ropes of one length, after the first.
+// Allocations when planning ropes of one length, after the first.
 template <typename Plan>
 std::size_t allocations_of_ropes_alike() {
     constexpr std::uint32_t k_bodies = 150;
@@ -31,8 +31,8 @@ std::size_t allocations_of_ropes_alike() {
     PlanCache<Plan> plans;
     plans.choose(rope(k_bodies, 0), turns);
     std::size_t count = 0;
-    for (std::uint32_t turned = 1; turned < 20; ++turned) {
-        const std::vector<RowNode> nodes = rope(k_bodies, turned);
+    for (std::uint32_t swapped = 1; swapped < 20; ++swapped) {
+        const std::vector<RowNode> nodes = rope(k_bodies, swapped);
         const std::size_t before = allocation_count();
         plans.choose(nodes, turns);
         count += allocation_count() - before;
@@ -40,7 +40,7 @@ std::size_t allocations_of_ropes_alike() {
     return count;
 }
 
-TEST(PlanCache, AllocatesForTheFirstOfASizeOnly) {
+TEST(PlanCache, OnlyTheFirstPlanOfASizeAllocates) {
     if (!counts_allocations()) {
         GTEST_SKIP() << "the sanitizer brings operators of its own";
     }

@@ -27,7 +27,7 @@ std::vector<Row> rows_of(const std::vector<SolverBody>& bodies, const RowBlock& 
     return rows;
 }
 
-// How one body of the block is moved.
+// A displacement of one body of the block.
 struct Nudge {
     std::uint32_t body = 0;
     Vec3 move_m = Vec3::Zero();
@@ -41,8 +41,8 @@ std::vector<SolverBody> nudged(std::vector<SolverBody> bodies, const Nudge& nudg
     return bodies;
 }
 
-// The oracle: change of each row's value for a unit of the nudge, by central differences. Error
-// below 1e-9 for poses of a few metres: (1e-5)^2 from the step, 1e-15 / 1e-5 from rounding.
+// Oracle: change of each residual per unit of the nudge, by central differences. Error below 1e-9
+// for poses of a few metres: (1e-5)^2 from the step, 1e-15 / 1e-5 from rounding.
 std::vector<double> measured_slopes(const std::vector<SolverBody>& bodies, const RowBlock& block,
                                     const Nudge& nudge) {
     constexpr double k_step = 1e-5;
@@ -55,7 +55,7 @@ std::vector<double> measured_slopes(const std::vector<SolverBody>& bodies, const
     return slopes;
 }
 
-// What the row says of the same nudge.
+// The same change according to the row's Jacobian.
 double claimed_slope(const Row& row, const Nudge& nudge) {
     if (nudge.body == 0) {
         return row.linear_a.dot(nudge.move_m) + row.angular_a.dot(nudge.turn_rad);
@@ -78,21 +78,21 @@ Nudge random_nudge(Random& random) {
     return {random.between(0.0, 1.0) < 0.5 ? 0U : 1U, random.vector(1.0), random.vector(1.0)};
 }
 
-RC_GTEST_PROP(Rows, JacobianOfAPointIsItsSlopeAtAnyPoses, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rows, PointJacobianEqualsFiniteDifferences, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
     const RowBlock block = test::random_block(RowKind::drive_point, 0, 1, random);
     RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
 }
 
-RC_GTEST_PROP(Rows, JacobianOfAContactIsItsSlopeAtAnyPosesHoweverFarApart, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rows, ContactJacobianEqualsFiniteDifferencesAtAnySeparation, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
     const RowBlock block = test::random_block(RowKind::contact, 0, 1, random);
     RC_ASSERT(worst_slope_error(bodies, block, random_nudge(random)) < 1e-8);
 }
 
-RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rows, WeldJacobianEqualsFiniteDifferencesAtTheSolution, (std::uint64_t seed)) {
     for (const RowKind kind : {RowKind::drive_weld, RowKind::drive_direction}) {
         Random random(seed);
         const auto bodies = two_random_bodies(random);
@@ -102,21 +102,21 @@ RC_GTEST_PROP(Rows, JacobianOfAWeldIsItsSlopeWhereItIsMet, (std::uint64_t seed))
     }
 }
 
-// The points may be anywhere: they slide.
-RC_GTEST_PROP(Rows, DirectionIsAllRotation, (std::uint64_t seed)) {
+// The anchor points may be anywhere; they take part in no row.
+RC_GTEST_PROP(Rows, DriveDirectionHasNoLinearPart, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
     const RowBlock block = test::random_block(RowKind::drive_direction, 0, 1, random);
     for (const Row& row : rows_of(bodies, block)) {
         RC_ASSERT(row.linear_a == Vec3(Vec3::Zero()));
         RC_ASSERT(row.angular_a ==
-                  -row.angular_b);  // a pure couple, whatever point it is booked at
+                  -row.angular_b);  // a pure couple, independent of the anchor points
     }
 }
 
-// Farther off the rotation vector's slope is 1 + O(angle); along the error itself it is exact at
-// any angle.
-RC_GTEST_PROP(Rows, JacobianOfAWeldIsExactAlongItsErrorAtAnyAngle, (std::uint64_t seed)) {
+// Away from the solution the slope of the rotation vector is 1 + O(angle); along the error itself
+// it is exact at any angle.
+RC_GTEST_PROP(Rows, WeldJacobianIsExactAlongItsErrorAtAnyAngle, (std::uint64_t seed)) {
     Random random(seed);
     auto bodies = two_random_bodies(random);
     RowBlock block = test::random_block(RowKind::drive_weld, 0, 1, random);
@@ -133,8 +133,8 @@ RC_GTEST_PROP(Rows, JacobianOfAWeldIsExactAlongItsErrorAtAnyAngle, (std::uint64_
     }
 }
 
-// The normal is b's and turns with it: nothing comes nearer where both bodies move as one.
-RC_GTEST_PROP(Rows, MovingBothBodiesAsOneChangesNoSeparation, (std::uint64_t seed)) {
+// The normal is fixed to b, so a common rigid motion leaves the separation unchanged.
+RC_GTEST_PROP(Rows, RigidMotionOfBothBodiesKeepsTheSeparation, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
     const RowBlock block = test::random_block(RowKind::contact, 0, 1, random);
@@ -148,23 +148,23 @@ RC_GTEST_PROP(Rows, MovingBothBodiesAsOneChangesNoSeparation, (std::uint64_t see
     RC_ASSERT(std::abs(change) < 1e-13);
 }
 
-TEST(Rows, ContactNormalTurnsWithB) {
+TEST(Rows, ContactNormalRotatesWithB) {
     std::vector<SolverBody> bodies = {
         test::ball(1, 1.0, 0.1, {Vec3(-0.3, 0.05, 0.0), Quat::Identity()}), test::fixed_body(2)};
     bodies[1].pose_ws.rotation = rotation_about(Vec3::UnitZ(), 0.5 * 3.14159265358979323846);
     RowBlock block = test::row_block(RowKind::contact, 0, 1);
-    block.normal_b_bs = Vec3::UnitY();  // a quarter turn about z: -x in the world
+    block.normal_b_bs = Vec3::UnitY();  // rotated by a quarter turn about z: -x in the world
     const Row row = rows_of(bodies, block)[0];
     EXPECT_LT((row.linear_a - -Vec3::UnitX()).norm(), 1e-15);
     EXPECT_NEAR(row.residual, 0.3, 1e-15);
-    // Turning b on by an angle turns the normal away from a: cos(angle) 0.3 + sin(angle) * -0.05 to
+    // Rotating b further rotates the normal away from a: cos(angle) 0.3 + sin(angle) * -0.05 to
     // first order.
     EXPECT_NEAR(row.angular_b.z(), -0.05, 1e-15);
 }
 
-TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
+TEST(Rows, PointResidualIsTheOffsetFromBToA) {
     const std::vector<SolverBody> bodies = {
-        test::player_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
+        test::translating_body(1, 80.0, {Vec3(1.0, 2.0, 3.0), Quat::Identity()}),
         test::fixed_body(2, {Vec3(0.5, 0.0, 0.0), Quat::Identity()})};
     const RowBlock block =
         test::row_block(RowKind::drive_point, 0, 1, Vec3(0.0, 0.25, 0.0), Vec3(0.25, 0.0, -1.0));
@@ -176,8 +176,8 @@ TEST(Rows, ValueOfAPointIsWhereASidesPointLiesSeenFromBs) {
     EXPECT_DOUBLE_EQ(block_error_m(bodies, block), Vec3(0.25, 2.25, 4.0).norm());
 }
 
-TEST(Rows, AnglesOfAWeldCountAsLengthsAtItsLever) {
-    std::vector<SolverBody> bodies = {test::player_body(1, 80.0), test::ball(2, 1.0, 0.1)};
+TEST(Rows, WeldResidualIsTheAngleTimesTheLever) {
+    std::vector<SolverBody> bodies = {test::translating_body(1, 80.0), test::ball(2, 1.0, 0.1)};
     bodies[0].pose_ws.rotation = rotation_about(Vec3::UnitY(), 0.5);
     const RowBlock block = test::row_block(RowKind::drive_weld, 0, 1);
     const std::vector<Row> rows = rows_of(bodies, block);
@@ -188,7 +188,7 @@ TEST(Rows, AnglesOfAWeldCountAsLengthsAtItsLever) {
     EXPECT_NEAR(block_error_m(bodies, block), 0.5 * k_angle_lever_m, 1e-15);
 }
 
-TEST(Rows, ErrorOfAContactIsItsOverlapAndNothingApart) {
+TEST(Rows, ContactErrorIsThePenetrationDepth) {
     std::vector<SolverBody> bodies = {test::ball(1, 1.0, 0.1), test::fixed_body(2)};
     const RowBlock block = test::row_block(RowKind::contact, 0, 1, Vec3(0.0, -0.1, 0.0));
     bodies[0].pose_ws.position.y() = 0.07;
@@ -199,7 +199,7 @@ TEST(Rows, ErrorOfAContactIsItsOverlapAndNothingApart) {
     EXPECT_EQ(block_error_m(bodies, block), 0.0);
 }
 
-RC_GTEST_PROP(Rows, SeparationAndErrorsAreThoseOfTheRows, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rows, BlockErrorsEqualTheNormsOfTheResiduals, (std::uint64_t seed)) {
     Random random(seed);
     const auto bodies = two_random_bodies(random);
     for (const RowKind kind : k_all_kinds) {
@@ -222,7 +222,7 @@ RC_GTEST_PROP(Rows, SeparationAndErrorsAreThoseOfTheRows, (std::uint64_t seed)) 
     }
 }
 
-TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
+TEST(Rows, OnlyContactsAreUnilateral) {
     Random random(1);
     const auto bodies = two_random_bodies(random);
     for (const RowKind kind : k_all_kinds) {
@@ -242,7 +242,7 @@ TEST(Rows, OnlyContactsAreUnilateralAndOnlyHandsAreHands) {
     }
 }
 
-RC_GTEST_PROP(Rows, InverseInertiaInTheWorldUndoesTheTurnedInertia, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rows, WorldInverseInertiaInvertsTheRotatedInertia, (std::uint64_t seed)) {
     Random random(seed);
     const SolverBody body = test::random_free_body(1, random);
     const Mat3 axes = body.pose_ws.rotation.toRotationMatrix();

@@ -10,7 +10,7 @@
 #include "engine/solver/newton/velocities.hpp"
 #include "tests/engine/collision/scene.hpp"
 
-// What the solver's tests share: bodies with the masses that they really have, rows, and a graph
+// Shared by the solver's tests: bodies with consistent masses and inertias, blocks, and a graph
 // that is solved island by island.
 namespace handhold::test {
 
@@ -37,7 +37,7 @@ inline SolverBody ball(std::uint64_t id, double mass_kg, double radius_m,
     return free_body(id, mass_kg, Vec3::Constant(0.4 * mass_kg * radius_m * radius_m), pose_ws);
 }
 
-inline SolverBody player_body(std::uint64_t id, double mass_kg, const Pose& pose_ws = {}) {
+inline SolverBody translating_body(std::uint64_t id, double mass_kg, const Pose& pose_ws = {}) {
     SolverBody body = fixed_body(id, pose_ws);
     body.role = BodyRole::translating;
     body.mass_kg = mass_kg;
@@ -49,7 +49,7 @@ inline Pose random_pose(Random& random, double size_m = 2.0) {
     return {random.vector(size_m), random.rotation()};
 }
 
-// A body of 0.5 to 20 kg, a few decimetres large, whose moments of inertia a solid could have.
+// A box of 0.5 to 20 kg, a few decimetres large: its moments of inertia are those of a solid.
 inline SolverBody random_free_body(std::uint64_t id, Random& random) {
     const double mass_kg = random.between(0.5, 20.0);
     const Vec3 half_m(random.between(0.05, 0.3), random.between(0.05, 0.3),
@@ -79,12 +79,20 @@ inline RowBlock random_block(RowKind kind, std::uint32_t a, std::uint32_t b, Ran
     return block;
 }
 
-// Moves b's end of the block to where a's is: no error is left.
+// Moves b's frame of the block onto a's, which leaves no error.
 inline void meet(std::span<const SolverBody> bodies, RowBlock& block) {
     const Pose& a = bodies[block.a].pose_ws;
     const Pose& b = bodies[block.b].pose_ws;
     block.point_b_bs = inverse_transform_point(b, transform_point(a, block.point_a_bs));
     block.rotation_b_bs = b.rotation.conjugate() * (a.rotation * block.rotation_a_bs);
+}
+
+// Tighter than the runtime's defaults, so that closed forms can be compared to 1e-7.
+inline NewtonSettings tight_settings() {
+    NewtonSettings settings;
+    settings.tolerance_m = 1e-8;
+    settings.regularisation.drive = 1e-6;
+    return settings;
 }
 
 struct SolverScene {
@@ -106,8 +114,8 @@ struct SolverScene {
                 graph.blocks_of(island),
                 graph.revision};
     }
-    // Every island's; the result is that of the last, which in most tests is the only one.
-    NewtonResult solve_positions(const NewtonSettings& settings = {},
+    // Solves every island. The result is that of the last, in most tests the only one.
+    NewtonResult solve_positions(const NewtonSettings& settings = tight_settings(),
                                  BlockFilter filter = BlockFilter::all) {
         build_islands(graph);
         NewtonResult result;

@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-// What the paper asks for, by a matrix library: the stiffness with its negative eigenvalues cut.
+// Oracle: the stiffness matrix with its negative eigenvalues set to 0, by Eigen.
 Mat3 clipped_stiffness(const Vec3& force, const Vec3& arm, double sign) {
     const Mat3 outer = force * arm.transpose();
     const Mat3 whole =
@@ -25,7 +25,7 @@ Mat3 clipped_stiffness(const Vec3& force, const Vec3& arm, double sign) {
            parts.eigenvectors().transpose();
 }
 
-// Forces and arms of any direction to each other, also along it, against it and nothing at all.
+// Random forces and arms, including parallel, antiparallel and zero ones.
 std::pair<Vec3, Vec3> random_force_and_arm(std::uint64_t number, Random& random) {
     const Vec3 force = random.vector(500.0);
     switch (number % 8) {
@@ -40,7 +40,7 @@ std::pair<Vec3, Vec3> random_force_and_arm(std::uint64_t number, Random& random)
     }
 }
 
-TEST(GeometricStiffness, IsThePartWithEigenvaluesAboveZero) {
+TEST(GeometricStiffness, IsThePositiveSemidefinitePart) {
     Random random(1);
     for (std::uint64_t i = 0; i < 4000; ++i) {
         const auto [force, arm] = random_force_and_arm(i, random);
@@ -53,7 +53,7 @@ TEST(GeometricStiffness, IsThePartWithEigenvaluesAboveZero) {
     }
 }
 
-// One triad between two bodies that may turn, as a kernel gets it.
+// One triad between two bodies that can rotate, as a kernel receives it.
 struct Pair {
     SolverBody bodies[2];
     Vec3 force_ws;    // on a
@@ -66,14 +66,14 @@ struct Pair {
     }
 };
 
-// Each body's inverse inertia with the stiffness, as the rows one by one have it.
+// Each body's inverse inertia with stiffness, by the scalar routines.
 Mat3 expected_inverse(const Pair& pair, std::size_t side) {
     const double sign = side == 0 ? 1.0 : -1.0;
     return stiffened(inverse_inertia_ws(pair.bodies[side]),
                      positive_stiffness(pair.force_ws, pair.arms_ws[side], sign));
 }
 
-// The pair's bodies in lanes 0 and 1.
+// The kernels' result, with the pair's bodies in lanes 0 and 1.
 Bodies4 inverses_of(const TriadKernels& kernels, const Pair& pair) {
     TriadPlan plan;
     plan.build(std::vector<RowNode>{{{0, 1}, 3}}, std::vector<std::uint8_t>{1, 1});
@@ -104,7 +104,7 @@ Bodies4 inverses_of(const TriadKernels& kernels, const Pair& pair) {
     return bodies[0];
 }
 
-TEST(GeometricStiffness, OfTheKernelsIsThatOfRowsOneByOne) {
+TEST(GeometricStiffness, KernelsAgreeWithTheScalarRoutine) {
     Random random(2);
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Pair pair(i, random);

@@ -14,11 +14,11 @@ using test::Random;
 
 RowNode link_between(std::uint32_t a, std::uint32_t b) { return {{a, b}, 3, false, true}; }
 
-// Nodes between consecutive bodies, in any order and either way round; the first may hang on
-// nothing that moves.
-std::vector<RowNode> rope(std::uint32_t bodies, bool hangs, Random& random) {
+// Links between consecutive bodies, in random order and orientation; the first may be attached to
+// an immovable body.
+std::vector<RowNode> rope(std::uint32_t bodies, bool is_anchored, Random& random) {
     std::vector<RowNode> nodes;
-    if (hangs) {
+    if (is_anchored) {
         nodes.push_back(link_between(k_no_slot, 0));
     }
     for (std::uint32_t i = 1; i < bodies; ++i) {
@@ -41,7 +41,8 @@ StrandPlan plan_of(const std::vector<RowNode>& nodes, std::uint32_t bodies) {
 
 std::uint32_t far_slot(const RowNode& node, std::uint32_t end) { return node.slots[1 - end % 2]; }
 
-// Which node each body of the strands is met by: those before and after its row, none else.
+// Every node and every body is in exactly one place, and each strand body has only the links before
+// and after its row.
 void expect_strands_apart(const StrandPlan& plan, const std::vector<RowNode>& nodes,
                           std::uint32_t bodies) {
     std::vector<int> uses(nodes.size(), 0);
@@ -73,7 +74,7 @@ void expect_strands_apart(const StrandPlan& plan, const std::vector<RowNode>& no
     EXPECT_TRUE(std::ranges::all_of(rows, [](int count) { return count == 1; }));
 }
 
-// The rest meets a strand as one body.
+// The rest sees each strand as one body.
 void expect_rest_holds_strands(const StrandPlan& plan, const std::vector<RowNode>& nodes) {
     for (std::size_t i = 0; i < plan.strand_packs().size(); ++i) {
         const StrandPlan::StrandPack& strand_pack = plan.strand_packs()[i];
@@ -91,7 +92,7 @@ void expect_rest_holds_strands(const StrandPlan& plan, const std::vector<RowNode
     }
 }
 
-TEST(Strands, OfARopeAreFourAlikeWithSeparatorsBetween) {
+TEST(StrandPlan, RopeHasFourEqualStrandsAndSeparators) {
     Random random(1);
     for (std::uint32_t bodies = 40; bodies < 60; ++bodies) {
         SCOPED_TRACE(bodies);
@@ -105,7 +106,7 @@ TEST(Strands, OfARopeAreFourAlikeWithSeparatorsBetween) {
     }
 }
 
-TEST(Strands, OfARingAreCutOnceMore) {
+TEST(StrandPlan, RingIsCutOnceMore) {
     Random random(2);
     std::vector<RowNode> nodes = rope(44, false, random);
     nodes.push_back(link_between(43, 0));
@@ -118,8 +119,8 @@ TEST(Strands, OfARingAreCutOnceMore) {
                                      [](std::uint32_t end) { return end == k_no_slot; }));
 }
 
-// What hangs on a rope's middle makes two of it.
-TEST(Strands, EndWhereThreeNodesMeet) {
+// A branch at the middle of a rope divides it into two runs.
+TEST(StrandPlan, BranchEndsTheRuns) {
     Random random(3);
     std::vector<RowNode> nodes = rope(100, true, random);
     nodes.push_back(link_between(50, 100));
@@ -134,17 +135,17 @@ TEST(Strands, EndWhereThreeNodesMeet) {
     }
 }
 
-TEST(Strands, AreNotMadeOfShortRunsNorOfWhatIsNoLink) {
+TEST(StrandPlan, ShortRunsAndDrivesHaveNoStrands) {
     Random random(4);
     EXPECT_TRUE(plan_of(rope(18, true, random), 18).strand_packs().empty());
     EXPECT_EQ(plan_of(rope(19, true, random), 19).strand_packs().size(), 1U);
-    std::vector<RowNode> hands = rope(60, true, random);
-    for (RowNode& node : hands) {
+    std::vector<RowNode> drives = rope(60, true, random);
+    for (RowNode& node : drives) {
         node.is_point_link = false;
     }
-    const StrandPlan plan = plan_of(hands, 60);
+    const StrandPlan plan = plan_of(drives, 60);
     EXPECT_TRUE(plan.strand_packs().empty());
-    EXPECT_TRUE(std::ranges::equal(plan.rest_nodes(), hands));
+    EXPECT_TRUE(std::ranges::equal(plan.rest_nodes(), drives));
 }
 
 }  // namespace

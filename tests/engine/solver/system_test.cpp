@@ -19,8 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::Random;
 
-// Bodies, their rows, and J W J^T built the long way: the full Jacobian times the block-diagonal
-// inverse masses.
+// Bodies, rows, and J W J^T by the dense definition: full Jacobian times block-diagonal inverse
+// masses.
 struct Problem {
     std::vector<SolverBody> bodies;
     std::vector<Mat3> inverse_inertias_ws;
@@ -73,7 +73,7 @@ RowSystem assembled(const Problem& problem, double alpha) {
     return system;
 }
 
-// With the same relative alpha on the diagonal.
+// The dense matrix with the same relative alpha on the diagonal.
 MatrixXd regularised(const Problem& problem, double alpha) {
     MatrixXd matrix = problem.matrix();
     matrix.diagonal() *= 1.0 + alpha;
@@ -90,7 +90,7 @@ std::vector<SolverBody> random_bodies(std::size_t count, Random& random) {
         bodies.push_back(test::random_free_body(i + 1, random));
     }
     bodies.back() = test::fixed_body(count, bodies.back().pose_ws);
-    bodies.front() = test::player_body(1, 80.0, bodies.front().pose_ws);
+    bodies.front() = test::translating_body(1, 80.0, bodies.front().pose_ws);
     return bodies;
 }
 
@@ -98,28 +98,28 @@ std::uint32_t random_index(std::size_t count, Random& random) {
     return static_cast<std::uint32_t>(random.engine()() % count);
 }
 
-Problem random_problem(std::size_t body_count, int hands, int contacts, Random& random) {
+Problem random_problem(std::size_t body_count, int drives, int contacts, Random& random) {
     Problem problem;
     problem.place_bodies(random_bodies(body_count, random));
-    for (int i = 0; i < hands + contacts; ++i) {
+    for (int i = 0; i < drives + contacts; ++i) {
         const std::uint32_t a = random_index(body_count, random);
         const std::uint32_t b =
             (a + 1 + random_index(body_count - 1, random)) % static_cast<std::uint32_t>(body_count);
-        const RowKind hand = i % 2 == 0 ? RowKind::drive_point : RowKind::drive_weld;
-        problem.add_block(test::random_block(i < hands ? hand : RowKind::contact, a, b, random));
-        if (i >= hands) {
+        const RowKind drive = i % 2 == 0 ? RowKind::drive_point : RowKind::drive_weld;
+        problem.add_block(test::random_block(i < drives ? drive : RowKind::contact, a, b, random));
+        if (i >= drives) {
             problem.rows.back().residual = random.between(-0.2, 0.1);
         }
     }
     return problem;
 }
 
-// The oracle: of all sets of pushing unilateral rows the one whose solution pushes with each of
-// them and overlaps with none of the others (the Karush-Kuhn-Tucker conditions). For a positive
-// definite matrix there is exactly one, but for ties.
+// Oracle: tries all subsets of active unilateral rows for the one whose solution satisfies the
+// Karush-Kuhn-Tucker conditions: each active row pushes, no other row overlaps. For a positive
+// definite matrix there is exactly one, except for ties.
 struct Optimum {
     VectorXd lambda;
-    double margin = 0.0;  // of the nearest condition: a tie where it is tiny
+    double margin = 0.0;  // distance to violating a condition; tiny: a tie
 };
 std::optional<Optimum> brute_force(const MatrixXd& matrix, const Problem& problem) {
     const VectorXd values = problem.values();
@@ -154,7 +154,7 @@ std::optional<Optimum> brute_force(const MatrixXd& matrix, const Problem& proble
     return std::nullopt;
 }
 
-RC_GTEST_PROP(RowSystem, SolvesBilateralRowsAsEigenDoes, (std::uint64_t seed)) {
+RC_GTEST_PROP(RowSystem, BilateralRowsAgreeWithEigen, (std::uint64_t seed)) {
     constexpr double k_alpha = 1e-4;
     Random random(seed);
     const Problem problem = random_problem(5, 4, 0, random);
@@ -164,8 +164,8 @@ RC_GTEST_PROP(RowSystem, SolvesBilateralRowsAsEigenDoes, (std::uint64_t seed)) {
     RC_ASSERT((lambda - expected).norm() < 1e-9 * expected.norm());
 }
 
-// A tree over all bodies, with a few loops, in which the first free body has a third of all blocks
-// and the fixed one another third.
+// A tree over all bodies with a few loops, in which the first free body has a third of all blocks
+// and the fixed body another third.
 Problem random_net(std::uint32_t body_count, Random& random) {
     Problem problem;
     problem.place_bodies(random_bodies(body_count, random));
@@ -188,8 +188,9 @@ Problem random_net(std::uint32_t body_count, Random& random) {
     return problem;
 }
 
-// Players do not turn and fixed bodies do not move: hubs of both kinds are among the first bodies.
-RC_GTEST_PROP(RowSystem, SolvesNetsWithHubsAsEigenDoes, (std::uint64_t seed)) {
+// Translating bodies do not rotate and fixed bodies do not move; the first bodies include hubs of
+// both.
+RC_GTEST_PROP(RowSystem, NetworksWithHubsAgreeWithEigen, (std::uint64_t seed)) {
     constexpr double k_alpha = 1e-4;
     Random random(seed);
     Problem problem = random_net(5 + random_index(26, random), random);
@@ -202,8 +203,8 @@ RC_GTEST_PROP(RowSystem, SolvesNetsWithHubsAsEigenDoes, (std::uint64_t seed)) {
     RC_ASSERT((lambda - expected).norm() < 1e-8 * expected.norm());
 }
 
-// Whatever other structures the system met before.
-TEST(RowSystem, PlansOfOtherStructuresChangeNoBit) {
+// Structures solved before must not affect the result.
+TEST(RowSystem, CachedPlansChangeNoBit) {
     Random random(7);
     std::vector<Problem> problems;
     for (std::uint32_t count = 3; count < 20; ++count) {
@@ -221,7 +222,7 @@ TEST(RowSystem, PlansOfOtherStructuresChangeNoBit) {
     }
 }
 
-RC_GTEST_PROP(RowSystem, DiagonalIsHowFarAUnitOfEachRowMovesIt, (std::uint64_t seed)) {
+RC_GTEST_PROP(RowSystem, DiagonalEqualsThatOfTheDenseMatrix, (std::uint64_t seed)) {
     Random random(seed);
     const Problem problem = random_problem(5, 3, 3, random);
     const RowSystem system = assembled(problem, 0.0);
@@ -232,7 +233,7 @@ RC_GTEST_PROP(RowSystem, DiagonalIsHowFarAUnitOfEachRowMovesIt, (std::uint64_t s
     }
 }
 
-// The largest difference from the oracle, relative to it; none where the problem is a tie.
+// Relative difference from the oracle; none if the problem is a tie.
 std::optional<double> active_set_error(std::uint64_t seed) {
     constexpr double k_alpha = 1e-3;
     Random random(seed);
@@ -249,21 +250,21 @@ std::optional<double> active_set_error(std::uint64_t seed) {
     return (lambda - optimum->lambda).norm() / (1.0 + optimum->lambda.norm());
 }
 
-RC_GTEST_PROP(RowSystem, ActiveSetMeetsTheConditionsThatOnlyOneSubsetMeets, (std::uint64_t seed)) {
+RC_GTEST_PROP(RowSystem, ActiveSetSatisfiesTheKktConditions, (std::uint64_t seed)) {
     const auto error = active_set_error(seed);
     RC_PRE(error.has_value());
     RC_ASSERT(*error < 1e-8);
 }
 
-// About one problem in 4000: here changing all wrong rows at once comes back to where it began.
-TEST(RowSystem, ActiveSetThatGoesRoundInACircleIsEndedByDescent) {
+// About one problem in 4000: block pivoting returns to its start here.
+TEST(RowSystem, CyclingActiveSetIsResolvedByDescent) {
     const auto error = active_set_error(3634);
     ASSERT_TRUE(error.has_value());
     EXPECT_LT(*error, 1e-8);
 }
 
-// A thing among several faces that it is sunk into or near to, some points found twice: far more
-// contacts than it has freedoms, and often no place that meets them all.
+// A body that penetrates or nears several faces, some points repeated: far more contacts than
+// degrees of freedom, often without a feasible pose.
 Problem crowded_contacts(Random& random) {
     Problem problem;
     problem.place_bodies({test::random_free_body(1, random), test::fixed_body(2)});
@@ -286,7 +287,7 @@ Problem crowded_contacts(Random& random) {
     return problem;
 }
 
-TEST(RowSystem, CrowdedContactsSettle) {
+TEST(RowSystem, CrowdedContactsConverge) {
     int active_set_unconverged = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         Random random(seed);
@@ -304,7 +305,7 @@ TEST(RowSystem, CrowdedContactsSettle) {
     EXPECT_EQ(active_set_unconverged, 0);
 }
 
-RC_GTEST_PROP(RowSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint64_t seed)) {
+RC_GTEST_PROP(RowSystem, LastFactorSolvesOtherResidualsWithTheSameActiveSet, (std::uint64_t seed)) {
     constexpr double k_alpha = 1e-3;
     Random random(seed);
     const Problem problem = random_problem(4, 2, 3, random);
@@ -332,7 +333,7 @@ RC_GTEST_PROP(RowSystem, OtherValuesAreSolvedWithTheSameActiveSet, (std::uint64_
               1e-9 * (1.0 + expected.norm()));
 }
 
-// A ball of 2 kg, overlapping a plane by 1 cm, found as one contact and as three.
+// A ball of 2 kg, overlapping a plane by 1 cm, with `copies` equal contacts.
 Problem overlapping_ball(int copies) {
     Problem problem;
     problem.place_bodies(
@@ -343,7 +344,7 @@ Problem overlapping_ball(int copies) {
     return problem;
 }
 
-TEST(RowSystem, RepeatedRowsWithoutAlphaMoveTheBodyAsOneWould) {
+TEST(RowSystem, RepeatedRowsWithoutAlphaActAsOne) {
     const Problem problem = overlapping_ball(3);
     RowSystem system = assembled(problem, 0.0);
     const VectorXd lambda = as_vector(system.solve(problem.rows));
@@ -362,7 +363,7 @@ TEST(RowSystem, RepeatedRowsWithAlphaShareEvenly) {
     }
 }
 
-TEST(RowSystem, RowsThatNothingCanMoveGetNothing) {
+TEST(RowSystem, ImmovableRowsGetZeroMultipliers) {
     Problem problem;
     problem.place_bodies({test::fixed_body(1), test::fixed_body(2), test::ball(3, 2.0, 0.1)});
     problem.add_block(test::row_block(RowKind::contact, 0, 1, Vec3(0.0, -0.1, 0.0)));
@@ -377,7 +378,7 @@ TEST(RowSystem, RowsThatNothingCanMoveGetNothing) {
     EXPECT_NEAR(lambda[7], -2.0 * 0.5, 1e-5);
 }
 
-TEST(RowSystem, ContactThatIsApartStaysOutUntilAnotherRowPushesIntoIt) {
+TEST(RowSystem, SeparatedContactBecomesActiveWhenAnotherRowPushesIntoIt) {
     Problem problem;
     problem.place_bodies(
         {test::ball(1, 2.0, 0.1, {Vec3(0.0, 0.11, 0.0), Quat::Identity()}), test::fixed_body(2)});
@@ -386,8 +387,8 @@ TEST(RowSystem, ContactThatIsApartStaysOutUntilAnotherRowPushesIntoIt) {
     EXPECT_EQ(alone.solve(problem.rows)[0], 0.0);
     EXPECT_FALSE(alone.is_active(0));
 
-    // A ceiling that overlaps by 3 cm pushes the ball 3 cm down, through the floor 1 cm below it:
-    // both floors act.
+    // A ceiling that overlaps by 3 cm pushes the ball 3 cm down, through the floor 1 cm below it.
+    // Both contacts become active.
     RowBlock ceiling =
         test::row_block(RowKind::contact, 0, 1, Vec3(0.0, 0.1, 0.0), Vec3(0.0, 0.18, 0.0));
     ceiling.normal_b_bs = -Vec3::UnitY();
@@ -399,7 +400,7 @@ TEST(RowSystem, ContactThatIsApartStaysOutUntilAnotherRowPushesIntoIt) {
     EXPECT_GT(lambda[1], lambda[0]);
 }
 
-TEST(RowSystem, NoRowsAreSolvedByNothing) {
+TEST(RowSystem, EmptySystemHasAnEmptySolution) {
     Problem problem;
     problem.place_bodies({test::ball(1, 2.0, 0.1)});
     RowSystem system = assembled(problem, 1e-7);

@@ -8,7 +8,8 @@
 
 namespace handhold::test {
 
-// Two steps on positions and one on velocities, by the triads alone. All contacts touch.
+// Two position steps and one velocity step by TriadSystem alone. Contacts must be touching (none
+// may be ignored).
 inline void solve_a_step(TriadSystem& system, const IslandView& island) {
     ASSERT_TRUE(system.load(island, std::numeric_limits<double>::infinity()));
     for (int step = 0; step < 2; ++step) {

@@ -17,7 +17,7 @@ using test::SolverScene;
 struct Momentum {
     Vec3 linear = Vec3::Zero();
     Vec3 angular = Vec3::Zero();  // about the world's origin
-    double scale = 0.0;           // sum of sizes: what differences are relative to
+    double scale = 0.0;           // sum of magnitudes: scale of the tolerance
 };
 
 Momentum momentum_of(const SolverScene& scene) {
@@ -45,8 +45,8 @@ void set_random_motion(SolverScene& scene, Random& random) {
     }
 }
 
-// A tree of points and welds that are met, with random motion: any velocities of the rows can be
-// had together.
+// A tree of satisfied points and welds with random motion. Any velocities of the rows are
+// compatible.
 SolverScene random_tree(std::uint32_t count, Random& random) {
     SolverScene scene;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -72,7 +72,7 @@ double velocity_of_row(const SolverScene& scene, const Row& row) {
            row.angular_b.dot(b.spin_radps);
 }
 
-RC_GTEST_PROP(SolveVelocities, JointsOfAnyTreeMoveAsOneTo1e9, (std::uint64_t seed)) {
+RC_GTEST_PROP(SolveVelocities, RowVelocitiesOfAnyTreeVanishTo1e9, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene = random_tree(2 + static_cast<std::uint32_t>(random.engine()() % 6), random);
     scene.solve_velocities();
@@ -91,7 +91,7 @@ RC_GTEST_PROP(SolveVelocities, FreeIslandsKeepLinearAndAngularMomentum, (std::ui
     RC_ASSERT((after.angular - before.angular).norm() < 1e-12 * before.scale);
 }
 
-RC_GTEST_PROP(SolveVelocities, ImpulsesOutAreWhatTheBodiesReceived, (std::uint64_t seed)) {
+RC_GTEST_PROP(SolveVelocities, ReportedImpulsesEqualTheMomentumChange, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene = random_tree(4, random);
     std::vector<Vec3> gained;
@@ -110,9 +110,9 @@ RC_GTEST_PROP(SolveVelocities, ImpulsesOutAreWhatTheBodiesReceived, (std::uint64
     }
 }
 
-TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
+TEST(SolveVelocities, TranslatingBodyMovesOppositeToItsDriveOnAFixedBody) {
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::player_body(2, 80.0)};
+    scene.graph.bodies = {test::fixed_body(1), test::translating_body(2, 80.0)};
     scene.graph.blocks = {test::row_block(RowKind::drive_point, 1, 0)};
     scene.block(0).drive_velocity_ws_mps = Vec3(0.5, -1.0, 0.25);
     scene.solve_velocities();
@@ -120,11 +120,11 @@ TEST(SolveVelocities, PlayerMovesAgainstHisHandsMotionOnAWall) {
     EXPECT_LT((scene.block(0).impulse_ws_ns + 80.0 * Vec3(0.5, -1.0, 0.25)).norm(), 1e-7);
 }
 
-// v_com = v_hand + w x (com - hand), the closed form of a throw.
-RC_GTEST_PROP(SolveVelocities, WeldedBodyMovesAndTurnsWithTheHand, (std::uint64_t seed)) {
+// Closed form of a throw: v_com = v_drive + w x (com - drive).
+RC_GTEST_PROP(SolveVelocities, WeldedBodyFollowsTheDriveRigidly, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
-    scene.graph.bodies = {test::player_body(1, 80.0, test::random_pose(random)),
+    scene.graph.bodies = {test::translating_body(1, 80.0, test::random_pose(random)),
                           test::random_free_body(2, random)};
     scene.body(0).inverse_mass = 0.0;
     scene.body(0).velocity_mps = random.vector(2.0);
@@ -134,14 +134,14 @@ RC_GTEST_PROP(SolveVelocities, WeldedBodyMovesAndTurnsWithTheHand, (std::uint64_
     block.drive_spin_ws_radps = random.vector(8.0);
     scene.graph.blocks = {block};
     scene.solve_velocities();
-    const Vec3 hand_mps = scene.body(0).velocity_mps + block.drive_velocity_ws_mps;
-    const Vec3 com_from_hand = -(scene.body(1).pose_ws.rotation * block.point_b_bs);
-    const Vec3 expected = hand_mps + block.drive_spin_ws_radps.cross(com_from_hand);
+    const Vec3 drive_mps = scene.body(0).velocity_mps + block.drive_velocity_ws_mps;
+    const Vec3 com_from_drive = -(scene.body(1).pose_ws.rotation * block.point_b_bs);
+    const Vec3 expected = drive_mps + block.drive_spin_ws_radps.cross(com_from_drive);
     RC_ASSERT((scene.body(1).spin_radps - block.drive_spin_ws_radps).norm() < 1e-8);
     RC_ASSERT((scene.body(1).velocity_mps - expected).norm() < 1e-8);
 }
 
-// Two balls that touch, one at x < 0, the other at x > 0.
+// Two touching balls, one at x < 0, the other at x > 0.
 SolverScene touching_balls(double left_kg, double right_kg, double restitution) {
     SolverScene scene;
     scene.graph.bodies = {test::ball(1, left_kg, 0.1, {Vec3(-0.1, 0.0, 0.0), Quat::Identity()}),
@@ -182,7 +182,7 @@ TEST(SolveVelocities, SlowImpactsDoNotBounce) {
     EXPECT_NEAR(scene.body(1).velocity_mps.x(), 0.495 * settings.restitution_speed_mps, 1e-9);
 }
 
-TEST(SolveVelocities, BodiesThatPartOrAreApartAreLeftAlone) {
+TEST(SolveVelocities, SeparatingOrDistantBodiesAreUnaffected) {
     SolverScene parting = touching_balls(1.0, 2.0, 0.5);
     parting.body(0).velocity_mps.x() = -1.0;
     parting.solve_velocities();
@@ -196,7 +196,7 @@ TEST(SolveVelocities, BodiesThatPartOrAreApartAreLeftAlone) {
     EXPECT_EQ(apart.body(0).velocity_mps.x(), 1.0);
 }
 
-TEST(SolveVelocities, DepthOfAnOverlapNeverBecomesSpeed) {
+TEST(SolveVelocities, PenetrationDepthNeverBecomesVelocity) {
     SolverScene scene = touching_balls(1.0, 2.0, 1.0);
     scene.body(0).pose_ws.position.x() += 0.1;
     scene.solve_velocities();
@@ -204,22 +204,21 @@ TEST(SolveVelocities, DepthOfAnOverlapNeverBecomesSpeed) {
     EXPECT_EQ(scene.body(1).velocity_mps.x(), 0.0);
 }
 
-// Balls around one another and a floor, touching at random points: what comes out neither
-// approaches nor is pulled.
 double energy_of(const SolverBody& body) {
     const Vec3 spin_bs = body.pose_ws.rotation.conjugate() * body.spin_radps;
     return 0.5 * body.mass_kg * body.velocity_mps.squaredNorm() +
            0.5 * spin_bs.dot(body.inertia_kgm2.cwiseProduct(spin_bs));
 }
 
-// Two contacts with friction of up to 2 on one body, anywhere on it: wedges are among them.
-RC_GTEST_PROP(SolveVelocities, ContactsAloneGiveNoEnergy, (std::uint64_t seed)) {
+// Two contacts with friction of up to 2 at random points of one body, some of which wedge.
+RC_GTEST_PROP(SolveVelocities, ContactsNeverAddEnergy, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1), test::random_free_body(2, random)};
     scene.body(1).velocity_mps = random.vector(10.0);
     scene.body(1).spin_radps = random.vector(20.0);
-    const double restitution = random.between(0.0, 0.5);  // Newton's law gains by unequal ones
+    // equal for both: Newton's law may add energy otherwise
+    const double restitution = random.between(0.0, 0.5);
     constexpr std::uint64_t k_contacts = 2;
     for (std::uint64_t i = 0; i < k_contacts; ++i) {
         RowBlock block = test::random_block(RowKind::contact, 1, 0, random);
@@ -235,17 +234,18 @@ RC_GTEST_PROP(SolveVelocities, ContactsAloneGiveNoEnergy, (std::uint64_t seed)) 
     RC_ASSERT(energy_of(scene.body(1)) <= 1.01 * before);
 }
 
-// A held box is pressed against a wall and scrubbed: where the hand turns back the wall's friction
-// still brakes it, though it gives energy against the motion that the hand ended.
-TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
+// A driven box is pressed against a wall and dragged along it. When the drive reverses, the wall's
+// friction still brakes the box, although the drive does work against the previous motion.
+TEST(SolveVelocities, FrictionBrakesADrivenBodyWhenTheDriveReverses) {
     SolverScene scene;
-    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1), test::player_body(3, 80.0)};
+    scene.graph.bodies = {test::fixed_body(1), test::ball(2, 1.0, 0.1),
+                          test::translating_body(3, 80.0)};
     scene.body(1).velocity_mps = Vec3(0.3, 0.0, 0.0);
     RowBlock contact = test::row_block(RowKind::contact, 1, 0);
     contact.friction = 0.4;
-    RowBlock hand = test::row_block(RowKind::drive_point, 2, 1);
-    hand.drive_velocity_ws_mps = Vec3(-0.2, -0.02, 0.0);
-    scene.graph.blocks = {contact, hand};
+    RowBlock drive = test::row_block(RowKind::drive_point, 2, 1);
+    drive.drive_velocity_ws_mps = Vec3(-0.2, -0.02, 0.0);
+    scene.graph.blocks = {contact, drive};
     sort_blocks(scene.graph);
     build_islands(scene.graph);
     const Island& island = scene.graph.islands.front();
@@ -256,7 +256,7 @@ TEST(SolveVelocities, WallBrakesWhatAHandScrubsAlsoWhereItTurnsBack) {
     EXPECT_NEAR(wall->impulse_ws_ns.x(), 0.4 * wall->impulse_ws_ns.y(), 1e-3);
 }
 
-RC_GTEST_PROP(SolveVelocities, NoContactApproachesAndNonePulls, (std::uint64_t seed)) {
+RC_GTEST_PROP(SolveVelocities, ContactsNeitherApproachNorPullAfterwards, (std::uint64_t seed)) {
     Random random(seed);
     SolverScene scene;
     scene.graph.bodies = {test::fixed_body(1)};

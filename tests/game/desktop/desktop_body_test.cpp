@@ -1,4 +1,4 @@
-// Somebody at a keyboard: he reaches for what he looks at and pulls himself along.
+// A player at a keyboard reaches for surfaces in view and pulls along them.
 #include "game/desktop/desktop_body.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ struct Desk {
     }
 };
 
-// Half a metre beside the tunnel's left wall with its rail, looking at the rail ahead.
+// Half a metre beside the rail on the tunnel's left wall, looking at the rail ahead.
 struct DeskAtRail : Desk {
     DeskAtRail() : Desk(make_tunnel(8.0), Vec3(-0.45, 0.35, 6.0)) {
         run(0.1);
@@ -57,7 +57,7 @@ struct DeskAtRail : Desk {
     }
 };
 
-TEST(DesktopBody, HandReachesForWhatHeLooksAt) {
+TEST(DesktopBody, HandReachesForTheSurfaceInView) {
     DeskAtRail desk;
     EXPECT_EQ(desk.grip(HandSide::left), GripKind::none);
     EXPECT_TRUE(desk.body.can_reach());
@@ -66,13 +66,13 @@ TEST(DesktopBody, HandReachesForWhatHeLooksAt) {
     EXPECT_EQ(desk.grip(HandSide::left), GripKind::surface);
     EXPECT_EQ(desk.grip(HandSide::right), GripKind::none);
     const Vec3 before = desk.head_ws();
-    desk.input.turn_left_rad = 3.0;  // looking about moves nobody
+    desk.input.turn_left_rad = 3.0;  // looking around moves nobody
     desk.run(0.5);
     EXPECT_FALSE(desk.body.can_reach());
     EXPECT_LT((desk.head_ws() - before).norm(), 1e-6);
 }
 
-TEST(DesktopBody, PullsHimselfHandOverHandAlongARail) {
+TEST(DesktopBody, PullsHandOverHandAlongARail) {
     DeskAtRail desk;
     const double from_m = desk.head_ws().z();
     for (int stroke = 0; stroke < 16; ++stroke) {
@@ -81,7 +81,7 @@ TEST(DesktopBody, PullsHimselfHandOverHandAlongARail) {
         desk.input.move.setZero();
         desk.run(0.7);
         desk.input.grip[1 - side] = false;
-        // Along the tunnel: ahead and to the right of where he looks.
+        // Along the tunnel: ahead and to the right of the view.
         desk.input.move = Vec3(0.78, 0.0, -0.62);
         desk.run(0.6);
     }
@@ -102,7 +102,7 @@ TEST(DesktopBody, LettingGoWhilePullingDrifts) {
     EXPECT_LT(velocity.z(), -0.7);
 }
 
-TEST(DesktopBody, FistThatHoldsNothingDoesNotStopTheOtherHand) {
+TEST(DesktopBody, EmptyFistDoesNotStopTheOtherHand) {
     DeskAtRail desk;
     desk.input.grip[0] = true;
     desk.run(0.7);
@@ -118,7 +118,7 @@ TEST(DesktopBody, FistThatHoldsNothingDoesNotStopTheOtherHand) {
     EXPECT_GT((desk.head_ws() - before).norm(), 0.25);
 }
 
-TEST(DesktopBody, JetsPushHimAsHeLooks) {
+TEST(DesktopBody, JetsThrustInTheViewDirection) {
     Desk desk(make_void(), Vec3::Zero());
     desk.scene.tuning.locomotion.thruster_mps2 = 1.0;
     desk.input.turn_left_rad = 1.5707963267948966;  // along -x
@@ -130,7 +130,7 @@ TEST(DesktopBody, JetsPushHimAsHeLooks) {
     EXPECT_NEAR(velocity.z(), 0.0, 1e-9);
 }
 
-TEST(DesktopBody, CarriesALooseThingAsHeLooksAbout) {
+TEST(DesktopBody, CarriesALooseBodyWhileLookingAround) {
     Scene scene = make_void();
     BodyDescription box;
     box.name = "box";
@@ -150,7 +150,7 @@ TEST(DesktopBody, CarriesALooseThingAsHeLooksAbout) {
     }
     desk.run(0.1);
     const Vec3 place = desk.scene.world.body_pose.at(body).pose_ws.position;
-    EXPECT_LT(place.x(), -0.4);  // he looks along -x now
+    EXPECT_LT(place.x(), -0.4);  // the view is along -x now
     EXPECT_LT(desk.head_ws().norm(), 0.05);
 }
 

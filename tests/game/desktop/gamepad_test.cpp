@@ -1,4 +1,4 @@
-// A gamepad without one: what its sticks and triggers ask of the emulated head and hands.
+// Input of the emulated head and hands from sticks and triggers, without a device.
 #include "game/desktop/gamepad.hpp"
 
 #include <cmath>
@@ -15,9 +15,9 @@ DesktopInput read(const GamepadState& state, const PlaySettings& settings = {}) 
     return read_gamepad(state, settings, k_dt_s, memory);
 }
 
-TEST(Gamepad, SticksAtRestAskForNothing) {
+TEST(Gamepad, SticksAtRestGiveNoInput) {
     GamepadState state;
-    state.left_stick = {0.12, -0.12};  // as worn sticks rest
+    state.left_stick = {0.12, -0.12};  // offset of worn sticks at rest
     state.right_stick = {-0.1, 0.14};
     const DesktopInput input = read(state);
     EXPECT_EQ(input.move, Vec3(Vec3::Zero()));
@@ -25,23 +25,23 @@ TEST(Gamepad, SticksAtRestAskForNothing) {
     EXPECT_EQ(input.look_up_rad, 0.0);
 }
 
-TEST(Gamepad, LeftStickPullsInItsDirectionAndNeverFasterThanKeys) {
+TEST(Gamepad, LeftStickPullsInItsDirectionUpToKeySpeed) {
     GamepadState state;
     state.left_stick = {0.0, -1.0};
-    EXPECT_NEAR(read(state).move.z(), -1.0, 1e-12);  // ahead, as W
+    EXPECT_NEAR(read(state).move.z(), -1.0, 1e-12);  // forward, like W
     for (int i = 0; i < 24; ++i) {
         const double angle = i * 3.14159265358979323846 / 12.0;
         for (const double length : {0.3, 0.7, 1.0}) {
             state.left_stick = {length * std::cos(angle), length * std::sin(angle)};
             const Vec3 move = read(state).move;
-            // Closed form: from nothing at 0.18 to all at 1, along the stick.
+            // Closed form: from 0 at 0.18 to 1 at 1, along the stick.
             EXPECT_NEAR(move.norm(), (length - 0.18) / 0.82, 1e-12);
             EXPECT_NEAR(move.x() * std::sin(angle) - move.z() * std::cos(angle), 0.0, 1e-12);
         }
     }
 }
 
-TEST(Gamepad, RightStickTurnsAsFarInASecondWhateverTheFrameRate) {
+TEST(Gamepad, RightStickTurnRateIsIndependentOfFrameRate) {
     PlaySettings settings;
     settings.stick_look_radps = 2.0;
     GamepadState state;
@@ -56,14 +56,14 @@ TEST(Gamepad, RightStickTurnsAsFarInASecondWhateverTheFrameRate) {
     }
 }
 
-TEST(Gamepad, TriggerThatTremblesAtItsEdgeGripsOnce) {
+TEST(Gamepad, TriggerHysteresisGivesOneGrip) {
     GamepadMemory memory;
     GamepadState state;
     int changes = 0;
     bool before = false;
     for (int i = 0; i < 400; ++i) {
-        const double way = i < 200 ? i / 200.0 : (400 - i) / 200.0;  // in, and out again
-        state.triggers[1] = way + 0.08 * (i % 2 == 0 ? 1.0 : -1.0);
+        const double pressed = i < 200 ? i / 200.0 : (400 - i) / 200.0;  // pressed, then released
+        state.triggers[1] = pressed + 0.08 * (i % 2 == 0 ? 1.0 : -1.0);
         const bool grips = read_gamepad(state, {}, k_dt_s, memory).grip[1];
         changes += grips != before ? 1 : 0;
         before = grips;
@@ -72,7 +72,7 @@ TEST(Gamepad, TriggerThatTremblesAtItsEdgeGripsOnce) {
     EXPECT_FALSE(memory.grips[0]);
 }
 
-TEST(Gamepad, PadHeldDownTurnsOneStepOrOnAndOn) {
+TEST(Gamepad, HeldPadTurnsOneStepOrContinuously) {
     GamepadState state;
     state.pad[2] = true;  // left
     GamepadMemory memory;
@@ -87,7 +87,7 @@ TEST(Gamepad, PadHeldDownTurnsOneStepOrOnAndOn) {
     EXPECT_EQ(read_gamepad(state, smooth, k_dt_s, memory).snap_turns, 0);
 }
 
-TEST(Gamepad, TogetherWithKeysWhatEitherHoldsIsHeld) {
+TEST(Gamepad, CombinesWithKeysByHoldingEither) {
     DesktopInput keys;
     keys.grip[0] = true;
     keys.move = Vec3(0.0, 0.0, -1.0);

@@ -1,4 +1,4 @@
-// Playing at the desk: what is recorded, and the window, on SDL's display that shows nothing.
+// Playing on the desktop: recordings, and the window on SDL's dummy display.
 #include "game/commands/play_command.hpp"
 
 #include <cstdlib>
@@ -16,7 +16,7 @@
 namespace handhold::play_command_test {
 namespace {
 
-// SDL's choice of a display, for one test.
+// Selects SDL's video driver for one test.
 class VideoDriver {
   public:
     explicit VideoDriver(const char* name) {
@@ -64,7 +64,7 @@ Scene make_desk_scene() {
     return scene;
 }
 
-TEST(DesktopSession, WhatIsRecordedPlaysAgainToTheSameHash) {
+TEST(DesktopSession, RecordingReplaysToTheSameHash) {
     const Pose origin_ws{Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()};
     DesktopSession session(make_desk_scene(), origin_ws);
     session.record();
@@ -131,7 +131,7 @@ TEST(PlayCommand, PlaysRecordsAndTakesAPicture) {
     std::filesystem::remove_all(folder);
 }
 
-TEST(PlayCommand, WithoutADisplayItSaysSo) {
+TEST(PlayCommand, ReportsMissingDisplay) {
     if (!can_draw()) {
         GTEST_SKIP() << "nothing can be drawn here";
     }
@@ -144,7 +144,7 @@ TEST(PlayCommand, WithoutADisplayItSaysSo) {
     EXPECT_NE(testing::internal::GetCapturedStderr().find("no window: "), std::string::npos);
 }
 
-TEST(PlayCommand, WhatItCannotKeepOrFindIsRefusedBeforeItPlays) {
+TEST(PlayCommand, RefusesUnusableFilesBeforePlaying) {
     PlayOptions play;
     play.spawn = "nowhere";
     testing::internal::CaptureStderr();

@@ -22,7 +22,7 @@ class BodyFiguresTest : public testing::Test {
         }
     }
 
-    // A player at rest, eyes at `eyes`, looking along -Z.
+    // A player at rest with eyes at `eyes`, looking along -Z.
     static RenderPose standing(const Vec3& eyes) {
         Scene scene = make_void();
         FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
@@ -44,7 +44,7 @@ class BodyFiguresTest : public testing::Test {
     std::optional<Renderer> renderer_;
 };
 
-// How many pixels show anything in the picture's middle third, above row `y`.
+// Number of lit pixels in the picture's middle third, above row `y`.
 int lit_above(const Image& image, int y) {
     int lit = 0;
     for (int row = 0; row < y; ++row) {
@@ -56,7 +56,7 @@ int lit_above(const Image& image, int y) {
     return lit;
 }
 
-TEST_F(BodyFiguresTest, NobodySeesHisOwnHeadButOthersDo) {
+TEST_F(BodyFiguresTest, OwnHeadIsHiddenAndOthersSeeIt) {
     BodyFigures figures(builtin_body_model(), *renderer_);
     const RenderPose player = standing(Vec3(0.0, 1.62, 0.0));
     int heads[2] = {};
@@ -74,7 +74,7 @@ TEST_F(BodyFiguresTest, NobodySeesHisOwnHeadButOthersDo) {
     EXPECT_LT(heads[1], heads[0] / 4);
 }
 
-TEST_F(BodyFiguresTest, PlayersOfOnePictureHaveMeshesOfTheirOwnAndTheNextUsesThemAgain) {
+TEST_F(BodyFiguresTest, PlayersHaveSeparateMeshesThatTheNextPictureReuses) {
     BodyFigures figures(builtin_body_model(), *renderer_);
     const RenderPose player = standing(Vec3(0.0, 1.62, 0.0));
     const auto draw = [&](int players) {
@@ -95,7 +95,7 @@ TEST_F(BodyFiguresTest, PlayersOfOnePictureHaveMeshesOfTheirOwnAndTheNextUsesThe
     EXPECT_EQ(draw(2), two);
 }
 
-TEST(ChooseBodyModel, SaysWhatIsWrongWithFiles) {
+TEST(ChooseBodyModel, ErrorNamesWhatIsWrongWithAFile) {
     const Result<BodyModel> missing = choose_body_model("/nonexistent/figure.glb", "");
     ASSERT_FALSE(missing.ok());
     EXPECT_NE(missing.error().message().find("figure.glb"), std::string::npos);

@@ -1,4 +1,4 @@
-// What a camera's picture has on it, by arithmetic alone.
+// The arithmetic of a camera's picture.
 #include "game/render/frame_view.hpp"
 
 #include <array>
@@ -19,8 +19,8 @@ FrameView lopsided_view() {
     return make_frame_view(camera, 100, 100);
 }
 
-// A point at the sides' tangents lies on the picture's sides: the pinhole's closed form.
-TEST(FrameView, CornersOfALopsidedFrustumAreThePicturesCorners) {
+// Points on the frustum's sides project to the picture's sides: the pinhole's closed form.
+TEST(FrameView, AsymmetricFrustumsCornersAreThePicturesCorners) {
     const FrameView view = lopsided_view();
     for (const auto& [x, y, clip_x, clip_y] :
          {std::array{-1.3, -1.1, -1.0, -1.0}, std::array{0.7, 0.9, 1.0, 1.0},
@@ -48,9 +48,9 @@ TEST(FrameView, MatrixAndPointsAgree) {
     }
 }
 
-// Spheres about points: those with their centre on the picture are seen; those whose whole ball is
-// beyond one of the four planes are not.
-TEST(FrameView, SeesExactlyWhatTheFourPlanesLeaveIn) {
+// Spheres with their centre in the picture are visible; spheres entirely beyond one of the four
+// side planes are not.
+TEST(FrameView, CullsExactlyOutsideTheFourPlanes) {
     const FrameView view = lopsided_view();
     Random random(7);
     for (int i = 0; i < 2000; ++i) {
@@ -60,7 +60,7 @@ TEST(FrameView, SeesExactlyWhatTheFourPlanesLeaveIn) {
         const Vec3 center = view.from_view * (distance_m * Vec3(x, y, -1.0));
         const bool inside = x > -1.3 && x < 0.7 && y > -1.1 && y < 0.9;
         EXPECT_EQ(sees_sphere(view, center, 1e-9), inside) << x << " " << y;
-        // Beyond a side plane by d: a ball of radius just below d is outside, just above is not.
+        // Beyond a side plane by d: a sphere of radius just below d is outside, just above is not.
         const double beyond = (x - 0.7) * distance_m / std::sqrt(1.0 + 0.49);
         if (beyond > 0.05 && y > -1.0 && y < 0.8) {
             EXPECT_FALSE(sees_sphere(view, center, 0.999 * beyond));

@@ -13,11 +13,11 @@
 namespace handhold::render_level_test {
 namespace {
 
-TEST(LevelMeshes, OneMeshAColourWithItsOwnVertices) {
+TEST(LevelMeshes, OneMeshPerColourWithItsOwnVertices) {
     constexpr std::array<float, 3> k_red = {1.0F, 0.0F, 0.0F};
     constexpr std::array<float, 3> k_blue = {0.0F, 0.0F, 1.0F};
     LevelPart part;
-    part.mesh = make_box(Vec3(1.0, 1.0, 1.0));  // twelve triangles, two a face
+    part.mesh = make_box(Vec3(1.0, 1.0, 1.0));  // two per face
     part.mesh.name = "room";
     part.color_runs = {{0, k_red}, {2, k_blue}, {10, k_red}};
     GltfLevel level;
@@ -52,7 +52,8 @@ TEST(LevelMeshes, RealStationFillsThePicture) {
     for (const LevelMesh& part : make_level_meshes(level.value())) {
         frame.instances.push_back({renderer->add_mesh(part.mesh), {}, std::nullopt, part.look});
     }
-    // In the middle of its second node, towards the laboratory: closed all round but for seams.
+    // In the middle of its second node, towards the laboratory: closed on all sides except for
+    // seams.
     frame.camera.pose_ws = look_along(Vec3(0.0, 0.0, 1.5), Vec3(0.0, 0.0, 1.0), Vec3::UnitY());
     Image image;
     renderer->draw(frame, image);

@@ -1,5 +1,5 @@
 // Pictures and films as files. Oracles: the PNG specification's signature and header, RFC 4648's
-// own examples, ffprobe.
+// examples, ffprobe.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -28,7 +28,7 @@ Image make_gradient(int width_px, int height_px) {
     return image;
 }
 
-// A folder of the test's own that goes with it.
+// A temporary folder, removed with the object.
 struct Folder {
     std::filesystem::path path;
     Folder() {
@@ -41,7 +41,7 @@ struct Folder {
     std::string file(const char* name) const { return (path / name).string(); }
 };
 
-TEST(Picture, PngHoldsEveryByte) {
+TEST(Picture, PngRoundTripKeepsEveryByte) {
     const Image image = make_gradient(37, 21);
     const std::vector<std::uint8_t> png = encode_png(image);
     constexpr std::array<std::uint8_t, 8> k_signature = {0x89, 'P',  'N',  'G',
@@ -57,7 +57,7 @@ TEST(Picture, PngHoldsEveryByte) {
     EXPECT_EQ(back->rgba, image.rgba);
 }
 
-TEST(Picture, BytesThatAreNoPngGiveNothing) {
+TEST(Picture, InvalidPngIsRefused) {
     const std::array<std::uint8_t, 5> junk = {1, 2, 3, 4, 5};
     EXPECT_FALSE(decode_png(junk));
     EXPECT_TRUE(encode_png(Image{}).empty());
@@ -70,7 +70,7 @@ TEST(Picture, PixelOutsideIsRefused) {
     EXPECT_ANY_THROW(image.pixel(0, -1));
 }
 
-TEST(Picture, SaveWritesTheFileOrNothing) {
+TEST(Picture, SaveWritesAWholeFileOrNothing) {
     const Folder folder;
     const Image image = make_gradient(8, 8);
     EXPECT_TRUE(save_png(image, folder.file("a.png")));
@@ -79,7 +79,7 @@ TEST(Picture, SaveWritesTheFileOrNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.png.part")));
 }
 
-TEST(Picture, Base64IsThatOfTheRfc) {
+TEST(Picture, Base64MatchesTheRfcsExamples) {
     const auto encode = [](std::string_view text) {
         return encode_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     };
@@ -90,7 +90,7 @@ TEST(Picture, Base64IsThatOfTheRfc) {
     EXPECT_EQ(encode("foobar"), "Zm9vYmFy");
 }
 
-TEST(Film, HasTheFramesThatWereAdded) {
+TEST(Film, ContainsEveryAddedFrame) {
     const Folder folder;
     const std::string path = folder.file("a film's $(name).mp4");
     std::string why_not;
@@ -116,7 +116,7 @@ TEST(Film, HasTheFramesThatWereAdded) {
     EXPECT_EQ(line, "66,34,yuv420p,12");  // even sides, as yuv420p needs
 }
 
-TEST(Film, MissingProgramIsAReasonAndNoFilm) {
+TEST(Film, MissingProgramGivesAReason) {
     std::string why_not;
     const VideoSettings settings{64, 64, 30.0, "handhold-no-such-program"};
     EXPECT_EQ(VideoWriter::open("film.mp4", settings, why_not), nullptr);
@@ -124,7 +124,7 @@ TEST(Film, MissingProgramIsAReasonAndNoFilm) {
     EXPECT_FALSE(std::filesystem::exists("film.mp4.part"));
 }
 
-TEST(Film, EncoderThatDiesIsReportedAtTheEnd) {
+TEST(Film, DeadEncoderIsReportedAtTheEnd) {
     const Folder folder;
     std::string why_not;
     const auto writer =
@@ -133,7 +133,7 @@ TEST(Film, EncoderThatDiesIsReportedAtTheEnd) {
         GTEST_SKIP() << "no film can be written here: " << why_not;
     }
     for (int i = 0; i < 30; ++i) {
-        writer->add(make_gradient(640, 360));  // must neither stop nor kill the process
+        writer->add(make_gradient(640, 360));  // must neither block nor kill the process
     }
     EXPECT_FALSE(writer->finish(why_not));
     EXPECT_NE(why_not.find("film.mp4"), std::string::npos);

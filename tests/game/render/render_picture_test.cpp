@@ -1,5 +1,5 @@
-// Frames through the renderer, judged by where things must appear: a pinhole camera puts a point at
-// x = w/2 (1 + X / (-Z tan(fov/2) w/h)), y = h/2 (1 - Y / (-Z tan(fov/2))) in its own axes.
+// Pictures of the renderer, checked by where objects must appear. A pinhole camera puts a point at
+// x = w/2 (1 + X / (-Z tan(fov/2) w/h)), y = h/2 (1 - Y / (-Z tan(fov/2))) (X, Y, Z in its axes).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,7 +53,7 @@ Seen seen_at(const Image& image, int x, int y) {
     return p[1] > 2 * p[0] && p[1] > 2 * p[2] ? Seen::green : Seen::other;
 }
 
-// The frame of most tests: black, clear air, the camera at the origin.
+// The frame of most tests: black, no haze, the camera at the origin.
 RenderFrame black_frame() {
     RenderFrame frame;
     frame.haze_per_m = 0.0F;
@@ -122,13 +122,13 @@ TEST_F(RenderPicture, NearerBoxHidesFartherOneInEitherOrder) {
             near_first ? std::vector<Instance>{near, far} : std::vector<Instance>{far, near};
         const Image image = draw(frame);
         EXPECT_EQ(seen_at(image, k_width_px / 2, k_height_px / 2), Seen::red);
-        // 0.4 m off the middle of the far box's face, 1.9 m away: beside the near one.
+        // 0.4 m off the centre of the far box's face, 1.9 m away: beside the near box.
         const int x = k_width_px / 2 + static_cast<int>(0.4 * 60.0 / std::tan(0.5) / 1.9);
         EXPECT_EQ(seen_at(image, x, k_height_px / 2), Seen::green);
     }
 }
 
-TEST_F(RenderPicture, BothSidesOfATriangleAreLitAlike) {
+TEST_F(RenderPicture, BothSidesOfATriangleAreLitEqually) {
     Mesh sheet;
     sheet.positions = {Vec3(-0.5, -0.5, 0.0), Vec3(0.5, -0.5, 0.0), Vec3(0.0, 0.5, 0.0)};
     sheet.triangles = {{0, 1, 2}};
@@ -143,7 +143,7 @@ TEST_F(RenderPicture, BothSidesOfATriangleAreLitAlike) {
     EXPECT_EQ(seen_at(front, k_width_px / 2, k_height_px / 2), Seen::red);
 }
 
-// A small scene that uses every kind of thing, moved as a whole.
+// A small scene with every kind of input, moved as a whole.
 RenderFrame scene_at(Renderer& renderer, const Vec3& place) {
     RenderFrame frame;
     frame.camera.pose_ws =
@@ -165,7 +165,7 @@ TEST_F(RenderPicture, TenKilometresFromTheOriginLooksLikeTheOrigin) {
     const Image here = draw(scene_at(*renderer_, Vec3::Zero()));
     const Image there = draw(scene_at(*renderer_, Vec3(10000.0, -7000.0, 4000.0)));
     EXPECT_LT(mean_difference(here, there), 1.0);
-    EXPECT_GT(mean_difference(here, draw(black_frame())), 20.0);  // there was something to see
+    EXPECT_GT(mean_difference(here, draw(black_frame())), 20.0);  // the picture shows something
 }
 
 TEST_F(RenderPicture, SameFrameGivesTheSameBytes) {
@@ -193,14 +193,14 @@ TEST_F(RenderPicture, LineShowsInFrontAndFaintlyBehind) {
     EXPECT_LT(image.pixel(free_x, k_height_px / 2 - 12)[1], 15);
 }
 
-TEST_F(RenderPicture, LineThatBeginsBehindTheCameraReachesIntoThePicture) {
+TEST_F(RenderPicture, LineFromBehindTheCameraIsClippedAndDrawn) {
     RenderFrame frame = black_frame();
     frame.lines.push_back({Vec3(0.0, -0.1, 1.0), Vec3(0.0, 0.0, -4.0)});
     const Image image = draw(frame);
     EXPECT_NE(seen_at(image, k_width_px / 2, k_height_px / 2 + 3), Seen::nothing);
 }
 
-TEST_F(RenderPicture, KeyLightThrowsAShadow) {
+TEST_F(RenderPicture, KeyLightCastsAShadow) {
     RenderFrame frame = black_frame();
     frame.camera.pose_ws = look_along(Vec3(0.0, 2.0, 0.02), Vec3(0.0, -1.0, 0.0), -Vec3::UnitZ());
     frame.key.towards_ws = Vec3(1.0, 1.0, 0.0);
@@ -208,7 +208,7 @@ TEST_F(RenderPicture, KeyLightThrowsAShadow) {
     frame.instances.push_back(box(Vec3(0, -0.05, 0), Vec3(1, 0.05, 1), {0.6F, 0.6F, 0.6F}));
     frame.instances.push_back(box(Vec3(0.5, 0.5, 0), Vec3(0.1, 0.01, 0.1), {0.6F, 0.6F, 0.6F}));
     const Image image = draw(frame);
-    // Light at 45 degrees: the small plate at height 0.5 darkens the floor about x = 0.
+    // Light at 45 degrees: the small plate at height 0.5 shadows the floor around x = 0.
     const double scale = 60.0 / std::tan(0.5) / 2.0;
     const auto at = [&](double x) {
         return static_cast<int>(image.pixel(static_cast<int>(80 + scale * x), 60)[1]);
@@ -216,7 +216,7 @@ TEST_F(RenderPicture, KeyLightThrowsAShadow) {
     EXPECT_LT(at(0.0), at(-0.5) - 25);
 }
 
-TEST_F(RenderPicture, ThingsThatAreNotFiniteAreLeftOut) {
+TEST_F(RenderPicture, SkipsInstancesAndLinesThatAreNotFinite) {
     RenderFrame frame = black_frame();
     constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
     const Instance broken = box(Vec3(k_nan, 0.0, -1.0), Vec3(0.1, 0.1, 0.1), k_red);
@@ -227,7 +227,7 @@ TEST_F(RenderPicture, ThingsThatAreNotFiniteAreLeftOut) {
     EXPECT_EQ(seen_at(image, k_width_px / 2, k_height_px / 2), Seen::green);
 }
 
-TEST_F(RenderPicture, WhatIsOutOfSightIsNotDrawn) {
+TEST_F(RenderPicture, InstancesOutOfSightAreCulled) {
     RenderFrame frame = black_frame();
     frame.instances = {box(Vec3(0, 0, -2), Vec3(0.1, 0.1, 0.1), k_red),
                        box(Vec3(0, 0, 5), Vec3(0.1, 0.1, 0.1), k_red),
@@ -237,7 +237,7 @@ TEST_F(RenderPicture, WhatIsOutOfSightIsNotDrawn) {
     EXPECT_EQ(renderer_->counters().instances_given, 3);
 }
 
-TEST_F(RenderPicture, SecondRendererLeavesTheFirstAlone) {
+TEST_F(RenderPicture, SecondRendererDoesNotAffectTheFirst) {
     RenderFrame frame = black_frame();
     frame.instances.push_back(box(Vec3(0, 0, -1), Vec3(0.1, 0.1, 0.1), k_red));
     const Image before = draw(frame);
@@ -260,7 +260,7 @@ TEST_F(RenderPicture, UnknownMeshIsRefused) {
 }
 
 // A headset's eye: sides at distance 1 instead of an angle.
-TEST_F(RenderPicture, LopsidedFrustumPutsThingsWhereItsSidesSay) {
+TEST_F(RenderPicture, AsymmetricFrustumProjectsByItsSides) {
     RenderFrame frame = black_frame();
     frame.camera.frustum = EyeFrustum{-0.9, 0.5, -0.6, 0.8};
     const Vec3 center(0.2, 0.5, -2.0);
@@ -273,7 +273,7 @@ TEST_F(RenderPicture, LopsidedFrustumPutsThingsWhereItsSidesSay) {
     EXPECT_EQ(renderer_->counters().instances_seen, 1);
 }
 
-TEST_F(RenderPicture, FrustumOfAnAngleGivesTheAnglesPicture) {
+TEST_F(RenderPicture, FrustumFromAnAngleGivesTheSamePicture) {
     RenderFrame frame = black_frame();
     frame.backdrop = Backdrop::space;
     frame.instances = {box({0.3, -0.2, -1.5}, Vec3::Constant(0.2), {1.0F, 0.0F, 0.0F})};

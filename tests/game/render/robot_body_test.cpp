@@ -17,7 +17,7 @@ TEST(RobotBody, IsAFigureWithAllBones) {
     const Result<BodyRig> rig = fit_body_rig(body);
     ASSERT_TRUE(rig.ok()) << rig.error().message();
     EXPECT_NEAR(rig.value().shoulder_width_m, 0.38, 1e-6);
-    // On its soles: the eyes are where it was built for, to the thickness of a sole.
+    // Standing on its soles: eyes at the height it was built for, up to a sole's thickness.
     EXPECT_NEAR(rig.value().eye_height_m, 1.641, 0.01);
     std::array<int, k_body_bone_count> carried{};
     for (const SkinWeights& weights : body.weights) {
@@ -30,7 +30,7 @@ TEST(RobotBody, IsAFigureWithAllBones) {
     EXPECT_LT(body.triangles.size(), 40000U);
 }
 
-TEST(RobotBody, HandsStandInHandSpace) {
+TEST(RobotBody, HandJointsAreInHandSpace) {
     const BodyModel model = builtin_body_model();
     int hands = 0;
     for (const BodyRig::Joint& joint : model.rig.joints) {
@@ -43,9 +43,9 @@ TEST(RobotBody, HandsStandInHandSpace) {
     EXPECT_EQ(hands, 2);
 }
 
-TEST(RobotBody, IsTheSameEachTime) { EXPECT_EQ(make_robot_body_glb(), make_robot_body_glb()); }
+TEST(RobotBody, BytesAreDeterministic) { EXPECT_EQ(make_robot_body_glb(), make_robot_body_glb()); }
 
-// Every vertex has one on the other side of x = 0.
+// Every vertex has a mirrored one.
 TEST(RobotBody, IsSymmetric) {
     const SkinnedMesh body = make_robot_body();
     const auto key = [](const Vec3& p) {

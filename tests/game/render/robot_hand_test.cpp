@@ -20,7 +20,7 @@ double to_segment(const Vec3& point, const Vec3& b) {
     return (point - t * b).norm();
 }
 
-// Every edge once in each direction.
+// Every edge occurs once in each direction.
 bool is_closed(const Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -53,9 +53,9 @@ TEST(RobotHand, PartsAreClosedAndOnTheirLinks) {
     }
 }
 
-// What is fitted are the capsules: the parts may not stand out of them, nor leave them bare below,
-// where they touch.
-TEST(RobotHand, FingersFillTheirCapsulesAndHardlyStandOut) {
+// The capsules are what is fitted: parts must not protrude from them, and must fill them on the
+// contact side.
+TEST(RobotHand, FingersFillTheirCapsulesWithoutProtruding) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     std::vector<std::array<double, 3>> lowest(rig.fingers.size(), {0.0, 0.0, 0.0});
     for (const HandPart& part : make_robot_hand(rig)) {
@@ -81,7 +81,7 @@ TEST(RobotHand, FingersFillTheirCapsulesAndHardlyStandOut) {
     }
 }
 
-TEST(RobotHand, LeftIsTheRightOneMirrored) {
+TEST(RobotHand, LeftHandMirrorsTheRightOne) {
     const std::vector<HandPart> left = make_robot_hand(builtin_hand_rig(HandSide::left));
     const std::vector<HandPart> right = make_robot_hand(builtin_hand_rig(HandSide::right));
     ASSERT_EQ(left.size(), right.size());
@@ -90,7 +90,7 @@ TEST(RobotHand, LeftIsTheRightOneMirrored) {
         if (left[i].finger != RigJoint::k_palm) {
             continue;
         }
-        // A mirror turns the winding, and vertices stand in the order of their first use.
+        // A mirror reverses the winding, and vertices are in order of first use.
         for (const Vec3& l : left[i].mesh.positions) {
             double nearest_m = 1.0;
             for (const Vec3& r : right[i].mesh.positions) {
@@ -101,7 +101,7 @@ TEST(RobotHand, LeftIsTheRightOneMirrored) {
     }
 }
 
-TEST(RobotHand, AnyRigHasOne) {
+TEST(RobotHand, EveryRigGetsAHand) {
     HandRig rig = builtin_hand_rig(HandSide::right);
     rig.fingers = {rig.fingers[1], rig.fingers[4]};  // no thumb, two fingers of two bones
     for (FingerRig& finger : rig.fingers) {
@@ -115,7 +115,7 @@ TEST(RobotHand, AnyRigHasOne) {
     }
 }
 
-TEST(ExportRobotHand, ComesBackAsTheSameRig) {
+TEST(ExportRobotHand, ReimportGivesTheSameRig) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const HandRig rig = builtin_hand_rig(side);
         const Result<SkinnedMesh> skin = parse_gltf_skin(export_robot_hand(rig), "robot_hand.glb");
@@ -151,7 +151,7 @@ TEST(ExportRobotHand, ComesBackAsTheSameRig) {
     }
 }
 
-TEST(ExportRobotHand, JointsHangBelowTheOnesThatMoveThem) {
+TEST(ExportRobotHand, JointsAreChildrenOfTheJointsThatMoveThem) {
     const Result<SkinnedMesh> skin =
         parse_gltf_skin(export_robot_hand(builtin_hand_rig(HandSide::right)), "robot_hand.glb");
     ASSERT_TRUE(skin.ok());

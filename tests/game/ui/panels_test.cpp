@@ -1,4 +1,4 @@
-// Panels in pictures: drawn where they are said to be, and without a window.
+// Panels in pictures: their positions, without a window.
 #include <array>
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> k_red = {255, 0, 0, 255};
 
-// A red rectangle, of which only what lies inside of the clip is to be seen.
+// A red rectangle, visible only inside the clip rectangle.
 UiPicture make_rectangle(float left, float top, float right, float bottom,
                          const std::array<int, 4>& clip_px) {
     UiPicture ui;
@@ -38,7 +38,7 @@ bool is_red(const Image& image, int x, int y) {
     return pixel[0] > 200 && pixel[1] < 40 && pixel[2] < 40;
 }
 
-TEST(UiPainter, DrawsFromTheUpperLeftCornerAndCutsAtTheClip) {
+TEST(UiPainter, DrawsFromTheUpperLeftCornerAndClips) {
     for (const PictureQuality quality :
          {PictureQuality::plain, PictureQuality::quick, PictureQuality::fine}) {
         std::string why_not;
@@ -79,13 +79,13 @@ struct Panels : testing::Test {
     InspectorView view() { return {session, history, tally, memory}; }
 };
 
-TEST_F(Panels, EveryPageOfTheInspectorShowsALotAndChangesNothing) {
+TEST_F(Panels, InspectorPagesDrawWithoutChangingState) {
     play(30);
     const std::uint64_t hash = hash_state(session.scene().world);
     for (const char* const page : {"Frame", "Hands", "Tuning", "Entities", "Gizmos"}) {
         memory.turn_to = page;
         std::size_t triangles = 0;
-        for (int i = 0; i < 3; ++i) {  // a page that is turned to is there in the next picture
+        for (int i = 0; i < 3; ++i) {  // a page switch takes effect in the next picture
             overlay.begin({}, 0.01);
             show_inspector(view());
             triangles = overlay.end().indices.size() / 3;
@@ -95,7 +95,7 @@ TEST_F(Panels, EveryPageOfTheInspectorShowsALotAndChangesNothing) {
     EXPECT_EQ(hash_state(session.scene().world), hash);
 }
 
-// Vertices of panels lie on the picture, as whoever draws them without a scissor would want.
+// Vertices of panels lie inside the picture, so drawing them needs no scissor.
 TEST_F(Panels, HelpMarkAndPauseFitThePicture) {
     Hud hud;
     hud.paused = true;
@@ -114,11 +114,11 @@ TEST_F(Panels, HelpMarkAndPauseFitThePicture) {
     }
 }
 
-TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
+TEST_F(Panels, ClickOnASceneInTheMenuChoosesIt) {
     PlaySettings settings;
     std::string chosen;
-    // He clicks his way down the left side of the menu, below the heading, which would close it,
-    // and slowly, since title bars obey double clicks, until something is chosen.
+    // Clicks down the left side of the menu until something is chosen. Starts below the heading,
+    // which would close the menu; clicks slowly, since title bars react to double clicks.
     for (float y = 64.0F; y < 340.0F && chosen.empty(); y += 4.0F) {
         for (const bool down : {false, true, false}) {
             UiInput input;
@@ -130,12 +130,12 @@ TEST_F(Panels, AClickOnASceneOfTheMenuChoosesIt) {
             overlay.end();
         }
     }
-    EXPECT_EQ(chosen, "station");  // the first on the list
+    EXPECT_EQ(chosen, "station");  // the first in the list
 }
 
-// A sheet 2 m ahead and turned to the camera: a pinhole has its corners at the picture's middle and
-// half its size times the focal length over 2 m; rows above are further up.
-TEST(UiPainter, DrawsASheetWhereAPinholeHasItAndBehindWhatHidesIt) {
+// A sheet 2 m ahead, facing the camera. A pinhole projects its corners at half its size times the
+// focal length over 2 m from the picture's centre; the first row is at the top.
+TEST(UiPainter, DrawsASheetByPinholeProjectionBehindOccluders) {
     constexpr int k_size_px = 64;
     for (const PictureQuality quality :
          {PictureQuality::plain, PictureQuality::quick, PictureQuality::fine}) {
@@ -144,10 +144,10 @@ TEST(UiPainter, DrawsASheetWhereAPinholeHasItAndBehindWhatHidesIt) {
         if (!renderer) {
             GTEST_SKIP() << why_not;
         }
-        // Of a sheet of 40 x 20 pixels and 1 m only the upper left quarter is red.
+        // Only the upper left quarter of a sheet of 40 x 20 pixels and 1 m is red.
         const UiPicture ui = make_rectangle(0.0F, 0.0F, 40.0F, 20.0F, {0, 0, 20, 10});
         RenderFrame frame;
-        frame.camera.vertical_fov_rad = 2.0 * std::atan(0.5);  // at 2 m as wide as it is away
+        frame.camera.vertical_fov_rad = 2.0 * std::atan(0.5);  // as wide at 2 m as the distance
         frame.sheet = Sheet{&ui, {40, 20}, {Vec3(0.0, 0.0, -2.0), Quat::Identity()}, 1.0};
         Image image;
         renderer->draw(frame, image);
@@ -157,7 +157,7 @@ TEST(UiPainter, DrawsASheetWhereAPinholeHasItAndBehindWhatHidesIt) {
                 ASSERT_EQ(is_red(image, x, y), inside) << x << ", " << y;
             }
         }
-        // A box before its left half.
+        // A box in front of its left half.
         frame.instances.push_back({renderer->add_mesh(make_box(Vec3(0.1, 0.5, 0.1))),
                                    {Vec3(-0.25, 0.0, -1.0), Quat::Identity()},
                                    {},

@@ -1,4 +1,4 @@
-// What the inspector says of a hand, against what the hand then does.
+// The inspector's explanation of a hand, compared with what the hand then does.
 #include "game/view/explain_hand.hpp"
 
 #include <gtest/gtest.h>
@@ -11,14 +11,14 @@
 namespace handhold::explain_hand_test {
 namespace {
 
-// Whose rail hands fit.
+// A tunnel whose rail has grip meshes.
 Scene make_fitted_tunnel() {
     Scene scene = make_tunnel(6.0);
     add_grip_meshes(scene);
     return scene;
 }
 
-// Beside the tunnel's rail, looking at it; his left hand rests in front of him.
+// Beside the tunnel's rail, looking at it; the left hand rests in front of the player.
 struct AtRail : DesktopSession {
     AtRail()
         : DesktopSession(make_fitted_tunnel(), {Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()}) {
@@ -47,14 +47,14 @@ bool says(const HandStory& story, const std::string& words) {
     return story.headline.find(words) != std::string::npos;
 }
 
-TEST(ExplainHand, AnOpenHandInTheAirSaysWhatIsNearestAndThatItIsTooFar) {
+TEST(ExplainHand, OpenHandInTheAirNamesTheNearestSurfaceAndItsDistance) {
     AtRail desk;
     const HandStory story = desk.story(HandSide::right);
     EXPECT_TRUE(says(story, "is open"));
     EXPECT_TRUE(says(story, "farther than hand.reach_m, 10 cm"));
 }
 
-TEST(ExplainHand, AClosedHandNamesWhatItGripsAndItsError) {
+TEST(ExplainHand, GrippingHandNamesTheBodyAndItsError) {
     AtRail desk;
     DesktopInput grip;
     grip.grip[0] = true;
@@ -69,7 +69,7 @@ TEST(ExplainHand, AClosedHandNamesWhatItGripsAndItsError) {
     EXPECT_TRUE(says(story, "hand.max_stretch_m"));
 }
 
-TEST(ExplainHand, AHandThatClosedOnNothingSaysThatItMustOpenFirst) {
+TEST(ExplainHand, HandClosedOnNothingMustOpenFirst) {
     AtRail desk;
     DesktopInput away;
     away.turn_left_rad = 3.14 - 0.9 + 0.6;  // down the middle of the tunnel
@@ -83,7 +83,7 @@ TEST(ExplainHand, AHandThatClosedOnNothingSaysThatItMustOpenFirst) {
     EXPECT_TRUE(says(story, "Open it first"));
 }
 
-TEST(ExplainHand, TheHandInTheLineOfSightIsTheOnePointedAt) {
+TEST(ExplainHand, HandInTheLineOfSightIsPointedAt) {
     AtRail desk;
     const RenderPose& render = desk.scene().world.render_pose.at(desk.player().player);
     for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -94,7 +94,7 @@ TEST(ExplainHand, TheHandInTheLineOfSightIsTheOnePointedAt) {
     EXPECT_FALSE(hand_pointed_at(desk.scene().world, render.head_ws.position, Vec3::UnitY()));
 }
 
-TEST(Gizmos, EachShowsLinesWhereItsStageHasSomethingAndNoneShowsNothing) {
+TEST(Gizmos, EachGizmoDrawsLinesAndNoneDrawsNothing) {
     AtRail desk;
     DesktopInput grip;
     grip.grip[0] = true;
@@ -115,8 +115,8 @@ TEST(Gizmos, EachShowsLinesWhereItsStageHasSomethingAndNoneShowsNothing) {
     }
 }
 
-// The grip's normal stands on the bar's surface: its foot is where the hand's block has its point.
-TEST(Gizmos, AGripIsShownOnTheSurfaceThatIsHeld) {
+// The grip's normal starts on the bar's surface, at the point of the hand's constraint.
+TEST(Gizmos, GripIsDrawnOnTheHeldSurface) {
     AtRail desk;
     DesktopInput grip;
     grip.grip[0] = true;
@@ -133,8 +133,8 @@ TEST(Gizmos, AGripIsShownOnTheSurfaceThatIsHeld) {
     EXPECT_NEAR((normal.b_ws - normal.a_ws).norm(), 0.08, 1e-9);
 }
 
-// Fingers round the bar: where one is said to touch, the bar is.
-TEST(Gizmos, FingersTouchWhereTheSurfaceIs) {
+// Fingers around the bar: drawn contacts lie on the bar.
+TEST(Gizmos, FingerContactsLieOnTheSurface) {
     AtRail desk;
     DesktopInput grip;
     grip.grip[0] = true;
@@ -152,7 +152,7 @@ TEST(Gizmos, FingersTouchWhereTheSurfaceIs) {
     EXPECT_GT(touches, 3);
 }
 
-TEST(PlayTally, CountsAsClimbedOnlyWhatHandsCarried) {
+TEST(PlayTally, ClimbedDistanceExcludesDrifting) {
     AtRail desk;
     PlayTally tally;
     const auto play = [&](const DesktopInput& input, double seconds) {
@@ -169,7 +169,7 @@ TEST(PlayTally, CountsAsClimbedOnlyWhatHandsCarried) {
     input.move = Vec3(0.0, 0.0, -1.0);
     play(input, 0.3);
     EXPECT_NEAR(tally.figures().climbed_m - before_m, 0.9 * 0.3, 0.03);  // a pull of 0.9 m/s
-    play({}, 0.5);                                                       // and he glides on
+    play({}, 0.5);                                                       // the player glides on
     EXPECT_EQ(tally.figures().grips, 1U);
     EXPECT_EQ(tally.figures().hand_changes, 0U);
     EXPECT_GT(tally.figures().path_m, tally.figures().climbed_m + 0.2);

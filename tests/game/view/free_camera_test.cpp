@@ -11,7 +11,7 @@ FreeCamera begun(const Vec3& up_ws = Vec3::UnitY()) {
     return camera;
 }
 
-TEST(FreeCamera, FliesTheWayItLooks) {
+TEST(FreeCamera, FliesInItsViewDirection) {
     FreeCamera camera = begun();
     DesktopInput left;
     left.turn_left_rad = k_half_pi;
@@ -25,7 +25,7 @@ TEST(FreeCamera, FliesTheWayItLooks) {
     EXPECT_LT(camera.pose_ws().position.x(), -5.0);
 }
 
-// However far the mouse goes, the horizon stays level and never tips over.
+// For any mouse movement, the horizon stays level and the camera never tips over.
 TEST(FreeCamera, StaysUpright) {
     const Vec3 up = Vec3(0.3, 1.0, -0.4).normalized();
     FreeCamera camera = begun(up);
@@ -40,7 +40,7 @@ TEST(FreeCamera, StaysUpright) {
     EXPECT_NEAR((camera.pose_ws().rotation * -Vec3::UnitZ()).dot(up), sine(85.0 * k_degree), 1e-9);
 }
 
-TEST(FreeCamera, ThePlayerKeepsHoldAndDoesNothingElse) {
+TEST(FreeCamera, PlayerKeepsGripsAndDoesNothingElse) {
     DesktopInput input;
     input.grip = {true, false};
     input.move = Vec3::UnitX();
@@ -56,7 +56,7 @@ TEST(FreeCamera, ThePlayerKeepsHoldAndDoesNothingElse) {
     EXPECT_FALSE(held.brake);
 }
 
-TEST(FreeCamera, BeginsLevelWhateverTheEyesAre) {
+TEST(FreeCamera, StartsLevelForAnyEyePose) {
     FreeCamera camera;
     for (const double pitch : {k_half_pi, -k_half_pi, 0.3}) {
         const Quat look = rotation_about(Vec3::UnitX(), pitch) * rotation_about(Vec3::UnitZ(), 1.0);

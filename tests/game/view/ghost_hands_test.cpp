@@ -1,5 +1,5 @@
-// Ghosts of hands in pictures, judged by where they must appear: a pinhole camera puts a point at
-// x = w/2 (1 + X / (-Z tan(fov/2) w/h)), y = h/2 (1 - Y / (-Z tan(fov/2))) in its own axes.
+// Ghosts of hands in pictures, checked by where they must appear. A pinhole camera puts a point at
+// x = w/2 (1 + X / (-Z tan(fov/2) w/h)), y = h/2 (1 - Y / (-Z tan(fov/2))) (X, Y, Z in its axes).
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -28,7 +28,7 @@ RenderPose::Hand hand_apart(const Vec3& by_m, double turned_rad = 0.0) {
     return hand;
 }
 
-TEST(GhostShare, GrowsWithTheDistanceBetweenItsLimits) {
+TEST(GhostShare, GrowsWithDistanceBetweenItsLimits) {
     const GhostSettings limits;
     const double middle_m = 0.5 * (limits.apart_from_m + limits.apart_full_m);
     const double middle_rad = 0.5 * (limits.turned_from_rad + limits.turned_full_rad);
@@ -39,10 +39,7 @@ TEST(GhostShare, GrowsWithTheDistanceBetweenItsLimits) {
     EXPECT_NEAR(ghost_share(hand_apart(Vec3::Zero(), middle_rad), limits), 0.5, 1e-9);
 }
 
-// --- Authored grips that a hand would snap to
-// ------------------------------------------------------
-
-TEST(SnapHint, ZonesAreThoseThatAClosingHandSnapsTo) {
+TEST(SnapHint, HintsAtTheGripThatAClosingHandSnapsTo) {
     Scene scene = *make_built_in_scene("playground");
     const PlayerEntities player = add_scene_player(scene, {"player", {}, 80.0});
     World& world = scene.world;
@@ -67,7 +64,7 @@ TEST(SnapHint, ZonesAreThoseThatAClosingHandSnapsTo) {
     EXPECT_FALSE(find_snap_hint(world, player.hands[1], scene.tuning.hand));
 }
 
-// One player who looks along -Z, his right hand before his eyes.
+// One player who looks along -Z, with the right hand in front of the eyes.
 class GhostPicture : public testing::Test {
   protected:
     void SetUp() override {
@@ -76,7 +73,7 @@ class GhostPicture : public testing::Test {
         RenderPose& render = scene_.world.render_pose.at(player_.player);
         lay_body_behind(render);
         for (RenderPose::Hand& hand : render.hands) {
-            put(hand, Vec3(0.0, 0.0, 5.0));  // behind him
+            put(hand, Vec3(0.0, 0.0, 5.0));  // behind the player
         }
         put(right(), Vec3(0.0, -0.05, -0.6));
     }
@@ -87,7 +84,7 @@ class GhostPicture : public testing::Test {
         hand.tracked_ws = hand.shown_ws = {place, Quat::Identity()};
         hand.ray_from_ws = hand.ray_to_ws = place;
     }
-    // No frame was played: his body would lie about his eyes.
+    // No frame was played, so the body would be at the eyes.
     static void lay_body_behind(RenderPose& render) {
         const Pose behind{Vec3(0.0, 0.0, 5.0), Quat::Identity()};
         render.arms.chest_ws = render.spine.chest_ws = render.spine.pelvis_ws = behind;
@@ -99,13 +96,13 @@ class GhostPicture : public testing::Test {
             leg.thigh_ws = leg.shin_ws = leg.foot_ws = behind;
         }
     }
-    // Between the eyes and everything beyond `ahead_m`.
+    // A wall between the eyes and everything beyond `ahead_m`.
     void add_wall(double ahead_m) {
         add_static_mesh(scene_, "wall",
                         std::make_shared<const Mesh>(make_box(Vec3(2.0, 2.0, 0.02))),
                         {Vec3(0.0, 0.0, -ahead_m - 0.02), Quat::Identity()});
     }
-    // The view of a machine that cannot draw is none.
+    // False on machines that cannot draw.
     bool open() {
         std::string why_not;
         view_ =
@@ -125,8 +122,8 @@ class GhostPicture : public testing::Test {
     std::optional<PlayerView> view_;
 };
 
-// Pixels that differ: how many, and how many of them are farther than `radius_m` from where the
-// point at `place` is on the picture.
+// Number of differing pixels, and how many of them are farther than `radius_m` from the projection
+// of `place`.
 struct Differing {
     int all = 0;
     int outside = 0;
@@ -140,9 +137,9 @@ Differing compare(const Image& a, const Image& b, const Vec3& place, double radi
         for (int x = 0; x < k_width_px; ++x) {
             const std::uint8_t* p = a.pixel(x, y);
             const std::uint8_t* q = b.pixel(x, y);
-            const int most =
+            const int difference =
                 std::max({std::abs(p[0] - q[0]), std::abs(p[1] - q[1]), std::abs(p[2] - q[2])});
-            if (most > 6) {
+            if (difference > 6) {
                 ++found.all;
                 found.outside +=
                     std::hypot(x + 0.5 - at_x, y + 0.5 - at_y) > scale * radius_m ? 1 : 0;
@@ -152,9 +149,9 @@ Differing compare(const Image& a, const Image& b, const Vec3& place, double radi
     return found;
 }
 
-constexpr double k_hand_m = 0.24;  // no part of a hand is farther from its wrist
+constexpr double k_hand_m = 0.24;  // largest distance of any part of a hand from its wrist
 
-TEST_F(GhostPicture, StandsWhereTheHandIsTrackedAndNowhereElse) {
+TEST_F(GhostPicture, AppearsOnlyAtTheTrackedPose) {
     if (!open()) {
         GTEST_SKIP() << "no picture can be drawn here";
     }
@@ -165,7 +162,7 @@ TEST_F(GhostPicture, StandsWhereTheHandIsTrackedAndNowhereElse) {
     EXPECT_EQ(apart.outside, 0);
 }
 
-TEST_F(GhostPicture, IsSeenThroughAWallThatHidesIt) {
+TEST_F(GhostPicture, IsVisibleThroughAWall) {
     add_wall(0.5);
     if (!open()) {
         GTEST_SKIP() << "no picture can be drawn here";
@@ -179,7 +176,7 @@ TEST_F(GhostPicture, IsSeenThroughAWallThatHidesIt) {
     EXPECT_EQ(apart.outside, 0);
 }
 
-TEST_F(GhostPicture, HandsThatNearlyAgreeHaveNone) {
+TEST_F(GhostPicture, IsAbsentIfTrackedAndShownPoseNearlyAgree) {
     if (!open()) {
         GTEST_SKIP() << "no picture can be drawn here";
     }
@@ -188,7 +185,7 @@ TEST_F(GhostPicture, HandsThatNearlyAgreeHaveNone) {
     EXPECT_EQ(compare(draw(), agree, Vec3(0.0, 0.0, -1.0), 0.0).all, 0);
 }
 
-TEST_F(GhostPicture, EmptyHandDeepInAWallShinesThroughInItsOwnEyesOnly) {
+TEST_F(GhostPicture, EmptyHandDeepInAWallShinesThroughInItsPlayersViewOnly) {
     add_wall(0.5);
     if (!open()) {
         GTEST_SKIP() << "no picture can be drawn here";
@@ -197,22 +194,22 @@ TEST_F(GhostPicture, EmptyHandDeepInAWallShinesThroughInItsOwnEyesOnly) {
     const Image no_hand = draw();
     const Image no_hand_for_others = draw(std::nullopt);
     put(right(), Vec3(0.0, -0.05, -0.75));
-    const Differing sunk = compare(draw(), no_hand, Vec3(0.0, -0.05, -0.75), k_hand_m);
-    EXPECT_GT(sunk.all, 300);  // seen from its wrist
-    EXPECT_EQ(sunk.outside, 0);
+    const Differing inside = compare(draw(), no_hand, Vec3(0.0, -0.05, -0.75), k_hand_m);
+    EXPECT_GT(inside.all, 300);  // visible from its wrist
+    EXPECT_EQ(inside.outside, 0);
     EXPECT_EQ(compare(draw(std::nullopt), no_hand_for_others, Vec3(0.0, 0.0, -1.0), 0.0).all, 0);
-    // One that grips is behind what it grips, and hidden as anything.
+    // A gripping hand behind its body is hidden like any object.
     right().grip = GripKind::held;
     EXPECT_EQ(compare(draw(), no_hand, Vec3(0.0, -0.05, -0.75), k_hand_m).all, 0);
 }
 
-// Nothing is there but himself: with the ghosts of hands in walls and without, the same picture.
-TEST(GhostOfOwnHand, IsNotSeenThroughHisOwnArmOrOtherHand) {
+// Only the player is in the scene: drawing hands' ghosts must not change the picture.
+TEST(GhostOfOwnHand, DoesNotShineThroughOwnArmOrOtherHand) {
     Scene scene;
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
     const PlayerEntities player = add_scene_player(scene, {"player", {}, 80.0});
     PlayerModels without;
-    without.ghosts.sunk = 0.0F;
+    without.ghosts.penetrating = 0.0F;
     std::string why_not;
     auto view = PlayerView::open(scene, {}, k_width_px, k_height_px, why_not);
     auto bare = PlayerView::open(scene, without, k_width_px, k_height_px, why_not);
@@ -224,8 +221,8 @@ TEST(GhostOfOwnHand, IsNotSeenThroughHisOwnArmOrOtherHand) {
     Image image;
     Image expected;
     for (int pose = 0; pose < 6; ++pose) {
-        // From a fist at the shoulder to an arm stretched up before the eyes; the left hand half
-        // way.
+        // From a fist at the shoulder to an arm stretched up in front of the eyes; the left hand
+        // half as far.
         const double reach = 0.2 * pose;
         const Quat points_up = rotation_about(Vec3::UnitX(), 0.6 * reach);
         TrackingSample sample;

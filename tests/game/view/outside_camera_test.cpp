@@ -20,7 +20,7 @@ double ahead_share(const Pose& camera, const Vec3& target) {
     return (camera.rotation * -Vec3::UnitZ()).dot((target - camera.position).normalized());
 }
 
-TEST(OutsideCamera, StaysInTheRoomAndLooksAtThePlayer) {
+TEST(OutsideCamera, StaysInsideTheWallsAndLooksAtThePlayer) {
     const Scene scene = make_tunnel(4.0);
     OutsideCamera outside(scene);
     for (const double x : {-0.8, 0.0, 0.8}) {
@@ -36,7 +36,7 @@ TEST(OutsideCamera, StaysInTheRoomAndLooksAtThePlayer) {
     }
 }
 
-TEST(OutsideCamera, IsBehindOrBeforeWhereThereIsRoom) {
+TEST(OutsideCamera, IsBehindOrInFrontWithoutWalls) {
     const Scene scene = make_void();
     OutsideCamera outside(scene);
     const RenderPose player = head_at(Vec3(5.0, 1.0, 2.0));
@@ -44,8 +44,8 @@ TEST(OutsideCamera, IsBehindOrBeforeWhereThereIsRoom) {
     EXPECT_LT(outside.before(player).position.z(), 1.0);
 }
 
-// Also for who looks straight up, and beside bodies that nothing collides with.
-TEST(OutsideCamera, MakesDoWithAnyLookAndAnyBody) {
+// Also if the player looks straight up, and beside bodies without colliders.
+TEST(OutsideCamera, IsValidForAnyLookAndForBodiesWithoutColliders) {
     Scene scene = make_tunnel(4.0);
     const Entity ghost = add_block(scene, "ghost", Vec3(0.1, 0.1, 0.1), Vec3::Zero());
     ASSERT_TRUE(scene.world.collider.remove(ghost));

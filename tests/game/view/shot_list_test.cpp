@@ -10,7 +10,7 @@
 namespace handhold::shot_list_test {
 namespace {
 
-TEST(ShotList, ReadsWhatIsAskedForAndFillsInTheRest) {
+TEST(ShotList, ReadsMembersAndFillsInDefaults) {
     const auto shots = parse_shots(R"({"shots": [
         {"name": "a_1", "scene": "ship", "at_s": 2},
         {"name": "b", "scene": "ship", "at_s": 3, "until_s": 4.5, "view": "hand", "side": "left",
@@ -34,8 +34,8 @@ TEST(ShotList, ReadsWhatIsAskedForAndFillsInTheRest) {
     EXPECT_FALSE(film.marks);
 }
 
-// A picture at the moment when a piece begins comes before it.
-TEST(ShotList, RefusesWhatBeginsWithinAPieceOfTheSameScene) {
+// A picture at the start time of a clip is taken before it.
+TEST(ShotList, RefusesShotsThatOverlapAClipOfTheSameScene) {
     const auto list = [](const char* scene, double at_s) {
         return std::string(R"({"shots": [{"name": "a", "scene": "s", "at_s": 1, "until_s": 3},)") +
                R"({"name": "b", "scene": ")" + scene + R"(", "at_s": )" + std::to_string(at_s) +
@@ -49,7 +49,7 @@ TEST(ShotList, RefusesWhatBeginsWithinAPieceOfTheSameScene) {
     EXPECT_EQ(within.error().place, "/shots/1/at_s");
 }
 
-TEST(ShotList, SaysWhereAndWhatItExpectedInstead) {
+TEST(ShotList, ErrorNamesPlaceAndExpectation) {
     const struct {
         const char* member;
         const char* place;
@@ -80,7 +80,7 @@ TEST(ShotList, SaysWhereAndWhatItExpectedInstead) {
     EXPECT_EQ(twice.error().place, "/shots/1/name");
 }
 
-TEST(ShotList, MisspeltSceneIsRefusedWhereverItStands) {
+TEST(ShotList, RefusesMisspeltSceneAnywhereInTheList) {
     const auto folder = std::filesystem::path(testing::TempDir());
     const auto load = [&](const std::string& scene) {
         const auto file = folder / "shots_of_scenes.json";
@@ -101,7 +101,7 @@ TEST(ShotList, MisspeltSceneIsRefusedWhereverItStands) {
     }
 }
 
-TEST(ShotList, EveryListOfTheProjectIsOfScenesThatAreThere) {
+TEST(ShotList, ListsOfTheProjectNameExistingScenes) {
     for (const char* name : {"pictures.json", "film.json"}) {
         const auto shots = load_shots(source_dir() / "tools/shots" / name);
         EXPECT_TRUE(shots.ok()) << (shots.ok() ? "" : shots.error().message());

@@ -7,11 +7,11 @@
 #include "engine/math/math.hpp"
 #include "tests/random.hpp"
 
-// What the systems' own tests share: entities by number, mirrors.
+// Helpers of the systems' tests: entities by number, mirroring.
 namespace handhold::test {
 
 constexpr Entity entity(std::uint32_t number) { return {number, 1}; }
-// Who is in most of the scenes.
+// Entities of most scenes.
 inline constexpr Entity k_player = entity(0);
 inline constexpr Entity k_left = entity(1);
 inline constexpr Entity k_right = entity(2);
@@ -31,7 +31,7 @@ inline std::uint64_t count_of_all(const StageStats& stats) {
 
 inline Pose pose_at(const Vec3& position) { return {position, Quat::Identity()}; }
 
-// In the plane x = 0.
+// Mirrored in the plane x = 0.
 inline Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
 inline Vec3 mirrored_spin(const Vec3& w) { return {w.x(), -w.y(), -w.z()}; }
 inline Pose mirrored(const Pose& pose) {
@@ -42,7 +42,7 @@ inline Pose mirrored(const Pose& pose) {
 inline double angle_between(const Quat& a, const Quat& b) {
     return rotation_to_vector(a * b.conjugate()).norm();
 }
-// Metres, and radians as metres.
+// Distance in metres plus angle in radians.
 inline double distance(const Pose& a, const Pose& b) {
     return (a.position - b.position).norm() + angle_between(a.rotation, b.rotation);
 }

@@ -10,13 +10,13 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "components/fields.hpp"
 #include "components/stats.hpp"
 #include "components/tuning.hpp"
 #include "components/world.hpp"
 #include "engine/core/check.hpp"
 #include "systems/host/tuning_json.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::components_test {
 namespace {
@@ -25,10 +25,11 @@ using test::Random;
 
 // --- How many members an aggregate has -----------------------------------------------------------
 
-// Becomes whatever a member is initialised with.
+// Converts to any member's type.
 struct Anything {
     template <typename T>
-    operator T() const;  // NOLINT(google-explicit-constructor): never defined, only asked for
+    operator T() const;  // NOLINT(google-explicit-constructor): never defined, only used in
+                         // unevaluated contexts
 };
 
 template <typename T, std::size_t... I>
@@ -99,7 +100,7 @@ TEST(Columns, EveryColumnOfTheWorldIsVisitedOnce) {
     EXPECT_EQ(names.size(), columns.size());
 }
 
-// --- Making and destroying -----------------------------------------------------------------------
+// --- Adding and destroying -----------------------------------------------------------------------
 
 BodyDescription rock(std::string_view name) {
     BodyDescription description;
@@ -140,7 +141,7 @@ TEST(World, DestroyedBodyIsGoneFromEveryColumn) {
     EXPECT_TRUE(world.entities.is_alive(b));
 }
 
-TEST(World, HandsGoWithTheirPlayerAndNoOthers) {
+TEST(World, DestroyingAPlayerDestroysOnlyTheirHands) {
     World world;
     const PlayerEntities first = add_player(world, player("first"));
     const PlayerEntities second = add_player(world, player("second"));
@@ -155,7 +156,7 @@ TEST(World, HandsGoWithTheirPlayerAndNoOthers) {
     }
 }
 
-TEST(World, NamesGiveTheIdsAndAreFreeAgainAfterDestroying) {
+TEST(World, NamesGiveTheIdsAndCanBeReusedAfterDestroying) {
     World world;
     const Entity a = add_body(world, rock("a"));
     EXPECT_EQ(find_by_id(world, persistent_id_from_name("a")), a);
@@ -167,7 +168,7 @@ TEST(World, NamesGiveTheIdsAndAreFreeAgainAfterDestroying) {
     EXPECT_EQ(find_by_id(world, persistent_id_from_name("a")), again);
 }
 
-TEST(World, TakenNamesAreRefusedAndChangeNothing) {
+TEST(World, DuplicateNamesAreRefusedAndChangeNothing) {
     World world;
     add_body(world, rock("rock"));
     add_player(world, player("player"));
@@ -178,12 +179,12 @@ TEST(World, TakenNamesAreRefusedAndChangeNothing) {
     EXPECT_THROW(add_player(world, player("rock")), PreconditionError);
     EXPECT_THROW(add_player(world, player("player")), PreconditionError);
     EXPECT_THROW(add_player(world, player("other")),
-                 PreconditionError);  // its right hand's name is taken
+                 PreconditionError);  // the name of its right hand exists already
     EXPECT_EQ(row_count(world), rows);
     EXPECT_EQ(world.entities.alive_count(), 5U);
 }
 
-TEST(World, BodiesThatCannotMoveAsTheyShouldAreRefused) {
+TEST(World, InvalidBodiesAreRefused) {
     World world;
     BodyDescription weightless = rock("a");
     weightless.body.mass_kg = 0.0;
@@ -211,7 +212,7 @@ TEST(World, OnlyFreeBodiesAndPlayersHaveALastValidPose) {
     const Entity body = add_body(world, rock("rock"));
     EXPECT_TRUE(world.last_valid.at(body).known);
     const PlayerEntities made = add_player(world, player("player"));
-    EXPECT_FALSE(world.last_valid.at(made.player).known);  // his head was not tracked yet
+    EXPECT_FALSE(world.last_valid.at(made.player).known);  // the head was not tracked yet
 }
 
 // --- Names of counters ---------------------------------------------------------------------------
@@ -225,7 +226,7 @@ void expect_names_distinct() {
     EXPECT_STREQ(name_of(Enum::count), "unknown");
 }
 
-TEST(Stats, EveryStageAndFallbackHasANameOfItsOwn) {
+TEST(Stats, EveryStageAndFallbackHasAUniqueName) {
     expect_names_distinct<Stage>();
     expect_names_distinct<Fallback>();
 }
@@ -315,7 +316,7 @@ TEST(TuningJson, AnyTuningRoundTripsBitForBit) {
     }
 }
 
-TEST(TuningJson, WhatIsNotNamedKeepsItsDefault) {
+TEST(TuningJson, MissingNumbersKeepTheirDefault) {
     const Result<Tuning> empty = parse_tuning("{}", "empty.json");
     ASSERT_TRUE(empty.ok());
     EXPECT_EQ(all_numbers(empty.value()), all_numbers(Tuning{}));
@@ -354,7 +355,7 @@ TEST(TuningJson, EachKindOfMalformedFileIsRefusedWithItsPlace) {
     }
 }
 
-TEST(TuningJson, WhatIsNotJsonIsRefusedWithItsLine) {
+TEST(TuningJson, InvalidJsonIsRefusedWithItsLine) {
     for (const char* const text :
          {"", "{", R"({"hand": {"reach_m": 0.2,}})", R"({"hand": {}, "hand": {}})"}) {
         const Result<Tuning> read = parse_tuning(text, "bad.json");

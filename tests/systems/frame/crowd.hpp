@@ -11,9 +11,9 @@
 #include "tests/systems/frame/column_scene.hpp"
 #include "tests/systems/frame/scenario.hpp"
 
-// A lively world for what must not matter: several players who crawl with one hand and with two,
-// wave, shove and throw rocks, share a crate, among things that roll into one another. Nothing but
-// the world and the caches changes while it runs: where the devices are follows from the clock.
+// A busy scene for determinism tests: players who crawl with one and two hands, wave, shove and
+// throw rocks and share a crate, among rolling bodies. The device poses are functions of the
+// world's clock, so the world and the caches are all that changes.
 namespace handhold::test {
 
 class Crowd {
@@ -23,7 +23,7 @@ class Crowd {
     Tuning tuning;
     StageStats stats;  // of the last frame
 
-    // Seed 0: bodies and players are made in the order in which they stand here; others: shuffled.
+    // Seed 0: bodies and players are created in the order of the code; other seeds shuffle it.
     explicit Crowd(std::uint64_t order_seed = 0) {
         std::vector<std::function<void()>> makers;
         make_bodies(makers);
@@ -35,7 +35,7 @@ class Crowd {
         for (const auto& make : makers) {
             make();
         }
-        make_ties();
+        make_joints();
         grip_meshes_ = GripMeshLibrary(shapes);
         drop_caches();
     }
@@ -60,7 +60,7 @@ class Crowd {
         step_frame(world, *caches_, tuning, {k_frame_s, inputs}, stats);
     }
 
-    // The state hash after each of so many frames.
+    // The state hash after each frame.
     std::vector<std::uint64_t> run(
         int frames, const std::function<void(int)>& before_frame = [](int) {}) {
         std::vector<std::uint64_t> hashes;
@@ -81,11 +81,12 @@ class Crowd {
         }
     }
 
-    static constexpr int k_frames = 270;  // until everybody has done everything
+    static constexpr int k_frames = 270;  // long enough for every action of every player
     static constexpr double k_frame_s = 1.0 / 90.0;
 
   private:
-    static constexpr double k_sample_hz = 97.0;  // beside the frames, as devices are
+    // Not a multiple of the frame rate, as with real devices.
+    static constexpr double k_sample_hz = 97.0;
 
     struct Actor {
         std::string name;
@@ -141,9 +142,9 @@ class Crowd {
         });
     }
 
-    // What ties bodies together, after them in whatever order they were made: a flail of two
-    // pebbles that hangs on the world, and a leg of the train. And how the rock is held.
-    void make_ties() {
+    // Joints, created after the bodies: a flail of two pebbles attached to the world, and a leg of
+    // the train. Also how the rock is held.
+    void make_joints() {
         AuthoredGrips grips;
         grips.count = 1;
         AuthoredHand& left = grips.grips[0].hands[0];
@@ -178,7 +179,7 @@ class Crowd {
                 const PlayerEntities made = add_player(
                     world, {name, {mass_kg}, {origin, Quat::Identity()}, Vec3::Zero(), head});
                 for (const Entity hand : made.hands) {
-                    world.controller_to_hand.add(hand);  // hands are scripted as hands
+                    world.controller_to_hand.add(hand);  // scripts give hand poses, not controllers
                 }
             });
         };
@@ -189,7 +190,7 @@ class Crowd {
 
     Vec3 hand_over(const Vec3& palm) const { return palm - tuning.hand.palm_center_m; }
 
-    // The right hand on the floor, the left one waves a rock, shoves it into the wall and throws
+    // The right hand holds the floor; the left one waves a rock, shoves it into the wall and throws
     // it.
     DeviceScript crawler() const {
         DeviceScript script;
@@ -213,7 +214,7 @@ class Crowd {
         };
         return script;
     }
-    // Both hands on the floor, let go one after the other.
+    // Both hands hold the floor and are released one after the other.
     DeviceScript crawler_with_two_hands() const {
         DeviceScript script;
         for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -227,7 +228,7 @@ class Crowd {
         }
         return script;
     }
-    // A crate in both hands, which do not quite agree.
+    // A crate in both hands, whose targets do not quite agree.
     DeviceScript carrier() const {
         DeviceScript script;
         for (std::size_t side = 0; side < k_hand_count; ++side) {

@@ -1,5 +1,5 @@
-// The state is the columns and nothing else: the same frames come out for any number of threads,
-// any run, without caches, after a rollback and in any order of creation.
+// The columns are the whole state: frames are equal for any number of threads, in any run, without
+// caches, after a rollback, and in any order of creation.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +18,8 @@ using test::Crowd;
 using test::Random;
 using Hashes = std::vector<std::uint64_t>;
 
-// What is compared below is not a scene in which nothing happens.
-TEST(Crowd, GripsWithOneHandAndTwoThrowsPushesAndTouches) {
+// The scene compared below does exercise the runtime.
+TEST(Crowd, GripsThrowsPushesAndTouches) {
     Crowd crowd;
     std::uint64_t contacts = 0;
     std::uint64_t pushed = 0;
@@ -37,7 +37,7 @@ TEST(Crowd, GripsWithOneHandAndTwoThrowsPushesAndTouches) {
     EXPECT_GT(contacts, 200U);
     EXPECT_GT(pushed, 10U);
     EXPECT_GE(two_hands, 2U);
-    EXPECT_GE(islands, 8U);  // something for eight threads to share
+    EXPECT_GE(islands, 8U);  // enough islands for eight threads
     const Entity rock = find_by_id(crowd.world, persistent_id_from_name("rock"));
     EXPECT_GT(crowd.world.body_velocity.at(rock).linear_mps.norm(), 0.5);
 }
@@ -58,7 +58,7 @@ TEST(DeterminismThreaded, OneToSixteenThreadsGiveTheSameFrames) {
     set_thread_count(1);
 }
 
-TEST(Determinism, CachesMayBeThrownAwayBeforeAnyFrame) {
+TEST(Determinism, DroppingCachesChangesNoFrame) {
     const Hashes expected = Crowd().run(Crowd::k_frames);
     Crowd always;
     EXPECT_EQ(always.run(Crowd::k_frames, [&](int) { always.drop_caches(); }), expected);
@@ -74,9 +74,9 @@ TEST(Determinism, CachesMayBeThrownAwayBeforeAnyFrame) {
     }
 }
 
-// Sixty frames are taken back and played again, from several places: also into caches that have
-// seen the future.
-TEST(Determinism, RolledBackFramesAreTheSameAgain) {
+// Sixty frames are rolled back and repeated, from several frames, also with caches that have seen
+// the later frames.
+TEST(Determinism, RolledBackFramesAreRepeatedBitwise) {
     constexpr int k_rollback_frames = 60;
     Crowd crowd;
     const SnapshotAssets assets(crowd.shapes);
@@ -90,7 +90,7 @@ TEST(Determinism, RolledBackFramesAreTheSameAgain) {
     }
 }
 
-TEST(Determinism, OtherWorldsContinueFromASnapshotAlike) {
+TEST(Determinism, OtherWorldsContinueIdenticallyFromASnapshot) {
     Crowd here;
     here.run(100);
     const SnapshotAssets assets(here.shapes);
@@ -102,15 +102,16 @@ TEST(Determinism, OtherWorldsContinueFromASnapshotAlike) {
     EXPECT_EQ(there.run(120), here.run(120));
 }
 
-TEST(Determinism, BodiesAndPlayersMayBeMadeInAnyOrder) {
+TEST(Determinism, CreationOrderChangesNoFrame) {
     const Hashes expected = Crowd().run(Crowd::k_frames);
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         EXPECT_EQ(Crowd(seed).run(Crowd::k_frames), expected) << seed;
     }
 }
 
-// Removals leave rows in any order: hands before their players, each column in its own way.
-TEST(Determinism, RowsMayStandInAnyOrder) {
+// Destroying and adding leaves rows in any order: hands before their players, each column
+// differently.
+TEST(Determinism, RowOrderChangesNoFrame) {
     const Hashes expected = Crowd().run(Crowd::k_frames);
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         Crowd crowd;

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "components/fields.hpp"
 #include "engine/core/check.hpp"
 #include "systems/frame.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::frame_hash_test {
 namespace {
@@ -34,7 +34,7 @@ PlayerDescription player() {
     return description;
 }
 
-// With a row in every column.
+// A world with a row in every column.
 World full_world() {
     World world;
     const Entity ship = add_body(world, rock("ship", 1));
@@ -57,8 +57,8 @@ World full_world() {
 
 // --- Changing any field --------------------------------------------------------------------------
 
-// Changes one number somewhere in a field to another that is as valid. Fields are visited as const
-// of a world that is not.
+// Changes one number of a field to another valid value. Fields are visited as const, but the world
+// is not.
 class FieldChanger {
   public:
     explicit FieldChanger(World& world) : world_(world) {}
@@ -92,7 +92,7 @@ class FieldChanger {
         } else if constexpr (std::is_integral_v<T>) {
             ++value;
         } else {
-            bool is_first = true;  // of a component within a component
+            bool is_first = true;  // a component within a component
             visit_fields(value, [&](const char*, const auto& field) {
                 if (is_first) {
                     change(field);
@@ -105,8 +105,8 @@ class FieldChanger {
     World& world_;
 };
 
-// Calls change(world) for every field of every column on a fresh world: each visit changes exactly
-// one.
+// Calls change(world) for every field of every column, each on a fresh world with only that field
+// changed.
 template <typename Check>
 void for_every_field(Check&& check) {
     for (int wanted = 0;; ++wanted) {
@@ -129,8 +129,8 @@ void for_every_field(Check&& check) {
     }
 }
 
-// But for a shape's place in the library: it follows the order of loading.
-TEST(HashState, EveryFieldOfEveryColumnCounts) {
+// Except shape ids, which depend on loading order.
+TEST(HashState, EveryFieldOfEveryColumnIsHashed) {
     const std::uint64_t before = hash_state(full_world());
     std::set<std::uint64_t> seen = {before};
     std::size_t fields = 0;
@@ -145,7 +145,7 @@ TEST(HashState, EveryFieldOfEveryColumnCounts) {
     EXPECT_GE(fields, 60U);
 }
 
-TEST(HashState, ClockAndTheScenesReferenceVelocityCount) {
+TEST(HashState, ClockAndTheScenesReferenceVelocityAreHashed) {
     std::set<std::uint64_t> seen = {hash_state(full_world())};
     World later = full_world();
     later.clock.frame = 1;
@@ -158,9 +158,9 @@ TEST(HashState, ClockAndTheScenesReferenceVelocityCount) {
     EXPECT_TRUE(seen.insert(hash_state(drifting)).second);
 }
 
-// --- What must not count -------------------------------------------------------------------------
+// --- Must not be hashed --------------------------------------------------------------------------
 
-TEST(HashState, OrderOfCreationDoesNotShow) {
+TEST(HashState, DoesNotDependOnCreationOrder) {
     World forth;
     add_body(forth, rock("a", 1));
     add_body(forth, rock("b", 2));
@@ -172,7 +172,7 @@ TEST(HashState, OrderOfCreationDoesNotShow) {
     EXPECT_EQ(hash_state(forth), hash_state(back));
 }
 
-TEST(HashState, SlotsAndGenerationsOfGrippedBodiesDoNotShow) {
+TEST(HashState, DoesNotDependOnSlotsAndGenerations) {
     const auto gripping_world = [](int destroyed_before) {
         World world;
         for (int i = 0; i < destroyed_before; ++i) {
@@ -199,10 +199,10 @@ TEST(HashState, CopiesAreEqual) {
     EXPECT_EQ(hash_state(copy), hash_state(world));
 }
 
-// --- Who has what --------------------------------------------------------------------------------
+// --- Ownership of rows ---------------------------------------------------------------------------
 
-// Rows are summed: it must still show which row belongs to whom.
-TEST(HashState, ExchangingTwoBodiesPosesShows) {
+// Row hashes are summed; the owner must still show.
+TEST(HashState, ChangesIfTwoBodiesSwapPoses) {
     World world;
     const Entity a = add_body(world, rock("a", 1));
     const Entity b = add_body(world, rock("b", 2));
@@ -211,8 +211,8 @@ TEST(HashState, ExchangingTwoBodiesPosesShows) {
     EXPECT_NE(hash_state(world), before);
 }
 
-// BodyPose and BodyStart have equal fields: a column's name counts too.
-TEST(HashState, ExchangingTwoColumnsOfOneBodyShows) {
+// BodyPose and BodyStart have equal fields: the column's name must be hashed too.
+TEST(HashState, ChangesIfABodySwapsTwoColumns) {
     World world;
     const Entity a = add_body(world, rock("a", 1));
     world.body_start.at(a).pose_ws.position.x() += 1.0;
@@ -221,7 +221,7 @@ TEST(HashState, ExchangingTwoColumnsOfOneBodyShows) {
     EXPECT_NE(hash_state(world), before);
 }
 
-TEST(HashState, AddingAndDestroyingABodyComesBack) {
+TEST(HashState, IsRestoredByDestroyingAnAddedBody) {
     World world = full_world();
     const std::uint64_t before = hash_state(world);
     const Entity extra = add_body(world, rock("extra", 9));
@@ -230,9 +230,9 @@ TEST(HashState, AddingAndDestroyingABodyComesBack) {
     EXPECT_EQ(hash_state(world), before);
 }
 
-// --- The frame's front door ----------------------------------------------------------------------
+// --- step_frame ----------------------------------------------------------------------------------
 
-TEST(StepFrame, FrameWithoutLengthIsRefusedAndChangesNothing) {
+TEST(StepFrame, InvalidDtIsRefusedAndChangesNothing) {
     for (const double dt_s : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN()}) {
         const ShapeLibrary shapes;
         FrameCaches caches(shapes);
@@ -244,12 +244,12 @@ TEST(StepFrame, FrameWithoutLengthIsRefusedAndChangesNothing) {
     }
 }
 
-TEST(StepFrame, EmptyWorldOnlyGrowsOlder) {
+TEST(StepFrame, EmptyWorldOnlyAdvancesItsClock) {
     const ShapeLibrary shapes;
     FrameCaches caches(shapes);
     World world;
     StageStats stats;
-    stats.grab_onsets = 7;  // cleared first
+    stats.grab_onsets = 7;  // stats are cleared
     step_frame(world, caches, {}, {0.25, {}}, stats);
     step_frame(world, caches, {}, {0.5, {}}, stats);
     EXPECT_EQ(world.clock.frame, 2U);

@@ -6,10 +6,10 @@
 #include "systems/snapshot.hpp"
 #include "tests/systems/frame/crowd.hpp"
 
-// What the tests of snapshots save.
+// The world that the snapshot tests save.
 namespace handhold::test {
 
-// Everybody grips, somebody was destroyed, and a slot was used again.
+// All players grip, an entity was destroyed, and its slot was reused.
 inline Crowd played_crowd() {
     Crowd crowd;
     destroy(crowd.world, find_by_id(crowd.world, persistent_id_from_name("pebble3")));

@@ -10,11 +10,11 @@
 #include "engine/collision/shape_library.hpp"
 #include "systems/frame.hpp"
 
-// A small world for scenarios through the whole frame: bodies by name, one player whose devices
-// follow functions of time.
+// A small world for scenarios of whole frames: bodies by name, and one player whose devices follow
+// functions of time.
 namespace handhold {
 
-// What the devices do, in play space; hands are given as hands, not as controllers.
+// Device poses in play space; hands are given directly, not as controllers.
 struct DeviceScript {
     std::function<Pose(double t_s)> head = [](double) {
         return Pose{Vec3(0.0, 1.6, 0.6), Quat::Identity()};
@@ -30,7 +30,7 @@ struct DeviceScript {
                                                            [](double) { return false; }};
 };
 
-// A number that eases from 0 to 1 between two times: speed and acceleration are continuous.
+// Eases from 0 to 1 between two times with continuous velocity and acceleration.
 inline double ease(double t_s, double from_s, double to_s) {
     return smooth_step(t_s, from_s, to_s);
 }
@@ -56,7 +56,7 @@ class Scenario {
     double hz = 90.0;
     double sample_hz = 90.0;  // of the devices
 
-    // Everything is put into the world through this: for moved and rotated worlds.
+    // Applied to everything added, for moved and rotated worlds.
     Pose frame_ws;
 
     Entity add(const std::string& name, const RigidBody& body, ShapeId shape, const Pose& pose,
@@ -92,7 +92,7 @@ class Scenario {
         world.body_velocity.at(body) = {mover.velocity_ws_mps, mover.angular_velocity_ws_radps};
     }
 
-    // Call once the bodies are there.
+    // Call after all bodies were added.
     void add_player_here(const Vec3& origin = Vec3::Zero(),
                          const Vec3& velocity_mps = Vec3::Zero()) {
         PlayerDescription description{"player",
@@ -102,19 +102,19 @@ class Scenario {
                                       shapes.add_sphere(tuning.head.radius_m)};
         player = add_player(world, description);
         for (const Entity hand : player.hands) {
-            world.controller_to_hand.add(hand, {});  // hands are scripted as hands
+            world.controller_to_hand.add(hand, {});  // scripts give hand poses, not controllers
         }
         grip_meshes_ = GripMeshLibrary(shapes);
         drop_caches();
     }
     void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes, &grip_meshes_); }
 
-    // One frame; samples of the devices at their own rate, with one beyond the frame's end.
+    // One frame. Devices are sampled at their own rate, with one sample beyond the frame's end.
     void step() {
         prepare_step();
         take_step();
     }
-    // The devices' part of it, and the runtime's.
+    // The two halves of step: sampling the devices, and the runtime's frame.
     void prepare_step() {
         const double end_s = world.clock.t_s + 1.0 / hz;
         samples_.clear();
@@ -128,7 +128,7 @@ class Scenario {
         }
         inputs_.assign(1, PlayerInput{player.player, samples_, commands});
     }
-    // After the world's clock was set back: the next sample is the first one after it.
+    // Call after the world's clock was set back: the next sample is the first one after it.
     void rewind_devices() {
         next_sample_ = 0;
         while (world.clock.frame > 0 &&
@@ -149,7 +149,7 @@ class Scenario {
     PlayerCommands commands;
 
     double t_s() const { return world.clock.t_s; }
-    // Seen from the scenario's frame: what a moved or rotated world must not change.
+    // In the scenario's frame: what a moved or rotated world must not change.
     Vec3 origin() const { return inverse_transform_point(frame_ws, origin_ws()); }
     Vec3 origin_ws() const { return world.player_origin.at(player.player).pose_ws.position; }
     Vec3 velocity() const {
@@ -181,7 +181,7 @@ class Scenario {
     std::uint64_t next_sample_ = 0;
 };
 
-// The hand's place whose palm is at `palm`, for an unrotated hand: the palm looks down (-Y).
+// The hand's position at which the palm is at `palm`, for an unrotated hand (palm facing -Y).
 inline Vec3 hand_for_palm(const Scenario& scenario, const Vec3& palm) {
     return palm - scenario.tuning.hand.palm_center_m;
 }

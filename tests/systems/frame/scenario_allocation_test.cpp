@@ -1,4 +1,4 @@
-// A warm frame takes no memory: neither from malloc nor from Bullet's allocator.
+// A warm frame allocates nothing, neither by malloc nor by Bullet's allocator.
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -22,8 +22,7 @@ namespace {
 std::atomic<std::uint64_t> allocations{0};
 }
 
-// The linker finds these before the C library's: everything that allocates in this program comes
-// through here.
+// These replace the C library's: all allocations of this program pass through here.
 extern "C" {
 void* __libc_malloc(std::size_t);               // NOLINT(bugprone-reserved-identifier)
 void* __libc_calloc(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
@@ -61,11 +60,10 @@ std::uint64_t allocations_in_a_frame(Scenario& s) {
 }
 #endif
 
-// A rope of 64 links, long enough for strands, and one whose links have limits, each with a hand
-// that takes and leaves its end: islands of both kinds, whose structures come and go (a limit that
-// is near, a hand more). The first of a size may allocate: ropes that tangle as nothing in the
-// scene did before.
-TEST(WarmFrame, OfRopesInHandsAllocatesNothing) {
+// A rope of 64 links, long enough for strands, and one with limits, each with a hand that grips and
+// releases its end: islands of both kinds, whose structure changes (a limit near, a grip more). The
+// first island of a new size may allocate.
+TEST(WarmFrame, WithHeldRopesAllocatesNothing) {
 #ifdef HH_SANITIZED
     GTEST_SKIP() << "the sanitizer has the allocator";
 #else
@@ -120,7 +118,7 @@ TEST(WarmFrame, AllocatesNothing) {
     GTEST_SKIP() << "the sanitizer has the allocator";
 #else
     const std::uint64_t at_start = allocations.load();
-    const auto* const probe = new std::uint64_t(at_start);  // the hook sees what it should see
+    const auto* const probe = new std::uint64_t(at_start);  // the hook works
     ASSERT_GT(allocations.load(), at_start);
     delete probe;
     const std::uint64_t before_aligned = allocations.load();
@@ -137,8 +135,7 @@ TEST(WarmFrame, AllocatesNothing) {
     s.add_player_here();
     const Vec3 right = hand_for_palm(s, Vec3(0.3, 1.06, 0.1));
     const Vec3 left = hand_for_palm(s, Vec3(-0.3, 1.385, 0.0));
-    // Both hands let go and grip again all the time; the left hand knocks its rock against the
-    // wall.
+    // Both hands release and grip continually; the left one knocks its rock against the wall.
     s.script.grabs[0] = [](double t) { return std::fmod(t, 1.5) > 0.1; };
     s.script.grabs[1] = [](double t) { return std::fmod(t, 0.7) > 0.1; };
     s.script.hands[1] = [=](double t) {

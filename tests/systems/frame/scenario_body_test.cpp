@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_body_test {
 namespace {
@@ -13,8 +13,8 @@ constexpr double k_lets_go_s = 1.5;
 constexpr double k_brakes_s = 3.0;
 constexpr double k_push_mps = 2.0;
 
-// How far the hand has been drawn back, towards the player: a stroke, back, then a push that ends
-// at k_push_mps, and back.
+// How far the hand is drawn back towards the player: a stroke, back, a push that ends at
+// k_push_mps, and back.
 double drawn_m(double t_s) {
     constexpr double k_stroke_m = 0.25;
     constexpr double k_follows_s = 0.05;
@@ -29,8 +29,8 @@ bool holds(double t_s) {
     return (t_s > 0.05 && t_s < 0.63) || (t_s > 1.1 && t_s < k_lets_go_s) || t_s > k_brakes_s;
 }
 
-// Crawls along a rail with one hand, pushes off, drifts, takes the rail again.
-TEST(BodyOfAPlayer, LegsTrailSwingForwardPastHimAndSettle) {
+// Crawls along a rail with one hand, pushes off, drifts, grips the rail again.
+TEST(ShownBody, LegsTrailSwingPastTheBodyAndSettle) {
     Scenario s;
     s.tuning.locomotion.drift_drag_per_s = 0.0;
     s.add_wall("rail", Vec3(0.05, 0.05, 20.0), Vec3(0.5, 1.0, 0.0));
@@ -46,14 +46,14 @@ TEST(BodyOfAPlayer, LegsTrailSwingForwardPastHimAndSettle) {
         return Vec3(pose.legs[0].foot_ws.position - pose.chest_ws.position);
     };
     const Vec3 rest = foot();
-    double most_behind_m = 0.0;
-    double most_ahead_m = 0.0;
+    double max_behind_m = 0.0;
+    double max_ahead_m = 0.0;
     s.run(9.0, [&] {
-        const double z = foot().z() - rest.z();  // he goes along -Z
+        const double z = foot().z() - rest.z();  // the player moves along -Z
         if (s.t_s() < k_brakes_s) {
-            most_behind_m = std::max(most_behind_m, z);
+            max_behind_m = std::max(max_behind_m, z);
         } else {
-            most_ahead_m = std::max(most_ahead_m, -z);
+            max_ahead_m = std::max(max_ahead_m, -z);
         }
         const ArmPose& arms = s.world.arm_pose.at(s.player.player);
         for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -65,9 +65,9 @@ TEST(BodyOfAPlayer, LegsTrailSwingForwardPastHimAndSettle) {
         }
     });
     EXPECT_LT(s.velocity().norm(), 1e-6);
-    EXPECT_GT(most_behind_m, 0.2);
-    EXPECT_GT(most_ahead_m, 0.1);
-    EXPECT_LT((foot() - rest).norm(), 0.06);  // the clip of rest moves it a little
+    EXPECT_GT(max_behind_m, 0.2);
+    EXPECT_GT(max_ahead_m, 0.1);
+    EXPECT_LT((foot() - rest).norm(), 0.06);  // the idle clip moves it a little
 }
 
 }  // namespace

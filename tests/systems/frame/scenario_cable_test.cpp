@@ -12,7 +12,7 @@ namespace {
 
 using test::error_of;
 
-// A rope of links along x from the world's origin, the last one in the hand.
+// A rope of links along x from the world's origin; the hand holds the last one.
 struct Cable {
     Scenario scene;
     std::vector<Entity> links;
@@ -44,7 +44,7 @@ struct Cable {
     }
 };
 
-TEST(Cable, HeldEndMovesEveryLinkAndThePlayerByNothing) {
+TEST(Cable, HeldEndMovesEveryLinkButNotThePlayer) {
     Cable c(40);
     const Vec3 handle(c.length_m - 0.05, 0.035, 0.0);
     c.scene.script.hands[1] = [&](double t_s) {
@@ -77,13 +77,13 @@ TEST(Cable, PulledTautStopsThePlayer) {
     c.scene.add_player_here(Vec3::Zero(), Vec3(0.5, 0.0, 0.0));
     c.run(2.0);
     EXPECT_LE(c.worst_m, 1e-6);
-    // He was already nearly as far as the rope allows: the hand cannot be farther from its end than
-    // the rope is long, up to the little that a link may tilt.
+    // The player was already near the rope's end: the hand cannot be farther away than its length,
+    // plus the little that a link may tilt.
     EXPECT_LE(c.scene.origin().x(), 0.1);
     EXPECT_LE(c.scene.velocity().x(), 1e-3);
 }
 
-TEST(Joints, HoldBodiesWithoutColliderThatPassThroughEachOther) {
+TEST(Joints, ConnectBodiesWithoutColliders) {
     Scenario scene;
     const RigidBody link{BodyKind::free, 1.0, Vec3(0.01, 0.01, 0.01)};
     const Entity first = scene.add("first", link, k_no_shape, {Vec3(0.1, 0.0, 0.0), {1, 0, 0, 0}});

@@ -1,5 +1,5 @@
-// A tool dragged through clutter by a hand that jumps: what contacts cannot all be met, overlaps
-// nothing in the end.
+// A tool dragged through clutter by a hand that jumps: even if not all contacts can be satisfied,
+// nothing penetrates at the end of the frame.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario.hpp"
 #include "tests/engine/collision/scene.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_clutter_test {
 namespace {
@@ -17,15 +17,15 @@ namespace {
 using test::Random;
 
 struct ClutterResult {
-    double worst_overlap_m = 0.0;  // as the frame says
-    double worst_seen_m = 0.0;     // as the tool lies at its end
+    double worst_overlap_m = 0.0;  // as reported by the frame
+    double worst_seen_m = 0.0;     // from the tool's final pose
     int frames_held = 0;
     std::uint64_t restored_last_valid_pose = 0;
 };
 
 enum class Clutter : std::uint8_t { boxes, one_mesh };
 
-// The outside of a box.
+// The surface of a box.
 void add_box_sides(const Vec3& half_m, const Pose& pose, Mesh& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int corner = 0; corner < 8; ++corner) {
@@ -58,7 +58,7 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
         const Vec3 place = center + random.direction() * random.between(0.35, 0.7);
         const Pose pose{place, random.rotation()};
         if (kind == Clutter::boxes) {
-            s.add("thing" + std::to_string(i), {}, s.shapes.add_box(half), pose);
+            s.add("box" + std::to_string(i), {}, s.shapes.add_box(half), pose);
         } else {
             add_box_sides(half, pose, *mesh);
         }
@@ -68,7 +68,7 @@ void add_clutter(Clutter kind, const Vec3& center, Random& random, Scenario& s) 
     }
 }
 
-// How deep a body lies in what is fixed, whatever its way there.
+// Penetration of a body into fixed bodies at its current pose, without sweeps.
 double overlap_where_it_is(const Scenario& s, Entity body) {
     std::vector<ColliderProxy> proxies;
     for (const Entity entity : s.world.body.owners()) {
@@ -82,8 +82,8 @@ double overlap_where_it_is(const Scenario& s, Entity body) {
     return std::max(0.0, -test::deepest(test::contacts_of(s.shapes, proxies)));
 }
 
-// Eighty boxes around a tool of 30 cm, and a hand that is somewhere else, up to half a metre away
-// and turned by up to 100 degrees, ten times a second.
+// Eighty boxes around a tool of 30 cm, and a hand that jumps ten times a second, by up to half a
+// metre and 100 degrees.
 ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
     Random random(seed);
     Scenario s;
@@ -91,7 +91,7 @@ ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
     const Vec3 half_m(0.02, 0.02, 0.15);
     const Entity tool = s.add_crate("tool", 3.0, palm - Vec3(0.0, half_m.y(), 0.0), half_m);
     add_clutter(kind, palm, random, s);
-    // The other hand holds on: the player cannot be pushed out of it all.
+    // The other hand holds a bar, so that the player cannot be pushed out of the clutter.
     const Vec3 other_palm(-0.3, 1.2, 0.3);
     s.add_wall("bar", Vec3(0.3, 0.02, 0.02), other_palm - Vec3(0.0, 0.025, 0.0));
     s.script.hands[0] = [other = hand_for_palm(s, other_palm)](double) {
@@ -121,7 +121,7 @@ ClutterResult drag_through_clutter(std::uint64_t seed, Clutter kind) {
     return result;
 }
 
-TEST(Clutter, ToolOfAJumpingHandIsSunkIntoNothing) {
+TEST(Clutter, ToolOfAJumpingHandPenetratesNothing) {
     std::uint64_t restored_last_valid_pose = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const ClutterResult result = drag_through_clutter(seed, Clutter::boxes);
@@ -129,12 +129,12 @@ TEST(Clutter, ToolOfAJumpingHandIsSunkIntoNothing) {
         EXPECT_GT(result.frames_held, 20) << seed;
         restored_last_valid_pose += result.restored_last_valid_pose;
     }
-    EXPECT_GT(restored_last_valid_pose, 0U);  // in 1 frame of 300
+    EXPECT_GT(restored_last_valid_pose, 0U);  // about 1 frame in 300
 }
 
-// A thing is met where the tool's way first touches it: what else of the same mesh the tool ends in
-// must not be missed, or the place counts as one to go back to.
-TEST(Clutter, NeitherIntoTheFarSideOfWhatItTouches) {
+// Contacts are found where the tool's motion first touches the mesh. Penetration at its end into
+// another part of the mesh must not be missed, or that pose would count as valid.
+TEST(Clutter, ToolDoesNotPenetrateTheFarSideOfItsObstacle) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const ClutterResult result = drag_through_clutter(seed, Clutter::one_mesh);
         EXPECT_LT(result.worst_overlap_m, 2e-4) << seed;

@@ -1,4 +1,4 @@
-// Fallbacks of the solve are counted where they happen and nowhere else.
+// Fallbacks of the solve are counted if and only if they happen.
 #include <gtest/gtest.h>
 
 #include "tests/systems/frame/scenario.hpp"
@@ -6,14 +6,14 @@
 namespace handhold::scenario_fallbacks_test {
 namespace {
 
-// A player holds on to a wall while a press comes at his head: both cannot be met.
+// A player holds a wall while a press moves against the head: both cannot be satisfied.
 struct PressedClimber {
     Scenario s;
     Entity press;
     std::uint64_t contradictions = 0;
 
     explicit PressedClimber(double press_mps) {
-        s.tuning.hand.max_stretch_m = 10.0;  // he does not let go
+        s.tuning.hand.max_stretch_m = 10.0;  // the grip is not released
         s.add_wall("wall", Vec3(1.0, 0.05, 1.0), Vec3(0.0, 1.0, 0.0));
         press = s.add_wall("press", Vec3(0.1, 0.3, 0.3), Vec3(-0.35, 1.6, 0.65));
         s.set_motion(press, Vec3(press_mps, 0.0, 0.0), Vec3::Zero());
@@ -23,17 +23,17 @@ struct PressedClimber {
         s.script.grabs[1] = [](double t) { return t > 0.05; };
         s.run(1.0, [&] { contradictions += s.fallbacks(Fallback::contacts_contradict); });
     }
-    // Of the head's collider from the press's face.
+    // Gap between the head's collider and the press's face.
     double gap_m() const {
         return s.head_center().x() - s.tuning.head.radius_m - (s.body(press).position.x() + 0.1);
     }
 };
 
-TEST(ContactsContradict, HandRowsGiveWayWhereAPressComesAtAPlayerWhoHoldsOn) {
+TEST(ContactsContradict, GripYieldsIfAPressReachesTheHolder) {
     const PressedClimber pressed(0.4);
     EXPECT_GT(pressed.contradictions, 10U);
-    // The press's face ends at x = 0.15 m: the head is outside of it, the hand off by the way that
-    // the head was pushed.
+    // The press's face ends at x = 0.15 m: the head is outside it, and the hand's error is as large
+    // as the push.
     EXPECT_GE(pressed.gap_m(), -1e-3);
     EXPECT_LE(pressed.gap_m(), 5e-3);
     const double pushed_m = 0.15 + pressed.s.tuning.head.radius_m;
@@ -41,12 +41,12 @@ TEST(ContactsContradict, HandRowsGiveWayWhereAPressComesAtAPlayerWhoHoldsOn) {
     EXPECT_NEAR(pressed.s.grab(HandSide::right).error_m, pushed_m, 5e-3);
 }
 
-TEST(ContactsContradict, NothingIsCountedWhereThePressStandsStill) {
+TEST(ContactsContradict, NothingIsCountedIfThePressIsAtRest) {
     EXPECT_EQ(PressedClimber(0.0).contradictions, 0U);
 }
 
-// A rock is shoved into a corner of two walls: what the first round
-// pushes back is found to touch only in the next.
+// A rock is shoved into a corner of two walls: the contact that the first round's result makes is
+// found only in the next.
 std::uint64_t exhausted_rounds(int max_rounds) {
     Scenario s;
     s.tuning.contact.max_rounds = max_rounds;
@@ -65,7 +65,7 @@ std::uint64_t exhausted_rounds(int max_rounds) {
     return exhausted;
 }
 
-TEST(ContactRounds, AreCountedWhereTheyDoNotSuffice) {
+TEST(ContactRounds, ExhaustionIsCounted) {
     EXPECT_GT(exhausted_rounds(1), 0U);
     EXPECT_EQ(exhausted_rounds(Tuning{}.contact.max_rounds), 0U);
 }

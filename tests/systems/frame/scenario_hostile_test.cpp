@@ -1,5 +1,5 @@
-// Bad play: nothing a player or his tracking does may stop, corrupt or blow up the simulation, and
-// what was done instead is counted.
+// Hostile input: nothing that players or tracking do may stop, corrupt or blow up the simulation,
+// and every fallback is counted.
 #include <array>
 #include <limits>
 
@@ -47,7 +47,8 @@ TEST(Jam, BoxPulledIntoANarrowGapStaysThereAndIsCounted) {
     s.run(2.0, [&] {
         ASSERT_TRUE(s.origin().allFinite());
         ASSERT_LE(s.velocity().norm(), s.tuning.locomotion.release_speed_max_mps + 1e-9);
-        // 16 cm do not go into 14: it stays before the gap and the player is pushed away.
+        // A box of 16 cm does not fit into 14 cm: it stays outside the gap and the player is pushed
+        // away.
         ASSERT_GE(s.body(box).position.z() - half_m, -0.3 - 1e-3);
     });
     EXPECT_GT(s.origin().z(), 0.1);
@@ -65,10 +66,10 @@ TEST(Jam, HeadBetweenClosingWallsIsCountedAndFinite) {
         ASSERT_LE(s.origin().norm(), 1.0);
         unresolved += s.fallbacks(Fallback::contacts_unresolved);
     });
-    EXPECT_GT(unresolved, 0U);  // the gap ends narrower than the head
+    EXPECT_GT(unresolved, 0U);  // the final gap is narrower than the head
 }
 
-TEST(HandJumps, OfKilometresLetGoAndThrowNobody) {
+TEST(HandJumps, KilometreJumpReleasesTheGripWithoutAThrow) {
     Scenario s;
     s.add_wall("wall", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
     s.add_player_here();
@@ -82,7 +83,7 @@ TEST(HandJumps, OfKilometresLetGoAndThrowNobody) {
     EXPECT_LE(s.velocity().norm(), s.tuning.locomotion.release_speed_max_mps + 1e-9);
 }
 
-TEST(TrackingLoss, FreezesTheHandAndComesBackWithoutAJump) {
+TEST(TrackingLoss, FreezesTheHandAndResumesWithoutAJump) {
     Scenario s;
     s.add_wall("wall", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
     s.add_player_here();
@@ -106,7 +107,7 @@ TEST(TrackingLoss, FreezesTheHandAndComesBackWithoutAJump) {
     EXPECT_EQ(s.grab(HandSide::right).kind, GripKind::surface);
 }
 
-TEST(GrippedBody, DestroyedWhileHeldIsLetGo) {
+TEST(GrippedBody, IsReleasedIfDestroyed) {
     Scenario s;
     const Entity rock = s.add_rock("rock", 5.0, Vec3(0.3, 1.115, 0.0));
     s.add_player_here();
@@ -122,11 +123,11 @@ TEST(GrippedBody, DestroyedWhileHeldIsLetGo) {
     s.run(0.5);
 }
 
-// Hands that jerk, jump, vanish and press at random, in a room with loose things, on a moving
-// floor.
+// Hands that jerk, jump, vanish and press buttons at random, in a room with loose bodies, on a
+// moving floor.
 class RandomPlay : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(RandomPlay, StaysFiniteInsideAndSlow) {
+TEST_P(RandomPlay, StaysFiniteInsideAndBelowASpeedLimit) {
     Scenario s;
     Dice dice(GetParam());
     s.tuning.contact.margin_m = 0.02;
@@ -165,7 +166,7 @@ TEST_P(RandomPlay, StaysFiniteInsideAndSlow) {
         };
         s.script.grabs[side] = [&hands, side](double) { return hands[side].grab; };
     }
-    // Bodies bounce off what they are thrown against and the spinner adds its own.
+    // Bodies bounce off what they hit, and the spinner adds speed.
     const double fastest_mps = s.tuning.locomotion.release_speed_max_mps + 4.0;
     s.run(60.0, [&] {
         for (Hand& hand : hands) {

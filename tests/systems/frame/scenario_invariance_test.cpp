@@ -1,5 +1,5 @@
-// What must not matter: where the world is, how it is turned, and how often it is looked at.
-// determinism_test.cpp has what must not matter to the last bit.
+// Invariances: position and rotation of the world, and the sample rate. determinism_test.cpp has
+// those that hold bitwise.
 #include <gtest/gtest.h>
 
 #include "tests/systems/frame/scenario.hpp"
@@ -7,8 +7,8 @@
 namespace handhold::scenario_invariance_test {
 namespace {
 
-// Crawls along a wall, waves a rock, shoves it into the wall, lets go, drifts: everything the frame
-// does.
+// Crawls along a wall, waves a rock, shoves it into the wall, releases, drifts: every stage takes
+// part.
 struct Play {
     Scenario s;
     Entity rock;
@@ -51,7 +51,7 @@ std::vector<Vec3> path_of(Play& play) {
 
 class Placed : public testing::TestWithParam<int> {};
 
-TEST_P(Placed, WorldGivesTheSamePath) {
+TEST_P(Placed, MovedWorldGivesTheSamePath) {
     const Vec3 far(10000.0, -3000.0, 7000.0);
     const Quat turned = rotation_from_vector(Vec3(0.7, -1.9, 0.4));
     const Pose places[] = {{far, Quat::Identity()}, {Vec3::Zero(), turned}, {far, turned}};
@@ -74,11 +74,10 @@ TEST(StateHash, ChangesWithTheInput) {
     EXPECT_NE(hash_state(a.s.world), hash_state(b.s.world));
 }
 
-// A single support without a contact: the path depends on the hands, not on how often they were
-// looked at.
+// A single support without contacts: the path depends on the hands, not on the rates.
 class Rates : public testing::TestWithParam<double> {};
 
-TEST_P(Rates, SingleSupportPathAgrees) {
+TEST_P(Rates, SingleSupportPathDoesNotDependOnTheRate) {
     const auto crawl = [](double hz) {
         Scenario s;
         s.hz = hz;
@@ -97,7 +96,7 @@ TEST_P(Rates, SingleSupportPathAgrees) {
     };
     const Vec3 expected = crawl(360.0);
     EXPECT_LE((crawl(GetParam()) - expected).norm(),
-              0.005 + 0.01 * 0.5);  // 5 mm and 1 % of half a metre drifted
+              0.005 + 0.01 * 0.5);  // 5 mm plus 1 % of the half metre drifted
 }
 INSTANTIATE_TEST_SUITE_P(Hz, Rates, testing::Values(60.0, 72.0, 90.0, 120.0, 144.0));
 

@@ -15,13 +15,13 @@ using test::error_of;
 
 constexpr double k_frame_s = 1.0 / 90.0;
 
-// One of the things with a handle that a hand can take, and the player before it.
+// A mechanism with a handle, and the player in front of it.
 struct Contraption {
     Scenario scene;
     Entity thing;
     Entity joint;
     Vec3 handle = Vec3::Zero();
-    // What the hand does after the grab, against its place and turn then.
+    // Motion of the hand after the grab, relative to its pose then.
     std::function<Pose(double)> hand_move = [](double) { return Pose{}; };
     double release_s = 1e9;
     test::JointErrors worst;
@@ -36,7 +36,7 @@ struct Contraption {
         const Pose frame = scene.frame_ws * Pose{point, turned};
         joint = add_joint(scene.world, {"joint", joint_at(scene.world, settings, frame)});
     }
-    // The right hand takes the handle at 0.1 s and follows its path from there.
+    // The right hand grips the handle at 0.1 s and then follows its path.
     void start() {
         scene.script.hands[1] = [this](double t_s) {
             return hand_move(t_s) * Pose{hand_for_palm(scene, handle), Quat::Identity()};
@@ -70,7 +70,7 @@ Contraption& make_lever(Contraption& c, bool limited = true) {
     return c;
 }
 
-TEST(Lever, FollowsTheHandAlongItsArcAndThePlayerStaysBitwiseStill) {
+TEST(Lever, FollowsTheHandAndThePlayerIsBitwiseUnmoved) {
     Contraption c;
     make_lever(c);
     c.hand_move = [](double t_s) {
@@ -99,16 +99,16 @@ TEST(Lever, PulledOffItsArcKeepsItsJointAndMovesThePlayerInstead) {
         ASSERT_TRUE(c.holds());
         EXPECT_LE(c.worst.m, 1e-6) << off_m;
         EXPECT_LE(c.worst.rad, 1e-4 * k_degree) << off_m;
-        // Along the hinge the lever cannot follow: the player comes by as much.
+        // The lever cannot move along its hinge: the player moves by that much.
         EXPECT_NEAR(c.scene.origin().z(), -off_m, 1e-6);
         EXPECT_LE(c.scene.grab(HandSide::right).error_m, 1e-6);
     }
 }
 
-TEST(Lever, TwistOfAStillWristMovesThePlayerByNothing) {
+TEST(Lever, TwistOfAStillWristDoesNotMoveThePlayer) {
     Contraption c;
     make_lever(c);
-    // 46 degrees about an axis through the hand's own place: the tracked point is still.
+    // 46 degrees about an axis through the hand's position: the tracked point is still.
     c.hand_move = [&c](double t_s) {
         const Quat twist = rotation_about(Vec3(1.0, 2.0, -1.0).normalized(),
                                           46.0 * k_pi / 180.0 * ease(t_s, 0.3, 0.8));
@@ -123,7 +123,7 @@ TEST(Lever, TwistOfAStillWristMovesThePlayerByNothing) {
     EXPECT_NEAR(c.state().coordinate, 0.0, 1e-9);
 }
 
-TEST(Lever, AtItsLimitIsPulledLikeAWall) {
+TEST(Lever, AtItsLimitActsAsAWall) {
     Contraption c;
     make_lever(c);
     c.hand_move = [](double t_s) {
@@ -159,7 +159,7 @@ TEST(Drawer, SlidesWithTheHandAndStopsAtItsEnd) {
     EXPECT_LT(c.scene.origin().z(), -0.15) << "and he drifts on as fast as he pulled himself";
 }
 
-TEST(Valve, CountsOverWholeTurns) {
+TEST(Valve, CountsFullTurns) {
     Contraption c;
     make_lever(c, false);
     c.hand_move = [](double t_s) {
@@ -172,7 +172,7 @@ TEST(Valve, CountsOverWholeTurns) {
     EXPECT_NEAR(c.state().coordinate, 4.0 * k_pi, 1e-5);
 }
 
-TEST(Joints, FrictionStopsALetGoLeverAfterTheAngleOfTheClosedForm) {
+TEST(Joints, FrictionStopsAReleasedLeverAfterTheClosedFormAngle) {
     Contraption c;
     make_lever(c, false);
     c.scene.world.joint.at(c.joint).friction = 0.5;
@@ -185,12 +185,12 @@ TEST(Joints, FrictionStopsALetGoLeverAfterTheAngleOfTheClosedForm) {
     c.start();
     c.run(3.0);
     const double expected = spin * spin * inertia / (2.0 * 0.5);
-    // One frame's rotation is what a first-order integrator may miss.
+    // A first-order integrator may be off by one frame's rotation.
     EXPECT_NEAR(c.state().coordinate, expected, spin * k_frame_s);
     EXPECT_NEAR(c.state().speed, 0.0, 1e-12) << "friction holds what it stopped";
 }
 
-TEST(Joints, DetentDrawsALetGoLeverToTheNearestRest) {
+TEST(Joints, DetentDrivesAReleasedLeverToTheNearestRest) {
     Contraption c;
     make_lever(c, false);
     Joint& joint = c.scene.world.joint.at(c.joint);
@@ -207,7 +207,7 @@ TEST(Joints, DetentDrawsALetGoLeverToTheNearestRest) {
     EXPECT_NEAR(c.state().coordinate, 0.5, 1e-3);
 }
 
-// A door of 80 cm hinged about y, with a handle of its own near its free edge that unlocks it.
+// A door of 80 cm hinged about y, with a handle near its free edge that unlocks it.
 struct Door : Contraption {
     Entity handle_body;
     Entity handle_joint;
@@ -238,7 +238,7 @@ struct Door : Contraption {
     }
 };
 
-TEST(Door, LatchedIsAWallToTheHand) {
+TEST(Door, LatchedDoorActsAsAWall) {
     Door c;
     c.hand_move = [](double t_s) {
         return Pose{Vec3(0.0, 0.0, 0.2 * ease(t_s, 0.3, 1.0)), Quat::Identity()};
@@ -251,14 +251,14 @@ TEST(Door, LatchedIsAWallToTheHand) {
     EXPECT_NEAR(c.scene.origin().z(), -0.2, 1e-5);
 }
 
-TEST(Door, TurnedHandleOpensTheLatchAndClosingCatchesItAgain) {
+TEST(Door, TurningTheHandleOpensTheLatchAndClosingLocksIt) {
     Door c;
     c.scene.world.joint_state.at(c.handle_joint).coordinate = 0.0;
     c.release_s = 0.0;
     c.start();
     c.run(0.1);
     EXPECT_TRUE(c.state().latched);
-    // The handle is turned as a hand would: put there, for three frames.
+    // Turns the handle as a hand would, for three frames.
     const auto turn_handle = [&](double angle) {
         Pose& pose = c.scene.world.body_pose.at(c.handle_body).pose_ws;
         pose.rotation = rotation_about(Vec3::UnitZ(), angle);
@@ -279,7 +279,7 @@ TEST(Door, TurnedHandleOpensTheLatchAndClosingCatchesItAgain) {
     EXPECT_NEAR(c.state().coordinate, 0.0, 1e-6);
 }
 
-TEST(Door, StrongEnoughAForceTearsTheLatchOpen) {
+TEST(Door, ForceAboveItsStrengthOpensTheLatch) {
     for (const double strength_nm : {5.0, 50.0}) {
         Door c;
         c.scene.world.joint.at(c.joint).latch.strength = strength_nm;
@@ -295,7 +295,7 @@ TEST(Door, StrongEnoughAForceTearsTheLatchOpen) {
                                                    -0.05 * Vec3::UnitY()};
         c.run(0.02);
         EXPECT_EQ(c.state().latched, strength_nm > torque);
-        // What the latch could not take goes on turning the door.
+        // The rest of the momentum keeps the door moving.
         c.run(0.5);
         EXPECT_EQ(c.state().latched, strength_nm > torque);
         const double slowed = strength_nm / torque;
@@ -304,7 +304,7 @@ TEST(Door, StrongEnoughAForceTearsTheLatchOpen) {
     }
 }
 
-TEST(Joints, ALooseRopeHoldsAtItsLengthOnly) {
+TEST(Joints, SlackRopeActsOnlyAtItsLength) {
     Contraption c;
     c.add_free_body(Vec3(0.1, 0.1, 0.1), Vec3(0.5, 0.0, 0.0), 3.0);
     Joint settings;
@@ -324,7 +324,7 @@ TEST(Joints, ALooseRopeHoldsAtItsLengthOnly) {
     EXPECT_LE(c.worst.m, 1e-6);
 }
 
-TEST(Joints, FixedCarryTheirMomentumTogether) {
+TEST(Joints, FixedBodiesShareTheirMomentum) {
     Contraption c;
     c.add_free_body(Vec3(0.1, 0.1, 0.1), Vec3(0.0, 0.0, 0.0), 1.0);
     const Entity other = c.scene.add_crate("other", 3.0, Vec3(0.4, 0.0, 0.0), Vec3(0.1, 0.1, 0.1));
@@ -343,7 +343,7 @@ TEST(Joints, FixedCarryTheirMomentumTogether) {
     EXPECT_LE(c.worst.rad, 1e-4 * k_degree);
 }
 
-TEST(Joints, DestroyedBodyTakesItsJointsAlong) {
+TEST(Joints, DestroyingABodyDestroysItsJoints) {
     Contraption c;
     make_lever(c);
     c.start();

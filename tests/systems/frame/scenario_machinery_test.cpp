@@ -1,6 +1,6 @@
-// An authored set-up of more than 300 joints of every kind in one island, through the whole frame:
-// a gantry on a rail, and on it a rope of 128 links to a hand, a ring, rows of levers and drawers,
-// and a tree of all kinds of joints. Errors are taken from poses; what the hand does is given.
+// More than 300 joints of every kind in one island, through whole frames: a gantry on a rail; on it
+// a rope of 128 links to a hand, a ring, rows of levers and drawers, and a tree of all kinds of
+// joints. Errors are computed from poses.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,18 +23,19 @@ using Hashes = std::vector<std::uint64_t>;
 
 constexpr int k_links = 128;
 constexpr double k_link_m = 0.1;
-constexpr double k_along_m = 0.098;  // of a link in the rope that is laid out in a zigzag
+constexpr double k_along_m = 0.098;  // of a link of the zigzag rope
 
 class Machinery {
   public:
     Scenario scene;
     std::vector<Entity> joints;
     test::JointErrors worst;
-    double worst_passed = 0.0;  // by which a coordinate was beyond its limits, rad or m
-    double pull_s = 1e9;        // from when on the hand goes away, farther than the rope is long
+    double worst_excess = 0.0;  // worst excess of a coordinate over its limits, rad or m
+    // From here on the hand moves away, farther than the rope is long.
+    double pull_s = 1e9;
 
-    // Beside it that many loose ropes, which swing. Order 0: bodies and joints are made as they
-    // stand here, others: in any order.
+    // Adds that many loose, swinging ropes. Order 0: bodies and joints are created in the order of
+    // the code; others: shuffled.
     explicit Machinery(int loose_ropes = 0, std::uint64_t order = 0) {
         plan_gantry();
         plan_held_rope();
@@ -56,7 +57,7 @@ class Machinery {
             scene.step();
             for (const Entity joint : joints) {
                 worst.take(test::error_of(scene, joint));
-                worst_passed = std::max(worst_passed, passed_by(joint));
+                worst_excess = std::max(worst_excess, passed_by(joint));
             }
             after_frame();
         }
@@ -76,7 +77,7 @@ class Machinery {
         const double coordinate = scene.world.joint_state.at(entity).coordinate;
         return joint.limited ? std::max(joint.lower - coordinate, coordinate - joint.upper) : 0.0;
     }
-    // How far any of these joints is from where it was made, rad or m.
+    // Largest displacement of these joints from their initial coordinate, rad or m.
     double farthest_of(const char* prefix) const {
         double farthest = 0.0;
         for (const Tie& tie : ties_) {
@@ -96,7 +97,7 @@ class Machinery {
         double mass_kg = 1.0;
         Vec3 half_m;
         Pose pose;
-        Moves moves = Moves::yes;  // when it is made, anyhow
+        Moves moves = Moves::yes;  // initially
     };
     struct Tie {
         std::string name;
@@ -134,7 +135,7 @@ class Machinery {
         rail.friction = 5.0;
         tie("", "gantry", rail, k_gantry, Vec3::UnitZ());
     }
-    // In a zigzag along z; light links and heavy ones in turn. Returns its end.
+    // In a zigzag along z, light and heavy links alternating. Returns its end.
     Vec3 plan_rope(const std::string& link, const std::string& from, const Vec3& start,
                    Moves moves) {
         const double up_m = std::sqrt(k_link_m * k_link_m - k_along_m * k_along_m);
@@ -176,7 +177,7 @@ class Machinery {
         }
         tie("gantry", "ring0", joint_of(JointKind::ball), at(0));
     }
-    // Beside each other, the tips of neighbours tied by rods: loops.
+    // Side by side, with rods between neighbours' tips: loops.
     void plan_levers() {
         constexpr int k_count = 20;
         for (int i = 0; i < k_count; ++i) {
@@ -200,7 +201,7 @@ class Machinery {
             }
         }
     }
-    // Below it, each with a knob that is fixed to it.
+    // Below it, each with a fixed knob.
     void plan_drawers() {
         constexpr int k_count = 20;
         for (int i = 0; i < k_count; ++i) {
@@ -216,7 +217,7 @@ class Machinery {
             tie(name, knob, joint_of(JointKind::fixed), front);
         }
     }
-    // Of all kinds, masses from 30 g to 30 kg; it hangs on the ring.
+    // Of all kinds, masses from 30 g to 30 kg; attached to the ring.
     void plan_tree() {
         constexpr int k_count = 80;
         Random random(7);
@@ -280,7 +281,7 @@ class Machinery {
             joints.push_back(add_joint(scene.world, {one.name, made}));
         }
     }
-    // The right hand takes the handle and moves it at up to 1.5 m/s; rope is to spare.
+    // The right hand grips the handle and moves it at up to 1.5 m/s; the rope stays slack.
     void script() {
         const Vec3 rest = hand_for_palm(scene, handle_ + Vec3(0.0, 0.035, 0.0));
         scene.script.hands[1] = [this, rest](double t_s) {
@@ -305,7 +306,7 @@ class Machinery {
     std::vector<Tie> ties_;
 };
 
-TEST(Machinery, OfThreeHundredJointsHoldsInEveryFrameAndItsHolderStaysBitwiseStill) {
+TEST(Machinery, ThreeHundredJointsHoldAndTheHolderIsBitwiseUnmoved) {
     Machinery machinery;
     EXPECT_GE(machinery.joints.size(), 300U);
     const Vec3 before = machinery.scene.origin_ws();
@@ -317,28 +318,28 @@ TEST(Machinery, OfThreeHundredJointsHoldsInEveryFrameAndItsHolderStaysBitwiseSti
     EXPECT_EQ(machinery.scene.grab(HandSide::right).kind, GripKind::held);
     EXPECT_LE(machinery.worst.m, 1e-6);
     EXPECT_LE(machinery.worst.rad, 1e-4 * k_degree);
-    EXPECT_LE(machinery.worst_passed, 1e-6);
-    // Some limits were met.
+    EXPECT_LE(machinery.worst_excess, 1e-6);
+    // Some limits were reached.
     EXPECT_NEAR(machinery.farthest_of("-gantry"), 0.25, 1e-4);
     EXPECT_NEAR(machinery.farthest_of("gantry-lever"), 0.8, 1e-4);
     EXPECT_NEAR(machinery.farthest_of("gantry-drawer19"), 0.21, 1e-4);
     EXPECT_GT(machinery.farthest_of("tree"), 0.3);
 }
 
-// The hand goes two metres beyond what rope and rail give: its player is drawn after it by the
-// rest.
-TEST(Machinery, PulledFartherThanItReachesHoldsAndKeepsThePlayerBack) {
+// The hand moves two metres beyond the reach of rope and rail; the player is pulled along by the
+// difference.
+TEST(Machinery, PulledBeyondItsReachHoldsAndStopsThePlayer) {
     Machinery machinery;
     machinery.pull_s = 1.0;
     machinery.run(270, [&] { ASSERT_LE(machinery.scene.grab(HandSide::right).error_m, 1e-6); });
     EXPECT_EQ(machinery.scene.grab(HandSide::right).kind, GripKind::held);
     EXPECT_LE(machinery.worst.m, 1e-6);
     EXPECT_LE(machinery.worst.rad, 1e-4 * k_degree);
-    EXPECT_LE(machinery.worst_passed, 1e-6);
+    EXPECT_LE(machinery.worst_excess, 1e-6);
     EXPECT_LT(machinery.scene.origin().z(), 0.6 - 2.0 * 1.2);
 }
 
-// --- The same bits -----------------------------------------------------------------------------
+// --- Bitwise equal frames ------------------------------------------------------------------------
 
 constexpr int k_loose_ropes = 4;
 constexpr int k_frames = 90;
@@ -353,7 +354,7 @@ TEST(MachineryThreaded, GivesTheSameFramesForAnyNumberOfThreads) {
     set_thread_count(1);
 }
 
-TEST(Machinery, GivesTheSameFramesWhateverOrderItWasMadeIn) {
+TEST(Machinery, GivesTheSameFramesInAnyCreationOrder) {
     const Hashes expected = Machinery(k_loose_ropes).hashes(k_frames);
     for (const std::uint64_t order : {1U, 2U}) {
         EXPECT_EQ(Machinery(k_loose_ropes, order).hashes(k_frames), expected) << order;
@@ -366,7 +367,7 @@ TEST(Machinery, GivesTheSameFramesWithoutCaches) {
     EXPECT_EQ(machinery.hashes(k_frames, [&] { machinery.scene.drop_caches(); }), expected);
 }
 
-// Devices follow the clock, which is state: what is restored goes on with what it did.
+// Devices follow the clock, which is state: after a restore they repeat their motion.
 TEST(Machinery, GivesTheSameFramesAfterARollback) {
     Machinery machinery(k_loose_ropes);
     const SnapshotAssets assets(machinery.scene.shapes);

@@ -1,6 +1,6 @@
-// Scenarios of the talk through the whole frame: rows 4 (inside the step), 6 (moving supports) and
-// 7 (designer physics). Expected values are closed forms of what the hands do; nothing is read back
-// from the solver's own accounts.
+// Scenarios of the talk through whole frames: rows 4 (inside the step), 6 (moving supports) and 7
+// (designer physics). Expected values are closed forms of the hands' motion; nothing is read back
+// from the solver.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class HeldRock : public testing::TestWithParam<RockCase> {
     const Vec3 palm_ = Vec3(0.3, 1.2, 0.0);
 };
 
-TEST_P(HeldRock, WavedNeverMovesPlayerByABit) {
+TEST_P(HeldRock, WavingItNeverMovesThePlayer) {
     Scenario s;
     add_rock_under_palm(s);
     s.add_player_here();
@@ -58,11 +58,12 @@ TEST_P(HeldRock, WavedNeverMovesPlayerByABit) {
     EXPECT_GT(held, 400);
 }
 
-// A wall 10 cm before the rock; the hand goes 30 cm. What the wall does not let through comes back
-// to the player, in the same frame.
+// A wall 10 cm in front of the rock; the hand moves 30 cm. The player is pushed by what the wall
+// blocks, in the same frame.
 struct ShoveResult {
     double penetration_m = 0.0;
-    double push_error_m = 0.0;  // push-back against the violation, along the wall's normal
+    // Difference of push-back and violation along the wall's normal.
+    double push_error_m = 0.0;
     double sideways_m = 0.0;
     int pushes = 0;
 };
@@ -74,8 +75,8 @@ ShoveResult shove(Scenario& s, Entity rock, double radius_m, const Vec3& hand, d
     s.run(1.2, [&] {
         const Vec3 predicted = origin + velocity / s.hz;
         const Vec3 hand_ps = s.world.hand_tracking.at(s.player.hands[1]).pose_ps.position;
-        const double wanted_z =
-            (predicted + hand_ps - hand).z() - radius_m;  // the rock began at z = 0 under the hand
+        // The rock began at z = 0 under the hand.
+        const double wanted_z = (predicted + hand_ps - hand).z() - radius_m;
         const double violation = std::max(0.0, wall_z - wanted_z);
         const Vec3 push = s.origin() - predicted;
         result.pushes += violation > 1e-3 ? 1 : 0;
@@ -110,7 +111,7 @@ TEST_P(HeldRock, JumpingThirtyCentimetresInAFramePushesInsteadOfTunnelling) {
     Scenario s;
     const Entity rock = add_rock_under_palm(s);
     s.add_wall("wall", Vec3(2.0, 2.0, 0.01),
-               Vec3(0.0, 1.0, -k_radius_m - 0.10 - 0.01));  // 2 cm thin: passed in one frame
+               Vec3(0.0, 1.0, -k_radius_m - 0.10 - 0.01));  // 2 cm thin: crossed within one frame
     s.add_player_here();
     const Vec3 hand = hand_for_palm(s, palm_);
     s.script.grabs[1] = [](double t) { return t > 0.05; };
@@ -147,8 +148,8 @@ TEST(HeadContact, LeaningIntoTheGrippedWallStaysOutside) {
         ASSERT_GE(gap, -1e-6);
     });
     EXPECT_EQ(s.grab(HandSide::right).kind, GripKind::surface);
-    // The head wanted 16 cm into the wall: the hand gives way by as much, it is not let go and
-    // nothing is thrown.
+    // The head's target is 16 cm inside the wall: the hand's error grows by as much, the grip is
+    // not released, nothing is thrown.
     EXPECT_NEAR(s.grab(HandSide::right).error_m, 0.16, 1e-6);
     EXPECT_LE(s.velocity().norm(), 1e-6);
 }
@@ -159,7 +160,7 @@ struct Ship {
 };
 class OnShip : public testing::TestWithParam<Ship> {
   protected:
-    // Hand-relative path on a support that moves as the parameter says; seen from the ship.
+    // Hand-relative path on a support with the parameter's motion, seen from the ship.
     static std::vector<Vec3> crawl(const Ship& ship, double& worst_error_m, int& single_frames) {
         Scenario s;
         const Entity hull = s.add_wall("ship", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
@@ -207,8 +208,9 @@ TEST_P(OnShip, PathSeenFromTheShipDoesNotDependOnItsSpeed) {
     const std::vector<Vec3> resting = crawl({0.0, GetParam().turns}, unused_m, frames);
     ASSERT_EQ(moving.size(), resting.size());
     if (GetParam().turns) {
-        return;  // a turning velocity bends the drift before the grip: only straight flight is the
-                 // same seen from inside
+        // A turning velocity bends the drift before the grip: only straight flight looks the same
+        // from inside.
+        return;
     }
     for (std::size_t i = 0; i < moving.size(); ++i) {
         ASSERT_LE((moving[i] - resting[i]).norm(), 1e-6) << "frame " << i;
@@ -219,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, OnShip,
                          testing::Values(Ship{0.0, false}, Ship{20.0, false}, Ship{1000.0, false},
                                          Ship{0.0, true}, Ship{20.0, true}, Ship{1000.0, true}));
 
-TEST(LettingGo, ThrowsThePlayerAgainstTheHandsVelocity) {
+TEST(Release, ThrowsThePlayerAgainstTheHandsVelocity) {
     Scenario s;
     s.tuning.locomotion.drift_drag_per_s = 0.0;
     s.add_wall("wall", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
@@ -234,12 +236,12 @@ TEST(LettingGo, ThrowsThePlayerAgainstTheHandsVelocity) {
     s.script.grabs[1] = [=](double t) { return t > 0.05 && t < until_s; };
     s.run(1.0);
     EXPECT_LE((s.velocity() + pull_mps).norm(), 1e-6);  // v_origin = v_anchor - v_hand
-    // It moved with the hand while it held on and drifts since: one straight line, whatever frame
-    // the button fell into.
+    // The player moved with the hand while it held, and drifts since: one straight line, whatever
+    // frame the button edge fell into.
     EXPECT_LE((s.origin() + pull_mps * (s.t_s() - from_s)).norm(), 1e-5);
 }
 
-TEST(LettingGo, FastHandsAreClamped) {
+TEST(Release, FastHandsAreLimited) {
     Scenario s;
     s.tuning.locomotion.drift_drag_per_s = 0.0;
     s.add_wall("wall", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
@@ -255,7 +257,7 @@ TEST(LettingGo, FastHandsAreClamped) {
     EXPECT_EQ(clamped, 1U);
 }
 
-TEST(LettingGo, ThrownObjectLeavesWithTheHandsMotionAtItsCentre) {
+TEST(Release, ThrownObjectLeavesWithTheHandsMotionAtItsCentre) {
     Scenario s;
     const Entity bar = s.add_crate("bar", 1.0, Vec3(0.3, 1.2 - 0.025, 0.0), Vec3(0.3, 0.02, 0.02));
     s.add_player_here();
@@ -272,8 +274,8 @@ TEST(LettingGo, ThrownObjectLeavesWithTheHandsMotionAtItsCentre) {
     ASSERT_EQ(s.grab(HandSide::right).kind, GripKind::held);
     s.run(2.0 / 90.0);
     ASSERT_EQ(s.grab(HandSide::right).kind, GripKind::none);
-    // v_com = v_hand + w x (com - hand), with the arm as it was at the end of the frame of the
-    // release; the spin of a body in free flight about a principal axis stays.
+    // v_com = v_hand + w x (com - hand), with the arm at the end of the release frame. A spin about
+    // a principal axis stays constant in free flight.
     EXPECT_LE((s.body_spin(bar) - spin_radps).norm(), 1e-6);
     const double released_end_s = std::ceil(until_s * s.hz) / s.hz;
     const Quat turned = rotation_from_vector(spin_radps * (released_end_s - 0.3));
@@ -281,7 +283,7 @@ TEST(LettingGo, ThrownObjectLeavesWithTheHandsMotionAtItsCentre) {
     EXPECT_LE((s.body_velocity(bar) - (velocity_mps + spin_radps.cross(arm))).norm(), 1e-5);
 }
 
-TEST(PushOff, ExchangesMomentumExactlyWhereKappaIsOne) {
+TEST(PushOff, ExchangesMomentumExactlyIfKappaIsOne) {
     Scenario s;
     s.tuning.locomotion.drift_drag_per_s = 0.0;
     s.tuning.locomotion.release_speed_max_mps = 1e6;
@@ -307,11 +309,11 @@ TEST(PushOff, ExchangesMomentumExactlyWhereKappaIsOne) {
         ASSERT_LE((momentum() - before).norm(), 1e-9 * before.norm());
     });
     EXPECT_TRUE(held);
-    EXPECT_GT((s.velocity() - s.body_velocity(crate)).norm(), 1.0);  // they did push off
+    EXPECT_GT((s.velocity() - s.body_velocity(crate)).norm(), 1.0);  // they were pushed off
 }
 
 // A rock is waved, then shoved into a wall and held there.
-TEST(Ledger, TellsWhatEachGainedAndWhatForwardDiscarded) {
+TEST(Ledger, ReportsEachReceiversGainAndWhatForwardDiscarded) {
     Scenario s;
     s.tuning.locomotion.drift_drag_per_s = 0.0;
     s.add_wall("wall", Vec3(2.0, 2.0, 0.05), Vec3(0.0, 1.0, -0.6));
@@ -334,7 +336,7 @@ TEST(Ledger, TellsWhatEachGainedAndWhatForwardDiscarded) {
         const auto& given = s.stats.ledger.linear_kgmps;
         ASSERT_LE((given[MomentumLedger::objects] - (rock_now - rock_before)).norm(), 1e-9);
         ASSERT_LE((given[MomentumLedger::players] - (player_now - player_before)).norm(), 1e-9);
-        if (s.t_s() < 1.0) {  // nothing but the virtual player bears the waving
+        if (s.t_s() < 1.0) {  // waving is borne by the virtual player only
             const Vec3 both =
                 given[MomentumLedger::objects] + given[MomentumLedger::virtual_player];
             ASSERT_LE(both.norm(), 1e-9);
@@ -347,7 +349,7 @@ TEST(Ledger, TellsWhatEachGainedAndWhatForwardDiscarded) {
     });
     EXPECT_GT(discarded_ns, 5.0);
     EXPECT_GT(fixed_ns, 5.0);
-    EXPECT_GT(s.origin().z(), 0.2);  // he was pushed back
+    EXPECT_GT(s.origin().z(), 0.2);  // the player was pushed back
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// One player holds on to another through the whole frame. Expected values are closed forms of what
-// hands and heads do.
+// One player grips another's head, through whole frames. Expected values are closed forms of the
+// motions of hands and heads.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -50,7 +50,7 @@ struct Pair {
         move_hand([](double) { return Vec3(Vec3::Zero()); });
         hold_until(1e9);
     }
-    // Of the right hand from where it rests.
+    // Moves the right hand relative to its rest position.
     void move_hand(const std::function<Vec3(double)>& way) {
         const Vec3 rest = k_resting_palm - tuning.hand.palm_center_m;
         scripts[k_holder].hands[index_of(HandSide::right)] = [=](double t) {
@@ -92,7 +92,7 @@ struct Pair {
 
 Vec3 wave(double t) { return 0.2 * ease(t, 0.2, 0.7) * Vec3(0.0, std::sin(4.0 * t), -1.0); }
 
-TEST(PlayerGrip, HandClosesOnTheOthersHeadAndNobodyJumps) {
+TEST(PlayerGrip, GrippingAHeadMovesNeitherPlayer) {
     Pair pair;
     pair.build();
     pair.run(0.5, [&] {
@@ -106,7 +106,8 @@ TEST(PlayerGrip, HandClosesOnTheOthersHeadAndNobodyJumps) {
     EXPECT_EQ(pair.world.grab.at(pair.players[k_held].hands[0]).kind, GripKind::none);
 }
 
-// Two that fly apart and are one from the grip on: the mean of their velocities by mass.
+// Two players fly apart and are connected by the grip: afterwards both have the mass-weighted mean
+// of their velocities.
 TEST(PlayerGrip, SharesMomentumByTheMasses) {
     Pair pair(90.0, 60.0);
     pair.build();
@@ -121,7 +122,7 @@ TEST(PlayerGrip, SharesMomentumByTheMasses) {
     EXPECT_LE((pair.velocity(k_held) - shared).norm(), 1e-8);
 }
 
-// Waving the other about moves both round their centre of mass, which stays.
+// Waving the other player moves both about their centre of mass, which stays.
 TEST(PlayerGrip, HandMovesBothAboutTheirCentreOfMass) {
     Pair pair(90.0, 60.0);
     pair.move_hand(wave);
@@ -140,7 +141,7 @@ TEST(PlayerGrip, HandMovesBothAboutTheirCentreOfMass) {
     EXPECT_GT(farthest_m, 0.2);
 }
 
-TEST(PlayerGrip, WhoHoldsOnToAWallCarriesTheOther) {
+TEST(PlayerGrip, PlayerOnAWallCarriesTheOther) {
     Pair pair;
     pair.move_hand(wave);
     const Vec3 left_palm(-0.3, 1.2, 0.0);
@@ -165,8 +166,8 @@ TEST(PlayerGrip, WhoHoldsOnToAWallCarriesTheOther) {
     EXPECT_LE((pair.origin(k_held) - wave(pair.t_s())).norm(), 1e-5);
 }
 
-// Who closes on the head of one who climbs at up to 5 m/s^2, with a hand that goes the same way:
-// what both hands want is to be had without moving him off his way, or the holder at all.
+// A player grips the head of another who climbs at up to 5 m/s^2, with a hand that moves along:
+// both hands' targets can be met without moving the climber off their path, or the holder at all.
 TEST(PlayerGrip, ClosingOnAClimbersHeadMovesNeither) {
     Pair pair;
     const auto way = [](double t) { return Vec3(0.0, 0.05 * (1.0 - std::cos(10.0 * t)), 0.0); };
@@ -186,20 +187,20 @@ TEST(PlayerGrip, ClosingOnAClimbersHeadMovesNeither) {
     climber.grabs[index_of(HandSide::left)] = [](double) { return true; };
     pair.hold_until(1e9);
     pair.build();
-    Vec3 off_way = Vec3::Zero();
+    Vec3 path_error = Vec3::Zero();
     pair.run(0.5, [&] {
         const Vec3 now = pair.origin(k_held) - way(pair.t_s());
-        if (pair.t_s() > 0.05) {  // he holds on by then
-            ASSERT_LE((now - off_way).norm(), 1e-5) << pair.t_s();
+        if (pair.t_s() > 0.05) {  // the climber holds the wall by then
+            ASSERT_LE((now - path_error).norm(), 1e-5) << pair.t_s();
         }
-        off_way = now;
+        path_error = now;
         ASSERT_LE(pair.origin(k_holder).norm(), 1e-5) << pair.t_s();
     });
     EXPECT_EQ(pair.grab().kind, GripKind::player);
     EXPECT_EQ(pair.world.grab.at(pair.players[k_held].hands[0]).kind, GripKind::surface);
 }
 
-// The hand is on the head, not on the play space: who leans takes the hand along.
+// The hand follows the head, not the play space: leaning takes the hand along.
 TEST(PlayerGrip, HandStaysOnAHeadThatLeans) {
     Pair pair;
     const auto upright = pair.scripts[k_held].head;
@@ -226,7 +227,7 @@ TEST(PlayerGrip, HandStaysOnAHeadThatLeans) {
     EXPECT_GT(pair.origin(k_holder).norm(), 0.03);
 }
 
-// The hand pushes at 1 m/s as it opens: that is how fast they part, by their masses.
+// The hand pushes at 1 m/s as it opens: they separate at that speed, by their masses.
 TEST(PlayerGrip, PushingOffPartsThemAtTheHandsSpeed) {
     constexpr double k_release_s = 0.5;
     Pair pair(90.0, 60.0);
@@ -239,7 +240,7 @@ TEST(PlayerGrip, PushingOffPartsThemAtTheHandsSpeed) {
               1e-3);
 }
 
-TEST(PlayerGrip, EndsWhereTheOtherIsGone) {
+TEST(PlayerGrip, EndsIfTheOtherPlayerIsDestroyed) {
     Pair pair;
     pair.build();
     pair.run(0.3);

@@ -1,4 +1,4 @@
-// The distance grab through the whole frame: two masses on a rope of bounded force, in closed form.
+// The distance grab through whole frames: two masses connected by a bounded force, in closed form.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 namespace handhold::scenario_pull_test {
 namespace {
@@ -15,7 +15,7 @@ constexpr double k_close_s = 0.1;
 constexpr double k_rock_kg = 2.0;
 constexpr double k_player_kg = 80.0;
 
-// The right palm looks down at a rock that floats `below_m` under it, and closes at 0.1 s.
+// The right palm faces a rock floating `below_m` under it, and closes at 0.1 s.
 class FarRock {
   public:
     Scenario s;
@@ -46,7 +46,7 @@ class FarRock {
     }
 };
 
-TEST(Pull, IsOffByDefaultAndThenNothingHappens) {
+TEST(Pull, IsOffByDefault) {
     EXPECT_EQ(Tuning{}.pull.reach_m, 0.0);
     FarRock scene(k_rock_kg, 2.0, 0.0);
     scene.s.add_player_here();
@@ -58,7 +58,7 @@ TEST(Pull, IsOffByDefaultAndThenNothingHappens) {
     EXPECT_FALSE(scene.pulls());
 }
 
-TEST(Pull, GainsSpeedByTheForceAndWhatTheRockGetsThePlayerLoses) {
+TEST(Pull, AcceleratesByTheForceAndConservesMomentum) {
     FarRock scene;
     scene.s.add_player_here();
     scene.run(k_close_s);
@@ -69,7 +69,7 @@ TEST(Pull, GainsSpeedByTheForceAndWhatTheRockGetsThePlayerLoses) {
         }
         ++frames;
         EXPECT_LT(scene.momentum().norm(), 1e-9) << "at " << scene.s.t_s();
-        // Until it is as fast as it may be, each frame gives it the whole of the force.
+        // Until the speed limit, every frame applies the full force.
         const double full_mps = frames * scene.s.tuning.pull.force_n / scene.s.hz / k_rock_kg;
         if (full_mps < 0.9 * scene.s.tuning.pull.speed_mps) {
             EXPECT_NEAR(scene.s.body_velocity(scene.rock).y(), full_mps, 1e-9) << frames;
@@ -80,13 +80,13 @@ TEST(Pull, GainsSpeedByTheForceAndWhatTheRockGetsThePlayerLoses) {
     EXPECT_NEAR(closing_mps, scene.s.tuning.pull.speed_mps, 1e-6);
 }
 
-TEST(Pull, HandTakesItOnceItsSurfaceIsAtThePalm) {
+TEST(Pull, HandGripsTheBodyOnceItsSurfaceReachesThePalm) {
     FarRock scene;
     scene.s.add_player_here();
-    double fastest_m = 0.0;
+    double max_step_m = 0.0;
     Vec3 before = scene.s.body(scene.rock).position;
     scene.run(2.0, [&] {
-        fastest_m = std::max(fastest_m, (scene.s.body(scene.rock).position - before).norm());
+        max_step_m = std::max(max_step_m, (scene.s.body(scene.rock).position - before).norm());
         before = scene.s.body(scene.rock).position;
     });
     const Grab& grab = scene.s.grab(HandSide::right);
@@ -94,8 +94,8 @@ TEST(Pull, HandTakesItOnceItsSurfaceIsAtThePalm) {
     EXPECT_EQ(grab.body, scene.rock);
     EXPECT_FALSE(scene.pulls());
     EXPECT_LT(grab.error_m, 1e-5);
-    // It came all the way, and never by more than its speed in a frame: nothing was put anywhere.
-    EXPECT_LE(fastest_m, 1.01 * scene.s.tuning.pull.speed_mps / scene.s.hz);
+    // It never moved farther in a frame than its speed allows: no teleport.
+    EXPECT_LE(max_step_m, 1.01 * scene.s.tuning.pull.speed_mps / scene.s.hz);
     const Vec3 palm_ws = scene.s.origin() + scene.palm();
     const double gap_m = (scene.s.body(scene.rock).position - palm_ws).norm() - 0.08;
     EXPECT_LT(gap_m, 0.02 + 1e-6);
@@ -103,7 +103,8 @@ TEST(Pull, HandTakesItOnceItsSurfaceIsAtThePalm) {
     EXPECT_EQ(scene.count(Fallback::pull_lost), 0U);
 }
 
-// Twelve rods in a circle that faces the palm, which looks at one of them: its middle is air.
+// A ring of twelve rods that faces the palm; the palm's ray hits one rod, and the ring's centre is
+// empty.
 ShapeId add_ring(ShapeLibrary& shapes, double radius_m) {
     constexpr int k_rods = 12;
     constexpr double k_thick_m = 0.015;
@@ -117,7 +118,7 @@ ShapeId add_ring(ShapeLibrary& shapes, double radius_m) {
     return shapes.add_compound(rods);
 }
 
-TEST(Pull, RingIsTakenByItsRimAndDoesNotHangAboutThePalm) {
+TEST(Pull, RingIsGrippedByItsRim) {
     for (const double radius_m : {0.12, 0.3}) {
         FarRock scene;
         Scenario& s = scene.s;
@@ -134,7 +135,7 @@ TEST(Pull, RingIsTakenByItsRimAndDoesNotHangAboutThePalm) {
     }
 }
 
-TEST(Pull, HandThatOpensOnTheWayLetsItFlyOn) {
+TEST(Pull, OpeningTheHandLeavesTheBodyItsVelocity) {
     FarRock scene;
     scene.open_s = 0.5;
     scene.s.add_player_here();
@@ -182,7 +183,7 @@ TEST(Pull, NothingBeyondTheReachIsPulled) {
     EXPECT_EQ(scene.s.body_velocity(scene.rock), Vec3::Zero());
 }
 
-TEST(Pull, WhatIsGoneOrSeenByALostHandIsGivenUpAndCounted) {
+TEST(Pull, EndsAndIsCountedIfBodyOrTrackingIsLost) {
     FarRock gone;
     gone.s.add_player_here();
     gone.run(0.3);
@@ -208,8 +209,8 @@ TEST(Pull, WhatIsGoneOrSeenByALostHandIsGivenUpAndCounted) {
     EXPECT_EQ(lost.s.grab(HandSide::right).kind, GripKind::none);
 }
 
-// What a host changes on the way ends it: nothing gets an impulse that cannot move, or has no mass.
-TEST(Pull, WhatCannotBePulledAnyMoreIsGivenUpAndCounted) {
+// Changes by the host end the pull: no impulse acts on a body that cannot move or has no mass.
+TEST(Pull, EndsAndIsCountedIfTheBodyBecomesImmovable) {
     FarRock turned_fixed;
     turned_fixed.s.add_player_here();
     turned_fixed.run(0.3);
@@ -234,8 +235,8 @@ TEST(Pull, WhatCannotBePulledAnyMoreIsGivenUpAndCounted) {
     EXPECT_EQ(grown_heavy.count(Fallback::pull_lost), 1U);
 }
 
-// A hand that was out of sight comes back somewhere else: that is no pull at the rope.
-TEST(Pull, HandThatJumpsGivesItUpAndCounts) {
+// A hand that resumes tracking elsewhere must not pull the body there.
+TEST(Pull, EndsAndIsCountedIfTheHandJumps) {
     FarRock scene;
     const Pose there = scene.s.script.hands[1](0.0);
     scene.s.script.hands[1] = [there](double t) {
@@ -254,9 +255,9 @@ TEST(Pull, HandThatJumpsGivesItUpAndCounts) {
     EXPECT_NEAR(scene.s.body_velocity(scene.rock).x(), 0.0, 1e-9);
 }
 
-TEST(Pull, OfTwoHandsOnOneBodyOnlyOnePulls) {
+TEST(Pull, OnlyOneOfTwoHandsPullsABody) {
     FarRock scene;
-    // Both palms look straight down at it from 10 cm beside each other.
+    // Both palms face it, 10 cm apart.
     scene.s.script.hands[0] = [&](double) {
         return Pose{hand_for_palm(scene.s, scene.palm() + Vec3(0.04, 0.1, 0.0)), Quat::Identity()};
     };
@@ -269,7 +270,7 @@ TEST(Pull, OfTwoHandsOnOneBodyOnlyOnePulls) {
     EXPECT_LT(scene.momentum().norm(), 1e-9);
 }
 
-TEST(Pull, PlayerWhoHoldsOnToAWallStaysWhereHeIs) {
+TEST(Pull, PlayerHoldingAWallIsNotMoved) {
     FarRock scene;
     scene.s.add_wall("wall", Vec3(0.05, 0.5, 0.5), Vec3(-0.42, 1.2, 0.3));
     scene.s.script.grabs[0] = [](double t) { return t > 0.02; };
@@ -280,7 +281,7 @@ TEST(Pull, PlayerWhoHoldsOnToAWallStaysWhereHeIs) {
     EXPECT_LT(scene.s.origin().norm(), 1e-6);
 }
 
-TEST(Pull, CachesThrownAwayOnTheWayChangeNoBit) {
+TEST(Pull, DroppingCachesChangesNoBit) {
     std::array<std::uint64_t, 2> hashes{};
     for (const bool drops : {false, true}) {
         FarRock scene;

@@ -1,6 +1,6 @@
-// Two hands on what turns or slides on a joint, through the whole frame. The hands go as the thing
-// can, which moves nobody, and together along the axle or off the rail, which moves the player by
-// as much: whoever of them joins or leaves.
+// Two hands on a jointed body, through whole frames. Hands move as the joint allows, which must not
+// move the player, plus a common motion along the axle or off the rail, which moves the player by
+// as much, whichever hand joins or leaves.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,13 +12,13 @@
 namespace handhold::scenario_two_hands_on_joints_test {
 namespace {
 
-constexpr double k_jump_m = 1e-5;  // of the head, against where it should be: 0.01 mm
-constexpr double k_palm_m = 1.03;  // a centimetre above what is held
+constexpr double k_jump_m = 1e-5;  // error of the head: 0.01 mm
+constexpr double k_palm_m = 1.03;  // a centimetre above the plank
 
 // A plank on a joint to the world: about an axle, or along a rail.
 struct Plank {
     Scenario scene;
-    double joint_offset_m = 0.0;  // of the axle from the plank's middle
+    double joint_offset_m = 0.0;  // offset of the axle from the plank's centre
 
     void add(JointKind kind, const Vec3& axis, double mass_kg) {
         const Entity plank =
@@ -30,15 +30,15 @@ struct Plank {
         add_joint(scene.world, {"joint", joint_at(scene.world, settings, frame)});
         scene.add_player_here();
     }
-    // `way`: from where it rests.
-    void move_hand(HandSide side, const std::function<Pose(double)>& way, double from_s,
+    // `motion`: motion relative to the hand's rest pose.
+    void move_hand(HandSide side, const std::function<Pose(double)>& motion, double from_s,
                    double to_s) {
         const double mirror = side == HandSide::left ? -1.0 : 1.0;
         const Vec3 palm(0.25 * mirror, k_palm_m, 0.0);
         const Vec3 hand =
             palm - Vec3(mirror, 1.0, 1.0).cwiseProduct(scene.tuning.hand.palm_center_m);
         scene.script.hands[index_of(side)] = [=](double t_s) {
-            return way(t_s) * Pose{hand, Quat::Identity()};
+            return motion(t_s) * Pose{hand, Quat::Identity()};
         };
         scene.script.grabs[index_of(side)] = [=](double t_s) { return t_s > from_s && t_s < to_s; };
     }
@@ -49,7 +49,7 @@ struct Case {
     const char* name;
     JointKind kind;
     Vec3 axis;
-    Vec3 off_axis;  // where the joint does not let the plank go
+    Vec3 off_axis;  // a direction that the joint blocks
     double joint_offset_m;
     double mass_kg;
 };
@@ -74,7 +74,7 @@ Vec3 pull(const Case& c, double pull_m, double t_s) {
     return pull_m * ease(t_s, 0.2, 0.5) * std::sin(4.0 * t_s + 1.0) * c.off_axis;
 }
 
-// The right hand holds from 0.05 s on, the left one from `joins_s` on; `leaving` lets go at 1.6 s.
+// The right hand holds from 0.05 s, the left one from `joins_s`; `leaving` releases at 1.6 s.
 struct Change {
     double sample_hz = 90.0;
     double pull_m = 0.0;
@@ -87,12 +87,12 @@ Plank make_plank(const Case& c, const Change& change) {
     plank.joint_offset_m = c.joint_offset_m;
     plank.scene.sample_hz = change.sample_hz;
     plank.scene.tuning.locomotion.drift_drag_per_s = 0.0;
-    const auto way = [c, change](double t_s) {
+    const auto motion = [c, change](double t_s) {
         return Pose{pull(c, change.pull_m, t_s), Quat::Identity()} * swing(c, t_s);
     };
     plank.add(c.kind, c.axis, c.mass_kg);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
-        plank.move_hand(side, way, side == HandSide::left ? change.joins_s : 0.05,
+        plank.move_hand(side, motion, side == HandSide::left ? change.joins_s : 0.05,
                         side == change.leaving ? 1.6 : 1e9);
     }
     return plank;
@@ -112,7 +112,7 @@ void join_and_leave(const Case& c, const Change& change) {
     EXPECT_TRUE(plank.holds(change.leaving == HandSide::left ? HandSide::right : HandSide::left));
 }
 
-TEST(TwoHandsOnJoints, JoiningLeavingAndPassingMoveTheHeadByNothing) {
+TEST(TwoHandsOnJoints, JoiningLeavingAndPassingDoNotMoveTheHead) {
     for (const Case& c : k_cases) {
         for (const double sample_hz : {90.0, 1000.0}) {
             for (const HandSide leaving : {HandSide::left, HandSide::right}) {
@@ -122,10 +122,10 @@ TEST(TwoHandsOnJoints, JoiningLeavingAndPassingMoveTheHeadByNothing) {
     }
 }
 
-// He pulls himself about while the thing swings by up to 14 cm, with one hand or with two: that
-// takes him where the pull does, and the swing shakes him by little more than somebody a thousand
-// times as heavy.
-TEST(TwoHandsOnJoints, JoiningAndLeavingAPulledThingMovesTheHeadByThePullAlone) {
+// The player pulls themselves around while the plank swings by up to 14 cm, with one hand or two:
+// the player follows the pull, and the swing shakes them little more than a player a thousand times
+// heavier.
+TEST(TwoHandsOnJoints, JoiningAndLeavingAPulledBodyMoveTheHeadByThePullAlone) {
     constexpr double k_strayed_m = 3e-4;
     for (const Case& c : k_cases) {
         for (const double sample_hz : {90.0, 1000.0}) {

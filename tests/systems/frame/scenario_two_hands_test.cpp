@@ -1,5 +1,5 @@
-// Both hands on one free body through the whole frame (solver.md: feasible by construction).
-// Expected values are closed forms of what the hands do.
+// Both hands on one free body, through whole frames (solver.md: feasible by construction). Expected
+// values are closed forms of the hands' motion.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,14 +17,14 @@ HandSide other_side(HandSide side) {
     return side == HandSide::left ? HandSide::right : HandSide::left;
 }
 
-// How far anything on the bar moves between two poses, at most.
+// Upper bound of the displacement of any point of the bar between two poses.
 double jump_m(const Pose& a, const Pose& b) {
     const Pose between = inverse(a) * b;
     return between.position.norm() + k_half_length_m * rotation_to_vector(between.rotation).norm();
 }
 
-// A bar under both palms, 20 cm to either side. Hands move as one thing (`carried`), and each on
-// top of that on the bar: `along` its length and `twist` about it, and `aside`.
+// A bar under both palms, 20 cm to either side. Hands share a rigid motion (`carried`); relative to
+// the bar each also moves `along` it, twists about it (`twist`), and moves `aside`.
 struct Bar {
     Scenario s;
     Entity bar;
@@ -36,7 +36,7 @@ struct Bar {
     std::function<double(double)> twist[k_hand_count] = {[](double) { return 0.0; },
                                                          [](double) { return 0.0; }};
 
-    // The wall's face, at z = `wall_z`, looks towards +z.
+    // The wall's face is at z = `wall_z` and faces +z.
     explicit Bar(HandSide first_hand, double mass_kg = 2.0, std::optional<double> wall_z = {})
         : first(first_hand) {
         const Vec3 half_m(k_half_length_m, 0.02, 0.02);
@@ -81,7 +81,7 @@ struct Bar {
     Pose in_hand(std::size_t i) const { return inverse(hand(i)) * s.body(bar); }
 };
 
-// Turns so slowly that the chord that hands take within a frame is their arc to 2e-7 m.
+// Rotates so slowly that the chord of a hand's arc within a frame is within 2e-7 m of the arc.
 Pose slow_carry(double t) {
     return {Vec3(0.3 * t, -0.1 * t, 0.2 * t), rotation_about(Vec3(0.6, 0.0, 0.8), 0.1 * t)};
 }
@@ -106,7 +106,7 @@ TEST_P(DrivePair, FirstHandKeepsItsPointAndTheSecondItsLineWhileTheirDistanceVar
         ASSERT_EQ(b.s.origin_ws(), before);  // bitwise
         led += b.leads_both() ? 1 : 0;
         worst_m = std::max(worst_m, b.s.grab(b.first).error_m);
-        // The way along the bar, and nothing beside it.
+        // The error along the bar only.
         const double slid_m = std::abs(b.along[b.second_index()](b.s.t_s()));
         if (b.leads_both()) {
             EXPECT_NEAR(b.s.grab(other_side(b.first)).error_m, slid_m, 1e-6);
@@ -116,7 +116,7 @@ TEST_P(DrivePair, FirstHandKeepsItsPointAndTheSecondItsLineWhileTheirDistanceVar
     EXPECT_LE(worst_m, 1e-6);
 }
 
-TEST_P(DrivePair, TwistOfTheBarIsTheMeanOfTheHandsWhateverItIs) {
+TEST_P(DrivePair, TwistOfTheBarIsTheMeanOfTheHands) {
     Bar b(GetParam());
     b.carried = lively_carry;
     b.twist[0] = [](double t) { return 2.0 * ease(t, 0.3, 1.2); };
@@ -135,7 +135,7 @@ TEST_P(DrivePair, JoiningMovesNothing) {
     Bar b(GetParam());
     b.hold(0.05, 0.5047);  // within a frame
     b.carried = slow_carry;
-    b.twist[b.second_index()] = [](double) { return 0.7; };  // the hand closes as it happens to be
+    b.twist[b.second_index()] = [](double) { return 0.7; };  // the hand closes at any orientation
     const Vec3 before = b.s.origin_ws();
     b.s.run(0.4);
     const Pose held = b.in_hand(b.first_index());
@@ -146,7 +146,7 @@ TEST_P(DrivePair, JoiningMovesNothing) {
     EXPECT_TRUE(b.leads_both());
 }
 
-// After the hands strayed along and about the bar, either lets go while all moves on as one.
+// After the hands moved along and about the bar, either one releases while both move on as one.
 TEST_P(DrivePair, LeavingMovesNothing) {
     for (const bool first_leaves : {true, false}) {
         Bar b(GetParam());
@@ -170,7 +170,7 @@ TEST_P(DrivePair, LeavingMovesNothing) {
 }
 
 // From one hand to the other and back: one after the other, in one frame, and in one frame with the
-// first hand open before the second is closed.
+// first hand opening before the second closes.
 TEST_P(DrivePair, PassingFromHandToHandMovesNothing) {
     for (const double late_s : {0.03, 0.002, -0.002}) {
         Bar b(GetParam());
@@ -193,7 +193,7 @@ TEST_P(DrivePair, PassingFromHandToHandMovesNothing) {
     }
 }
 
-// While hands press past each other there is no line: the bar neither spins nor jumps.
+// While the hands pass each other there is no line between them: the bar neither spins nor jumps.
 TEST_P(DrivePair, HandsThatMeetLeaveTheBarToTheFirst) {
     Bar b(GetParam());
     const double inward = b.second_index() == 1 ? -1.0 : 1.0;
@@ -214,7 +214,7 @@ TEST_P(DrivePair, HandsThatMeetLeaveTheBarToTheFirst) {
     EXPECT_TRUE(b.leads_both());
 }
 
-TEST_P(DrivePair, SecondHandLetsGoWhereItSlidTooFarAndTheBarStays) {
+TEST_P(DrivePair, SecondHandReleasesIfItSlidesTooFarAndTheBarStays) {
     Bar b(GetParam());
     const double outward = b.second_index() == 1 ? 1.0 : -1.0;
     b.along[b.second_index()] = [=](double t) { return outward * 0.35 * ease(t, 0.4, 1.0); };
@@ -231,8 +231,8 @@ TEST_P(DrivePair, SecondHandLetsGoWhereItSlidTooFarAndTheBarStays) {
     EXPECT_EQ(b.s.grab(other_side(b.first)).kind, GripKind::none);
 }
 
-// Decision 6's worry: with nothing left to share, hands that stray push nobody off what they touch.
-TEST_P(DrivePair, StrayingOnABarThatTouchesAWallPushesNobody) {
+// Hand errors that no row resists must not push the player off what the bar touches (decision 6).
+TEST_P(DrivePair, HandErrorsOnABarAtAWallDoNotPushThePlayer) {
     Bar b(GetParam(), 2.0, -0.02 - 5e-6);
     b.along[b.second_index()] = [](double t) { return 0.03 * ease(t, 0.3, 0.4) * std::sin(9 * t); };
     const Vec3 before = b.s.origin_ws();
@@ -245,7 +245,7 @@ TEST_P(DrivePair, StrayingOnABarThatTouchesAWallPushesNobody) {
     EXPECT_TRUE(b.leads_both());
 }
 
-// A throw by both, who twist about the line: v_com = v_first + w x (com - first).
+// A throw by both hands, which twist about the line: v_com = v_first + w x (com - first).
 TEST_P(DrivePair, ThrownByBothLeavesWithTheirMotionAtItsCentre) {
     Bar b(GetParam());
     const double until_s = 0.505;
@@ -268,7 +268,7 @@ TEST_P(DrivePair, ThrownByBothLeavesWithTheirMotionAtItsCentre) {
     EXPECT_LE((b.s.body_velocity(b.bar) - (velocity_mps + spin_radps.cross(arm))).norm(), 1e-5);
 }
 
-// Hands that move straight against each other turn the line by atan(0.5 t), at t since they began.
+// Hands that move in opposite directions rotate the line by atan(0.5 t), t since they began.
 TEST_P(DrivePair, BarSpinsAsTheLineBetweenThemTurns) {
     Bar b(GetParam());
     const auto turned_rad = [](double t) { return std::atan(0.5 * std::max(0.0, t - 0.3)); };
@@ -290,7 +290,7 @@ TEST_P(DrivePair, BarSpinsAsTheLineBetweenThemTurns) {
     });
 }
 
-TEST_P(DrivePair, MomentumIsExchangedExactlyWhereKappaIsOne) {
+TEST_P(DrivePair, MomentumIsExchangedExactlyIfKappaIsOne) {
     Bar b(GetParam(), 30.0);
     b.s.tuning.locomotion.drift_drag_per_s = 0.0;
     b.s.tuning.locomotion.release_speed_max_mps = 1e6;
@@ -330,9 +330,9 @@ INSTANTIATE_TEST_SUITE_P(FirstHand, DrivePair, testing::Values(HandSide::left, H
                              return of.param == HandSide::left ? "left" : "right";
                          });
 
-// The plane x = 0 between the hands: what the left one does in one world the right one does in the
-// other.
-TEST(TwoHandsMirrored, BarMovesAsInAMirror) {
+// Mirrored in the plane x = 0 between the hands: the left hand of one world is the right hand of
+// the other.
+TEST(TwoHandsMirrored, MirroredHandsMoveAMirroredBar) {
     const auto mirror_pose = [](const Pose& pose) {
         const Quat& r = pose.rotation;
         return Pose{Vec3(-pose.position.x(), pose.position.y(), pose.position.z()),

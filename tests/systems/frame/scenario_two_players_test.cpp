@@ -1,5 +1,5 @@
-// Hands of two players on one bar through the whole frame. Expected values are closed forms of what
-// the hands do.
+// Hands of two players on one bar, through whole frames. Expected values are closed forms of the
+// hands' motion.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace handhold::scenario_two_players_test {
 namespace {
 
 constexpr double k_step_s = 1.0 / 90.0;
-constexpr int k_samples = 20;      // of the devices in a frame: buttons go down and up within it
-constexpr double k_jump_m = 1e-5;  // of a head, in the frame of an edge: 0.01 mm
+constexpr int k_samples = 20;      // samples per frame: buttons may close and open within one
+constexpr double k_jump_m = 1e-5;  // of a head, in the frame of a button edge: 0.01 mm
 constexpr double k_bar_kg = 5.0;
 
 // A bar under the right palms of two players, 40 cm to either side of its middle.
@@ -30,8 +30,9 @@ struct SharedBar {
     std::array<PlayerEntities, 2> players;
     Entity bar;
     std::unique_ptr<FrameCaches> caches;
-    double jump_m = 0.0;       // of either head in the last frame
-    int samples_a_frame = 20;  // of the devices: buttons go down and up within it; 1: at its end
+    double jump_m = 0.0;  // of either head in the last frame
+    // Samples per frame; 1: only at its end.
+    int samples_a_frame = 20;
 
     explicit SharedBar(std::array<double, 2> masses_kg = {80.0, 80.0}) {
         tuning.locomotion.drift_drag_per_s = 0.0;
@@ -56,12 +57,12 @@ struct SharedBar {
         }
         caches = std::make_unique<FrameCaches>(shapes);
     }
-    // From where it rests.
-    void move_hand(std::size_t i, const std::function<Pose(double)>& way) {
+    // Moves the hand relative to its rest pose.
+    void move_hand(std::size_t i, const std::function<Pose(double)>& motion) {
         const Vec3 palm(i == 0 ? -0.4 : 0.4, 1.2, 0.0);
         const Vec3 rest = palm - tuning.hand.palm_center_m;
         scripts[i].hands[index_of(HandSide::right)] = [=](double t) {
-            const Pose moved = way(t);
+            const Pose moved = motion(t);
             return Pose{rest + moved.position, moved.rotation};
         };
     }
@@ -100,8 +101,7 @@ struct SharedBar {
     Vec3& velocity(std::size_t i) { return world.player_velocity.at(players[i].player).linear_mps; }
 };
 
-// How all hands and what they hold move as one: at up to half a metre a second and 5 m/s^2, and
-// evenly.
+// The common motion of the hands and the bar: varying at up to 0.5 m/s and 5 m/s^2, and uniform.
 Pose lively(double t) {
     const double w = ease(t, 0.15, 0.4);
     return {w * Vec3(0.1 * std::sin(4 * t), 0.08 * std::cos(3 * t), 0.1 * std::sin(5 * t)),
@@ -111,7 +111,7 @@ Pose even(double t) {
     return {Vec3(0.3 * t, -0.1 * t, 0.2 * t), rotation_about(Vec3(0.6, 0.0, 0.8), 0.1 * t)};
 }
 struct Carry {
-    Pose (*way)(double);
+    Pose (*motion)(double);
     int samples_a_frame;
 };
 constexpr Carry k_carries[] = {{lively, 1}, {even, 20}, {lively, 20}};
@@ -120,11 +120,11 @@ void carry(const Carry& how, SharedBar& shared) {
     shared.samples_a_frame = how.samples_a_frame;
     for (DeviceScript& script : shared.scripts) {
         const auto rest = script.hands[index_of(HandSide::right)];
-        script.hands[index_of(HandSide::right)] = [=](double t) { return how.way(t) * rest(t); };
+        script.hands[index_of(HandSide::right)] = [=](double t) { return how.motion(t) * rest(t); };
     }
 }
-// Whoever joins and whoever leaves, and however his hand is turned: what the hands want all the
-// while is to be had without moving anybody.
+// Whichever player joins or leaves, and however the hand is rotated: the hands' targets can be met
+// without moving either player.
 TEST(TwoPlayers, JoiningAndLeavingMovesNeitherHead) {
     for (const Carry& how : k_carries) {
         for (const std::size_t first : {0U, 1U}) {
@@ -149,7 +149,7 @@ TEST(TwoPlayers, JoiningAndLeavingMovesNeitherHead) {
 }
 
 // From one player to the other: with both hands on it, in one frame, and in one frame with the
-// first hand open before the second is closed.
+// first hand opening before the second closes.
 TEST(TwoPlayers, PassingMovesNeitherHeadAndTheBarStaysInTheHands) {
     for (const Carry& how : k_carries) {
         for (const double late_s : {0.03, 0.002, -0.002}) {
@@ -161,7 +161,7 @@ TEST(TwoPlayers, PassingMovesNeitherHeadAndTheBarStaysInTheHands) {
             shared.run(0.4);
             const auto bar_in_hands = [&] {
                 const Pose hands_ws =
-                    Pose{shared.origin(1), Quat::Identity()} * how.way(shared.t_s());
+                    Pose{shared.origin(1), Quat::Identity()} * how.motion(shared.t_s());
                 return Pose(inverse(hands_ws) * shared.world.body_pose.at(shared.bar).pose_ws);
             };
             const Pose held = bar_in_hands();
@@ -177,16 +177,16 @@ TEST(TwoPlayers, PassingMovesNeitherHeadAndTheBarStaysInTheHands) {
     }
 }
 
-// They pull at each other, faster and faster, while the second one lets go: they part as fast as
-// their hands did then, to what those gain within a frame.
-TEST(TwoPlayers, LeavingAPulledBarTakesNoSpeedFromEither) {
-    const Vec3 way(0.3, 0.1, 0.0);
+// They pull at each other with rising speed while the second releases: they separate at their
+// hands' velocities, up to one frame's change.
+TEST(TwoPlayers, ReleasingAPulledBarKeepsBothVelocities) {
+    const Vec3 motion(0.3, 0.1, 0.0);
     const double leaves_s = 0.4547;
     const auto share = [](double t) { return ease(t, 0.3, 0.9); };
     for (const int samples : {1, 20}) {
         SharedBar shared({80.0, 60.0});
         shared.samples_a_frame = samples;
-        shared.move_hand(1, [&](double t) { return Pose{share(t) * way, Quat::Identity()}; });
+        shared.move_hand(1, [&](double t) { return Pose{share(t) * motion, Quat::Identity()}; });
         shared.hold(1, 0.1, leaves_s);
         shared.run(0.5);
         const Vec3 parting_mps = shared.velocity(0) - shared.velocity(1);
@@ -194,17 +194,17 @@ TEST(TwoPlayers, LeavingAPulledBarTakesNoSpeedFromEither) {
                                share(leaves_s - 2.0 * k_step_s)) /
                               k_step_s;
         const double speed = (share(leaves_s + 1e-4) - share(leaves_s - 1e-4)) / 2e-4;
-        EXPECT_LE((parting_mps - speed * way).norm(), gained * way.norm()) << samples;
+        EXPECT_LE((parting_mps - speed * motion).norm(), gained * motion.norm()) << samples;
     }
 }
 
-// Hands go 20 cm apart, along the bar or across it: so do the players, who share that by their
-// masses, and the bar goes with the first one's hand, which rests.
+// The hands move 20 cm apart, along or across the bar: the players move by as much, shared by their
+// masses, and the bar follows the first player's hand, which rests.
 TEST(TwoPlayers, PullingMovesThemByTheirMasses) {
-    for (const Vec3& way : {Vec3(0.2, 0.0, 0.0), Vec3(0.0, 0.2, 0.0)}) {
+    for (const Vec3& motion : {Vec3(0.2, 0.0, 0.0), Vec3(0.0, 0.2, 0.0)}) {
         SharedBar shared({80.0, 60.0});
         shared.move_hand(1, [=](double t) {
-            return Pose{ease(t, 0.3, 0.8) * way, Quat::Identity()};
+            return Pose{ease(t, 0.3, 0.8) * motion, Quat::Identity()};
         });
         shared.run(1.0, [&] {
             const Vec3 momentum = 80.0 * shared.velocity(0) + 60.0 * shared.velocity(1) +
@@ -214,8 +214,8 @@ TEST(TwoPlayers, PullingMovesThemByTheirMasses) {
             ASSERT_LE(shared.grab(1).error_m, 1e-6);
         });
         const double sum_kg = 80.0 + 60.0 + k_bar_kg;
-        EXPECT_LE((shared.origin(0) - 60.0 / sum_kg * way).norm(), 2e-4);
-        EXPECT_LE((shared.origin(1) + (80.0 + k_bar_kg) / sum_kg * way).norm(), 2e-4);
+        EXPECT_LE((shared.origin(0) - 60.0 / sum_kg * motion).norm(), 2e-4);
+        EXPECT_LE((shared.origin(1) + (80.0 + k_bar_kg) / sum_kg * motion).norm(), 2e-4);
         EXPECT_LE(shared.velocity(0).norm() + shared.velocity(1).norm(), 1e-6);
     }
 }

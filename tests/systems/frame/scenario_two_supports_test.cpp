@@ -1,5 +1,5 @@
-// Two hands on what they cannot move: one fixed thing, and two things that part. Expected values
-// are closed forms of what hands and things do.
+// Two hands on immovable supports: one fixed body, or two that separate. Expected values are closed
+// forms of hands and supports.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace handhold::scenario_two_supports_test {
 namespace {
 
 constexpr double k_jump_m = 1e-5;
-constexpr double k_palm_m = 1.06;  // a centimetre above what is held
+constexpr double k_palm_m = 1.06;  // a centimetre above the support
 
 bool holds(const Scenario& s, HandSide side) { return s.grab(side).kind == GripKind::surface; }
 
@@ -21,14 +21,14 @@ Vec3 hand_of(const Scenario& s, HandSide side) {
     return palm_of(side) - Vec3(mirror, 1.0, 1.0).cwiseProduct(s.tuning.hand.palm_center_m);
 }
 
-// The right hand holds, the left one joins; one of them leaves. Both go the same way, at up to 0.9
-// m/s and 3.6 m/s^2: the head goes it backwards, whoever of them holds.
+// The right hand holds, the left one joins, one of them releases. Both have the same motion, at up
+// to 0.9 m/s and 3.6 m/s^2: the head moves by its opposite, whichever hand holds.
 void join_and_leave_a_wall(HandSide leaving, double sample_hz) {
     Scenario s;
     s.sample_hz = sample_hz;
     s.add_wall("floor", Vec3(2.0, 0.05, 2.0), Vec3(0.0, 1.0, 0.0));
     s.add_player_here();
-    const auto way = [](double t_s) {
+    const auto motion = [](double t_s) {
         const Vec3 wave(0.2 * std::sin(4.0 * t_s), 0.1 * std::sin(6.0 * t_s),
                         0.1 * std::cos(5.0 * t_s));
         return Vec3(ease(t_s, 0.2, 0.6) * wave);
@@ -38,13 +38,13 @@ void join_and_leave_a_wall(HandSide leaving, double sample_hz) {
         const double from_s = side == HandSide::left ? 0.9 : 0.05;
         const double to_s = side == leaving ? 1.6 : 1e9;
         s.script.hands[index_of(side)] = [=](double t_s) {
-            return Pose{hand + way(t_s), Quat::Identity()};
+            return Pose{hand + motion(t_s), Quat::Identity()};
         };
         s.script.grabs[index_of(side)] = [=](double t_s) { return t_s > from_s && t_s < to_s; };
     }
     int both = 0;
     s.run(2.2, [&] {
-        ASSERT_LE((s.origin() + way(s.t_s())).norm(), k_jump_m) << s.t_s();
+        ASSERT_LE((s.origin() + motion(s.t_s())).norm(), k_jump_m) << s.t_s();
         both += holds(s, HandSide::left) && holds(s, HandSide::right) ? 1 : 0;
     });
     EXPECT_GT(both, 50);
@@ -52,21 +52,21 @@ void join_and_leave_a_wall(HandSide leaving, double sample_hz) {
     EXPECT_TRUE(holds(s, leaving == HandSide::left ? HandSide::right : HandSide::left));
 }
 
-TEST(TwoSupports, JoiningAndLeavingAWallMovesTheHeadByNothing) {
+TEST(TwoSupports, JoiningAndLeavingAWallDoNotMoveTheHead) {
     for (const double sample_hz : {90.0, 1000.0}) {
         join_and_leave_a_wall(HandSide::left, sample_hz);
     }
 }
 
-TEST(TwoSupports, PassingAWallFromHandToHandMovesTheHeadByNothing) {
+TEST(TwoSupports, PassingAWallFromHandToHandDoesNotMoveTheHead) {
     for (const double sample_hz : {90.0, 1000.0}) {
         join_and_leave_a_wall(HandSide::right, sample_hz);
     }
 }
 
-// The hands want to be 20 cm farther apart than what they hold: half of it is missing at each when
-// one of the things is taken away.
-TEST(TwoSupports, OfWhichOneIsDestroyedLeaveTheHeadWhereItIs) {
+// The hands' targets are 20 cm farther apart than the supports: each has half the error when one
+// support is destroyed.
+TEST(TwoSupports, DestroyingOneSupportDoesNotMoveTheHead) {
     for (const HandSide gone : {HandSide::left, HandSide::right}) {
         Scenario s;
         Entity supports[k_hand_count];
@@ -94,9 +94,9 @@ TEST(TwoSupports, OfWhichOneIsDestroyedLeaveTheHeadWhereItIs) {
     }
 }
 
-// One goes left, one goes right and faster. The head goes with the one that is held, then with the
-// mean of both, and with the first again once the hand that joined is stretched too far.
-TEST(TwoSupports, ThatPartAreSharedAlikeUntilTheHandThatJoinedLetsGo) {
+// One support moves left, the other right and faster. The head moves with the support that is held,
+// then with the mean of both, and with the first again after the second hand is overstretched.
+TEST(TwoSupports, PartingSupportsAreSharedUntilTheSecondHandReleases) {
     constexpr double k_left_mps = -0.2;
     constexpr double k_right_mps = 0.3;
     Scenario s;
@@ -132,7 +132,7 @@ TEST(TwoSupports, ThatPartAreSharedAlikeUntilTheHandThatJoinedLetsGo) {
             ASSERT_LE(s.grab(HandSide::left).error_m,
                       s.tuning.hand.max_stretch_m + 0.25 / s.hz + 1e-6);
         }
-        // In the frame of a grip a part of it goes the way before.
+        // In the frame of the grip, part of the motion is still the old one.
         const bool is_first = held_frames == 1 || shared_frames == 1;
         const double expected_mps = holds(s, HandSide::left) ? mean_mps : k_right_mps;
         if (!is_first || (shared_frames == 1 && !holds(s, HandSide::left))) {

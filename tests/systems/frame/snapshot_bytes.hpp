@@ -12,8 +12,8 @@
 #include "engine/math/math.hpp"
 #include "systems/snapshot_schema.hpp"
 
-// Snapshots that were tampered with by somebody who knows the format: the checksum fits.
-// Written from docs/reference/snapshot_format.md, not from the code.
+// Snapshots tampered with by someone who knows the format: the checksum is valid. Written from
+// docs/reference/snapshot_format.md, not from the code.
 namespace handhold::test {
 
 struct SnapshotBytes {
@@ -32,7 +32,7 @@ struct SnapshotBytes {
         seal();
     }
     static std::size_t payload_begin() { return k_header_bytes + snapshot_schema().size(); }
-    // Behind the place where this pose stands in the payload.
+    // Byte offset behind this pose in the payload.
     std::size_t find_end_of(const Pose& pose) const {
         double numbers[7];
         std::memcpy(numbers, pose.position.data(), 3 * sizeof(double));
@@ -46,7 +46,7 @@ struct SnapshotBytes {
         }
         return found;
     }
-    // Makes the checksum fit.
+    // Recomputes the checksum.
     void seal() {
         if (bytes.size() < k_header_bytes + k_checksum_bytes) {
             return;

@@ -22,11 +22,11 @@ using test::Random;
 using test::saved;
 using test::SnapshotBytes;
 
-class RefusedSnapshot : public testing::Test {
+class SnapshotRefuses : public testing::Test {
   protected:
-    RefusedSnapshot() : crowd_(played_crowd()), assets_(crowd_.shapes), bytes_(saved(crowd_)) {}
+    SnapshotRefuses() : crowd_(played_crowd()), assets_(crowd_.shapes), bytes_(saved(crowd_)) {}
 
-    // The message; empty where it was restored. Refusing must change nothing.
+    // The error message; empty if the bytes were restored. A refusal must change nothing.
     std::string refusal(std::span<const std::byte> bytes) {
         World world = crowd_.world;
         const auto error = restore_snapshot(bytes, assets_, world);
@@ -50,13 +50,13 @@ class RefusedSnapshot : public testing::Test {
     std::vector<std::byte> bytes_;
 };
 
-TEST_F(RefusedSnapshot, WhatIsNoSnapshot) {
+TEST_F(SnapshotRefuses, BytesThatAreNoSnapshot) {
     expect_refused(std::span<const std::byte>{}, "first bytes");
     const std::vector<std::byte> zeros(1000);
     expect_refused(std::span(zeros), "first bytes");
 }
 
-TEST_F(RefusedSnapshot, CutShortAtAnyLength) {
+TEST_F(SnapshotRefuses, TruncatedBytes) {
     for (std::size_t size = 0; size < bytes_.size(); size += size < 200 ? 1 : 251) {
         ASSERT_NE(refusal(std::span(bytes_).first(size)), "") << size;
     }
@@ -65,7 +65,7 @@ TEST_F(RefusedSnapshot, CutShortAtAnyLength) {
     expect_refused(std::span(longer), "bytes as the header says");
 }
 
-TEST_F(RefusedSnapshot, AnyByteDamaged) {
+TEST_F(SnapshotRefuses, AnyDamagedByte) {
     Random random(5);
     for (int i = 0; i < 400; ++i) {
         std::vector<std::byte> damaged = bytes_;
@@ -76,13 +76,16 @@ TEST_F(RefusedSnapshot, AnyByteDamaged) {
     }
 }
 
-TEST_F(RefusedSnapshot, OfAnotherFormatVersion) {
-    SnapshotBytes later(bytes_);
-    later.put(8, std::uint32_t{2});
-    expect_refused(later, "byte 8: expected format version 1, found 2");
+TEST_F(SnapshotRefuses, AnotherFormatVersion) {
+    for (const std::uint32_t version : {1U, 3U}) {  // earlier field names; a later build
+        SnapshotBytes other(bytes_);
+        other.put(8, version);
+        expect_refused(other,
+                       "byte 8: expected format version 2, found " + std::to_string(version));
+    }
 }
 
-TEST_F(RefusedSnapshot, OfAnotherSceneOrOtherShapes) {
+TEST_F(SnapshotRefuses, AnotherSceneOrOtherShapes) {
     ShapeLibrary other;
     other.add_sphere(0.1);
     World world;
@@ -91,13 +94,13 @@ TEST_F(RefusedSnapshot, OfAnotherSceneOrOtherShapes) {
     EXPECT_FALSE(restore_snapshot(bytes_, assets_, world));
 }
 
-TEST_F(RefusedSnapshot, OfAnotherSchemaNamesTheFirstFieldThatDiffers) {
+TEST_F(SnapshotRefuses, AnotherSchemaAndNamesTheFirstDifferentField) {
     SnapshotBytes other(bytes_);
     other.replace_in_schema("grab.error_m f64", "grab.error_q f64");
     expect_refused(other, "schema: expected \"grab.error_m f64\", found \"grab.error_q f64\"");
 }
 
-TEST_F(RefusedSnapshot, CountsThatTheBytesCannotHoldAllocateNothing) {
+TEST_F(SnapshotRefuses, CountsBeyondTheBytesWithoutAllocating) {
     const std::size_t pool = SnapshotBytes(bytes_).payload_begin();
     const std::size_t slots = crowd_.world.entities.generations().size();
     const std::size_t globals = pool + 4 * (2 + slots + crowd_.world.entities.free_slots().size());
@@ -115,7 +118,7 @@ TEST_F(RefusedSnapshot, CountsThatTheBytesCannotHoldAllocateNothing) {
     }
 }
 
-TEST_F(RefusedSnapshot, FieldsOutOfTheirRange) {
+TEST_F(SnapshotRefuses, FieldsOutOfTheirRange) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto break_world = [&](const char* part, auto&& change) {
         Crowd broken = played_crowd();
@@ -130,15 +133,15 @@ TEST_F(RefusedSnapshot, FieldsOutOfTheirRange) {
     break_world("clock.t_s", [](World& w) { w.clock.t_s = 2e9; });
     break_world("body[0].kind: expected a value below 3, found 7",
                 [](World& w) { w.body.rows()[0].kind = static_cast<BodyKind>(7); });
-    break_world("grab[1].body: expected a handle of somebody", [](World& w) {
+    break_world("grab[1].body: expected a handle of an entity", [](World& w) {
         w.grab.rows()[1].body = {9999, 1};
     });
-    break_world("grab[1].body", [](World& w) { w.grab.rows()[1].body = {0, 2}; });  // yet to come
+    break_world("grab[1].body", [](World& w) { w.grab.rows()[1].body = {0, 2}; });  // never existed
     break_world("grab[1].body", [](World& w) { w.grab.rows()[1].body = {3, 0}; });
 }
 
-TEST_F(RefusedSnapshot, FlagsThatAreNeitherTrueNorFalse) {
-    // The only column of one row with a flag at its end: the rotor's.
+TEST_F(SnapshotRefuses, FlagsThatAreNeitherTrueNorFalse) {
+    // `mover` is the only column with one row and a flag at its end.
     SnapshotBytes snapshot(bytes_);
     const std::size_t flag = snapshot.find_end_of(crowd_.world.mover.rows()[0].start_ws) + 48;
     ASSERT_EQ(snapshot.bytes[flag], std::byte{0});
@@ -146,7 +149,7 @@ TEST_F(RefusedSnapshot, FlagsThatAreNeitherTrueNorFalse) {
     expect_refused(snapshot, "mover[0].turns_with_body: expected a value below 2, found 2");
 }
 
-TEST_F(RefusedSnapshot, PoolsThatContradictThemselves) {
+TEST_F(SnapshotRefuses, InconsistentEntityPools) {
     const std::size_t pool = SnapshotBytes(bytes_).payload_begin();
     const std::size_t free_list = pool + 4 + 4 * crowd_.world.entities.generations().size();
     ASSERT_GE(crowd_.world.entities.free_slots().size(), 2U);
@@ -163,7 +166,7 @@ TEST_F(RefusedSnapshot, PoolsThatContradictThemselves) {
 
 // --- What step_frame relies on -------------------------------------------------------------------
 
-TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
+TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     const auto break_world = [&](const char* part, auto&& change) {
         Crowd broken = played_crowd();
         change(broken.world);
@@ -172,19 +175,19 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     const auto by_name = [](World& w, const char* name) {
         return find_by_id(w, persistent_id_from_name(name));
     };
-    break_world("expected a row in body_pose beside it",
+    break_world("expected a row in body_pose of the same owner",
                 [&](World& w) { w.body_pose.remove(by_name(w, "rock")); });
-    break_world("expected a row in body beside it",
+    break_world("expected a row in body of the same owner",
                 [&](World& w) { w.body.remove(by_name(w, "rock")); });
-    break_world("expected a row in persistent_id beside it",
+    break_world("expected a row in persistent_id of the same owner",
                 [&](World& w) { w.persistent_id.remove(by_name(w, "rock")); });
-    break_world("ids that nothing else has",
+    break_world("unique ids",
                 [](World& w) { w.persistent_id.rows()[1] = w.persistent_id.rows()[2]; });
     break_world("ids above 0", [](World& w) { w.persistent_id.rows()[1].value = 0; });
     break_world("below 2^64 - 1", [](World& w) { w.persistent_id.rows()[1].value = ~0ULL; });
     break_world(".player: expected a player",
                 [&](World& w) { w.hand_owner.rows()[0].player = by_name(w, "rock"); });
-    break_world(".side: expected one hand a side",
+    break_world(".side: expected one hand per side",
                 [](World& w) { w.hand_owner.rows()[1].side = w.hand_owner.rows()[0].side; });
     break_world(".mass_kg", [&](World& w) { w.body.at(by_name(w, "rock")).mass_kg = 0.0; });
     break_world(".inertia_kgm2",
@@ -193,10 +196,10 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world("path_mover[", [](World& w) { w.path_mover.rows()[0].path.period_s = 0.0; });
     break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].gait.standing = 1.0; });
     break_world("leg_mover[", [](World& w) { w.leg_mover.rows()[0].leg.upper_m = 1e-6; });
-    break_world("expected a row in joint_state beside it",
+    break_world("expected a row in joint_state of the same owner",
                 [&](World& w) { w.joint_state.remove(by_name(w, "hinge")); });
     break_world(".lower", [](World& w) { w.joint.rows()[0].lower = 1.0; });
-    break_world("not below 0", [](World& w) { w.joint.rows()[1].latch.strength = -1.0; });
+    break_world(">= 0", [](World& w) { w.joint.rows()[1].latch.strength = -1.0; });
     break_world(".friction", [](World& w) { w.body.rows()[1].friction = -0.1; });
     break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
     break_world("arm_memory[", [](World& w) {
@@ -237,11 +240,11 @@ TEST_F(RefusedSnapshot, RowsThatBelongTogetherAndAreNot) {
     break_world(".phase", [](World& w) { w.grab.rows()[0].kind = GripKind::none; });
     break_world(".shape: expected a shape that exists",
                 [](World& w) { w.collider.rows()[0].shape.index = 1000; });
-    break_world("expected a row in last_valid beside it",
+    break_world("expected a row in last_valid of the same owner",
                 [&](World& w) { w.last_valid.remove(by_name(w, "rock")); });
     break_world("expected a body or a player",
                 [&](World& w) { w.collider.add(by_name(w, "crawler/left_hand")); });
-    break_world("no player in the same place", [&](World& w) {
+    break_world("an entity that is not a player too", [&](World& w) {
         const Entity player = by_name(w, "crawler");
         w.body.add(player);
         w.body_pose.add(player);

@@ -39,13 +39,13 @@ TEST(Snapshot, RestoresEveryFieldAndTheOrderOfRows) {
             }
         });
     });
-    // The same bytes again: what the comparisons above cannot see, they would not hide either.
+    // The second save is equal too, which also covers what the comparisons above might miss.
     std::vector<std::byte> again;
     save_snapshot(restored, SnapshotAssets(crowd.shapes), again);
     EXPECT_EQ(again, saved(crowd));
 }
 
-TEST(Snapshot, RestoredPoolGivesOutTheSameHandlesNext) {
+TEST(Snapshot, RestoredPoolAllocatesTheSameHandlesNext) {
     Crowd crowd = played_crowd();
     World restored;
     ASSERT_FALSE(restore_snapshot(saved(crowd), SnapshotAssets(crowd.shapes), restored));
@@ -54,7 +54,7 @@ TEST(Snapshot, RestoredPoolGivesOutTheSameHandlesNext) {
     }
 }
 
-TEST(Snapshot, HandlesTakenBeforeAreGoodAgain) {
+TEST(Snapshot, HandlesTakenBeforeAreValidAgain) {
     Crowd crowd = played_crowd();
     const Entity rock = find_by_id(crowd.world, persistent_id_from_name("rock"));
     const std::vector<std::byte> bytes = saved(crowd);
@@ -64,7 +64,7 @@ TEST(Snapshot, HandlesTakenBeforeAreGoodAgain) {
     EXPECT_TRUE(crowd.world.body.contains(rock));
 }
 
-// Extremes of what fields may hold, bit for bit.
+// Extreme values, bit for bit.
 TEST(Snapshot, KeepsEveryBitOfNumbers) {
     Crowd crowd;
     const Entity rock = find_by_id(crowd.world, persistent_id_from_name("rock"));
@@ -121,8 +121,8 @@ TEST(Snapshot, FilesRoundTripAndNameThemselvesInErrors) {
     EXPECT_TRUE(save_snapshot_file(path / "no" / "folder", crowd.world, assets));
 }
 
-// Every number of every kind of shape tells libraries apart.
-TEST(SnapshotAssets, EachShapesContentCounts) {
+// Every parameter of every kind of shape changes the hash.
+TEST(SnapshotAssets, HashCoversEachShapesContent) {
     const auto mesh = [](double x) {
         Mesh triangle;
         triangle.positions = {Vec3::Zero(), Vec3(x, 0.0, 0.0), Vec3::UnitY()};
@@ -159,7 +159,7 @@ TEST(SnapshotAssets, EachShapesContentCounts) {
         ShapeLibrary shapes;
         make(shapes);
         EXPECT_TRUE(hashes.insert(SnapshotAssets(shapes).hash()).second);
-        EXPECT_FALSE(hashes.insert(SnapshotAssets(shapes).hash()).second);  // twice the same
+        EXPECT_FALSE(hashes.insert(SnapshotAssets(shapes).hash()).second);  // the same shape twice
     }
 }
 

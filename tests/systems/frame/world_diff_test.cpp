@@ -30,13 +30,13 @@ TEST(WorldDiff, NamesColumnEntityAndField) {
         "reference_velocity_mps.z: a 0, b 1e-09",
         "player_commands[crawler].snap_turns: a 0, b -3",
         "head_tracking[crawler].pose_ps.position.x: a 0, b 0.25",
-        "head_ignores[crawler].bodies[2]: a nobody, b rock",
+        "head_ignores[crawler].bodies[2]: a none, b rock",
     };
     EXPECT_EQ(diff_worlds(a.world, b.world, settings), expected);
     EXPECT_EQ(diff_worlds(a.world, b.world, {2, names}).size(), 2U);
 }
 
-TEST(WorldDiff, TellsWhoIsOnlyInOne) {
+TEST(WorldDiff, ListsEntitiesThatOnlyOneWorldHas) {
     const Crowd a;
     Crowd b;
     const Entity rotor = find_by_id(b.world, persistent_id_from_name("rotor"));
@@ -50,7 +50,7 @@ TEST(WorldDiff, TellsWhoIsOnlyInOne) {
     EXPECT_EQ(unnamed.substr(0, 8), "mover[0x") << unnamed;
 }
 
-TEST(WorldDiff, SlotsAndOrdersDoNotCount) {
+TEST(WorldDiff, IgnoresSlotsAndRowOrder) {
     Crowd a;
     Crowd b(3);
     EXPECT_TRUE(diff_worlds(a.world, b.world).empty());

@@ -19,7 +19,7 @@ Mover random_mover(Random& random) {
     return {random.pose(), random.vector(3.0), random.vector(2.0), random.between(0.0, 1.0) < 0.5};
 }
 
-TEST(MoverPose, StraightOnIsVelocityTimesTime) {
+TEST(MoverPose, WithoutSpinMovesByVelocityTimesTime) {
     const Mover mover{{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)},
                       Vec3(0.5, 0.0, -1.0),
                       Vec3::Zero(),
@@ -29,7 +29,7 @@ TEST(MoverPose, StraightOnIsVelocityTimesTime) {
     EXPECT_EQ(pose.rotation.coeffs(), mover.start_ws.rotation.coeffs());
 }
 
-TEST(MoverPose, SpinWithoutTurningVelocityKeepsTheStraightLine) {
+TEST(MoverPose, SpinWithFixedVelocityMovesStraight) {
     const Mover mover{{}, Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.5, 0.0), false};
     const Pose pose = mover_pose(mover, 2.0);
     EXPECT_LT((pose.position - Vec3(2.0, 0.0, 0.0)).norm(), 1e-14);
@@ -37,9 +37,9 @@ TEST(MoverPose, SpinWithoutTurningVelocityKeepsTheStraightLine) {
     EXPECT_EQ(mover_velocity(mover, 2.0).linear_mps, Vec3(1.0, 0.0, 0.0));
 }
 
-// Forward (-z) at v while turning left (about +y) at w: a circle of radius v / w whose centre lies
-// to the left (-x).
-TEST(MoverPose, TurningVelocityRunsRoundACircleOfRadiusSpeedOverSpin) {
+// Moving forward (-z) at v while turning left (about +y) at w: a circle of radius v / w with its
+// centre on the left (-x).
+TEST(MoverPose, RotatingVelocityMovesOnACircleOfRadiusSpeedOverSpin) {
     constexpr double k_speed = 3.0;
     constexpr double k_spin = 0.75;
     constexpr double k_radius = k_speed / k_spin;
@@ -52,7 +52,7 @@ TEST(MoverPose, TurningVelocityRunsRoundACircleOfRadiusSpeedOverSpin) {
     EXPECT_LT(mover_pose(mover, 2.0 * k_pi / k_spin).position.norm(), 1e-13);
 }
 
-RC_GTEST_PROP(MoverPose, IsTheIntegralOfTheMoversVelocity, (std::uint64_t seed)) {
+RC_GTEST_PROP(MoverPose, EqualsTheIntegralOfItsVelocity, (std::uint64_t seed)) {
     Random random(seed);
     const Mover mover = random_mover(random);
     const double end_s = random.between(0.1, 5.0);
@@ -69,7 +69,7 @@ RC_GTEST_PROP(MoverPose, IsTheIntegralOfTheMoversVelocity, (std::uint64_t seed))
     RC_ASSERT((mover_pose(mover, end_s).position - position).norm() < 2e-6);
 }
 
-RC_GTEST_PROP(MoverPose, TurnsAtItsAngularVelocity, (std::uint64_t seed)) {
+RC_GTEST_PROP(MoverPose, RotatesAtItsAngularVelocity, (std::uint64_t seed)) {
     Random random(seed);
     const Mover mover = random_mover(random);
     const double t_s = random.between(0.0, 100.0);
@@ -81,9 +81,8 @@ RC_GTEST_PROP(MoverPose, TurnsAtItsAngularVelocity, (std::uint64_t seed)) {
     RC_ASSERT(mover_velocity(mover, t_s).angular_radps == mover.angular_velocity_ws_radps);
 }
 
-// Nothing accumulates: going on from where the mover is after a while gives the same as one long
-// way.
-RC_GTEST_PROP(MoverPose, GoingOnFromAnyTimeIsTheSameWay, (std::uint64_t seed)) {
+// Nothing accumulates: two successive motions equal one long motion.
+RC_GTEST_PROP(MoverPose, ContinuingFromAnyTimeGivesTheSamePose, (std::uint64_t seed)) {
     Random random(seed);
     const Mover mover = random_mover(random);
     const double first_s = random.between(0.0, 10.0);
@@ -144,7 +143,7 @@ TEST(AnimateMovers, StartsEachFrameWhereTheLastEnded) {
     EXPECT_EQ(movers.velocity.at(entity(1)).linear_mps, mover_velocity(mover, 0.02).linear_mps);
 }
 
-TEST(AnimateMovers, OrderDoesNotMatterAndBodiesWithoutAMoverStay) {
+TEST(AnimateMovers, ResultDoesNotDependOnOrderAndOtherBodiesStay) {
     Random random(5);
     const Mover one = random_mover(random);
     const Mover two = random_mover(random);
@@ -185,7 +184,7 @@ LegMover leg_of(Entity torso, LegBone bone) {
     return mover;
 }
 
-TEST(AnimateMovers, PathBodyIsWhereThePathIsAtTheFramesEnd) {
+TEST(AnimateMovers, PathBodyIsOnItsPathAtTheFramesEnd) {
     Movers movers;
     movers.add_at_rest(entity(1));
     movers.path_mover.add(entity(1), {loop()});
@@ -198,7 +197,7 @@ TEST(AnimateMovers, PathBodyIsWhereThePathIsAtTheFramesEnd) {
     EXPECT_EQ(movers.velocity.at(entity(1)).angular_radps, expected.angular_velocity_radps);
 }
 
-TEST(AnimateMovers, BonesFollowTheirTorsoWhicheverWasAddedFirst) {
+TEST(AnimateMovers, BonesFollowTheirTorsoInAnyInsertionOrder) {
     Movers movers;
     for (std::uint32_t i = 1; i <= 3; ++i) {
         movers.add_at_rest(entity(i));
@@ -218,7 +217,7 @@ TEST(AnimateMovers, BonesFollowTheirTorsoWhicheverWasAddedFirst) {
     EXPECT_LT((knee - same).norm(), 1e-12);
 }
 
-TEST(AnimateMovers, BoneWithoutItsTorsoStopsWhereItIs) {
+TEST(AnimateMovers, BoneWithoutItsTorsoStops) {
     Movers movers;
     movers.add_at_rest(entity(1));
     movers.add_at_rest(entity(3));
@@ -233,9 +232,8 @@ TEST(AnimateMovers, BoneWithoutItsTorsoStopsWhereItIs) {
     EXPECT_EQ(movers.velocity.at(entity(1)).linear_mps, Vec3(Vec3::Zero()));
 }
 
-// Against Richardson's extrapolation of two coarser differences, whose own error is of the fourth
-// order.
-TEST(AnimateMovers, BoneVelocitiesAreThePosesDerivativeWithinTheStatedError) {
+// Oracle: Richardson extrapolation of two coarser differences, with a fourth-order error.
+TEST(AnimateMovers, BoneVelocitiesMatchThePosesDerivativeWithinTheStatedError) {
     for (const LegBone bone : {LegBone::upper, LegBone::lower}) {
         const LegMover mover = leg_of(entity(3), bone);
         for (double t_s = 0.013; t_s < 3.0; t_s += 0.0371) {
@@ -245,7 +243,7 @@ TEST(AnimateMovers, BoneVelocitiesAreThePosesDerivativeWithinTheStatedError) {
                 };
                 return Vec3((at(t_s + step_s) - at(t_s - step_s)) / (2.0 * step_s));
             };
-            // Not across a foot's start or landing, where the third derivative jumps.
+            // Not across a foot's lift-off or landing, where the third derivative jumps.
             const double share = t_s / mover.gait.step_s - std::floor(t_s / mover.gait.step_s);
             if (share < 0.01 || share > 0.99 || std::abs(share - mover.gait.standing) < 0.01) {
                 continue;

@@ -22,7 +22,7 @@ constexpr double k_rock_radius_m = 0.08;
 
 std::uint64_t id_of(Entity entity) { return 100 + std::uint64_t{entity.slot}; }
 
-// A head at the origin, a rock and a wall; the frame's proxies are set by hand.
+// A head at the origin, a rock and a wall; the frame's proxies are written directly.
 struct Contacts {
     ShapeLibrary shapes;
     ShapeId head_shape = shapes.add_sphere(k_head_radius_m);
@@ -64,11 +64,11 @@ struct Contacts {
         std::sort(proxies.begin(), proxies.end(),
                   [](const auto& a, const auto& b) { return a.id < b.id; });
     }
-    // With this much between head and rock; negative: overlap.
+    // Places the rock at this gap from the head; negative: overlap.
     void place_rock(double gap_m) {
         place(k_rock, rock_shape, Vec3(k_head_radius_m + k_rock_radius_m + gap_m, 0.0, 0.0), true);
     }
-    // In front of the head (-z), with this much between them.
+    // Places the wall in front of the head (-z) at this gap.
     void place_wall(double gap_m) {
         place(k_wall, wall_shape, Vec3(0.0, 0.0, -(k_head_radius_m + 0.1 + gap_m)), false);
     }
@@ -94,7 +94,7 @@ struct Contacts {
     }
 };
 
-TEST(FindContacts, HeadAndWallTouchWithTheGapBetweenThem) {
+TEST(FindContacts, HeadAndWallTouchWithTheirGapAsSeparation) {
     for (const double gap_m : {-0.003, 0.0, 0.01}) {
         Contacts scene;
         scene.place_wall(gap_m);
@@ -105,7 +105,7 @@ TEST(FindContacts, HeadAndWallTouchWithTheGapBetweenThem) {
     }
 }
 
-TEST(FindContacts, WhatIsFartherThanTheMarginMakesNone) {
+TEST(FindContacts, BodiesBeyondTheMarginMakeNoContacts) {
     Contacts scene;
     scene.place_wall(1.01 * ContactTuning{}.margin_m);
     scene.run();
@@ -126,7 +126,7 @@ TEST(FindContacts, HeldRockTouchesWallsButNotItsHoldersHead) {
     EXPECT_EQ(scene.frame.ignored[0], (IgnoredPair{id_of(k_player), id_of(k_rock)}));
 }
 
-TEST(FindContacts, HeldRockIsIgnoredHoweverFarItIs) {
+TEST(FindContacts, HeldRockIsIgnoredAtAnyDistance) {
     Contacts scene;
     scene.place_rock(0.5);
     scene.hold(k_right, k_rock);
@@ -135,7 +135,7 @@ TEST(FindContacts, HeldRockIsIgnoredHoweverFarItIs) {
     EXPECT_EQ(scene.frame.ignored.size(), 1U);
 }
 
-TEST(FindContacts, RockLetGoIsIgnoredUntilItIsApartFromTheHead) {
+TEST(FindContacts, ReleasedRockIsIgnoredUntilItIsClearOfTheHead) {
     Contacts scene;
     scene.hold(k_right, k_rock);
     scene.place_rock(-0.05);
@@ -156,7 +156,7 @@ TEST(FindContacts, RockLetGoIsIgnoredUntilItIsApartFromTheHead) {
     EXPECT_EQ(scene.count_between(k_player, k_rock), 1U);
 }
 
-TEST(FindContacts, BodyThatIsGoneIsForgotten) {
+TEST(FindContacts, DestroyedBodyIsRemovedFromHeadIgnores) {
     Contacts scene;
     scene.head_ignores.at(k_player).bodies[3] = entity(50);
     scene.run();
@@ -164,7 +164,7 @@ TEST(FindContacts, BodyThatIsGoneIsForgotten) {
     EXPECT_TRUE(scene.frame.ignored.empty());
 }
 
-TEST(FindContacts, AnotherPlayersHeadMeetsTheHeldRock) {
+TEST(FindContacts, HeldRockTouchesAnotherPlayersHead) {
     constexpr Entity k_other = entity(9);
     Contacts scene;
     scene.persistent_id.add(k_other, {id_of(k_other)});
@@ -180,7 +180,7 @@ TEST(FindContacts, AnotherPlayersHeadMeetsTheHeldRock) {
     EXPECT_EQ(scene.count_between(k_other, k_rock), 1U);
 }
 
-TEST(FindContacts, OnceMoreFindsTheSameBitForBit) {
+TEST(FindContacts, SecondRunIsBitwiseEqual) {
     Contacts scene;
     scene.place_rock(-0.01);
     scene.place_wall(0.005);
@@ -195,7 +195,7 @@ TEST(FindContacts, OnceMoreFindsTheSameBitForBit) {
     }
 }
 
-TEST(FindContacts, OrderOfColumnsDoesNotMatter) {
+TEST(FindContacts, ResultDoesNotDependOnTheOrderOfRows) {
     Contacts forth;
     Contacts back({k_wall, k_rock, k_right, k_left, k_player});
     for (Contacts* const scene : {&forth, &back}) {

@@ -5,7 +5,7 @@
 #include "tests/systems/frame/column_scene.hpp"
 #include "tests/systems/frame/scenario.hpp"
 
-// Errors of joints, taken from the poses, not from what the runtime says of itself.
+// Joint errors computed from poses, not from what the runtime reports.
 namespace handhold::test {
 
 inline Vec3 joint_point(const Scenario& s, Entity body, const Pose& frame_bs) {

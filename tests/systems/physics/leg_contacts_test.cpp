@@ -1,4 +1,4 @@
-// Legs stay before surfaces, and slide.
+// Legs stay outside surfaces and slide along them.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,7 +20,7 @@ constexpr std::uint64_t k_own_id = 7;
 constexpr std::uint64_t k_wall_id = 9;
 constexpr double k_sole_m = 0.11;
 
-// A player in the middle of nothing, or beside a box.
+// A player in empty space, or next to a box.
 struct Body {
     ShapeLibrary shapes;
     std::optional<CollisionWorld> collision;
@@ -77,7 +77,7 @@ double lowest_m(const SpinePose& pose) {
     return low;
 }
 
-TEST(TurnOut, IsTheLeastTurnToThePlane) {
+TEST(TurnOut, IsTheSmallestRotationToThePlane) {
     test::Random random(5);
     for (int i = 0; i < 500; ++i) {
         const Vec3 towards = random.direction();
@@ -97,7 +97,7 @@ TEST(TurnOut, IsTheLeastTurnToThePlane) {
     }
 }
 
-TEST(LegContacts, WhereNothingIsNearNothingChangesByABit) {
+TEST(LegContacts, WithoutObstaclesLegsAreBitwiseUnchanged) {
     Body alone;
     Body beside;
     put_floor(beside, -3.0);
@@ -110,8 +110,9 @@ TEST(LegContacts, WhereNothingIsNearNothingChangesByABit) {
     }
 }
 
-// Sinking towards a floor at 0.4 m/s until the soles would be 20 cm below it, the ankles 9.
-TEST(LegContacts, LegsBendBeforeAFloorThatComesNear) {
+// Descends towards a floor at 0.4 m/s until the unbent soles would be 20 cm below it, the ankles 9
+// cm.
+TEST(LegContacts, LegsBendBeforeAnApproachingFloor) {
     for (const double hz : {36.0, 90.0, 144.0}) {
         Body free;
         Body body;
@@ -140,8 +141,8 @@ TEST(LegContacts, LegsBendBeforeAFloorThatComesNear) {
     }
 }
 
-// The same, 36 against 144 times a second.
-TEST(LegContacts, FrameRateHardlyShowsOnAFloor) {
+// The same at 36 and at 144 frames a second.
+TEST(LegContacts, LegsOnAFloorHardlyDependOnTheFrameRate) {
     const auto feet = [](int hz) {
         Body body;
         put_floor(body, lowest_m(body.step(Vec3::Zero(), 1.0 / hz)) - k_sole_m - 0.2);
@@ -164,8 +165,9 @@ TEST(LegContacts, FrameRateHardlyShowsOnAFloor) {
     RecordProperty("apart_um", static_cast<int>(1e6 * apart_m));
 }
 
-// Put where the floor is at his knees: they come up within a second, without a jump.
-TEST(LegContacts, WhoIsPutIntoAFloorDrawsHisLegsUpWithoutAJump) {
+// Teleported so that the floor is at knee height: the legs rise above it within a second, without a
+// jump.
+TEST(LegContacts, LegsRiseOutOfAFloorWithoutAJump) {
     Body body;
     body.step(Vec3::Zero(), 1.0 / 90.0);
     const double knee_m = body.pose.at(k_player).legs[0].shin_ws.position.y();
@@ -181,10 +183,11 @@ TEST(LegContacts, WhoIsPutIntoAFloorDrawsHisLegsUpWithoutAJump) {
     EXPECT_GT(foot.y(), knee_m - limit_m - 0.01);  // from 0.36 below the knee
 }
 
-TEST(LegContacts, NobodysLegsTouchHisOwnHead) {
+TEST(LegContacts, LegsIgnoreTheirOwnersHead) {
     Body alone;
     Body body;
-    const ShapeId shape = body.shapes.add_sphere(3.0);  // a head that is round all of him
+    // a head sphere that contains the whole player.
+    const ShapeId shape = body.shapes.add_sphere(3.0);
     body.collision.emplace(body.shapes);
     const std::vector<ColliderProxy> own = {{k_own_id, shape, {}, {}, true}};
     body.collision->set_proxies(own);

@@ -20,7 +20,7 @@ constexpr Entity k_wall = entity(1);
 constexpr Entity k_ship = entity(2);
 constexpr Entity k_rock = entity(3);
 
-// Ids run against the slots, so that an order by slot would show.
+// Ids descend with the slots, so that ordering by slot would be noticed.
 PersistentId id_of(Entity entity) { return {100 - std::uint64_t{entity.slot}}; }
 
 struct Placing {
@@ -64,7 +64,7 @@ struct Placing {
     }
 };
 
-TEST(PlaceColliders, AllAreListedByPersistentIdWithTheirEntities) {
+TEST(PlaceColliders, ProxiesAreSortedByPersistentIdWithTheirEntities) {
     Random random(1);
     Placing scene;
     scene.add_body(k_rock, BodyKind::free, random);
@@ -80,7 +80,7 @@ TEST(PlaceColliders, AllAreListedByPersistentIdWithTheirEntities) {
     }
 }
 
-TEST(PlaceColliders, FreeBodiesComeFromTheirLastValidPoseOthersFromTheFramesStart) {
+TEST(PlaceColliders, FreeBodiesStartAtTheirLastValidPoseOthersAtTheFramesStart) {
     Random random(2);
     Placing scene;
     scene.add_body(k_rock, BodyKind::free, random);
@@ -97,8 +97,7 @@ TEST(PlaceColliders, FreeBodiesComeFromTheirLastValidPoseOthersFromTheFramesStar
     }
 }
 
-RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
-              (std::uint64_t seed)) {
+RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHead, (std::uint64_t seed)) {
     Random random(seed);
     Placing scene;
     scene.add_player(random);
@@ -114,13 +113,13 @@ RC_GTEST_PROP(PlaceColliders, PlayersAreTheSphereOfTheirHeadWhereverTheyLook,
     RC_ASSERT(scene.proxy(k_player).free);
 }
 
-TEST(PlaceColliders, HeadThatWasNeverTrackedIsNowhere) {
+TEST(PlaceColliders, HeadThatWasNeverTrackedHasAnInvalidPose) {
     Random random(4);
     Placing scene;
     scene.add_player(random);
     scene.head.at(k_player).state = TrackingState::never;
     scene.run();
-    EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // what is not valid takes no part
+    EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // invalid poses take no part in collision
 }
 
 TEST(PlaceColliders, HeadWithoutALastValidPoseIsNotSwept) {
@@ -128,12 +127,12 @@ TEST(PlaceColliders, HeadWithoutALastValidPoseIsNotSwept) {
     Placing scene;
     scene.add_player(random);
     scene.last_valid.at(k_player).known = false;
-    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but there
+    scene.head.at(k_player).state = TrackingState::lost;  // frozen, but present
     scene.run();
     EXPECT_EQ(distance(scene.proxy(k_player).from_ws, scene.proxy(k_player).to_ws), 0.0);
 }
 
-TEST(PlaceColliders, OrderOfInsertionDoesNotMatterAndOnceMoreChangesNothing) {
+TEST(PlaceColliders, ResultDoesNotDependOnInsertionOrderAndIsIdempotent) {
     Placing forth;
     Placing back;
     Random first(4);
@@ -154,7 +153,7 @@ TEST(PlaceColliders, OrderOfInsertionDoesNotMatterAndOnceMoreChangesNothing) {
     }
 }
 
-TEST(PlaceColliders, WithoutAColliderABodyIsListedButNothingMeetsIt) {
+TEST(PlaceColliders, BodyWithoutAColliderIsListedButTouchesNothing) {
     Random random(7);
     Placing scene;
     scene.add_body(k_wall, BodyKind::fixed, random);
@@ -169,7 +168,7 @@ TEST(PlaceColliders, WithoutAColliderABodyIsListedButNothingMeetsIt) {
     EXPECT_FALSE(scene.collision.cast_ray(Vec3::Zero(), Vec3(0.0, 10.0, 0.0)).has_value());
 }
 
-TEST(PlaceColliders, CollisionWorldKnowsThem) {
+TEST(PlaceColliders, CollisionWorldHasTheProxies) {
     Random random(6);
     Placing scene;
     scene.add_body(k_wall, BodyKind::fixed, random);

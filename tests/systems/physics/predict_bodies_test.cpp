@@ -46,7 +46,7 @@ Vec3 angular_momentum(const Prediction& scene) {
     return rotation * Vec3(scene.body.at(k_body).inertia_kgm2.cwiseProduct(spin_bs));
 }
 
-TEST(PredictBodies, FreeBodiesAndPlayersGoWhereTheirVelocityCarriesThem) {
+TEST(PredictBodies, FreeBodiesAndPlayersMoveByTheirVelocity) {
     Prediction scene;
     const Pose start{Vec3(1.0, 2.0, 3.0), rotation_about(Vec3::UnitX(), 0.3)};
     scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), start,
@@ -73,11 +73,11 @@ TEST(PredictBodies, FixedAndKinematicBodiesStayBitForBit) {
         EXPECT_EQ(scene.pose().position, start.position);
         EXPECT_EQ(scene.pose().rotation.coeffs(), start.rotation.coeffs());
         EXPECT_EQ(scene.body_start.at(k_body).pose_ws.position,
-                  Vec3(Vec3::Zero()));  // animate_movers' to write
+                  Vec3(Vec3::Zero()));  // written by animate_movers
     }
 }
 
-RC_GTEST_PROP(PredictBodies, SpinKeepsTheAngularMomentumWhateverTheStep, (std::uint64_t seed)) {
+RC_GTEST_PROP(PredictBodies, AngularMomentumIsConservedForAnyStep, (std::uint64_t seed)) {
     Random random(seed);
     Prediction scene;
     const Vec3 inertia(random.between(0.05, 1.0), random.between(0.05, 1.0),
@@ -105,9 +105,8 @@ TEST(PredictBodies, SpinAboutAPrincipalAxisIsSteady) {
               1e-12);
 }
 
-// A symmetric top, I1 = I1 < I3, spinning obliquely: its axis goes round the angular momentum L at
-// |L| / I1 (Landau and Lifshitz, Mechanics, 33). Returns how far the axis is from there after one
-// second.
+// A symmetric top, I1 = I2 < I3, spinning obliquely: its axis precesses about the angular momentum
+// L at |L| / I1 (Landau and Lifshitz, Mechanics, 33). Returns the axis's error after one second.
 double precession_error(double hz) {
     constexpr double k_across = 0.2;
     constexpr double k_along = 0.35;
@@ -124,7 +123,7 @@ double precession_error(double hz) {
     return (scene.pose().rotation * Vec3::UnitZ() - precession * Vec3::UnitZ()).norm();
 }
 
-TEST(PredictBodies, SymmetricTopPrecessesAtTheAnalyticRateWhateverTheStep) {
+TEST(PredictBodies, SymmetricTopPrecessesAtTheAnalyticRateForAnyStep) {
     EXPECT_LT(precession_error(10.0), 1e-12);
     EXPECT_LT(precession_error(90.0), 1e-12);
 }
@@ -135,7 +134,7 @@ double energy(const Prediction& scene) {
     return 0.5 * spin_bs.cwiseProduct(spin_bs).dot(scene.body.at(k_body).inertia_kgm2);
 }
 
-// One second of a tumble about the middle axis, the unsteady one.
+// One second of tumbling about the intermediate axis, which is unstable.
 Prediction tumble(double hz, const Vec3& inertia_kgm2, const Vec3& spin_radps) {
     Prediction scene;
     scene.add_body(k_body, BodyKind::free, inertia_kgm2, {}, {Vec3::Zero(), spin_radps});
@@ -156,9 +155,9 @@ TEST(PredictBodies, ErrorOfATumbleFallsWithTheSquareOfTheStep) {
     EXPECT_NEAR(coarse / fine, 4.0, 0.4);
 }
 
-// A screwdriver that a hand tore into a spin must not wind itself up: the midpoint rule took this
-// one from 50 to 400 rad/s within ten frames.
-TEST(PredictBodies, FastTumbleOfALongThingKeepsItsEnergy) {
+// A screwdriver torn into a spin must not gain energy: the midpoint rule took this one from 50 to
+// 400 rad/s within ten frames.
+TEST(PredictBodies, FastTumbleOfALongBodyKeepsItsEnergy) {
     Prediction scene;
     scene.add_body(k_body, BodyKind::free, Vec3(2e-5, 8e-4, 8.1e-4), {},
                    {Vec3::Zero(), Vec3(20.0, 150.0, 40.0)});
@@ -170,8 +169,8 @@ TEST(PredictBodies, FastTumbleOfALongThingKeepsItsEnergy) {
     }
 }
 
-// A damaged state may claim anything: the pose stays a pose.
-TEST(PredictBodies, SpinBeyondAllMeasureLeavesThePoseAlone) {
+// Even a damaged state must leave the pose valid.
+TEST(PredictBodies, ExcessiveSpinKeepsThePoseValid) {
     for (const double spin : {1e6, 1e200, 1.7e308}) {
         Prediction scene;
         scene.add_body(k_body, BodyKind::free, Vec3(0.1, 0.2, 0.3), {},
@@ -181,7 +180,7 @@ TEST(PredictBodies, SpinBeyondAllMeasureLeavesThePoseAlone) {
     }
 }
 
-TEST(PredictBodies, OrderOfBodiesDoesNotMatter) {
+TEST(PredictBodies, ResultDoesNotDependOnTheOrderOfBodies) {
     Random random(7);
     const Pose one = random.pose();
     const Pose two = random.pose();
@@ -202,7 +201,7 @@ TEST(PredictBodies, OrderOfBodiesDoesNotMatter) {
     }
 }
 
-RC_GTEST_PROP(PredictBodies, RotatedWorldTumblesAlike, (std::uint64_t seed)) {
+RC_GTEST_PROP(PredictBodies, RotatedWorldTumblesTheSame, (std::uint64_t seed)) {
     Random random(seed);
     const Pose start = random.pose();
     const BodyVelocity velocity{random.vector(2.0), random.vector(6.0)};

@@ -1,4 +1,4 @@
-// What solve_phases asks the solver for, and what it counts of its answers.
+// What solve_phases passes to the solver, and which results it counts.
 #include "systems/physics/solve_phases.hpp"
 
 #include <array>
@@ -11,16 +11,16 @@
 namespace handhold::solve_phases_test {
 namespace {
 
-NewtonSettings g_asked;
-NewtonResult g_answer;
+NewtonSettings g_settings;
+NewtonResult g_result;
 
-NewtonResult answer(const IslandView& /*island*/, const NewtonSettings& settings,
-                    SolveScratch& /*scratch*/) {
-    g_asked = settings;
-    return g_answer;
+NewtonResult fake_solver(const IslandView& /*island*/, const NewtonSettings& settings,
+                         SolveScratch& /*scratch*/) {
+    g_settings = settings;
+    return g_result;
 }
 
-// A loose body on a fixed one, by a joint: one island.
+// A free body joined to a fixed one: one island.
 struct Phases {
     ShapeLibrary shapes;
     CollisionWorld collision{shapes};
@@ -46,16 +46,16 @@ struct Phases {
         for (SolverBody& body : frame.graph.bodies) {
             body.inverse_mass = body.mass_kg > 0.0 ? 1.0 / body.mass_kg : 0.0;
         }
-        frame.position_solver = &answer;
+        frame.position_solver = &fake_solver;
     }
     void solve() { solve_phases({collision, frame}, tuning, stats); }
 };
 
-TEST(SolvePhases, CountsHandsThatWereLedByHowItEnded) {
+TEST(SolvePhases, CountsLoadSteppingByItsResult) {
     const auto counted = [](LoadStepping load_stepping) {
-        g_answer = {};
-        g_answer.converged = true;
-        g_answer.load_stepping = load_stepping;
+        g_result = {};
+        g_result.converged = true;
+        g_result.load_stepping = load_stepping;
         Phases phases;
         phases.solve();
         return std::array{test::count_of(phases.stats, Fallback::hands_load_stepped),
@@ -66,19 +66,19 @@ TEST(SolvePhases, CountsHandsThatWereLedByHowItEnded) {
     EXPECT_EQ(counted(LoadStepping::failed), (std::array<std::uint64_t, 2>{0, 1}));
 }
 
-TEST(SolvePhases, SoftestIsNeverHarderThanHardest) {
-    g_answer = {};
-    g_answer.converged = true;
+TEST(SolvePhases, MaxRegularisationIsNeverBelowMin) {
+    g_result = {};
+    g_result.converged = true;
     Phases phases;
     phases.tuning.solver.max_drive_regularisation = 1e-9;
     phases.tuning.solver.min_drive_regularisation = 1e-4;
     phases.tuning.solver.max_contact_regularisation = 1e-9;
     phases.tuning.solver.contact_regularisation = 1e-5;
     phases.solve();
-    EXPECT_EQ(g_asked.schedule.max_drive_regularisation, 1e-4);
-    EXPECT_EQ(g_asked.schedule.min_drive_regularisation, 1e-4);
-    EXPECT_EQ(g_asked.schedule.max_contact_regularisation, 1e-5);
-    EXPECT_EQ(g_asked.regularisation.contact, 1e-5);
+    EXPECT_EQ(g_settings.schedule.max_drive_regularisation, 1e-4);
+    EXPECT_EQ(g_settings.schedule.min_drive_regularisation, 1e-4);
+    EXPECT_EQ(g_settings.schedule.max_contact_regularisation, 1e-5);
+    EXPECT_EQ(g_settings.regularisation.contact, 1e-5);
 }
 
 }  // namespace

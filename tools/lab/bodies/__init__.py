@@ -1,4 +1,4 @@
-"""Judges chests, shoulders and elbows estimated from a head and two hands. Nothing here knows how they were estimated."""
+"""Scores chests, shoulders and elbows that were estimated from a head and two hands, independently of the estimator."""
 import sys
 
 try:

@@ -1,4 +1,4 @@
-"""What `handhold-lab body` reads and writes, and the truth beside it: columns by name, in any order, others passed over."""
+"""Files of `handhold-lab body` and the ground truth: columns by name, in any order; other columns are ignored."""
 import numpy as np
 
 from pages.files import FormatError, read_text
@@ -8,7 +8,7 @@ XYZ = ("x", "y", "z")
 
 
 def read_rows(path, wanted):
-    """{column: values} of a CSV with one header row, for the columns wanted."""
+    """{column: values} of a CSV with one header row, for the wanted columns."""
     lines = read_text(path).splitlines()
     head = lines[0].split(",") if lines else []
     missing = [name for name in wanted if name not in head]
@@ -34,7 +34,7 @@ def read_numbers(path, wanted):
             columns[name] = np.array([number_or_nan(cell) for cell in cells])
         bad = np.flatnonzero(~np.isfinite(columns[name]))
         if len(bad):
-            raise FormatError(f"{path}: line {bad[0] + 2}: expected a finite number as {name}")
+            raise FormatError(f"{path}: line {bad[0] + 2}: expected a finite number in column {name}")
     return columns
 
 
@@ -60,12 +60,12 @@ class Recording:
         self.hand_m = np.stack([vectors(columns, side) for side in SIDES])
         step = np.diff(self.t_s)[self.clip[1:] == self.clip[:-1]]
         if not len(step) or np.median(step) <= 0.0:
-            raise FormatError(f"{path}: expected times that rise within a clip")
+            raise FormatError(f"{path}: expected times that increase within a clip")
         self.hz = 1.0 / np.median(step)
 
 
 class Bodies:
-    """TRUTH.csv or OUT.csv: yaw_deg (rows), shoulder_m and elbow_m (2, rows, 3), left first; of the truth, valid (rows)."""
+    """TRUTH.csv or OUT.csv: yaw_deg (rows), shoulder_m and elbow_m (2, rows, 3), left first; for the truth also valid (rows)."""
 
     def __init__(self, path, recording, is_truth=False):
         names = ["clip", "t", "chest_yaw_deg"] + [side + part + axis for part in ("sh", "el") for side in SIDES for axis in XYZ]

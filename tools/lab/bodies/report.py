@@ -1,26 +1,26 @@
-"""What a report makes of errors: goals, tables, plots over time, pictures, the page."""
+"""The body report: goals, tables, plots over time, pictures, the page."""
 import html
 import math
 
 import numpy as np
 
 from pages import svg
-from pages.goals import STYLE, goals_html, judged, table_html, text
+from pages.goals import STYLE, goals_html, limit_goal, table_html, text
 
 from . import scoring, stick_figures
 
 TRUTH_COLOR = "#1c1c1e"
-MOST_POINTS = 400  # of a line over time
+MOST_POINTS = 400  # points of a line over time
 
 
 def goals(ours):
-    """Those of the project for these recordings."""
+    """The project's goals for these recordings."""
     return [
-        judged("chest yaw: mean error", ours["yaw_deg"]["mean"], 8.5, "deg"),
-        judged("elbow: mean error", ours["elbow_cm"]["mean"], 7.0, "cm"),
-        judged("swivel: mean error", ours["swivel_deg"]["mean"], 22.0, "deg"),
-        judged("elbow pops", ours["pops_per_min"], 1.5, "a minute"),
-        judged("elbow jerk, of the truth's", ours["jerk_ratio"], 1.5, "times"),
+        limit_goal("chest yaw: mean error", ours["yaw_deg"]["mean"], 8.5, "deg"),
+        limit_goal("elbow: mean error", ours["elbow_cm"]["mean"], 7.0, "cm"),
+        limit_goal("swivel: mean error", ours["swivel_deg"]["mean"], 22.0, "deg"),
+        limit_goal("elbow pops", ours["pops_per_min"], 1.5, "per minute"),
+        limit_goal("elbow jerk, ratio to the truth", ours["jerk_ratio"], 1.5, "times"),
     ]
 
 
@@ -30,7 +30,7 @@ COLUMNS = (
     ("shoulder cm", lambda f: triple(f["shoulder_cm"])),
     ("elbow cm", lambda f: triple(f["elbow_cm"])),
     ("swivel deg", lambda f: triple(f["swivel_deg"])),
-    ("pops a minute", lambda f: f["pops_per_min"]),
+    ("pops per minute", lambda f: f["pops_per_min"]),
     ("jerk, x truth's", lambda f: f["jerk_ratio"]),
     ("bones stretched %", lambda f: f["stretch_percent"]["mean"]),
 )
@@ -50,9 +50,9 @@ def figures_html(first, rows):
     return table_html([first] + [name for name, _ in COLUMNS], [[name] + [cell(of(figures)) for _, of in COLUMNS] for name, figures in rows])
 
 
-NAMES = {"yaw_deg": "chest yaw, deg", "shoulder_cm": "shoulder, cm", "elbow_cm": "elbow, cm", "swivel_deg": "swivel, deg", "pops_per_min": "pops a minute",
+NAMES = {"yaw_deg": "chest yaw, deg", "shoulder_cm": "shoulder, cm", "elbow_cm": "elbow, cm", "swivel_deg": "swivel, deg", "pops_per_min": "pops per minute",
          "jerk_ratio": "jerk, x truth's"}
-PEOPLE_HEAD = ("", "mean person", "deviation among people", "worst person", "", "without one person: least", "most", "standard error")
+PEOPLE_HEAD = ("", "mean person", "deviation among people", "worst person", "", "without one person: lowest", "highest", "standard error")
 
 
 def people_html(spreads):
@@ -61,13 +61,13 @@ def people_html(spreads):
 
 
 def people_text(spreads):
-    """A line for each figure, for a terminal."""
+    """One line per figure, for a terminal."""
     return [f"{NAMES[name]:18} mean person {exact(each['mean']):>5} +- {exact(each['deviation']):<5} worst {each['worst_residual']:.3g} ({each['worst']}); "
             f"all but one: {exact(each['least_without_one'])} to {exact(each['most_without_one'])}" for name, each in spreads.items()]
 
 
 def places_html(errors, places):
-    """Errors of the first estimator by where the hand is."""
+    """Errors of the first estimator by the position of the hand."""
     rows = []
     for name, mask in places.items():
         mask = mask & errors.valid
@@ -77,7 +77,7 @@ def places_html(errors, places):
 
 
 def thinned(t_s, values):
-    """At most MOST_POINTS of a line."""
+    """At most MOST_POINTS points of a line."""
     step = max(1, -(-len(values) // MOST_POINTS))
     return list(zip((t_s - t_s[0])[::step].tolist(), values[::step].tolist()))
 
@@ -93,7 +93,7 @@ def longest_clips(recording, clips):
 
 
 def over_time_html(recording, truth, clips, runs):
-    """runs: {title: (color, bodies, errors)}, the one judged first."""
+    """runs: {title: (color, bodies, errors)}, the evaluated one first."""
     drawn = ""
     for person, rows in longest_clips(recording, clips).items():
         name, t_s = clips.name[recording.clip[rows[0]]], recording.t_s[rows]
@@ -108,10 +108,10 @@ def over_time_html(recording, truth, clips, runs):
 
 
 def moments(errors, rows):
-    """Frames of a person where the elbows are as wrong as mostly, as in the worst twentieth, and at worst."""
+    """Frames of a person with median, 95th percentile and largest elbow error."""
     elbow = errors.elbow_cm.mean(0)
     order = [row for row in np.flatnonzero(rows)[np.argsort(elbow[rows], kind="stable")] if math.isfinite(elbow[row])]
-    if not order:  # nobody knows where this person's elbows were
+    if not order:  # no valid truth of this person's elbows
         return []
     return [(title, order[min(len(order) - 1, int(share * len(order)))]) for title, share in (("median", 0.5), ("95th percentile", 0.95), ("worst", 1.0))]
 
@@ -130,16 +130,16 @@ def plots_html(runs, alone, goal_cm):
     of = lambda name: {title: (color, values[np.isfinite(values)].tolist()) for title, (color, _, errors) in runs.items()
                        for values in (getattr(errors, name).ravel(),)}
     people = sorted(((person, figures["elbow_cm"]["mean"]) for person, figures in alone.items()), key=lambda row: -row[1])
-    return (svg.tail_plot("Elbows that are farther off than x", "cm", of("elbow_cm"), 40.0, (goal_cm,))
-            + svg.tail_plot("Chests that face farther off than x", "deg", of("yaw_deg"), 90.0, (8.5,))
-            + svg.tail_plot("Elbows that are turned farther than x about the arm's line", "deg", of("swivel_deg"), 180.0, (22.0,))
+    return (svg.tail_plot("Elbow errors above x", "cm", of("elbow_cm"), 40.0, (goal_cm,))
+            + svg.tail_plot("Chest yaw errors above x", "deg", of("yaw_deg"), 90.0, (8.5,))
+            + svg.tail_plot("Elbow swivel errors above x", "deg", of("swivel_deg"), 180.0, (22.0,))
             + svg.bars("Elbow error by person, mean", people, "cm", goal_cm))
 
 
 def page(table, recording, truth, clips, runs, scores):
-    """runs: {title: (color, bodies, errors)}, the one judged first.
+    """runs: {title: (color, bodies, errors)}, the evaluated one first.
 
-    scores: {title: figures}; of the one judged {person: figures} and the spreads over people."""
+    scores: {title: figures}; for the evaluated estimator {person: figures} and the spreads over people."""
     everybody, alone, spreads = scores
     first = next(iter(runs))
     _, bodies, errors = runs[first]
@@ -148,14 +148,14 @@ def page(table, recording, truth, clips, runs, scores):
 <h1>Arms and chest, measured</h1>
 <p>Estimated from a head and two hands alone, against motion capture: {len(np.unique(recording.clip))} recordings of {len(clips.people)} people,
 {everybody[first]["minutes"]:.1f} minutes. Some constants of Handhold's estimator were moved part of the distance towards the best fit for these people. docs/decisions/0034-chest-and-elbow-estimate.md
-names them and gives the scores with one person left out of the fit. What each figure means: docs/reference/lab.md.</p>
+names them and gives the scores with one person left out of the fit. Meaning of each figure: docs/reference/lab.md.</p>
 <h2>Goals</h2>{goals_html(table)}
-<h2>Beside the baselines</h2>{figures_html("estimator", everybody.items())}
+<h2>Compared with the baselines</h2>{figures_html("estimator", everybody.items())}
 <div class="plots">{plots_html(runs, alone, 7.0)}</div>
 <h2>By person</h2>{figures_html("person", alone.items())}
-<p>How much the figures hang on who was recorded: each person counted once, and all but one person together.</p>{people_html(spreads)}
-<h2>By where the hand is</h2>{places_html(errors, scoring.where_hands_are(recording, truth))}
+<p>Dependence on the recorded persons: each person with equal weight, and all but one person together.</p>{people_html(spreads)}
+<h2>By hand position</h2>{places_html(errors, scoring.where_hands_are(recording, truth))}
 <h2>Over time</h2><p>The longest recording of each person.</p><div class="plots">{over_time_html(recording, truth, clips, runs)}</div>
-<h2>Poses</h2><p>Head, hands (black) and truth (grey) as recorded; the left arm is paler. Of each person the moments where the elbows are as far off as
-mostly, as in the worst twentieth, and at worst.</p>{keys}<div class="sheet">{pictures_html(recording, truth, clips, bodies, errors)}</div></html>
+<h2>Poses</h2><p>Head, hands (black) and truth (grey) as recorded; the left arm is paler. For each person the frames with median,
+95th percentile and largest elbow error.</p>{keys}<div class="sheet">{pictures_html(recording, truth, clips, bodies, errors)}</div></html>
 """

@@ -1,11 +1,11 @@
-"""Errors of estimated bodies, frame by frame, and figures of any choice of frames. What each figure means: docs/reference/lab.md."""
+"""Errors of estimated bodies per frame, and figures for a selection of frames. Meaning of each figure: docs/reference/lab.md."""
 import math
 
 import numpy as np
 
 CM_PER_M = 100.0
-BENT_M = 0.04  # a true elbow nearer to the line from shoulder to hand has no swivel to speak of
-POP_M, CALM_M = 0.05, 0.03  # an elbow pops where it goes farther in a frame, and the true one less far
+BENT_M = 0.04  # below this distance of the true elbow from the line shoulder-hand, the swivel is undefined
+POP_M, CALM_M = 0.05, 0.03  # an elbow pops if it moves farther than POP_M in a frame while the true one moves less than CALM_M
 
 
 def wrapped_deg(angle):
@@ -21,14 +21,15 @@ def across(vectors, axis):
 
 
 def turned(vectors, source, target):
-    """The least rotation that carries the unit vectors source to target, applied."""
+    """Applies the smallest rotation from unit vectors source to target."""
     axis, cosine = np.cross(source, target), np.sum(source * target, -1, keepdims=True)
     along = np.sum(axis * vectors, -1, keepdims=True) / np.maximum(1.0 + cosine, 1e-9)
     return cosine * vectors + np.cross(axis, vectors) + along * axis
 
 
 def swivel_deg(hand, true, estimated):
-    """How far the elbow is turned about the line from shoulder to hand, that line first carried onto the true one; NaN where the true arm is straight.
+    """Angle of the elbow about the line from shoulder to hand, after that line is rotated onto the true one; NaN if the true arm is
+    straight.
 
     true, estimated: (shoulder, elbow)."""
     line, line_estimated = unit(hand - true[0]), unit(hand - estimated[0])
@@ -43,9 +44,9 @@ def distance(a, b):
 
 
 class Errors:
-    """Of each frame, and of each arm where two are (2, rows); NaN where it does not count: the truth is not valid, or neighbours are missing.
+    """Errors per frame (rows), or per arm and frame (2, rows); NaN if excluded: invalid truth or missing neighbours.
 
-    jerk_mps3, true_jerk_mps3: third differences of the elbow, from a frame before to two behind. pops: 1 where an elbow does."""
+    jerk_mps3, true_jerk_mps3: third differences of the elbow, from the frame before to two frames after. pops: 1 if the elbow pops."""
 
     def __init__(self, recording, truth, estimate):
         self.clip, self.t_s, self.hz, self.valid = recording.clip, recording.t_s, recording.hz, truth.valid
@@ -75,7 +76,7 @@ class Errors:
 
 
 def spread(values):
-    """Mean, median and 95th percentile of what counts."""
+    """Mean, median and 95th percentile of the finite values."""
     values = values[np.isfinite(values)]
     if not len(values):
         return {"mean": math.nan, "median": math.nan, "p95": math.nan}
@@ -87,7 +88,7 @@ def mean(values):
 
 
 def figures(errors, rows):
-    """Of the frames chosen: rows is a mask."""
+    """Figures for the selected frames; rows is a mask."""
     minutes = np.sum(errors.valid & rows) / errors.hz / 60.0
     jerk, true_jerk = mean(errors.jerk_mps3[:, rows]), mean(errors.true_jerk_mps3[:, rows])
     return {
@@ -99,7 +100,8 @@ def figures(errors, rows):
 
 
 def where_hands_are(recording, truth):
-    """{place: (2, frames) mask}: where each hand is seen from its true shoulder, in the true chest's frame, in arm lengths (the median of the clip)."""
+    """{position: (2, frames) mask}: each hand relative to its true shoulder, in the true chest's frame, in arm lengths (the clip's
+    median)."""
     yaw = np.radians(truth.yaw_deg)
     from_shoulder = recording.hand_m - truth.shoulder_m
     right = np.cos(yaw) * from_shoulder[..., 0] - np.sin(yaw) * from_shoulder[..., 2]
@@ -114,7 +116,7 @@ def where_hands_are(recording, truth):
             "behind": (back > 0.12) & (up > -0.9), "crossed": outward < -0.45, "at the shoulder": reach < 0.45}
 
 
-JUDGED = (("yaw_deg", "mean"), ("shoulder_cm", "mean"), ("elbow_cm", "mean"), ("swivel_deg", "mean"), ("pops_per_min", None), ("jerk_ratio", None))
+EVALUATED = (("yaw_deg", "mean"), ("shoulder_cm", "mean"), ("elbow_cm", "mean"), ("swivel_deg", "mean"), ("pops_per_min", None), ("jerk_ratio", None))
 
 
 def value_of(figures, name, part):
@@ -122,15 +124,15 @@ def value_of(figures, name, part):
 
 
 def over_people(errors, people):
-    """How much the figures hang on who was recorded. people: {name: mask}.
+    """Dependence of the figures on the recorded persons. people: {name: mask}.
 
-    For each of JUDGED: the mean person and the deviation among people, each person counted once; the worst person; and, leaving one person out at a
-    time, the least and the greatest of the pooled figure and the jackknife's standard error."""
+    For each of EVALUATED: mean and deviation over persons with equal weight; the worst person; and with one person left out at a time,
+    the lowest and highest pooled figure and the jackknife standard error."""
     alone = {name: figures(errors, rows) for name, rows in people.items()}
     everybody = np.logical_or.reduce(list(people.values()))
     without = {name: figures(errors, everybody & ~rows) for name, rows in people.items()} if len(people) > 1 else {}
     result = {}
-    for name, part in JUDGED:
+    for name, part in EVALUATED:
         own = {person: value_of(each, name, part) for person, each in alone.items() if math.isfinite(value_of(each, name, part))}
         left = [value_of(each, name, part) for each in without.values()]
         worst = max(own, key=own.get, default="-")

@@ -1,4 +1,5 @@
-"""Pictures of a pose beside the truth: from the front and from the right, in the true chest's frame, about the middle of the true shoulders."""
+"""Pictures of an estimated pose and the truth: from the front and from the right, in the true chest's frame, centred between the true
+shoulders."""
 import html
 
 import numpy as np
@@ -9,20 +10,21 @@ TRUTH, OURS = ("#a9a9b0", 6.0), ("#0b6e4f", 2.5)
 
 
 def seen(points_m, view):
-    """Places on the picture. Points: right, up and back, metres. From the front, his right hand is on the left; from his right, he looks to the right."""
+    """Picture positions of points given as right, up and back in metres. From the front the right hand is on the left; from the right
+    the person faces right."""
     across = -points_m[..., 0] if view == "front" else -points_m[..., 2]
     return np.stack([WIDTH / 2 + PX_PER_M * across, PX_PER_M * (UP_M - points_m[..., 1])], -1)
 
 
 def about(yaw_deg, middle_m, points_m):
-    """Into a frame that faces yaw (0: -Z, positive turns left) about a point."""
+    """Points in a frame at middle_m that faces yaw (0: -Z, positive turns left)."""
     cosine, sine = np.cos(np.radians(yaw_deg)), np.sin(np.radians(yaw_deg))
     x, y, z = np.moveaxis(points_m - middle_m, -1, 0)
     return np.stack([cosine * x - sine * z, y, sine * x + cosine * z], -1)
 
 
 def forward(xyzw):
-    """-Z turned by a quaternion."""
+    """-Z rotated by a quaternion."""
     x, y, z, w = xyzw
     return -np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)])
 
@@ -35,7 +37,7 @@ def line(points, style, opacity=1.0):
 
 
 def body(place, shoulders, elbows, hands, head, style):
-    """Left arm, paler, then the right one; shoulders, and from their middle up to the head."""
+    """The left arm (paler), then the right one; the shoulder line, and a line from its centre to the head."""
     neck = line([place(shoulders.mean(0)), place(head)], (style[0], 0.5 * style[1]))
     arms = [line([place(shoulders[side]), place(elbows[side]), place(hands[side])], style, opacity) for side, opacity in ((0, 0.6), (1, 1.0))]
     return neck + line([place(shoulders[0]), place(shoulders[1])], style) + "".join(arms)

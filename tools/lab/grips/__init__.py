@@ -1,4 +1,4 @@
-"""Judges posed hands. Nothing here knows how a hand was posed: it reads meshes and capsules, and measures."""
+"""Scores posed hands from meshes and capsules alone, independently of how they were posed."""
 import sys
 
 try:

@@ -1,16 +1,17 @@
-"""How deep capsules are in a surface.
+"""Clearance of capsules to a surface.
 
-The clearance of a capsule is the least signed distance on its axis less its radius: the gap to the surface where it is positive, and the depth
-of its deepest point where it is negative. Signed distance changes by no more than the way along the axis, so an interval of the axis whose
-ends lie at s0 and s1 holds nothing less than (s0 + s1 - length) / 2: intervals are halved while that can still change the result."""
+The clearance of a capsule is the minimum signed distance along its axis minus its radius: the gap to the surface if positive, the
+negated penetration depth of its deepest point if negative. Signed distance changes by at most the length travelled along the axis. An
+interval of the axis with end values s0 and s1 is therefore at least (s0 + s1 - length) / 2 everywhere. Intervals are halved while this
+bound can still change the result."""
 import numpy as np
 
-SPACING_M = 4e-3  # of the first samples
+SPACING_M = 4e-3  # spacing of the first samples
 TOLERANCE_M = 2e-5
 
 
 def axis_samples(a, b, spacing_m):
-    """Places of the first samples: capsule number and fraction of the axis, both ends with it."""
+    """First samples: capsule number and fraction of the axis, including both ends."""
     length = np.linalg.norm(b - a, axis=1)
     pieces = np.maximum(1, np.ceil(length / spacing_m)).astype(int)
     owner = np.repeat(np.arange(len(a)), pieces + 1)
@@ -19,8 +20,8 @@ def axis_samples(a, b, spacing_m):
 
 
 def signed_on_axes(surface, points, owner, spacing):
-    """Signed distances of samples in order along their axes. Of two neighbours that are closer to each other than one is to a closed surface,
-    both are on the same side: one of them is asked."""
+    """Signed distances of samples in order along their axes. If two neighbours are closer to each other than one is to a closed surface,
+    they are on the same side, so only one of them is queried for its sign."""
     distance = surface.distance(points)
     asked = np.ones(len(points), bool)
     if surface.is_closed:
@@ -30,8 +31,8 @@ def signed_on_axes(surface, points, owner, spacing):
 
 
 def signed_between(surface, points, length, v0, v1):
-    """Of the middles of intervals with values v0 and v1 at their ends. No surface is between ends that are farther from it together than from each
-    other; both then have one sign, but at the hole of an open surface."""
+    """Signed distances at the middles of intervals with end values v0 and v1. If both ends together are farther from the surface than
+    from each other, no surface is between them. Both then have one sign, except at the hole of an open surface."""
     distance = surface.distance(points)
     sign = np.where(np.abs(v0) >= np.abs(v1), np.sign(v0), np.sign(v1))
     asked = (np.abs(v0) + np.abs(v1) <= length) | (np.sign(v0) != np.sign(v1))
@@ -40,7 +41,7 @@ def signed_between(surface, points, length, v0, v1):
 
 
 def least_signed_distance(surface, a, b, radius, spacing_m, tolerance_m, relative):
-    """On each axis, too high by at most tolerance_m and a relative share of the gap. a, b: (n, 3), finite."""
+    """Minimum on each axis, too high by at most tolerance_m and a relative share of the gap. a, b: (n, 3), finite."""
     owner, t = axis_samples(a, b, spacing_m)
     length = np.linalg.norm(b - a, axis=1)
     spacing = length / np.maximum(1, np.ceil(length / spacing_m))
@@ -56,7 +57,7 @@ def least_signed_distance(surface, a, b, radius, spacing_m, tolerance_m, relativ
         middle = 0.5 * (t0 + t1)
         value = signed_between(surface, a[who] + middle[:, None] * (b - a)[who], (t1 - t0) * length[who], v0, v1)
         np.minimum.at(best, who, value)
-        longer = (t1 - t0) * length[who] > tolerance_m  # a step in the sign at a hole can keep no interval open for ever
+        longer = (t1 - t0) * length[who] > tolerance_m  # a jump of the sign at a hole must not keep an interval open for ever
         who = np.concatenate([who, who])
         t0, t1 = np.concatenate([t0, middle]), np.concatenate([middle, t1])
         v0, v1 = np.concatenate([v0, value]), np.concatenate([value, v1])
@@ -66,7 +67,7 @@ def least_signed_distance(surface, a, b, radius, spacing_m, tolerance_m, relativ
 
 
 def clearance(surface, a, b, radius, spacing_m=SPACING_M, tolerance_m=TOLERANCE_M, relative=0.0):
-    """Metres; NaN for capsules that are not finite. relative: a gap may be too large by this share of it, a depth may not."""
+    """Metres; NaN for capsules that are not finite. relative: allowed relative excess of a gap; depths are exact to the tolerance."""
     a, b, radius = np.asarray(a, float).reshape(-1, 3), np.asarray(b, float).reshape(-1, 3), np.asarray(radius, float).ravel()
     result = np.full(len(a), np.nan)
     good = np.isfinite(a).all(1) & np.isfinite(b).all(1) & np.isfinite(radius)

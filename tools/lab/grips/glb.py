@@ -1,5 +1,5 @@
-"""Triangles of a binary glTF 2.0 file (Khronos Group, 2021), and the other way. Node transforms are applied; skins, sparse and compressed
-accessors are refused by name."""
+"""Reads and writes triangles of a binary glTF 2.0 file (Khronos Group, 2021). Applies node transforms. Refuses skins, sparse and
+compressed accessors by name."""
 import json
 import struct
 
@@ -51,7 +51,7 @@ class Document:
         if accessor.get("type") != kind or accessor.get("componentType") not in COMPONENTS:
             raise FormatError(f"{where}: expected {kind} of a known component type")
         if "sparse" in accessor or "bufferView" not in accessor:
-            raise FormatError(f"{where}: sparse and compressed accessors are not read")
+            raise FormatError(f"{where}: sparse and compressed accessors are not supported")
         view = self.get("bufferViews", accessor["bufferView"])
         if view.get("buffer", 0) != 0 or "uri" in self.get("buffers", 0):
             raise FormatError(f"{where}: expected the file's own binary chunk")
@@ -81,7 +81,7 @@ def node_matrix(node):
 
 
 def corners(mode, indices, where):
-    """Indices of triangles, three a row."""
+    """Indices of triangles, three per row."""
     if mode == 4 and len(indices) % 3 == 0:
         return indices.reshape(-1, 3)
     if mode == 5:
@@ -112,7 +112,7 @@ def mesh_triangles(document, index):
 
 
 def read_triangles(path):
-    """(n, 3, 3) corners in the file's frame, wound as seen from the front. Triangles with a corner that is not finite are left out."""
+    """(n, 3, 3) corners in the file's frame, counter-clockwise from the front. Omits triangles with a corner that is not finite."""
     document = Document(path)
     nodes = document.json.get("nodes", [])
     children = {child for node in nodes for child in node.get("children", ())}
@@ -140,7 +140,7 @@ def read_triangles(path):
 
 
 def write_triangles(path, points, faces):
-    """One node, one indexed primitive."""
+    """Writes one node with one indexed primitive."""
     points, faces = np.asarray(points, np.float32), np.asarray(faces, np.uint32)
     binary = points.tobytes() + faces.tobytes()
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],

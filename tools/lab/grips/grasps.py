@@ -1,4 +1,5 @@
-"""G.jsonl and P.jsonl as arrays (their fields: docs/reference/lab.md). Lines are checked; numbers that are not finite are kept: they are a result."""
+"""G.jsonl and P.jsonl as arrays (fields: docs/reference/lab.md). Lines are checked; numbers that are not finite are kept, because they
+are a result."""
 import math
 
 import numpy as np
@@ -10,7 +11,7 @@ FALLBACKS = ("none", "bvh", "open", "relaxed")
 
 
 def pose(value, where):
-    """Position and rotation, x y z w."""
+    """Position and rotation (x y z w)."""
     return (numbers(member(value, "position_m", where), 3, f"{where}: position_m"),
             numbers(member(value, "rotation_xyzw", where), 4, f"{where}: rotation_xyzw"))
 
@@ -72,7 +73,7 @@ def read_grasps(path):
     for where, value in read_jsonl(path):
         grasp = Grasp(value, where)
         if grasp.id in seen:
-            raise FormatError(f"{where}: id {grasp.id} is there twice")
+            raise FormatError(f"{where}: id {grasp.id} occurs twice")
         seen.add(grasp.id)
         listed = member(value, "capsules", where)
         if not isinstance(listed, list) or (grasp.gripped and not listed):
@@ -87,7 +88,7 @@ def read_grasps(path):
 
 
 def read_kinds(path):
-    """{id: kind} of placements; those that say none are of kind ''."""
+    """{id: kind} of placements; kind '' if not given."""
     kinds = {}
     for where, value in read_jsonl(path):
         pose(member(value, "wrist", where), f"{where}: wrist")

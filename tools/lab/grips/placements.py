@@ -1,5 +1,5 @@
-"""Random wrists around a surface. near: the palm's middle 0 to 2 cm before the surface, facing it within 30 degrees. harsh: 3 cm behind to 6 cm before
-it, within 60 degrees: worse than people do. Any roll; uniform over the area, the height and the directions."""
+"""Random wrists around a surface. near: the palm's centre 0 to 2 cm in front of the surface, facing it within 30 degrees. harsh: 3 cm
+behind to 6 cm in front, within 60 degrees: worse than people do. Any roll; uniform over area, height and directions."""
 import math
 
 import numpy as np
@@ -15,13 +15,13 @@ def unit(v):
 
 
 def across(n):
-    """Unit vectors at right angles to n."""
+    """Unit vectors perpendicular to n."""
     axis = np.eye(3)[np.argmin(np.abs(n), axis=1)]
     return unit(np.cross(n, axis))
 
 
 def surface_points(surface, count, rng):
-    """Uniform over the area: points and normals out of the solid."""
+    """Points uniform over the area, with outward normals."""
     pick = rng.choice(len(surface.areas), count, p=surface.areas / surface.areas.sum())
     a, b, c = (surface.oriented[pick, side] for side in range(3))
     u, v = rng.random((2, count, 1))
@@ -30,7 +30,7 @@ def surface_points(surface, count, rng):
 
 
 def quaternions(x, y, z):
-    """x y z w of the frames with these axes."""
+    """Quaternions (x y z w) of the frames with these axes."""
     return Rotation.from_matrix(np.stack([x, y, z], 2)).as_quat()
 
 
@@ -38,7 +38,7 @@ def candidates(surface, kind, count, rng, palm_hs):
     low, high, tilt_deg = KINDS[kind]
     point, normal = surface_points(surface, count, rng)
     palm = point + rng.uniform(low, high, (count, 1)) * normal
-    # The back of the hand looks away from the surface: a direction of the cap about the normal.
+    # The back of the hand faces away from the surface: a direction in the cap around the normal.
     cosine = rng.uniform(math.cos(math.radians(tilt_deg)), 1.0, (count, 1))
     turn = rng.uniform(0.0, 2.0 * math.pi, (2, count, 1))
     side = across(normal)
@@ -51,7 +51,8 @@ def candidates(surface, kind, count, rng, palm_hs):
 
 
 def place(surface, kind, count, seed, palm_hs=PALM_CENTER_HS_M):
-    """Positions (count, 3) and quaternions (count, 4). A near palm is never inside: surfaces buried in a solid are drawn again."""
+    """Positions (count, 3) and quaternions (count, 4). A near palm is never inside: placements at surfaces buried in a solid are drawn
+    again."""
     rng = np.random.default_rng([seed, sorted(KINDS).index(kind)])
     positions, rotations = np.zeros((0, 3)), np.zeros((0, 4))
     for _ in range(MOST_TRIES):

@@ -1,4 +1,4 @@
-"""Closed surfaces of our own, triangulated with edges of about a given length: (points, faces), metres, middle at the origin."""
+"""Closed surfaces triangulated with edges of about a given length: (points, faces), metres, centred at the origin."""
 import math
 
 import numpy as np
@@ -14,7 +14,7 @@ def grid(origin, u, v, nu, nv):
 
 
 def joined(parts):
-    """One mesh; vertices in the same place become one."""
+    """One mesh in which vertices at the same position are merged."""
     points, faces, base = [], [], 0
     for part_points, part_faces in parts:
         points.append(part_points)
@@ -60,7 +60,7 @@ def cylinder(radius_m, length_m, edge_m):
 
 
 def sphere(radius_m, edge_m):
-    """A box's grid blown up: no pole."""
+    """A box's grid projected onto a sphere, so there is no pole."""
     cells = max(2, math.ceil(0.5 * math.pi * radius_m / edge_m))
     points, faces = box((2.0, 2.0, 2.0), 2.0 / cells)
     points = np.tan(points * (math.pi / 4))
@@ -73,7 +73,7 @@ def moved(mesh, offset, swap=None):
 
 
 def rail(diameter_m, edge_m, length_m=0.8, height_m=0.09):
-    """A bar along x, on two posts along z down to its feet: solids that run into each other, as they do in levels."""
+    """A bar along x on two posts along z down to its feet: intersecting solids, as in levels."""
     bar = moved(cylinder(0.5 * diameter_m, length_m, edge_m), (0, 0, 0), [1, 2, 0])
     post = cylinder(0.3 * diameter_m, height_m, edge_m)
     posts = [moved(post, (side * 0.42 * length_m, 0, -0.5 * height_m), [2, 0, 1]) for side in (-1, 1)]

@@ -1,9 +1,11 @@
-"""Which fingers can touch, by brute force: on the palm as it is shown, each finger closes from fully open in steps of a quarter of a degree, all
-hinges at their coupled rates, until it is closed. The first touch of a link stops its hinge and those before it; the others go on. A link that
-begins inside the surface and comes out is not stopped until it was clear; one that goes deeper is stopped at once.
+"""Finds by brute force which fingers can touch. On the palm as shown, each finger closes from fully open in steps of a quarter of a
+degree, all joints at their coupled rates, until it is closed. The first touch of a link stops its joint and those before it; the others
+continue. A link that starts inside the surface and moves out is not stopped before it was clear; one that moves deeper is stopped at
+once.
 
-Steps that cannot matter are passed over: no point of a link moves farther in a step than its hinges turn times the way to it, so a link with
-a gap has as many free steps as its gap holds of these. A thumb is tried at several oppositions, and reaches if one of them does."""
+Steps without effect are skipped: in one step, no point of a link moves farther than the rotation of its joints times the distance to it,
+which gives the number of steps that a link with a gap can make freely. A thumb is tested at several oppositions, and reaches if any of
+them does."""
 import math
 
 import numpy as np
@@ -15,12 +17,12 @@ from .grasps import FINGERS
 STEP_RAD = math.radians(0.25)
 OPPOSITIONS = 5
 TOUCH_M = 2e-3
-DEEPER_M = 5e-5  # less is noise of the measurement
+DEEPER_M = 5e-5  # smaller changes are measurement noise
 COARSE = {"spacing_m": 8e-3, "tolerance_m": 5e-5, "relative": 0.3}
 
 
 class Sweep:
-    """One finger of many hands at once. Rows are hands, columns links."""
+    """One finger of many hands at once. Rows are hands, columns are links."""
 
     def __init__(self, surface, finger, positions, rotations, opposition_rad):
         count = len(positions)
@@ -31,16 +33,16 @@ class Sweep:
         self.steps = max(1, math.ceil(range_rad.max() / STEP_RAD))
         self.rates = range_rad / self.steps
         self.step = np.zeros(count, int)
-        self.stopped_at = np.full((count, finger.links), self.steps)  # the step that each hinge stops at
-        self.stopped = np.zeros(count, int)  # hinges from the first on
-        self.due = np.zeros((count, finger.links), int)  # the step that each link must be looked at again
+        self.stopped_at = np.full((count, finger.links), self.steps)  # the step at which each joint stops
+        self.stopped = np.zeros(count, int)  # number of stopped joints, from the first on
+        self.due = np.zeros((count, finger.links), int)  # the step at which each link must be measured again
         start = self.gaps(self.solid, *np.nonzero(self.due == 0)).reshape(self.due.shape)
-        self.buried = start <= 0.0  # began inside, not clear since
-        self.least_m = start  # the best gap so far of a buried link
+        self.buried = start <= 0.0  # started inside, not clear since
+        self.least_m = start  # largest clearance so far of a buried link
         self.plan(*np.nonzero(self.due == 0), start.ravel())
 
     def gaps(self, surface, hand, link):
-        """Clearances of these links of these hands, as they stand."""
+        """Current clearances of these links of these hands."""
         finger = self.finger
         at = np.minimum(self.stopped_at[hand], self.step[hand][:, None])
         points = finger.points_hs(finger.lower + (finger.upper - finger.lower) * (at / self.steps), self.opposition)
@@ -52,7 +54,7 @@ class Sweep:
         return clearance(surface, a, b, finger.radius[link], **COARSE)
 
     def motion_m(self, hand, link):
-        """How far a link's farthest point moves in a step, at most."""
+        """Upper bound of a link's motion per step."""
         reach = np.zeros(len(hand))
         for hinge in self.links:
             turns = (hinge >= self.stopped[hand]) & (hinge <= link)
@@ -61,17 +63,18 @@ class Sweep:
         return np.maximum(reach, 1e-12)
 
     def plan(self, hand, link, gap):
-        """When each link is looked at again. A buried one: when it can be clear, but after its first step to see where it goes."""
+        """Computes when each link is measured next. A buried link: when it can be clear, but first after one step to see which way it
+        moves."""
         safe = np.where(gap > 0, gap * (1.0 - COARSE["relative"]), -gap) - COARSE["tolerance_m"]
         free = np.clip(np.floor(safe / self.motion_m(hand, link)), 1, self.steps + 1).astype(int)
         first = self.buried[hand, link] & (self.step[hand] == 0)
         self.due[hand, link] = self.step[hand] + np.where(first, 1, free)
 
     def look(self, hand, link):
-        """Measures links that are due; returns which touch."""
+        """Measures the links that are due; returns which touch."""
         buried = self.buried[hand, link]
         gap = np.empty(len(hand))
-        # A link that was clear comes from outside: only the distance matters.
+        # A link that was clear comes from outside, so the unsigned distance suffices.
         for surface, which in ((self.solid, buried), (self.sheet, ~buried)):
             if which.any():
                 gap[which] = self.gaps(surface, hand[which], link[which])
@@ -83,7 +86,7 @@ class Sweep:
         return touching
 
     def stop(self, hand, link):
-        """Stops the hinges of touching links and those before."""
+        """Stops the joints of touching links and those before."""
         last = np.zeros(len(self.step), int)
         np.maximum.at(last, hand, link + 1)
         now = (self.links < last[:, None]) & (self.links >= self.stopped[:, None])
@@ -91,7 +94,7 @@ class Sweep:
         self.stopped = np.maximum(self.stopped, last)
 
     def run(self):
-        """True where a link touched on its way and the finger, at its end, lies on the surface."""
+        """True if a link touched during closing and the closed finger lies on the surface."""
         while True:
             running = self.links >= self.stopped[:, None]
             following = np.where(running, self.due, self.steps + 1).min(1)
@@ -125,7 +128,7 @@ def reached(surface, fingers, positions, rotations):
 
 
 def reached_by(surface, fingers, grasps, count):
-    """For grasps of a file: (grasps, fingers). `count` of them are asked, evenly chosen among those that can be (0: all); none of the others reach."""
+    """For grasps of a file: (grasps, fingers). Tests `count` of the possible ones, evenly chosen (0: all); the others do not reach."""
     asked = [i for i, grasp in enumerate(grasps) if grasp.gripped and grasp.is_finite() and any(grasp.rotation_xyzw)]
     if count and len(asked) > count:
         asked = [asked[i * len(asked) // count] for i in range(count)]

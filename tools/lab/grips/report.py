@@ -1,9 +1,9 @@
-"""What a report makes of measured grasps: goals, tables, the page. The goals are those of the project's design of hands."""
+"""The grip report: goals, tables, the page. The goals are those of the project's design of hands."""
 import html
 import math
 
 from pages import svg
-from pages.goals import STYLE, figure, goals_html, judged, percent, table_html, text, triple
+from pages.goals import STYLE, figure, goals_html, limit_goal, percent, table_html, text, triple
 
 from . import scoring
 
@@ -12,30 +12,30 @@ MOST_TIP_MM = 0.05
 
 
 def goals(whole, flat, nasty, warm, worst_tip_mm):
-    """whole: figures of objects, level and primitives; flat: of boxes, plates, rails; nasty: of broken meshes;
-    warm: of hands that slide and stand (warm.py); worst_tip_mm: of chains against the oracle. None: not run."""
+    """whole: figures of objects, level and primitives; flat: of boxes, plates, rails; nasty: of broken meshes; warm: of hands that slide
+    and stand (warm.py); worst_tip_mm: of chains against the oracle. None: not run."""
     deep = lambda figures, part: percent(figure(figures, "deep_share", part))
     return [
-        judged("pops a disc, cold: median", figure(whole, "visited_per_disc", "median"), 2, ""),
-        judged("the same, 95th percentile", figure(whole, "visited_per_disc", "p95"), 8, ""),
-        judged("grasps with a finger or thumb deeper than 3 mm", deep(whole, "any_finger_or_thumb"), 3, "%"),
-        judged("the same, fingers without the thumb", deep(whole, "any_finger"), 3, "%"),
-        judged("the same, boxes, plates, rails", deep(flat, "any_finger_or_thumb"), 0.5, "%"),
-        judged("sync, near placements: median", figure(whole, "sync_mm_near", "median"), 4, "mm"),
-        judged("fingers within 2 mm, of the reference's: four", percent(figure(whole, "of_reference", "four", "touching")), 95, "%", least=True),
-        judged("the same, thumb with them", percent(figure(whole, "of_reference", "all", "touching")), 95, "%", least=True),
-        judged("mean penetration of fingers", figure(whole, "penetration_mm", "mean_of_fingers"), 0.3, "mm"),
-        judged("the same, of each grasp's deepest finger", figure(whole, "penetration_mm", "mean_of_deepest"), 0.3, "mm"),
-        judged("thumb deeper than 3 mm", deep(whole, "thumb"), 1.5, "%"),
-        judged("whole hand, warm, thread time: median", figure(warm, "slide_us", "median"), 80, "us"),
-        judged("the same, 99th percentile", figure(warm, "slide_us", "p99"), 250, "us"),
-        judged("the same, mean of the meshes' percentiles", figure(warm, "slide_us", "p99_of_meshes"), 250, "us"),
-        judged("a hand that did not move: median", figure(warm, "stand_us", "median"), 2, "us"),
-        judged("fingers shown to jump over 10 degrees, sliding", percent(figure(warm, "shown_jumps")), 1, "%"),
-        judged("fingers bound for as far away, sliding", percent(figure(warm, "jumps")), 1, "%"),
-        judged("hands with a number that is not finite", float(figure(whole, "not_finite")), 0, ""),
-        judged("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
-        judged("tip of a closed chain, from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
+        limit_goal("pops per disc, cold: median", figure(whole, "visited_per_disc", "median"), 2, ""),
+        limit_goal("the same, 95th percentile", figure(whole, "visited_per_disc", "p95"), 8, ""),
+        limit_goal("grasps with a finger or thumb deeper than 3 mm", deep(whole, "any_finger_or_thumb"), 3, "%"),
+        limit_goal("the same, fingers without the thumb", deep(whole, "any_finger"), 3, "%"),
+        limit_goal("the same, boxes, plates, rails", deep(flat, "any_finger_or_thumb"), 0.5, "%"),
+        limit_goal("sync, near placements: median", figure(whole, "sync_mm_near", "median"), 4, "mm"),
+        limit_goal("fingers within 2 mm, share of the reference's: four", percent(figure(whole, "of_reference", "four", "touching")), 95, "%", at_least=True),
+        limit_goal("the same, with the thumb", percent(figure(whole, "of_reference", "all", "touching")), 95, "%", at_least=True),
+        limit_goal("mean penetration of fingers", figure(whole, "penetration_mm", "mean_of_fingers"), 0.3, "mm"),
+        limit_goal("the same, of each grasp's deepest finger", figure(whole, "penetration_mm", "mean_of_deepest"), 0.3, "mm"),
+        limit_goal("thumb deeper than 3 mm", deep(whole, "thumb"), 1.5, "%"),
+        limit_goal("whole hand, warm, thread time: median", figure(warm, "slide_us", "median"), 80, "us"),
+        limit_goal("the same, 99th percentile", figure(warm, "slide_us", "p99"), 250, "us"),
+        limit_goal("the same, mean of the meshes' percentiles", figure(warm, "slide_us", "p99_of_meshes"), 250, "us"),
+        limit_goal("a resting hand: median", figure(warm, "stand_us", "median"), 2, "us"),
+        limit_goal("shown fingers that jump over 10 degrees, sliding", percent(figure(warm, "shown_jumps")), 1, "%"),
+        limit_goal("target poses that jump over 10 degrees, sliding", percent(figure(warm, "jumps")), 1, "%"),
+        limit_goal("hands with non-finite numbers", float(figure(whole, "not_finite")), 0, ""),
+        limit_goal("the same, broken meshes", float(figure(nasty, "not_finite")), 0, ""),
+        limit_goal("tip of a closed chain, distance from the oracle's: worst", worst_tip_mm, MOST_TIP_MM, "mm"),
     ]
 
 
@@ -51,9 +51,9 @@ COLUMNS = (
     ("deepest mm", lambda f: figure(f, "penetration_mm", "fingers", "max")),
     ("within 2 mm %", lambda f: percent(f["fingers_within_2_mm"]["all"])),
     ("of reference %", lambda f: percent(figure(f, "of_reference", "four", "touching"))),
-    ("thumb of it %", lambda f: percent(figure(f, "of_reference", "thumb", "touching"))),
+    ("thumb of reference %", lambda f: percent(figure(f, "of_reference", "thumb", "touching"))),
     ("sync near mm", lambda f: figure(f, "sync_mm_near", "median")),
-    ("pops a disc", lambda f: triple(f["visited_per_disc"], "median", "p95", "max")),
+    ("pops per disc", lambda f: triple(f["visited_per_disc"], "median", "p95", "max")),
     ("walk", lambda f: figure(f, "walked_per_disc", "median")),
     ("us", lambda f: triple(f["us"]["total"], "median", "p99")),
 )
@@ -69,7 +69,7 @@ def fallbacks_html(rows):
     counts = [[name] + [figures["fallbacks"].get(kind, 0) for kind in kinds] for name, figures in rows]
     reasons = [[name, reason or "(none given)", count] for name, figures in rows for reason, count in figures["reasons"].items()]
     return (table_html(["fingers by fallback"] + kinds, counts)
-            + (table_html(["hands that grip nothing", "reason", "hands"], reasons) if reasons else ""))
+            + (table_html(["hands without grip", "reason", "hands"], reasons) if reasons else ""))
 
 
 def plots_html(by_variant, case_rows):
@@ -81,10 +81,10 @@ def plots_html(by_variant, case_rows):
     sync = lambda files: [grasp.sync_mm for file in files for grasp in file.grasps if grasp.gripped and math.isfinite(grasp.sync_mm)]
     series = lambda of: {name: (color, of(files)) for name, (color, files) in by_variant.items()}
     deep = sorted(((name, percent(figures["deep_share"]["any_finger_or_thumb"])) for name, figures in case_rows), key=lambda row: -row[1])
-    return (svg.tail_plot("Grasps whose deepest finger is deeper than x", "mm", series(lambda files: scoring.deepest_mm(files).tolist()), 15.0, (3.0,))
-            + svg.tail_plot("Searches that visit more than x triangles a disc", "pops a disc", series(per_disc), 50.0, (2.0, 8.0))
+    return (svg.tail_plot("Grasps whose deepest finger penetrates more than x", "mm", series(lambda files: scoring.deepest_mm(files).tolist()), 15.0, (3.0,))
+            + svg.tail_plot("Searches that visit more than x triangles per disc", "pops per disc", series(per_disc), 50.0, (2.0, 8.0))
             + svg.tail_plot("Hands that cost more than x", "us, thread time", series(total_us), 1000.0, (80.0, 250.0))
-            + svg.tail_plot("Palms that are moved farther than x", "mm", series(sync), 60.0, (4.0,))
+            + svg.tail_plot("Palms with a sync larger than x", "mm", series(sync), 60.0, (4.0,))
             + svg.bars("Any finger deeper than 3 mm, by mesh", deep, "%", 3.0))
 
 
@@ -95,11 +95,11 @@ def page(table, variant_tables, case_rows, by_variant, pictures, notes):
     said = "".join(f"<li>{html.escape(note)}</li>" for note in notes)
     return f"""<!doctype html><html lang="en"><meta charset="utf-8"><title>Hands on surfaces, measured</title><style>{STYLE}</style>
 <h1>Hands on surfaces, measured</h1>
-<p>Depths and gaps are measured from the posed capsules on the mesh as it is in its file, by code that shares nothing with what posed them; negative
-gaps are depths. Half of the placements are near (palm within 2 cm, 30 degrees), half harsh (3 cm behind to 6 cm before, 60 degrees). Each hand is
-solved cold, alone, on one thread; near ones then slide at 0.3 m/s, and stand, for what is warm. What each figure means: docs/reference/lab.md.</p>
+<p>Depths and gaps are measured from the posed capsules on the mesh as in its file, independently of the code that posed them; negative gaps are
+depths. Half of the placements are near (palm within 2 cm, 30 degrees), half harsh (3 cm behind to 6 cm in front, 60 degrees). Each hand is solved
+cold, alone, on one thread; near ones then slide at 0.3 m/s, and stand, for the warm figures. Meaning of each figure: docs/reference/lab.md.</p>
 <h2>Goals</h2>{goals_html(table)}{f"<ul>{said}</ul>" if said else ""}
-<h2>Beside the baselines</h2>{groups}
+<h2>Compared with the baselines</h2>{groups}
 <div class="plots">{plots_html(by_variant, case_rows)}</div>
 <h2>By mesh</h2>{figures_html("mesh", case_rows)}
 <h2>Fallbacks</h2>{fallbacks_html([(group, rows[0][1]) for group, rows in variant_tables.items()])}

@@ -1,7 +1,8 @@
-"""The hand as `handhold-lab grip --rig-json` writes it, and where its links are: hand space is the wrist's, -Z to the fingers, +Y the back.
+"""The hand as written by `handhold-lab grip --rig-json`, and the positions of its links. Hand space is the wrist's: -Z to the fingers,
++Y the back.
 
-Link i begins at hinge i and ends at the next, the last at the tip. A hinge's frame has -Z along its link; a positive curl turns the link towards
--Y. The thumb's first frame is turned by the opposition about an axis of hand space through its first hinge."""
+Link i starts at joint i and ends at the next; the last one ends at the tip. A joint's frame has -Z along its link; a positive curl
+rotates the link towards -Y. The thumb's first frame is rotated by the opposition about an axis of hand space through its first joint."""
 import math
 
 import numpy as np
@@ -29,7 +30,7 @@ class Finger:
         self.turn = Rotation.from_quat(rotation)
 
     def points_hs(self, curls, opposition_rad):
-        """(n, links + 1, 3): hinges and tip. curls: (n, links); opposition_rad: one number or (n,)."""
+        """(n, links + 1, 3): joints and tip. curls: (n, links); opposition_rad: one number or (n,)."""
         count = len(curls)
         if not count:
             return np.zeros((0, self.links + 1, 3))

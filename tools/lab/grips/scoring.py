@@ -1,4 +1,4 @@
-"""Figures of posed hands. Depths, gaps: millimetres; of grasps that grip and are finite, unless a name says otherwise."""
+"""Figures of posed hands. Depths and gaps in millimetres, of grasps that grip and are finite, unless a name says otherwise."""
 import collections
 import math
 
@@ -12,7 +12,7 @@ PARTS = FINGERS + ("palm",)
 
 
 def spread(values):
-    """Median, 95th and 99th percentile and maximum of what is finite."""
+    """Median, 95th and 99th percentile and maximum of the finite values."""
     values = np.asarray([value for value in values if math.isfinite(value)], float)
     if not len(values):
         return {"count": 0}
@@ -27,24 +27,24 @@ def share(flags):
 
 
 def part_gaps_mm(surface, grasps, capsules):
-    """(grasps, PARTS): the least clearance of each part's capsules; NaN where one is not finite, infinite where the hand has no such part."""
+    """(grasps, PARTS): minimum clearance of each part's capsules; NaN if one is not finite, infinite if the hand has no such part."""
     wanted = np.array([grasp.gripped for grasp in grasps])[capsules.grasp] if len(capsules.grasp) else np.zeros(0, bool)
     gaps = np.full((len(grasps), len(PARTS)), np.inf)
     place = np.array([PARTS.index(part) for part in capsules.part], int)[wanted]
     value = 1e3 * clearance(surface, capsules.a[wanted], capsules.b[wanted], capsules.radius[wanted])
-    np.minimum.at(gaps, (capsules.grasp[wanted], place), value)  # minimum hands NaN on
+    np.minimum.at(gaps, (capsules.grasp[wanted], place), value)  # minimum propagates NaN
     return gaps
 
 
 def score_grasp(grasp, gaps):
-    """One grasp's own figures."""
+    """Figures of one grasp."""
     there = {part: gap for part, gap in zip(PARTS, gaps.tolist()) if gap != math.inf}
     return {"id": grasp.id, "gripped": grasp.gripped, "finite": grasp.is_finite() and not any(map(math.isnan, there.values())),
             "gap_mm": there, "depth_mm": {part: max(0.0, -gap) for part, gap in there.items()}}
 
 
 def search_figures(grasps):
-    """What the search visited a disc, by finger: pops to the first hit and the walk."""
+    """Visited triangles per disc, by finger: pops to the first hit, and the walk."""
     fingers = [finger for grasp in grasps for finger in grasp.fingers if finger["discs"] > 0]
     return {"visited_per_disc": spread([finger["visited"] / finger["discs"] for finger in fingers]),
             "walked_per_disc": spread([finger["walked"] / finger["discs"] for finger in fingers]),
@@ -70,7 +70,7 @@ def depth_figures(gaps):
 
 
 def reference_figures(gaps, reached):
-    """Of the fingers that the reference brings to contact (reached, (grasps, 5)), the share that touches."""
+    """Share of touching fingers among those that the reference brings to contact (reached, (grasps, 5))."""
     near = (np.abs(gaps[:, :5]) < TOUCH_MM) & reached
     part = lambda columns: {"reached": int(reached[:, columns].sum()),
                             "touching": float(near[:, columns].sum() / reached[:, columns].sum()) if reached[:, columns].any() else math.nan}
@@ -78,10 +78,10 @@ def reference_figures(gaps, reached):
 
 
 class Measured:
-    """One file's grasps with what was measured of them.
+    """One file's grasps with their measurements.
 
-    gaps_mm: (grasps, PARTS). each: one dictionary a grasp. used: gripped and finite. near: by the placements' kinds, {id: kind}; None: not known.
-    reached: (grasps, 5), what the reference brings to contact; None: not asked."""
+    gaps_mm: (grasps, PARTS). each: one dictionary per grasp. used: gripped and finite. near: by the placements' kinds, {id: kind}; None:
+    not known. reached: (grasps, 5), fingers that the reference brings to contact; None: not evaluated."""
 
     def __init__(self, surface, grasps, capsules, kinds=None, reached=None):
         self.grasps = grasps
@@ -96,12 +96,12 @@ class Measured:
 
 
 def deepest_mm(measured):
-    """Of each grasp that counts, the depth of its deepest finger, thumb with it."""
+    """Depth of the deepest finger or thumb of each used grasp."""
     return np.maximum(0.0, -np.concatenate([one.gaps_mm[one.used, :5] for one in measured]).min(1)) if measured else np.zeros(0)
 
 
 def figures(measured):
-    """Of all grasps of one or several files together."""
+    """Figures of all grasps of one or several files together."""
     grasps = [grasp for one in measured for grasp in one.grasps]
     gripped = [grasp for grasp in grasps if grasp.gripped]
     result = {
@@ -125,7 +125,7 @@ def figures(measured):
 
 
 def without_nan(value):
-    """JSON has no NaN: null."""
+    """Replaces NaN by None, since JSON has no NaN."""
     if isinstance(value, dict):
         return {key: without_nan(part) for key, part in value.items()}
     if isinstance(value, list):

@@ -1,11 +1,12 @@
-"""A mesh as a surface that has an inside where it can have one: signed distance, negative in solids.
+"""A mesh as a surface with an inside, if it has one: signed distance, negative in solids.
 
-Only the sign needs repairs; distances are always to the triangles as they are in the file. Inside means a generalised winding number above 0.5
-(Jacobson, Kavan, Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013), of
-- solids: connected parts that nearly close and face out. Each counts alone, so that what hangs in a room has an inside in spite of the room;
-- the rest together: soups of patches, open parts, rooms. A room that faces in has no solid, a lone sheet neither.
-Before that, for the sign only: vertices are welded, copies of a triangle are taken once, windings are made to agree across edges of two
-triangles (the larger area wins), and what faces in but is smaller than a room is turned."""
+Only the sign needs repairs; distances are always to the triangles as in the file. Inside means a generalised winding number above 0.5
+(Jacobson, Kavan, Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013) of
+- solids: connected parts that nearly close and face outward. Each counts separately, so that an object in a room has an inside in spite
+  of the room;
+- everything else together: soups of patches, open parts, rooms. A room that faces inward has no solid, nor has a single sheet.
+Before that, for the sign only: vertices are welded, duplicate triangles are removed, windings are made consistent across edges of two
+triangles (the larger area wins), and inward-facing parts smaller than a room are flipped."""
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -13,13 +14,13 @@ from scipy.spatial import cKDTree
 
 from .tree import TriangleTree, dot
 
-WELD_M = 1e-4  # an edge of a soup may be off by this
-ROOM_M = 0.5  # nothing narrower than this is a room that a body fits into; crew quarters on a station are 0.8 m
-CLOSES = 0.25  # an area vector below this share of the area: a part that nearly closes
+WELD_M = 1e-4  # tolerance between edges of a soup
+ROOM_M = 0.5  # smallest width of a room that a body fits into; crew quarters on a station are 0.8 m
+CLOSES = 0.25  # a part nearly closes if its area vector is below this share of its area
 
 
 def weld(triangles):
-    """Vertex numbers, (n, 3): corners nearer than WELD_M share one, chains of them too."""
+    """Vertex numbers, (n, 3): corners nearer than WELD_M share one, transitively."""
     points, number = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
     pairs = cKDTree(points).query_pairs(WELD_M, output_type="ndarray")
     graph = coo_matrix((np.ones(len(pairs), bool), (pairs[:, 0], pairs[:, 1])), (len(points), len(points)))
@@ -27,7 +28,7 @@ def weld(triangles):
 
 
 def first_copies(faces):
-    """One of each set of triangles with the same three vertices; all that are degenerate once welded."""
+    """One of each set of triangles with the same three vertices, without triangles that welding made degenerate."""
     ordered = np.sort(faces, axis=1)
     proper = (ordered[:, 0] != ordered[:, 1]) & (ordered[:, 1] != ordered[:, 2])
     keep = ~proper
@@ -37,7 +38,7 @@ def first_copies(faces):
 
 
 class Edges:
-    """Pairs of triangles that share an edge, with whether they run it the same way (then one of them is turned round)."""
+    """Pairs of triangles that share an edge, and whether both traverse it in the same direction (then one of them is flipped)."""
 
     def __init__(self, faces):
         start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
@@ -51,7 +52,7 @@ class Edges:
         self.first = first
 
     def neighbours(self):
-        """Every triangle of an edge with the edge's first."""
+        """Pairs every triangle of an edge with the edge's first."""
         owner = np.repeat(self.first, self.count)
         return self.face[owner], self.face
 
@@ -65,12 +66,12 @@ def labels(count, a, b):
 
 
 def turned_faces(edges, areas):
-    """Which triangles to turn so that windings agree: components of the graph's double cover are the two sides of a patch."""
+    """Which triangles to flip so that windings agree: components of the graph's double cover are the two sides of a patch."""
     count = len(areas)
     a, b, same = edges.manifold()
     sides = labels(2 * count, np.concatenate([a, a + count]), np.concatenate([b + count * same, b + count * ~same]))
     front, back = sides[:count], sides[count:]
-    turned = front > back  # equal: a patch with one side; it stays as it is
+    turned = front > back  # equal: a one-sided patch, left unchanged
     patch = np.minimum(front, back)
     turned_area = np.bincount(patch, areas * turned, 2 * count)
     most = turned_area[patch] > 0.5 * np.bincount(patch, areas, 2 * count)[patch]
@@ -100,14 +101,14 @@ class Surface:
 
     @staticmethod
     def _volume(corners, vectors, group, groups):
-        """Of each group about its own middle: what a cone of each triangle to it holds."""
+        """Volume of each group: the sum of the cones from its centre to each triangle."""
         middle = corners.mean(1)
         count = np.maximum(np.bincount(group, minlength=groups), 1)
         center = np.stack([np.bincount(group, middle[:, axis], groups) / count for axis in range(3)], 1)
         return np.bincount(group, dot(middle - center[group], vectors), groups) / 3.0
 
     def _solids(self, corners, vectors, areas, part):
-        """Which triangles belong to parts that are solids, and which must be turned for their part to face out."""
+        """Which triangles belong to solid parts, and which must be flipped so that their part faces outward."""
         parts = part.max() + 1
         total = np.stack([np.bincount(part, vectors[:, axis], parts) for axis in range(3)], 1)
         closes = np.sqrt(dot(total, total)) < CLOSES * np.bincount(part, areas, parts)
@@ -143,7 +144,7 @@ class Surface:
 
 
 class Sheet:
-    is_closed = True  # nothing to ask: no side is inside
+    is_closed = True  # no query needed: no side is inside
 
     def __init__(self, tree):
         self.tree = tree

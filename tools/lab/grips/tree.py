@@ -1,14 +1,14 @@
-"""Triangles in a balanced binary tree of boxes, asked by many points at once: each level is one step of array arithmetic over all pairs of
-point and node that are still open.
+"""Triangles in a balanced binary tree of boxes, queried with many points at once: each level is one step of array arithmetic over all
+open pairs of point and node.
 
-Distances are exact. Winding numbers take far nodes as dipoles: Barill, Dickson, Schmidt, Levin, Jacobson, "Fast winding numbers for soups
-and clouds" (2018); near triangles by the solid angle of van Oosterom and Strackee (1983)."""
+Distances are exact. Winding numbers treat far nodes as dipoles (Barill, Dickson, Schmidt, Levin, Jacobson, "Fast winding numbers for
+soups and clouds", 2018) and near triangles by the solid angle of van Oosterom and Strackee (1983)."""
 import numpy as np
 from scipy.spatial import cKDTree
 
-LEAF = 2  # triangles; the last leaves hold copies, which weigh nothing
-SHORT_M = 5e-3  # edges below this are not cut
-FAR = 2.5  # a node is a dipole from this many of its radii on: up to 0.03 off on real meshes, against a bar of 0.5
+LEAF = 2  # triangles per leaf; the last leaves hold copies with weight 0
+SHORT_M = 5e-3  # shorter edges are not split
+FAR = 2.5  # a node is a dipole beyond this many radii: error up to 0.03 on real meshes, against a threshold of 0.5
 AT_ONCE = 8192  # points
 
 
@@ -25,8 +25,8 @@ def segment_distance2(p, a, ab, ab2):
 
 
 def cut_long(triangles):
-    """The same surface in pieces that boxes fit better: long edges are halved, the longest first, up to thrice the triangles. Pieces, and the
-    triangle that each is of."""
+    """The same surface in pieces that boxes fit better: long edges are halved, the longest first, up to three times the triangles.
+    Returns the pieces and the triangle of each."""
     owner, most = np.arange(len(triangles)), 2 * len(triangles) + 20000
     sides = triangles - np.roll(triangles, -1, axis=1)
     typical = np.sqrt(np.median(dot(sides, sides).max(1)))
@@ -70,14 +70,14 @@ class TriangleTree:
         self.near = cKDTree(centers[order])
 
     def _take_triangles(self, corners, weight):
-        """Packed in the leaves' order."""
+        """Packs the triangles in the leaves' order."""
         self.corners = corners
         self.edges = np.roll(corners, -1, axis=1) - corners
         self.edges2 = np.maximum(dot(self.edges, self.edges), 1e-30)
         self.normals = np.cross(self.edges[:, 0], -self.edges[:, 2])
         self.normals2 = dot(self.normals, self.normals)
         self.weight = weight.astype(float)
-        # In its plane, a point is inside an edge where this dot product is positive.
+        # In its plane, a point is inside an edge if this dot product is positive.
         self.inward = np.cross(self.normals[:, None, :], self.edges)
 
     def _build_nodes(self):
@@ -105,7 +105,7 @@ class TriangleTree:
         return dot(off, off)
 
     def _leaf_distance2(self, points, leaf):
-        """Least squared distance to each pair's leaf, and the triangle's place in the leaves' order."""
+        """Minimum squared distance to each pair's leaf, and the triangle's index in the leaves' order."""
         triangle = leaf[:, None] * LEAF + np.arange(LEAF)
         p = points[:, None, :]
         ap = p - self.corners[triangle, 0]
@@ -129,7 +129,7 @@ class TriangleTree:
         return np.concatenate([part[0] for part in parts]), self.owner[np.concatenate([part[1] for part in parts])]
 
     def _closest(self, points):
-        node = self.near.query(points)[1] // LEAF  # a first bound: the leaf with the nearest middle
+        node = self.near.query(points)[1] // LEAF  # a first bound: the leaf with the nearest centre
         bound, found = self._leaf_distance2(points, node)
         first = node
         point, node = np.arange(len(points)), np.zeros(len(points), int)
@@ -152,7 +152,7 @@ class TriangleTree:
         return np.sqrt(bound), found
 
     def winding(self, points):
-        """How often the surface goes around each point: 1 inside of a closed surface that faces out."""
+        """Winding number at each point: 1 inside a closed surface that faces outward."""
         parts = [self._winding(points[i:i + AT_ONCE]) for i in range(0, len(points), AT_ONCE)]
         return np.concatenate(parts) if parts else np.zeros(0)
 

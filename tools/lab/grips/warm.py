@@ -1,4 +1,4 @@
-"""What hands take that slide over what they hold, and stand."""
+"""Costs of hands that slide over a surface, then stand."""
 import json
 import math
 
@@ -12,7 +12,7 @@ COUNTS = ("joint_frames", "jumps", "shown_jumps")
 
 
 def read(path):
-    """A file of `handhold-lab grip --warm-json`."""
+    """Reads a file of `handhold-lab grip --warm-json`."""
     try:
         value = json.loads(path.read_text())
         return {**{name: numpy.asarray(value[name], float) for name in LISTS}, **{name: int(value[name]) for name in COUNTS}}
@@ -21,7 +21,7 @@ def read(path):
 
 
 def figures(meshes):
-    """meshes: a list of what was read for each. Percentiles over all frames; shares of all joint-frames. None of none."""
+    """meshes: one read file each. Percentiles over all frames; shares of all joint-frames. None if there are none."""
     runs = [run for mesh in meshes for run in mesh]
     slides = [numpy.concatenate([run["slide_us"] for run in mesh]) for mesh in meshes]
     slides = [slide for slide in slides if slide.size]

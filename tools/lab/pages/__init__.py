@@ -1,1 +1,1 @@
-"""What the reports share: reading and writing of files, plots, tables, goals. Python's own library only."""
+"""Shared parts of the reports: reading and writing of files, plots, tables, goals. Uses only Python's standard library."""

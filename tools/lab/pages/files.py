@@ -1,4 +1,4 @@
-"""Reading and writing of the tools' files: one clear line where a file breaks its format, none left half written."""
+"""Reading and writing of the tools' files: one clear line for an invalid file, and no partially written output."""
 import argparse
 import json
 import math
@@ -12,7 +12,7 @@ class FormatError(Exception):
 
 
 class Parser(argparse.ArgumentParser):
-    """Wrong flags: the usage and exit status 1."""
+    """Invalid flags: usage and exit status 1."""
 
     def error(self, message):
         self.print_usage(sys.stderr)
@@ -21,7 +21,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_tool(main):
-    """Runs a tool's main: a file that breaks its format ends it with one line and exit status 2."""
+    """Runs a tool's main: an invalid file ends it with one line and exit status 2."""
     try:
         sys.exit(main())
     except FormatError as error:
@@ -55,7 +55,7 @@ def read_json(path):
 
 
 def read_jsonl(path):
-    """Yields (where, object) for each line that is not empty."""
+    """Yields (where, object) for each non-empty line."""
     for number, line in enumerate(read_text(path).splitlines(), 1):
         if line.strip():
             where = f"{path}: line {number}"
@@ -66,7 +66,7 @@ def read_jsonl(path):
 
 
 def write_whole(path, text):
-    """The file is there whole or not at all."""
+    """Writes the whole file or nothing."""
     path = pathlib.Path(path)
     part = path.with_name(path.name + f".{os.getpid()}.part")
     try:
@@ -85,7 +85,7 @@ def member(value, key, where):
 
 
 def number(value, where):
-    """A number; null and non-numbers of JSON's extensions are NaN: a writer may have had nothing better to say."""
+    """A number; null and JSON extensions' non-numbers become NaN."""
     if value is None:
         return math.nan
     if isinstance(value, bool) or not isinstance(value, (int, float)):

@@ -1,4 +1,4 @@
-"""Goals with what was measured of them, and figures as tables of a page."""
+"""Goals with their measured values, and figures as HTML tables."""
 import html
 import math
 
@@ -19,12 +19,12 @@ class Goal:
         return {True: "met", False: "MISSED", None: "not run"}[self.passed]
 
 
-def judged(bar, value, limit, unit, least=False):
-    """A goal that is an upper limit, or with least a lower one. What was not measured was not run."""
-    goal = f"{'>=' if least else '<='} {limit:g} {unit}".strip()
+def limit_goal(bar, value, limit, unit, at_least=False):
+    """A goal with an upper limit, or with at_least a lower one. A value of NaN or None: not run."""
+    goal = f"{'>=' if at_least else '<='} {limit:g} {unit}".strip()
     if value is None or not math.isfinite(value):
         return Goal(bar, "-", goal, None)
-    return Goal(bar, f"{value:.3g} {unit}".strip(), goal, value >= limit if least else value <= limit)
+    return Goal(bar, f"{value:.3g} {unit}".strip(), goal, value >= limit if at_least else value <= limit)
 
 
 def percent(value):

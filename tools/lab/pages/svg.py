@@ -24,7 +24,7 @@ def keys_html(colors):
 
 
 def tail_plot(title, x_title, series, x_max, marks=()):
-    """Share of all that is above x, for {name: (color, values)}; dashed lines at marks."""
+    """Share of values above x, for {name: (color, values)}; dashed lines at marks."""
     series = {name: (color, share_above(values)) for name, (color, values) in series.items() if len(values)}
     px = lambda x: LEFT + min(x, x_max) / x_max * (WIDTH - LEFT - RIGHT)
     py = lambda y: HEIGHT - BOTTOM - y * (HEIGHT - TOP - BOTTOM)
@@ -47,7 +47,7 @@ def tail_plot(title, x_title, series, x_max, marks=()):
 
 
 def bars(title, rows, unit, goal=None):
-    """One bar a row of (name, value)."""
+    """One bar per row (name, value)."""
     most = max([value for _, value in rows if math.isfinite(value)] + [goal or 0.0, 1e-9])
     left, height = 230, 20 * len(rows) + 50
     px = lambda x: left + x / most * (WIDTH - left - 70)
@@ -65,7 +65,7 @@ def bars(title, rows, unit, goal=None):
 
 
 def unbroken(points):
-    """Runs of points that are finite."""
+    """Runs of consecutive finite points."""
     runs, run = [], []
     for x, y in points:
         if math.isfinite(y):
@@ -81,7 +81,8 @@ def ticks_between(low, high):
 
 
 def lines(title, x_title, y_title, series, low=None):
-    """y over x for {name: (color, points)}, in the order of drawing; a line is broken where y is not finite. low: where y begins, if not at the least."""
+    """y over x for {name: (color, points)}, in drawing order; a line breaks where y is not finite. low: lower end of the y axis;
+    default: the minimum."""
     points = [point for _, row in series.values() for point in row if math.isfinite(point[1])] or [(0.0, 0.0), (1.0, 1.0)]
     x_min, x_max = min(x for x, _ in points), max(x for x, _ in points)
     y_min, y_max = min(y for _, y in points) if low is None else low, max(y for _, y in points)

@@ -1,4 +1,4 @@
-// A world that remembers pairs against new worlds that cannot: the same contacts, bit for bit.
+// Contacts of a world with a warm pair cache must equal, bit for bit, those of a new world.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -8,7 +8,7 @@
 
 #include "tests/engine/collision/scene.hpp"
 
-namespace handhold::test::collision_memory_test {
+namespace handhold::test::collision_pair_cache_test {
 namespace {
 
 bool same(const ContactPoint& x, const ContactPoint& y) {
@@ -23,8 +23,8 @@ bool all_same(const Contacts& found, const Contacts& expected) {
     return std::ranges::equal(found, expected, same);
 }
 
-Contacts found_by(CollisionWorld& world, const std::vector<ColliderProxy>& proxies,
-                  const ContactLimits& limits, const std::vector<IgnoredPair>& ignored = {}) {
+Contacts contacts_with(CollisionWorld& world, const std::vector<ColliderProxy>& proxies,
+                       const ContactLimits& limits, const std::vector<IgnoredPair>& ignored = {}) {
     Contacts contacts;
     world.set_proxies(proxies);
     world.set_ignored_pairs(ignored);
@@ -32,7 +32,7 @@ Contacts found_by(CollisionWorld& world, const std::vector<ColliderProxy>& proxi
     return contacts;
 }
 
-TEST(PairCache, GivesBackWhatANewWorldFinds) {
+TEST(PairCache, ContactsEqualThoseOfANewWorld) {
     Random random(11);
     ShapeLibrary shapes;
     const ShapeId ball = shapes.add_sphere(0.12);
@@ -45,10 +45,11 @@ TEST(PairCache, GivesBackWhatANewWorldFinds) {
         const Quat turn = random.rotation();
         proxies.push_back(resting(id, id % 2 == 0 ? ball : box, at(place, turn), id % 5 != 0));
     }
-    CollisionWorld old(shapes);
-    std::size_t met = 0;
+    CollisionWorld warm(shapes);
+    std::size_t contact_count = 0;
     for (int round = 0; round < 150; ++round) {
-        // Some move, some come and go, some stay; now and then nothing changes but the question.
+        // Some bodies move, some appear or disappear, some stay. In some rounds only the limits or
+        // ignored pairs change.
         const bool still = round % 7 == 3;
         std::vector<ColliderProxy> present;
         for (ColliderProxy& proxy : proxies) {
@@ -69,17 +70,17 @@ TEST(PairCache, GivesBackWhatANewWorldFinds) {
         if (round % 3 == 0) {
             ignored = {{2, 3}, {4, 9}};
         }
-        const Contacts contacts = found_by(old, present, limits, ignored);
+        const Contacts contacts = contacts_with(warm, present, limits, ignored);
         CollisionWorld fresh(shapes);
-        ASSERT_TRUE(all_same(contacts, found_by(fresh, present, limits, ignored))) << round;
-        met += contacts.size();
+        ASSERT_TRUE(all_same(contacts, contacts_with(fresh, present, limits, ignored))) << round;
+        contact_count += contacts.size();
     }
-    EXPECT_GT(met, 1000U);
+    EXPECT_GT(contact_count, 1000U);
 }
 
-// A floor and a ceiling, turned as a station's modules are, and what drifts and tumbles between
-// them: for many rounds nothing is near, then the ceiling comes down on all of it.
-TEST(PairCache, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
+// A floor and a ceiling, rotated, and bodies drifting and tumbling between them. For many rounds
+// nothing is near, then the ceiling comes down on all of them.
+TEST(PairCache, DropsAClearRegionOnceABodyEntersIt) {
     Random random(12);
     ShapeLibrary shapes;
     const ShapeId box = shapes.add_box(Vec3(0.15, 0.1, 0.2));
@@ -94,9 +95,9 @@ TEST(PairCache, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
         proxies.push_back(resting(id, box, at(place, random.rotation()), true));
         velocities.push_back(random.vector(0.0015));
     }
-    CollisionWorld old(shapes);
-    std::size_t rounds_without = 0;
-    std::size_t met = 0;
+    CollisionWorld warm(shapes);
+    std::size_t rounds_without_contact = 0;
+    std::size_t contact_count = 0;
     for (int round = 0; round < 400; ++round) {
         for (std::size_t i = 2; i < proxies.size(); ++i) {
             ColliderProxy& proxy = proxies[i];
@@ -109,23 +110,23 @@ TEST(PairCache, ForgetsThatAPlaceIsClearWhereAnythingComesThere) {
         ceiling.from_ws = ceiling.to_ws;
         if (round >= 250 && round % 5 == 0) {
             ceiling.to_ws.position -= 0.08 * up;
-            ceiling.from_ws = ceiling.to_ws;  // there at once: nothing was swept
+            ceiling.from_ws = ceiling.to_ws;  // teleported: no sweep
         }
-        const Contacts contacts = found_by(old, proxies, {});
+        const Contacts contacts = contacts_with(warm, proxies, {});
         CollisionWorld fresh(shapes);
-        ASSERT_TRUE(all_same(contacts, found_by(fresh, proxies, {}))) << round;
+        ASSERT_TRUE(all_same(contacts, contacts_with(fresh, proxies, {}))) << round;
         const auto with_walls = std::ranges::count_if(
             contacts, [](const ContactPoint& contact) { return contact.id_b <= 2; });
-        rounds_without += with_walls == 0 ? 1U : 0U;
-        met += static_cast<std::size_t>(with_walls);
+        rounds_without_contact += with_walls == 0 ? 1U : 0U;
+        contact_count += static_cast<std::size_t>(with_walls);
     }
-    EXPECT_GT(rounds_without, 20U);
-    EXPECT_GT(met, 200U);
+    EXPECT_GT(rounds_without_contact, 20U);
+    EXPECT_GT(contact_count, 200U);
 }
 
-// More that move than are compared one by one, and all that can happen to what is noted: kinds and
-// shapes change, poses become invalid and valid again, things come and go.
-TEST(PairCache, HoldsAmongManyThatChangeInEveryWay) {
+// More moving bodies than are compared one by one, and every change a proxy can undergo: free flags
+// and shapes change, poses become invalid and valid again, bodies appear and disappear.
+TEST(PairCache, ContactsEqualThoseOfANewWorldWhenManyBodiesChange) {
     Random random(13);
     ShapeLibrary shapes;
     const std::array shape = {shapes.add_sphere(0.1), shapes.add_box(Vec3(0.15, 0.1, 0.2))};
@@ -138,8 +139,8 @@ TEST(PairCache, HoldsAmongManyThatChangeInEveryWay) {
         places.emplace_back(column - 7.0, random.between(0.0, 1.2), row - 7.0);
         proxies.push_back(resting(id, shape[id % 2], at(places.back()), true));
     }
-    CollisionWorld old(shapes);
-    std::size_t met = 0;
+    CollisionWorld warm(shapes);
+    std::size_t contact_count = 0;
     for (int round = 0; round < 60; ++round) {
         std::vector<ColliderProxy> present = {proxies.front()};
         for (std::size_t i = 1; i < proxies.size(); ++i) {
@@ -162,13 +163,13 @@ TEST(PairCache, HoldsAmongManyThatChangeInEveryWay) {
                 present.push_back(proxy);
             }
         }
-        const Contacts contacts = found_by(old, present, {});
+        const Contacts contacts = contacts_with(warm, present, {});
         CollisionWorld fresh(shapes);
-        ASSERT_TRUE(all_same(contacts, found_by(fresh, present, {}))) << round;
-        met += contacts.size();
+        ASSERT_TRUE(all_same(contacts, contacts_with(fresh, present, {}))) << round;
+        contact_count += contacts.size();
     }
-    EXPECT_GT(met, 1000U);
+    EXPECT_GT(contact_count, 1000U);
 }
 
 }  // namespace
-}  // namespace handhold::test::collision_memory_test
+}  // namespace handhold::test::collision_pair_cache_test

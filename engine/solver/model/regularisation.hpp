@@ -1,0 +1,65 @@
+// Solver, model: regularisation R of the normal equations (J W J^T + R) lambda = -C.
+//
+// R is diagonal. With A = J W J^T and i a row,
+//   R_ii = factor * r_i * s_i
+//   r_i      dimensionless, by the row's group: `relative_regularisation`
+//   s_i      A_ii; for drive rows the harmonic mean of all A_ii instead, so that two drives on
+//            bodies of different masses share an error evenly: `HarmonicMean`
+//   factor   1, or larger if a step was rejected
+// RowSystem (`regularise`) and TriadSystem (`factorise`) both evaluate this formula. A row with a
+// larger r_i is less stiff: if rows contradict each other, their errors end in proportion to R_ii.
+
+#pragma once
+
+#include "engine/solver/model/rows.hpp"
+
+namespace handhold {
+
+// r_i by row group; > 0. Defaults of the position solve.
+struct Regularisation {
+    double drive = 1e-8;
+    double contact = 1e-7;
+    double joint = 1e-10;  // joints and locked limits; other limits: k_limit_regularisation times
+};
+
+// Limits of different joints may contradict each other.
+inline constexpr double k_limit_regularisation = 100.0;
+
+inline double relative_regularisation(const Row& row, const Regularisation& regularisation) {
+    switch (row.group) {
+        case RowGroup::drive:
+            return regularisation.drive;
+        case RowGroup::contact:
+            return regularisation.contact;
+        case RowGroup::limit:
+            return row.unilateral ? k_limit_regularisation * regularisation.joint
+                                  : regularisation.joint;
+        case RowGroup::joint:
+            break;
+    }
+    return regularisation.joint;
+}
+
+// Harmonic mean of the diagonal of J W J^T. The rows of one vector-valued error enter with the mean
+// of their diagonal entries, so that the result does not depend on the world's orientation.
+class HarmonicMean {
+  public:
+    // `width` rows of one error and the sum of their diagonal entries, 0 if nothing can move them.
+    void add(double width, double diagonal_sum) {
+        if (diagonal_sum > 0.0) {
+            add_inverse(width, width * width / diagonal_sum);
+        }
+    }
+    // Several errors at once: number of rows, and the sum of width^2 / diagonal_sum.
+    void add_inverse(double rows, double inverse_sum) {
+        inverse_sum_ += inverse_sum;
+        count_ += rows;
+    }
+    double value() const { return inverse_sum_ > 0.0 ? count_ / inverse_sum_ : 0.0; }
+
+  private:
+    double inverse_sum_ = 0.0;
+    double count_ = 0.0;
+};
+
+}  // namespace handhold
