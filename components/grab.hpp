@@ -59,6 +59,21 @@ struct Grab {
                               // point, the line between the hands, the twist about it
     bool jointed = false;  // held, and joints lead from it to something fixed: the hand may turn on
                            // it, as on a surface
+    // How far tracking errors moved the hand against what it grips: the hand's first anchor in the
+    // frame of the present one. Identity: not at all. A held body returns by it.
+    Pose slip_hs;
+};
+inline bool has_slipped(const Grab& grab) {
+    return grab.slip_hs.position != Vec3::Zero() || grab.slip_hs.rotation.vec() != Vec3::Zero();
+}
+
+// Where the palm was last known to be outside of walls: what it grips must be visible from there.
+// Written by update_grabs.
+struct HandSight {
+    Vec3 outside_bs = Vec3::Zero();  // in `frame`
+    Entity frame = k_no_entity;      // the body that the player last gripped; null: the world
+    bool is_known = false;           // false: the head counts instead
+    bool is_clear = true;            // no wall between outside and palm, or the head sees the palm
 };
 
 // A loose body that a closed, empty hand pulls towards itself (distance grab): only hands that do.

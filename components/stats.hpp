@@ -39,19 +39,25 @@ enum class Stage : std::uint8_t {
 
 // Bad play and bad luck: what the runtime did instead of what was asked.
 enum class Fallback : std::uint8_t {
-    sample_out_of_order,  // a sample older than the one before: ignored
-    sample_not_finite,    // one device's pose in one sample: ignored
-    tracking_lost,        // a device became silent or invalid: its pose is frozen
-    hand_out_of_reach,    // farther from its head than HandTuning::max_arm_m in a sample: ignored
-    head_recentred,       // a head farther than TrackingTuning::max_jump_m: nobody moved
-    grab_no_surface,      // a hand closed on nothing
-    grip_stretched,       // a hand farther from its anchor than HandTuning::max_stretch_m: let go
-    grip_lost,            // a hand came back from lost tracking open: let go, no throw
-    grip_body_gone,       // the gripped body was destroyed: let go
+    sample_out_of_order,   // a sample older than the one before: ignored
+    sample_not_finite,     // one device's pose in one sample: ignored
+    tracking_lost,         // a device became silent or invalid: its pose is frozen
+    hand_out_of_reach,     // farther from its head than HandTuning::max_arm_m in a sample: ignored
+    head_recentred,        // a head farther than TrackingTuning::max_jump_m: nobody moved
+    device_asleep,         // a controller at exactly (0, 0, 0) in a sample: ignored
+    hand_implausible,      // faster than TrackingTuning::max_hand_speed_mps in a sample: ignored
+    play_space_recentred,  // head and hands jumped as one rigid body: nobody moved
+    grab_no_surface,       // a hand closed on nothing
+    grip_stretched,        // a hand farther from its anchor than HandTuning::max_stretch_m: let go
+    grip_lost,             // a hand came back from lost tracking open: let go, no throw
+    grip_body_gone,        // the gripped body was destroyed: let go
     grip_reanchored,      // tracking came back, or the other hand left: anchor taken anew where the
                           // hand is
     two_hand_grip_ended,  // one of two hands let go: no throw
     hands_too_close,  // two hands on one free body with no line between them: the first leads alone
+    grip_out_of_reach,   // after a tracking jump the palm is too far from what it grips: let go
+    grip_speed_limited,  // a gripping hand exceeded max_hand_speed_mps: its anchor slipped
+    grab_out_of_sight,   // a wall stands between the hand and the surface: nothing gripped
     contact_rounds_exhausted,  // new contacts after every allowed round
     contacts_contradict,       // hand rows set aside so that contacts could be met
     contacts_unresolved,       // contacts still overlapping at the end of the frame

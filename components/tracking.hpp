@@ -61,9 +61,10 @@ struct HeadTracking {
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Added to every position that the tracking gives, so that a head that jumps (re-centring, a
-    // glitch) stays where it was in the world.
+    // Play-space correction: pose_ps = (shift_m, shift_turn) * reading. It keeps head and hands
+    // where they were in the world when the readings jump (recentring, a glitch).
     Vec3 shift_m = Vec3::Zero();
+    Quat shift_turn = Quat::Identity();  // about +Y
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -76,9 +77,15 @@ struct HandTracking {
     Pose sample_ps;
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Tracked in this frame, and lost in the last one, or a sample was farther than
-    // TrackingTuning::max_jump_m from the one before: the pose may have jumped.
+    // The pose may have jumped in this frame: the hand was lost in the last one, or came back from
+    // ignored or missing readings at another place. Its motion in this frame means nothing.
     bool resumed = false;
+    // Readings since `sample_ps` were ignored or missing: the next one may lie elsewhere.
+    bool interrupted = false;
+    // Last valid reading, corrected by HeadTracking's shift. Newer than sample_ps if it was ignored
+    // because the hand would have moved too fast.
+    Pose reading_ps;
+    double reading_t_s = 0.0;
     // At most one edge a frame and hand; where buttons bounce faster the next frame begins with the
     // next edge.
     GrabEdge edge = GrabEdge::none;

@@ -13,6 +13,7 @@ struct TrackingTuning {
     double lost_after_s = 0.25;
     double max_jump_m = 2.0;
     double release_window_s = 0.06;
+    double max_hand_speed_mps = 8.0;
 };
 
 struct HandTuning {
@@ -24,6 +25,7 @@ struct HandTuning {
     double reach_m = 0.10;
     double max_stretch_m = 0.3;
     double max_arm_m = 2.0;
+    double return_speed_mps = 2.0;
 };
 
 // Distance grab: a hand that closes on nothing pulls what its palm points at.
@@ -177,6 +179,9 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "a head that is farther from one sample to the next has been re-centred: nobody moves");
     see("tracking.release_window_s", t.tracking.release_window_s, "s", 0.01, 0.5,
         "span before letting go over which the hand's velocity is measured");
+    see("tracking.max_hand_speed_mps", t.tracking.max_hand_speed_mps, "m/s", 0.5, 1e6,
+        "a hand reading that implies a faster hand is ignored until later readings confirm it; a "
+        "gripping hand never moves the view faster");
     see("hand.controller_offset_m", t.hand.controller_offset_m, "m", -0.5, 0.5,
         "wrist in the controller's frame, right hand (x mirrored for the left)");
     see("hand.controller_pitch_rad", t.hand.controller_pitch_rad, "rad", -3.2, 3.2,
@@ -192,6 +197,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "a hand farther than this from its anchor lets go");
     see("hand.max_arm_m", t.hand.max_arm_m, "m", 0.5, 1000.0,
         "a hand that is said to be farther than this from its head is not believed");
+    see("hand.return_speed_mps", t.hand.return_speed_mps, "m/s", 0.0, 100.0,
+        "a held body that a tracking jump left behind comes back to its hand at this speed");
     see("palm.min_height_m", t.palm.min_height_m, "m", -0.05, 0.1,
         "a gripping palm is shown at least this high over the surface");
     see("palm.max_height_m", t.palm.max_height_m, "m", -0.05, 0.2,

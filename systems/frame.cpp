@@ -87,7 +87,8 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
         place(w, caches, tuning);
         update_grabs({caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
                       w.player_origin, w.head_tracking, w.body, w.body_pose, graph.joint_groups,
-                      w.authored_grips, w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
+                      w.authored_grips, w.hand_pull, w.reference_velocity, w.hand_sight, w.grab,
+                      w.authored_hold, w.head_ignores},
                      tuning, stats);
     }
     {
@@ -97,8 +98,8 @@ void predict(World& w, FrameCaches& caches, const Tuning& tuning, const FrameInp
                           w.player_origin, w.player_velocity, w.reference_velocity},
                          tuning.locomotion);
         pull_bodies({input.dt_s, caches.collision, w.persistent_id, w.hand_owner, w.hand_tracking,
-                     w.grab, w.player, w.player_origin, w.body, w.body_pose, graph.joint_groups,
-                     w.hand_pull, w.body_velocity, w.player_velocity},
+                     w.grab, w.hand_sight, w.player, w.player_origin, w.body, w.body_pose,
+                     graph.joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
                     tuning, stats);
     }
     {

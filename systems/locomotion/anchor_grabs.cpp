@@ -16,6 +16,12 @@ void take_anchor(const Pose& body_ws, const Pose& origin_ws, const Pose& hand_ps
     grab.anchor_bs = anchor_bs(body_ws, origin_ws, hand_ps);
 }
 
+// A tracking error, not the player, moved the hand against what it grips.
+void slip_to(const Pose& anchor_bs, Grab& grab) {
+    grab.slip_hs = inverse(anchor_bs) * (grab.anchor_bs * grab.slip_hs);
+    grab.anchor_bs = anchor_bs;
+}
+
 // As at the frame's start, where everything is known exactly. A hand found again is where it is
 // now.
 Pose anchor_at_start_bs(const AnchorGrabsIo& io, Entity player, const HandTracking& hand,
@@ -172,22 +178,31 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     }
 }
 
-// A free thing that a hand has by an authored grip comes into the hand: it was authored against
-// hand and controller, and a gun points where the controller does. As fast as shown palms move; in
-// two hands it stays as they have it, for they say together how it lies.
-void move_into_authored_grip(const AnchorGrabsIo& io, Entity entity, const PalmTuning& tuning,
-                             const HandPair& pair) {
+// Moves a free body into the hand that holds it:
+//  - into its authored grip, at the rate of shown palms. The grip was authored against hand and
+//    controller: a gun points where the controller does;
+//  - else back to where the hand first held it, if tracking errors moved the hand.
+// Two hands on one body define its pose together: only a slip is undone then.
+void move_into_hand(const AnchorGrabsIo& io, Entity entity, const Tuning& tuning,
+                    const HandPair& pair) {
     Grab& grab = pair.grab;
-    const AuthoredHold* const hold = io.authored_hold.find(entity);
-    const bool is_free = grab.kind == GripKind::held && !grab.jointed &&
-                         !(pair.other != nullptr && share_free_body(grab, *pair.other));
-    if (hold == nullptr || hold->body != grab.body || !is_free ||
-        grab.phase != GrabPhase::holding) {
+    if (grab.kind != GripKind::held || grab.jointed || grab.phase != GrabPhase::holding) {
         return;
     }
     const double held_s = io.end_s - std::clamp(grab.since_s, io.start_s, io.end_s);
-    grab.anchor_bs = step_towards(grab.anchor_bs, hold->hand.wrist_bs, tuning.rate_mps * held_s,
-                                  tuning.tilt_cost_m_per_rad);
+    const double m_per_rad = tuning.palm.tilt_cost_m_per_rad;
+    const AuthoredHold* const hold = io.authored_hold.find(entity);
+    const bool is_shared = pair.other != nullptr && share_free_body(grab, *pair.other);
+    if (hold != nullptr && hold->body == grab.body && !is_shared) {
+        grab.anchor_bs = step_towards(grab.anchor_bs, hold->hand.wrist_bs,
+                                      tuning.palm.rate_mps * held_s, m_per_rad);
+        grab.slip_hs = {};
+    } else if (has_slipped(grab)) {
+        const Pose first_bs = grab.anchor_bs * grab.slip_hs;
+        grab.slip_hs =
+            step_towards(grab.slip_hs, {}, tuning.hand.return_speed_mps * held_s, m_per_rad);
+        grab.anchor_bs = first_bs * inverse(grab.slip_hs);
+    }
 }
 
 // Whose hand leads the free body that another player's closes on, or opens from; none where
@@ -284,9 +299,10 @@ void reanchor_resumed_grab(const AnchorGrabsIo& io, const HandPair& pair, const 
         pair.grab.two_handed = false;
         pair.other->two_handed = false;
     }
-    take_anchor(now.body_ws(pair.grab.body),
-                origin_at(now, pair.player, pair.other, pair.other_hand, tuning), pair.hand.pose_ps,
-                pair.grab);
+    slip_to(anchor_bs(now.body_ws(pair.grab.body),
+                      origin_at(now, pair.player, pair.other, pair.other_hand, tuning),
+                      pair.hand.pose_ps),
+            pair.grab);
     stats.count(Fallback::grip_reanchored);
 }
 
@@ -310,6 +326,27 @@ void set_targets(const AnchorGrabsIo& io) {
     }
 }
 
+// A hand moves what it grips, and its player, at most at max_speed_mps: the grip slips by the rest.
+void limit_hand_speeds(const AnchorGrabsIo& io, double max_speed_mps, StageStats& stats) {
+    const double max_m = max_speed_mps * (io.end_s - io.start_s);
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const HandPair pair = pair_of(io, row);
+        Grab& grab = pair.grab;
+        const bool closes = pair.hand.edge == GrabEdge::onset;
+        const Vec3 travel_ps =
+            grab.target_ps.position - (closes ? pair.hand.edge_ps : pair.hand.start_ps).position;
+        if (grab.kind == GripKind::none || travel_ps.norm() <= max_m) {
+            continue;
+        }
+        const Vec3 rest_ps = travel_ps * (1.0 - max_m / travel_ps.norm());
+        const GrabInstant end{io, 1.0};
+        const Vec3 rest_bs = end.body_ws(grab.body).rotation.conjugate() *
+                             (end.origin_ws(pair.player).rotation * rest_ps);
+        slip_to({grab.anchor_bs.position + rest_bs, grab.anchor_bs.rotation}, grab);
+        stats.count(Fallback::grip_speed_limited);
+    }
+}
+
 }  // namespace
 
 void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& stats) {
@@ -323,8 +360,9 @@ void anchor_grabs(const AnchorGrabsIo& io, const Tuning& tuning, StageStats& sta
     leave_shared_grips(io, tuning.phases, stats);
     reanchor_resumed_grabs(io, tuning.phases, stats);
     set_targets(io);
+    limit_hand_speeds(io, tuning.tracking.max_hand_speed_mps, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
-        move_into_authored_grip(io, io.grab.owners()[row], tuning.palm, pair_of(io, row));
+        move_into_hand(io, io.grab.owners()[row], tuning, pair_of(io, row));
     }
     end_broken_two_hand_grips(io, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {

@@ -155,7 +155,8 @@ void pull_bodies(const PullBodiesIo& io, const Tuning& tuning, StageStats& stats
             (tracking.edge != GrabEdge::none || !can_continue(io, hand, *pull, tuning, stats))) {
             io.pull.remove(hand);
         }
-        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none) {
+        if (tracking.edge == GrabEdge::onset && io.grab.rows()[row].kind == GripKind::none &&
+            io.sight.at(hand).is_clear) {
             const Entity loose = find_pullable_body(io, hand, tuning, stats);
             if (!is_null(loose)) {
                 io.pull.add(hand, {loose, tracking.edge_t_s});

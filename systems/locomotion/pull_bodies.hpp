@@ -19,6 +19,7 @@ struct PullBodiesIo {
     const Column<HandOwner>& owner;             // in
     const Column<HandTracking>& hand;           // in
     const Column<Grab>& grab;                   // in
+    const Column<HandSight>& sight;             // in
     const Column<PlayerBody>& player;           // in
     const Column<PlayerOrigin>& origin;         // in: at the start of the frame, turned
     const Column<RigidBody>& body;              // in

@@ -8,6 +8,7 @@
 
 #include "components/hand_rows.hpp"
 #include "components/play_space.hpp"
+#include "systems/locomotion/shared/hand_sight.hpp"
 #include "systems/rigs/authored_hand.hpp"
 
 namespace handhold {
@@ -30,6 +31,73 @@ Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
     return k_no_entity;
 }
 
+// The ids that a hand's own lines of sight pass through: its player's head, and what the player's
+// hands hold.
+struct SightSkips {
+    std::array<std::uint64_t, 1 + k_hand_count> ids{};
+    std::size_t count = 0;
+    std::span<const std::uint64_t> view() const { return std::span(ids).first(count); }
+};
+SightSkips sight_skips(const UpdateGrabsIo& io, Entity hand) {
+    const Entity player = io.owner.at(hand).player;
+    SightSkips skips;
+    skips.ids[skips.count++] = io.persistent_id.at(player).value;
+    const std::size_t row = io.grab.find_row(hand);
+    for (const std::size_t each : {row, find_other_hand(io.owner, io.grab, row)}) {
+        if (each < io.grab.size() && io.grab.rows()[each].kind == GripKind::held &&
+            io.body.contains(io.grab.rows()[each].body)) {
+            skips.ids[skips.count++] = io.persistent_id.at(io.grab.rows()[each].body).value;
+        }
+    }
+    return skips;
+}
+
+Vec3 head_center_ws(const UpdateGrabsIo& io, Entity player, const HeadTuning& tuning) {
+    return transform_point(io.origin.at(player).pose_ws,
+                           head_center_ps(io.head.at(player), tuning));
+}
+
+// The space that HandSight::frame names.
+Pose sight_frame_ws(const UpdateGrabsIo& io, Entity frame) {
+    const BodyPose* const body = io.body_pose.find(frame);
+    return body != nullptr ? body->pose_ws : Pose{};
+}
+
+SightLines sight_lines(const UpdateGrabsIo& io, Entity hand, const SightSkips& skips,
+                       const HeadTuning& tuning) {
+    const HandSight& sight = io.sight.at(hand);
+    const Vec3 head_ws = head_center_ws(io, io.owner.at(hand).player, tuning);
+    const bool is_known =
+        sight.is_known && (is_null(sight.frame) || io.body_pose.contains(sight.frame));
+    return {io.collision, skips.view(),
+            is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : head_ws,
+            head_ws};
+}
+
+// Follows the palm as long as it is in sight. It travels with the body that the player last
+// gripped: a ship, a lift.
+void update_sight(const UpdateGrabsIo& io, Entity entity, const Tuning& tuning) {
+    const HandTracking& hand = io.hand.at(entity);
+    if (hand.state != TrackingState::tracked) {
+        return;
+    }
+    const HandOwner& owner = io.owner.at(entity);
+    const Vec3 palm_ws =
+        palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning.hand)
+            .palm_ws;
+    const SightSkips skips = sight_skips(io, entity);
+    const SightLines lines = sight_lines(io, entity, skips, tuning.head);
+    const SightLines::Sight palm_sight = lines.sight_of_palm(palm_ws);
+    const Vec3 outside_ws =
+        palm_sight == SightLines::Sight::clear_beyond ? palm_ws : lines.outside_ws;
+    const Entity reference = io.reference.at(owner.player).body;
+    HandSight& sight = io.sight.at(entity);
+    sight.frame = io.body_pose.contains(reference) ? reference : k_no_entity;
+    sight.outside_bs = inverse_transform_point(sight_frame_ws(io, sight.frame), outside_ws);
+    sight.is_known = true;
+    sight.is_clear = palm_sight != SightLines::Sight::blocked;
+}
+
 // Anybody's head may be gripped but one's own.
 std::optional<Surface> find_surface(const UpdateGrabsIo& io, Entity player, const PalmRay& ray,
                                     const HandTuning& tuning) {
@@ -44,6 +112,24 @@ std::optional<Surface> find_surface(const UpdateGrabsIo& io, Entity player, cons
     const auto hit = surface_of(io.collision.cast_ray(ray.from_ws, ray.to_ws, own_head));
     return hit ? hit
                : surface_of(io.collision.closest_point(ray.palm_ws, tuning.reach_m, own_head));
+}
+
+// What the palm finds, if the hand can get there. A hand pushed through a surface grips that.
+std::optional<Surface> find_visible_surface(const UpdateGrabsIo& io, Entity player,
+                                            const PalmRay& ray, const SightLines& sight,
+                                            const HandTuning& tuning, StageStats& stats) {
+    const auto surface = find_surface(io, player, ray, tuning);
+    if (!surface || sight.may_grip(ray.palm_ws, surface->point_ws)) {
+        return surface;
+    }
+    const auto obstacle = sight.obstacle(ray.palm_ws);
+    const bool is_near = obstacle && (obstacle->point_ws - ray.palm_ws).norm() <= tuning.reach_m;
+    const Entity body = is_near ? owner_of_id(io, obstacle->id) : k_no_entity;
+    if (!is_null(body)) {
+        return Surface{body, obstacle->point_ws, obstacle->normal_ws};
+    }
+    stats.count(Fallback::grab_out_of_sight);
+    return std::nullopt;
 }
 
 // A grip that a hand may snap to.
@@ -93,12 +179,13 @@ bool is_blocked(const UpdateGrabsIo& io, Entity player, const Vec3& from_ws, con
 
 class SnapFinder {
   public:
-    SnapFinder(const UpdateGrabsIo& io, Entity hand, const Pose& hand_ws, const Tuning& tuning,
-               StageStats& stats)
+    SnapFinder(const UpdateGrabsIo& io, Entity hand, const Pose& hand_ws, const SightLines& sight,
+               const Tuning& tuning, StageStats& stats)
         : io_(io),
           hand_(hand),
           owner_(io.owner.at(hand)),
           hand_ws_(hand_ws),
+          sight_(sight),
           tuning_(tuning),
           stats_(stats) {}
 
@@ -138,8 +225,9 @@ class SnapFinder {
         snap.body_id = io_.persistent_id.at(body).value;
         snap.surface = {body, transform_point(wrist_ws, palm_hs),
                         wrist_ws.rotation * Vec3::UnitY()};
-        if (is_blocked(io_, owner_.player, transform_point(hand_ws_, palm_hs),
-                       snap.surface.point_ws, snap.body_id)) {
+        const Vec3 palm_ws = transform_point(hand_ws_, palm_hs);
+        if (is_blocked(io_, owner_.player, palm_ws, snap.surface.point_ws, snap.body_id) ||
+            !sight_.may_grip(palm_ws, snap.surface.point_ws, snap.body_id)) {
             stats_.count(Fallback::authored_grip_blocked);
             return;
         }
@@ -157,6 +245,7 @@ class SnapFinder {
     Entity hand_;
     const HandOwner& owner_;
     const Pose& hand_ws_;
+    const SightLines& sight_;
     const Tuning& tuning_;
     StageStats& stats_;
     std::optional<Snap> best_;
@@ -210,9 +299,12 @@ void begin_grab(const UpdateGrabsIo& io, Entity entity, const Closing& closing, 
     const HandOwner& owner = io.owner.at(entity);
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
-    const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find(closing.only);
+    const SightSkips skips = sight_skips(io, entity);
+    const SightLines sight = sight_lines(io, entity, skips, tuning.head);
+    const auto snap = SnapFinder(io, entity, hand_ws, sight, tuning, stats).find(closing.only);
     const auto surface =
-        snap ? std::optional(snap->surface) : find_surface(io, owner.player, ray, tuning.hand);
+        snap ? std::optional(snap->surface)
+             : find_visible_surface(io, owner.player, ray, sight, tuning.hand, stats);
     if (!is_null(closing.only) &&
         (!surface || surface->body != closing.only || !(snap || is_at_palm(*surface, ray)))) {
         return;  // it is still on its way
@@ -316,6 +408,31 @@ void release_overstretched_grabs(const UpdateGrabsIo& io, double max_stretch_m, 
     }
 }
 
+// After a tracking error the hand may be anywhere. A free body comes back into it (anchor_grabs);
+// anything else is let go once the palm is farther than max_stretch_m from its surface.
+void release_grabs_out_of_reach(const UpdateGrabsIo& io, const HandTuning& tuning,
+                                StageStats& stats) {
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        const Entity entity = io.grab.owners()[row];
+        const HandTracking& hand = io.hand.at(entity);
+        const bool returns = grab.kind == GripKind::held && !grab.jointed;
+        if (grab.kind == GripKind::none || returns || !(hand.resumed || has_slipped(grab))) {
+            continue;
+        }
+        const HandOwner& owner = io.owner.at(entity);
+        const Vec3 palm_ws =
+            palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning)
+                .palm_ws;
+        const auto nearest =
+            io.collision.closest_point_on(io.persistent_id.at(grab.body).value, palm_ws);
+        if (nearest && (nearest->point_ws - palm_ws).norm() > tuning.max_stretch_m &&
+            nearest->distance_m > 0.0) {
+            release_grab(io, row, Fallback::grip_out_of_reach, stats);
+        }
+    }
+}
+
 // What a hand sits in ends with its grip, and where a hand that may turn on what it grips has
 // turned too far away.
 void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& grab,
@@ -347,10 +464,12 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     release_destroyed_bodies(io, stats);
     release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
+    release_grabs_out_of_reach(io, tuning.hand, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];
         const Entity entity = io.grab.owners()[row];
         const HandTracking& hand = io.hand.at(entity);
+        update_sight(io, entity, tuning);
         if (grab.kind != GripKind::none && hand.edge == GrabEdge::release) {
             grab.phase = GrabPhase::releasing;
         }

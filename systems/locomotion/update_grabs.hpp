@@ -25,6 +25,8 @@ struct UpdateGrabsIo {
     const JointGroups& joint_groups;              // in
     const Column<AuthoredGrips>& authored_grips;  // in
     const Column<HandPull>& pull;                 // in: of the last frame
+    const Column<ReferenceVelocity>& reference;   // in: of the last frame
+    Column<HandSight>& sight;                     // in/out
     Column<Grab>& grab;                           // in/out
     Column<AuthoredHold>& authored_hold;          // in/out: of hands that sit in an authored grip
     Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
