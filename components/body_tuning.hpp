@@ -4,20 +4,21 @@
 
 #include "engine/math/math.hpp"
 
-// Numbers of the body that follows head and hands. Lengths that scale with the player are those of
-// one whose eyes are at k_scale_eye_m.
+// Tuning of the body that follows head and hands: arms, spine, legs and clips. Lengths are for a
+// player with an eye height of k_scale_eye_m and scale with the player.
 namespace handhold {
 
 inline constexpr double k_scale_eye_m = 1.6;
-// Faster than hands, head and chest move in play space: what jumps farther in a frame was put
-// there.
+// True if a hand, head or chest moved farther in one frame than it can in play space: it was
+// repositioned, so its history does not apply.
 inline bool is_jump(double distance_m, double dt_s) {
     constexpr double k_jump_m = 0.15;
     constexpr double k_jump_speed_mps = 20.0;
     return distance_m > k_jump_m + k_jump_speed_mps * dt_s;
 }
 
-// Fitted on motion capture. Subjects and scores: docs/decisions/0034-chest-and-elbow-estimate.md.
+// Chest, shoulders and elbows. Fitted on motion capture. Subjects and scores:
+// docs/decisions/0034-chest-and-elbow-estimate.md.
 struct ArmTuning {
     double head_lag_s = 0.3;
     double hand_share = 0.15;
@@ -44,11 +45,13 @@ struct ArmTuning {
     double chest_speed_radps = 12.0;
 };
 
+// T-pose calibration.
 struct CalibrationTuning {
     double hold_s = 1.0;
     double still_m = 0.05;
 };
 
+// Spine and legs, which trail behind the chest.
 struct SpineTuning {
     double spine_limit_rad = 0.4;
     double hip_limit_rad = 1.0471975511965976;
@@ -62,7 +65,7 @@ struct SpineTuning {
     double twist_limit_rad = 0.35;
 };
 
-// Weights of the clips that lie on top (systems/rigs/body_clips.hpp); 0: none of it.
+// Weights of the additive clips (systems/rigs/body_clips.hpp); 0: off.
 struct AdditiveTuning {
     double idle = 1.0;
     double push_off = 1.0;
@@ -71,84 +74,92 @@ struct AdditiveTuning {
     double clavicle = 1.0;
 };
 
-// The lines of visit_tuning (components/tuning.hpp) for all of them.
+// The part of visit_tuning (components/tuning.hpp) for these structs.
 template <typename TuningType, typename See>
 void visit_body_tuning(TuningType& t, const See& see) {
     see("arm.head_lag_s", t.arm.head_lag_s, "s", 0.0, 10.0,
-        "the chest follows where the head looks this much later");
+        "Time constant with which the chest follows the head's horizontal look direction.");
     see("arm.hand_share", t.arm.hand_share, "", 0.0, 10.0,
-        "how much the chest turns to where the hands are");
+        "Weight with which the chest turns towards the hands' mean position; 0: not at all.");
     see("arm.line_share", t.arm.line_share, "", 0.0, 10.0,
-        "how much the chest turns to face square to the line between the hands");
+        "Weight with which the chest turns square to the line between the hands; 0: not at all.");
     see("arm.roll_share", t.arm.roll_share, "", -3.0, 3.0,
-        "how much the chest turns with hands that roll");
+        "Weight with which the chest turns with rolling hands; 0: not at all.");
     see("arm.behind_fade", t.arm.behind_fade, "", 0.0, 1.0,
-        "1: hands behind the body do not turn the chest; 0: they do as all others");
+        "How much hands behind the body are ignored when the chest turns; 0: not, 1: completely.");
     see("arm.chest_limit_rad", t.arm.chest_limit_rad, "rad", 0.0, 3.0,
-        "the chest turns at most this far from where the head looks");
-    see("arm.lean", t.arm.lean, "", 0.0, 1.0, "the chest leans by this share of the head's tilt");
-    see("arm.neck_m", t.arm.neck_m, "m", 0.0, 1.0, "from the eyes down along the head's up");
+        "Maximum angle between the chest's facing and the head's look direction.");
+    see("arm.lean", t.arm.lean, "", 0.0, 1.0, "Share of the head's tilt by which the chest leans.");
+    see("arm.neck_m", t.arm.neck_m, "m", 0.0, 1.0,
+        "Distance from the eyes to the neck, down along the head's up axis.");
     see("arm.shoulder_offset_m", t.arm.shoulder_offset_m, "m", -1.0, 1.0,
-        "from there to the middle between the shoulders, in the chest's axes");
+        "Position of the midpoint between the shoulders relative to the neck, in chest axes.");
     see("arm.clavicle_lift", t.arm.clavicle_lift, "", -1.0, 1.0,
-        "a hand lower than this by arm lengths lowers the shoulder, a higher one lifts it");
+        "Hand height below the shoulder, in arm lengths, at which the clavicle is level; higher "
+        "hands raise it.");
     see("arm.clavicle_share", t.arm.clavicle_share, "", 0.0, 3.0,
-        "of the clavicle's reach; 0: a rigid one");
+        "Scale of the clavicle's movement; 0: rigid clavicles.");
     see("arm.reach", t.arm.reach, "", 0.5, 1.0,
-        "an arm straighter than this share of its length takes the shoulder along, then stretches");
+        "Share of the arm's length above which the shoulder follows the hand before the bones "
+        "stretch.");
     see("arm.shoulder_follow_m", t.arm.shoulder_follow_m, "m", 0.0, 0.5,
-        "how far the shoulder is taken along before the bones stretch");
+        "Maximum distance by which a shoulder follows its hand before the bones stretch.");
     see("arm.pole_rest", t.arm.pole_rest, "", -3.0, 3.0,
-        "to where an elbow points at rest, right arm, in the chest's axes");
-    see("arm.pole_fingers", t.arm.pole_fingers, "", -3.0, 3.0, "and how much to the fingers");
-    see("arm.pole_back", t.arm.pole_back, "", -3.0, 3.0, "to the back of the hand");
-    see("arm.pole_thumb", t.arm.pole_thumb, "", -3.0, 3.0, "to the thumb's side");
+        "Direction in which the right elbow points at rest, in chest axes; the hand's axes are "
+        "added to it.");
+    see("arm.pole_fingers", t.arm.pole_fingers, "", -3.0, 3.0,
+        "Weight of the hand's finger direction in the elbow direction.");
+    see("arm.pole_back", t.arm.pole_back, "", -3.0, 3.0,
+        "Weight of the back of the hand's direction in the elbow direction.");
+    see("arm.pole_thumb", t.arm.pole_thumb, "", -3.0, 3.0,
+        "Weight of the hand's thumb direction in the elbow direction.");
     see("arm.swivel_lag_s", t.arm.swivel_lag_s, "s", 0.0, 10.0,
-        "the elbow follows that this much later");
+        "Time constant with which an elbow follows its wanted direction.");
     see("arm.swivel_speed_radps", t.arm.swivel_speed_radps, "rad/s", 0.1, 1e3,
-        "an elbow turns about the line to the hand at most this fast");
+        "Maximum angular speed of an elbow about the line from shoulder to hand.");
     see("arm.elbow_cone", t.arm.elbow_cone, "", -1.0, 1.0,
-        "the middle of where a right upper arm can point, in torso axes");
+        "Axis of the cone of directions in which a right upper arm can point, in torso axes.");
     see("arm.elbow_cone_cosine", t.arm.elbow_cone_cosine, "", -2.0, 1.0,
-        "and how far from it, as the cosine of the angle; -1 and below: anywhere");
+        "Cosine of the half angle of the cone arm.elbow_cone; -1 or less: no limit.");
     see("arm.elbow_inertia", t.arm.elbow_inertia, "", 0.0, 1.0,
-        "share in which a bent arm's elbow stays where it was while the hand moves");
+        "Share by which a bent arm's elbow keeps its position while the hand moves; 0: none, 1: "
+        "all.");
     see("arm.chest_speed_radps", t.arm.chest_speed_radps, "rad/s", 0.1, 1e3,
-        "the chest turns at most this fast");
+        "Maximum angular speed of the chest.");
     see("calibration.hold_s", t.calibration.hold_s, "s", 0.1, 10.0,
-        "a T-pose is held so long before it is measured");
+        "Time for which a T-pose must be held before it is measured.");
     see("calibration.still_m", t.calibration.still_m, "m", 1e-3, 0.5,
-        "and the hands move no farther meanwhile");
+        "Maximum hand movement while a T-pose is held.");
     see("spine.spine_limit_rad", t.spine.spine_limit_rad, "rad", 0.01, 1.5,
-        "bend of each link of the spine against the one above");
+        "Maximum bend of each spine link against the link above.");
     see("spine.hip_limit_rad", t.spine.hip_limit_rad, "rad", 0.01, 1.5,
-        "swing of a thigh from its rest");
+        "Maximum swing of a thigh from its rest direction.");
     see("spine.knee_limit_rad", t.spine.knee_limit_rad, "rad", 0.01, 2.5,
-        "bend of a knee, backwards only");
+        "Maximum bend of a knee, backwards only.");
     see("spine.limit_lag_s", t.spine.limit_lag_s, "s", 0.0, 1.0,
-        "a link that swings towards a limit comes to rest there in about this time");
+        "Time in which a link that swings towards a joint limit comes to rest there.");
     see("spine.return_per_s", t.spine.return_per_s, "1/s", 0.0, 100.0,
-        "how fast each link goes back to its rest against the one above");
+        "Rate at which each link returns to its rest direction against the link above.");
     see("spine.drag_per_s", t.spine.drag_per_s, "1/s", 0.0, 100.0,
-        "drag of the chain, against the reference velocity");
+        "Drag rate of the spine and legs relative to the reference velocity.");
     see("spine.hand_back", t.spine.hand_back, "", 0.0, 1.0,
-        "share of what the chain corrects at a joint that its parent feels; above 0.5 it does not "
-        "settle");
+        "Share of a joint's correction applied back to its parent; above 0.5 the chain does not "
+        "settle.");
     see("spine.speed_max_mps", t.spine.speed_max_mps, "m/s", 0.1, 1000.0,
-        "no joint moves faster, against the reference velocity");
+        "Maximum speed of any spine or leg joint relative to the reference velocity.");
     see("spine.twist_lag_s", t.spine.twist_lag_s, "s", 0.0, 10.0,
-        "each link turns about its length this much later than the one above");
+        "Time constant with which each link's twist follows the link above.");
     see("spine.twist_limit_rad", t.spine.twist_limit_rad, "rad", 0.0, 1.5,
-        "twist of each link against the one above");
-    see("additive.idle", t.additive.idle, "", 0.0, 3.0, "weight of the idle clip");
+        "Maximum twist of each link against the link above.");
+    see("additive.idle", t.additive.idle, "", 0.0, 3.0, "Weight of the idle clip; 0: off.");
     see("additive.push_off", t.additive.push_off, "", 0.0, 3.0,
-        "weight of the clip that plays when the last hand lets go");
+        "Weight of the push-off clip that plays when the last hand lets go; 0: off.");
     see("additive.push_off_speed_mps", t.additive.push_off_speed_mps, "m/s", 0.3, 100.0,
-        "it plays in full from this speed on, not at all below 0.2 m/s");
+        "Speed from which the push-off clip plays in full; it does not play below 0.2 m/s.");
     see("additive.look", t.additive.look, "", 0.0, 3.0,
-        "weight of the clips by where the head looks");
+        "Weight of the clips driven by the head's look direction; 0: off.");
     see("additive.clavicle", t.additive.clavicle, "", 0.0, 3.0,
-        "weight of the clavicles' clip; on top of arm.clavicle_share");
+        "Weight of the clavicle clip, added to arm.clavicle_share; 0: off.");
 }
 
 }  // namespace handhold

@@ -4,14 +4,18 @@
 
 #include "components/world.hpp"
 
-// The fields of every component, by name: what hashes, snapshots and the inspector go through.
-// Eigen's types have padding and are not trivially copyable, so nothing ever copies or hashes a
-// component as bytes. A test compares the number of fields visited with the number that the struct
-// has.
+// visit_fields(component, visit) calls visit("name", field) for every field of a component. State
+// hashes, snapshots and the inspector use it. Components are never copied or hashed as bytes:
+// Eigen's types have padding and are not trivially copyable. A test checks that every field is
+// visited.
+//
+// Field names are part of the snapshot schema: raise k_format_version in systems/snapshot.cpp if
+// they change.
 namespace handhold {
 
-// How many values an enum in a component has, from 0 on: what a snapshot may hold. Whoever puts a
-// new enum into a component says it here; what walks over the fields does not compile before.
+// Number of values of an enum used in a component; valid values are [0, k_value_count). Snapshots
+// are checked against it. Users of visit_fields do not compile for an enum without a
+// specialisation.
 template <typename Enum>
 inline constexpr std::uint32_t k_value_count = 0;
 template <>
@@ -456,10 +460,10 @@ void visit_fields(const PalmOffset& c, V&& visit) {
     visit("target_turn_rad", c.target_turn_rad);
     visit("lift_m", c.lift_m);
     visit("lift_wrist_bs", c.lift_wrist_bs);
-    visit("target_wrist_bs", c.target_wrist_bs);
-    visit("target_signature", c.target_signature);
-    visit("target_lift_m", c.target_lift_m);
-    visit("target_triangle", c.target_triangle);
+    visit("solved_wrist_bs", c.solved_wrist_bs);
+    visit("solved_signature", c.solved_signature);
+    visit("solved_lift_m", c.solved_lift_m);
+    visit("solved_triangle", c.solved_triangle);
 }
 template <typename V>
 void visit_fields(const PalmPose& c, V&& visit) {

@@ -13,14 +13,15 @@
 
 namespace handhold {
 
-// Moves one island's bodies until its rows are met: as solve_positions.
+// Moves one island's bodies until its constraint rows are met; contract as solve_positions.
 using PositionSolver = NewtonResult (*)(const IslandView&, const NewtonSettings&, SolveScratch&);
 
-// Free bodies that joints tie together; empty where there is no joint. By the rows of the body
-// column.
+// Groups of free bodies connected by joints, by row of the RigidBody column. Empty if there are no
+// joints.
 struct JointGroups {
-    std::vector<std::uint32_t> of_body;  // a body of the group: the same for all of them
-    std::vector<std::uint8_t> anchored;  // by that body: the group hangs on something unmoved
+    std::vector<std::uint32_t> of_body;  // representative body of the group, equal for its members
+    // By representative: joints connect the group to something that a hand cannot move.
+    std::vector<std::uint8_t> anchored;
 
     bool is_anchored(std::size_t body_row) const {
         return !of_body.empty() && anchored[of_body[body_row]] != 0;
@@ -30,11 +31,12 @@ struct JointGroups {
     }
 };
 
-// What the physics stages hand on to each other within one frame. Not state: filled anew in every
-// frame, kept only so that warm frames allocate nothing.
+// Data passed between the physics stages within one frame. Not state: rebuilt every frame, kept
+// only so that warm frames allocate nothing.
 struct FrameGraph {
-    // One entry a body or player, sorted by persistent id: the same index in all of these and in
-    // graph.bodies. What has no collider has no shape (k_no_shape) and touches nothing.
+    // One element per body or player, sorted by persistent id; `proxies`, `entities`, `phase` and
+    // graph.bodies share the index. A body without a collider has shape k_no_shape and touches
+    // nothing.
     std::vector<ColliderProxy> proxies;  // written by place_colliders; solve_phases moves them
     std::vector<Entity> entities;
     struct Identified {
@@ -43,18 +45,17 @@ struct FrameGraph {
     };
     std::vector<Identified> by_id;  // scratch of place_colliders
     struct PhaseBody {
-        Pose reached_ws;  // where the reach phase left it
-        double forward_share =
-            0.0;            // players: 1/kappa; how much of 1/mass the forward phase grants
-        bool held = false;  // in a hand, or tied to what is
-        // players: a hand holds on to something fixed, driven or heavy, or two players to each
-        // other
+        Pose reached_ws;  // pose after the reach phase
+        // Players: 1/kappa, the share of the inverse mass used in the forward phase; in [0, 1].
+        double forward_share = 0.0;
+        bool held = false;  // held by a hand, or connected by joints to a held body
+        // Players: a hand grips something fixed, driven or heavy, or two players grip each other.
         bool grips_surface = false;
         bool pushed = false;  // the backward or contradiction phase ran on its island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
-        double push_back_m = 0.0;  // players: how far contacts moved the origin in this frame
+        double push_back_m = 0.0;  // players: displacement of the origin by contacts this frame
     };
-    // As graph.bodies, whose last may be one more: the world, where a joint hangs on it.
+    // graph.bodies may have one more element at the end: the world, if a joint connects to it.
     std::vector<PhaseBody> phase;
     JointGroups joint_groups;  // written by group_joints
 
@@ -62,35 +63,37 @@ struct FrameGraph {
     std::vector<IgnoredPair> ignored;    // written by find_contacts
     ConstraintGraph graph;  // written by build_constraints, solve_phases, update_velocities
 
-    // Asked by solve_phases for every island and phase. The measuring tools put the methods here
-    // that this one is compared with.
+    // Called by solve_phases for every island and phase. The measuring tools replace it to compare
+    // methods.
     PositionSolver position_solver = &solve_positions;
 
     // Scratch.
     std::vector<ContactPoint> fresh_contacts;
-    std::vector<std::uint32_t> body_of_row;   // by row of RigidBody: into graph.bodies
+    std::vector<std::uint32_t> body_of_row;   // by row of RigidBody: index into graph.bodies
     std::vector<RowBlock> hand_blocks;        // written by build_constraints, by row of Grab
     std::vector<std::uint32_t> island_order;  // largest first
     std::vector<NewtonResult> island_results;
-    // A body that finish_positions puts back, as the phases left it.
+    // A penetrating body that finish_positions may restore to its last valid pose; its state after
+    // the phases.
     struct PenetratingBody {
         std::uint32_t body = 0;
-        // In which the phases left it: islands are found anew since. Beyond them: no row held it.
+        // Index into the islands of the phases; islands are rebuilt afterwards. Past the end: no
+        // constraint row involved the body.
         std::uint32_t island = 0;
-        double error_m = 0.0;  // the worst of its own rows, hands excepted
+        double error_m = 0.0;  // largest error of its constraint rows, except hand rows
         Pose pose_ws;
         Vec3 velocity_mps = Vec3::Zero();
         Vec3 spin_radps = Vec3::Zero();
     };
     std::vector<PenetratingBody> penetrating_bodies;  // by island
     MissedOverlaps hidden_overlaps;  // written by finish_positions; read by update_velocities
-    // By island. After a solve that met all its blocks: what none exceeds; after any other, until
-    // asked for: none.
+    // Largest errors, by island. After a solve that met all its blocks: an upper bound. Otherwise
+    // none until computed on demand.
     std::vector<std::optional<IslandErrors>> island_errors;
     std::vector<VelocityResult> velocity_results;  // by island
     std::vector<SolveScratch> island_scratch;
-    std::vector<double> overlap_m;  // by body
-    std::vector<std::uint32_t> overlaps_with;
+    std::vector<double> overlap_m;             // by body
+    std::vector<std::uint32_t> overlaps_with;  // by body: the other body; itself if none
 };
 
 }  // namespace handhold

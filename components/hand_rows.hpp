@@ -3,11 +3,13 @@
 #include "components/grab.hpp"
 #include "engine/ecs/column.hpp"
 
+// Finds a player's hands in the columns, and relations between two hands of one player. "Row" here
+// means the index of an element in a column.
 namespace handhold {
 
-// The row of a player's hand, going round the column from row `from`; the column's size where he
-// has none. Hands of one player are made side by side and mostly stay so: asked at the right place
-// this looks at one row or two, whatever the number of players.
+// Returns the row of a hand of `player`, searching circularly from row `from`; the column's size if
+// the player has none. A player's hands usually lie in adjacent rows, so a good `from` finds the
+// hand in one or two steps.
 inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, std::size_t from) {
     const std::size_t count = owner.size();
     for (std::size_t step = 0; step < count; ++step) {
@@ -19,15 +21,15 @@ inline std::size_t find_hand_row(const Column<HandOwner>& owner, Entity player, 
     return count;
 }
 
-// The row in `grab` of the same player's other hand, or its size.
+// Returns the row in `grab` of the other hand of the player who owns `row`; grab.size() if none.
 inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<Grab>& grab,
                                    std::size_t row) {
     const std::size_t own = owner.find_row(grab.owners()[row]);
     const Entity player = owner.rows()[own].player;
-    // The left hand's row comes before the right one's.
-    const std::size_t beside =
+    // The left hand's row usually comes just before the right hand's.
+    const std::size_t adjacent =
         owner.rows()[own].side == HandSide::left ? own + 1 : own + owner.size() - 1;
-    std::size_t other = find_hand_row(owner, player, beside);
+    std::size_t other = find_hand_row(owner, player, adjacent);
     if (other == own) {
         other = find_hand_row(owner, player, own + 1);
     }
@@ -36,20 +38,23 @@ inline std::size_t find_other_hand(const Column<HandOwner>& owner, const Column<
     return found == Column<Grab>::k_npos ? grab.size() : found;
 }
 
-// True where two hands of one player hold one free body, which they can turn as they like.
+// True if two hands of one player hold the same free body without joints to the world, which they
+// can turn freely.
 inline bool share_free_body(const Grab& a, const Grab& b) {
     return a.kind == GripKind::held && b.kind == GripKind::held && a.body == b.body && !a.jointed &&
            !b.jointed;
 }
 
-// True where two hands of one player hold him, or one body, together: they meet halfway where they
-// cannot both have what they want, and one that is left alone starts afresh.
+// True if two hands of one player grip together: both on fixed surfaces, or both on the same body.
+// Such hands share a position error that cannot be met by both. A hand left alone by the other gets
+// a new anchor.
 inline bool share_hold(const Grab& a, const Grab& b) {
     const bool both_fixed = a.kind == GripKind::surface && b.kind == GripKind::surface;
     return both_fixed || (a.kind != GripKind::none && a.kind == b.kind && a.body == b.body);
 }
 
-// Of two hands on one body the one that holds longer is the first; of two alike the left one.
+// True if the hand at `row` is the first of two hands on one body: the hand that has held longer;
+// the left hand if both closed at the same time.
 inline bool is_first_hand(const Column<HandOwner>& owner, const Column<Grab>& grab, std::size_t row,
                           std::size_t other) {
     const double difference_s = grab.rows()[row].since_s - grab.rows()[other].since_s;

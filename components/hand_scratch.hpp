@@ -8,11 +8,10 @@
 
 namespace handhold {
 
-// What the stages of the hands hand on to each other within one frame, and what they work in. Not
-// state.
+// Data passed between the hand stages within one frame, and their scratch memory. Not state.
 struct HandScratch {
     std::vector<HandSurroundings> surroundings;                   // by row of HandOwner
-    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // the same; of this frame
+    std::vector<std::array<FingerTrace, k_finger_count>> traces;  // by row of HandOwner
     GripSearchScratch search;
     ChainFitScratch fit;
 };

@@ -72,8 +72,8 @@ const char* name_of(Fallback reason) {
             return "device_asleep";
         case Fallback::hand_implausible:
             return "hand_implausible";
-        case Fallback::play_space_recentred:
-            return "play_space_recentred";
+        case Fallback::space_recentred:
+            return "space_recentred";
         case Fallback::grab_no_surface:
             return "grab_no_surface";
         case Fallback::grip_stretched:

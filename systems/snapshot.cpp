@@ -16,7 +16,7 @@ namespace {
 // Like PNG's: a byte that no text has, and a line end that a transfer as text would change.
 constexpr char k_snapshot_magic[] = "\x89HHSNAP\n";
 constexpr std::size_t k_magic_bytes = sizeof k_snapshot_magic - 1;
-constexpr std::uint32_t k_format_version = 1;
+constexpr std::uint32_t k_format_version = 2;
 // Where things stand.
 constexpr std::size_t k_version_at = k_magic_bytes;
 constexpr std::size_t k_schema_size_at = k_version_at + 4;

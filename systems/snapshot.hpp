@@ -14,7 +14,7 @@
 #include "engine/io/result.hpp"
 
 // The whole state as bytes: rollback, saved games, and the place where two runs part. The format is
-// docs/snapshot_format.md.
+// docs/reference/snapshot_format.md.
 namespace handhold {
 
 // What a world refers to and a snapshot leaves out: the shapes of its colliders. Make it once a
@@ -42,8 +42,8 @@ void save_snapshot(const World& world, const SnapshotAssets& assets, std::vector
 // taken before are good again. Refused, with the place in the bytes and what was expected there,
 // and the world is as it was: what is no snapshot, of another format, schema (the first column or
 // field that differs is named) or other assets, cut short or damaged; and what step_frame could not
-// run on (docs/snapshot_format.md lists it), whoever made it. Memory taken is at most proportional
-// to the bytes given, never to a number in them.
+// run on (docs/reference/snapshot_format.md lists it), whoever made it. Memory taken is at most
+// proportional to the bytes given, never to a number in them.
 [[nodiscard]] std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
                                                         const SnapshotAssets& assets, World& world);
 

@@ -14,9 +14,9 @@ struct WorldBreach {
     std::string expected;  // and what was found
 };
 
-// The first breach of the rules between rows (docs/snapshot_format.md), for a world whose fields
-// are each by itself as they should be; none where step_frame can run. Worlds made by add_body,
-// add_player and frames have none.
+// The first breach of the rules between rows (docs/reference/snapshot_format.md), for a world whose
+// fields are each by itself as they should be; none where step_frame can run. Worlds made by
+// add_body, add_player and frames have none.
 std::optional<WorldBreach> find_breach(const World& world, const ShapeLibrary& shapes);
 
 // "0x00000000000000a1": entities in messages.

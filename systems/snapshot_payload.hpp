@@ -12,7 +12,7 @@
 #include "components/world.hpp"
 #include "engine/io/result.hpp"
 
-// The part of a snapshot that is the world: docs/snapshot_format.md, "Payload".
+// The part of a snapshot that is the world: docs/reference/snapshot_format.md, "Payload".
 namespace handhold {
 
 // Numbers in a snapshot are little-endian: this turns to and from it.

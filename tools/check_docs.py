@@ -2,7 +2,7 @@
 """Checks that the documents name what exists. Prints `file:line: what is missing` for each breach.
 
 - Relative links and pictures of every *.md file resolve, their #anchors too.
-- docs/talk_map.md and docs/frame.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
+- docs/talk_map.md and docs/reference/stages.md: every `folder/file` in backticks exists, every `Suite.Test` is a test.
 - docs/decisions/: every page starts with `# number. title` and a status, is short, and is in the index with both.
   A status names later pages that exist.
 
@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Iterator
 
 CODE_FOLDERS = ("engine", "components", "systems", "game", "tests", "tools", "docs")
-MAPS = ("docs/talk_map.md", "docs/frame.md")
+MAPS = ("docs/talk_map.md", "docs/reference/stages.md")
 NOT_OURS = {"build", "out", ".git"}
 DECISIONS = "docs/decisions"
 DECISION_LINES = 15

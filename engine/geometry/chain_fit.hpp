@@ -49,7 +49,7 @@ enum class ChainFallback : std::uint8_t {
     rest_pose,    // nothing to touch
     sample_pose,  // sunk where it is straight, or as it closes from there: bent until it is clear,
                   // or sunk least; it may touch nothing then
-    opened,  // and still sunk: opened a little
+    opened,       // and still sunk: opened a little
 };
 
 struct ChainFit {
@@ -69,8 +69,8 @@ struct ChainFit {
     bool has_surface_ahead = false;    // then: and there is farther on
     bool needs_depenetration = false;  // only where ChainFitSettings::mends is off: with it, it
                                        // would be another
-    std::uint32_t discs = 0;   // planes searched
-    std::uint32_t pops = 0;    // triangles that the searches looked at
+    std::uint32_t discs = 0;           // planes searched
+    std::uint32_t pops = 0;            // triangles that the searches looked at
     std::uint32_t walked = 0;  // triangles that the walks passed, and those searched between the
                                // search detail and the surface itself
 };

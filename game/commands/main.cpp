@@ -4,6 +4,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <handhold/version.hpp>
 
 #include "game/climber/climber_session.hpp"
 #include "game/commands/body_export.hpp"
@@ -196,6 +197,7 @@ int list_scenes() {
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
 int main(int argc, char** argv) {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
+    app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
     handhold::RunOptions options;
     CLI::App* const run =
@@ -242,7 +244,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {
-            return app.exit(error);  // --help
+            return app.exit(error);  // --help, --version
         }
         std::fprintf(stderr, "%s\n%s", error.what(), app.help().c_str());
         return k_exit_usage;

@@ -13,7 +13,7 @@
 #include "engine/math/math.hpp"
 #include "game/headset/controller_motion.hpp"
 
-// How controllers sit in hands, as data: docs/controllers.md. Talk row 9.
+// How controllers sit in hands, as data: docs/reference/controllers.md. Talk row 9.
 //
 // The grip pose is what is tracked: OpenXR's and WebXR's, -Z along the handle from the little
 // finger to the thumb, +X square to the palm: into a right one, out of a left one.

@@ -6,9 +6,9 @@
 #include "engine/geometry/mesh.hpp"
 #include "game/render/render_frame.hpp"
 
-// The game's own level, made from a description (docs/station_format.md), and, in code, the
-// platform that flies past. Lengths in metres. The meshes are colliders too, so they are equal on
-// every machine.
+// The game's own level, made from a description (docs/reference/station_format.md), and, in code,
+// the platform that flies past. Lengths in metres. The meshes are colliders too, so they are equal
+// on every machine.
 namespace handhold {
 
 // The straight part of a handrail, along its axis.

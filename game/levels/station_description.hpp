@@ -14,8 +14,8 @@
 #include "game/levels/station_rack.hpp"
 #include "game/render/render_frame.hpp"
 
-// A station as data: docs/station_format.md. Lengths in metres; a section's frame has its origin in
-// the middle of its near end (of a node or a cupola: see there), +Z along it, +Y up.
+// A station as data: docs/reference/station_format.md. Lengths in metres; a section's frame has its
+// origin in the middle of its near end (of a node or a cupola: see there), +Z along it, +Y up.
 namespace handhold {
 
 enum class SectionType : std::uint8_t { node, module, cupola, truss };

@@ -72,7 +72,7 @@ const char* meaning_of(Fallback reason) {
             return "A controller at exactly (0, 0, 0) was ignored: it is not tracked yet.";
         case Fallback::hand_implausible:
             return "A sample had a hand move faster than a hand can; it was ignored.";
-        case Fallback::play_space_recentred:
+        case Fallback::space_recentred:
             return "Head and hands jumped together: the play space was recentred, nobody moved.";
         case Fallback::grab_no_surface:
             return "A hand closed with no surface within reach; it holds nothing.";

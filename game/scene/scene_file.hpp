@@ -16,10 +16,10 @@
 #include "game/scene/scene_joint.hpp"
 #include "game/scene/scene_shape.hpp"
 
-// What a scene's JSON says, checked but not built: docs/scene_format.md. World space is written _ws
-// in code; in the file, everything is in the scene's frame, which world_transform puts into the
-// world. Mesh files and sessions are named here, not opened: their paths are those of the file,
-// made relative to the scene file's folder.
+// What a scene's JSON says, checked but not built: docs/reference/scene_format.md. World space is
+// written _ws in code; in the file, everything is in the scene's frame, which world_transform puts
+// into the world. Mesh files and sessions are named here, not opened: their paths are those of the
+// file, made relative to the scene file's folder.
 namespace handhold {
 
 struct SceneLevel {

@@ -6,8 +6,9 @@
 
 namespace handhold {
 
-// The JSON of a scene, as docs/scene_format.md says; parse_scene_file reads from it what was given,
-// number for number, but for the last digit of joints' angles. Paths are written as they are.
+// The JSON of a scene, as docs/reference/scene_format.md says; parse_scene_file reads from it what
+// was given, number for number, but for the last digit of joints' angles. Paths are written as they
+// are.
 std::string write_scene_file(const SceneFile& scene);
 
 }  // namespace handhold

@@ -6,7 +6,8 @@
 #include "components/authored_grip.hpp"
 #include "engine/io/json.hpp"
 
-// Authored grips as files give them: one object of a body's "grips" (docs/scene_format.md).
+// Authored grips as files give them: one object of a body's "grips"
+// (docs/reference/scene_format.md).
 namespace handhold {
 
 // In the frame of the body's shape (as `_bs` until the body is built: a hull's or a compound's

@@ -9,7 +9,7 @@
 #include "engine/io/json.hpp"
 #include "engine/math/math.hpp"
 
-// A joint as a scene's JSON says it: docs/scene_format.md, "Joints".
+// A joint as a scene's JSON says it: docs/reference/scene_format.md, "Joints".
 namespace handhold {
 
 struct SceneJoint {

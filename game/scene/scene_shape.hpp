@@ -8,7 +8,7 @@
 #include "engine/io/json.hpp"
 #include "engine/math/math.hpp"
 
-// Shapes as a scene's JSON gives them (docs/scene_format.md), and how they are drawn.
+// Shapes as a scene's JSON gives them (docs/reference/scene_format.md), and how they are drawn.
 namespace handhold {
 
 struct SceneShapePart;

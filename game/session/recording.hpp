@@ -11,7 +11,7 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
-// Recorded sessions of a headset and two controllers: docs/recording_format.md.
+// Recorded sessions of a headset and two controllers: docs/reference/recording_format.md.
 namespace handhold {
 
 // Bits of RecordedHand::buttons.

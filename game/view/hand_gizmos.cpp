@@ -230,7 +230,7 @@ void add_hand_gizmos(const World& world, const FrameCaches& caches, const Tuning
     TraceScratch scratch;
     for (const HandSurroundings& hand : caches.hands.surroundings) {
         const GripSurface* const surface = world.grip_surface.find(hand.hand);
-        if (!hand.grips || hand.rig == nullptr || surface == nullptr ||
+        if (!hand.is_gripping || hand.rig == nullptr || surface == nullptr ||
             surface->triangle == GripSurface::k_none) {
             continue;
         }

@@ -10,7 +10,7 @@
 #include "game/view/gizmos.hpp"
 
 // Pictures and pieces of film of a scene's session, asked for in a file: what documents show is
-// made by the game and never by hand (docs/shots.md).
+// made by the game and never by hand (docs/reference/shots.md).
 namespace handhold {
 
 // Where a shot's camera is.

@@ -1,6 +1,6 @@
 // Form and constants: regressions on motion capture of head, hands, chest and elbows
-// (docs/decisions/, 34 and 43). The shape is that of the talk's rows 19 to 22, with the line between
-// the hands added to the chest's facing.
+// (docs/decisions/, 34 and 43). The shape is that of the talk's rows 19 to 22, with the line
+// between the hands added to the chest's facing.
 #include "systems/arm/estimate_arms.hpp"
 
 #include <algorithm>

@@ -9,11 +9,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_lift_reset_m = 0.01;  // a hand that moved farther may try its surface again
+// A lift is reset once the tracked wrist has moved or turned farther than this since it was set.
+constexpr double k_lift_reset_m = 0.01;
 constexpr double k_lift_reset_rad = 0.17;
 
-// search_grip knows already, but for lifts.
-bool is_known(const HandSurroundings& hand, const GripSurface& surface, double lift_m) {
+// True if search_grip already fitted the palm for this wrist; it never includes a lift.
+bool has_current_fit(const HandSurroundings& hand, const GripSurface& surface, double lift_m) {
     return surface.has_fitted_wrist && lift_m == 0.0 &&
            surface.surroundings_signature == hand.signature &&
            surface.wrist_bs.position == hand.wrist_bs.position &&
@@ -27,14 +28,14 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         offset.target_m = target.position;
         offset.target_turn_rad = rotation_to_vector(target.rotation);
         offset.lift_m = 0.0;
-        offset.target_signature = 0;
+        offset.solved_signature = 0;
         return;
     }
     if (surface.triangle == GripSurface::k_none) {
         offset.target_m = Vec3::Zero();
         offset.target_turn_rad = Vec3::Zero();
         offset.lift_m = 0.0;
-        offset.target_signature = 0;
+        offset.solved_signature = 0;
         return;
     }
     const Pose moved = inverse(offset.lift_wrist_bs) * hand.wrist_bs;
@@ -42,36 +43,37 @@ void set_target(const HandSurroundings& hand, const GripSurface& surface, const 
         rotation_to_vector(moved.rotation).norm() > k_lift_reset_rad) {
         offset.lift_m = 0.0;
     }
-    const bool knows = is_known(hand, surface, offset.lift_m);
-    if (!knows && offset.target_signature == hand.signature &&
-        offset.target_lift_m == offset.lift_m && offset.target_triangle == surface.triangle &&
-        hand_travel_m(offset.target_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
+    const bool has_fit = has_current_fit(hand, surface, offset.lift_m);
+    if (!has_fit && offset.solved_signature == hand.signature &&
+        offset.solved_lift_m == offset.lift_m && offset.solved_triangle == surface.triangle &&
+        hand_travel_m(offset.solved_wrist_bs, hand.wrist_bs) < tuning.finger.reuse_travel_m) {
         return;
     }
-    offset.target_signature = hand.signature;
-    offset.target_wrist_bs = hand.wrist_bs;
-    offset.target_lift_m = offset.lift_m;
-    offset.target_triangle = surface.triangle;
+    offset.solved_signature = hand.signature;
+    offset.solved_wrist_bs = hand.wrist_bs;
+    offset.solved_lift_m = offset.lift_m;
+    offset.solved_triangle = surface.triangle;
     const Pose fitted_wrist_bs =
-        knows ? surface.fitted_wrist_bs
-              : fit_palm(hand, surface, offset.lift_m, tuning.palm, {.last = &surface}).wrist_bs;
+        has_fit ? surface.fitted_wrist_bs
+                : fit_palm(hand, surface, offset.lift_m, tuning.palm, {.last = &surface}).wrist_bs;
     const Pose target = inverse(hand.wrist_bs) * fitted_wrist_bs;
     offset.target_m = target.position;
     offset.target_turn_rad = rotation_to_vector(target.rotation);
 }
 
-// Both parts go the same share of their way, turning counted as the search counts it.
+// Moves the shown offset towards its target by at most rate_mps * dt_s. Translation and rotation
+// advance by the same share; rotation counts tilt_cost_m_per_rad metres per radian.
 void follow_target(double dt_s, const PalmTuning& tuning, PalmOffset& offset) {
     const Vec3 remaining_m = offset.target_m - offset.shown_m;
     const Vec3 turn_rad = offset.target_turn_rad - offset.shown_turn_rad;
-    const double all_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
+    const double distance_m = remaining_m.norm() + tuning.tilt_cost_m_per_rad * turn_rad.norm();
     const double step_m = tuning.rate_mps * dt_s;
-    if (all_m <= step_m) {
+    if (distance_m <= step_m) {
         offset.shown_m = offset.target_m;
         offset.shown_turn_rad = offset.target_turn_rad;
     } else {
-        offset.shown_m += step_m / all_m * remaining_m;
-        offset.shown_turn_rad += step_m / all_m * turn_rad;
+        offset.shown_m += step_m / distance_m * remaining_m;
+        offset.shown_turn_rad += step_m / distance_m * turn_rad;
     }
 }
 

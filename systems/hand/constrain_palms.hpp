@@ -10,21 +10,27 @@
 namespace handhold {
 
 struct ConstrainPalmsIo {
-    double dt_s = 0.0;                        // of the frame; infinity: shown is target at once
-    std::span<const HandSurroundings> hands;  // in
-    const Column<GripSurface>& surface;       // in
-    Column<PalmOffset>& offset;               // in/out
-    Column<PalmPose>& palm;                   // out
+    double dt_s = 0.0;                        // in: length of the frame; infinity: no rate limit
+    std::span<const HandSurroundings> hands;  // in: body frame (_bs)
+    const Column<GripSurface>& surface;       // in: body frame (_bs)
+    Column<PalmOffset>& offset;               // in/out: hand space, metres and radians
+    Column<PalmPose>& palm;                   // out: shown wrist, world space
 };
 
-// Holds each gripping palm over its surface: not lower than one height, not higher than another,
-// not tilted by more than an angle, nothing of the palm sunk. The target is the least move that
-// does so, found anew in every frame, so that a hand may roll and twist over an edge while it
-// grips; what is shown follows it at PalmTuning::rate_mps, since the target jumps where the surface
-// has an edge. Only the hand that is shown moves, never the player. Talk rows 16 and 18.
-// A hand in an authored grip is held to that instead, at the same rate. Talk row 10.
-// Idempotent: the target of a hand that stands on its target is that place, within 0.1 mm
-// (unless the hand is lifted: the lift comes on top of where it is tracked).
+// Holds each gripping palm within its limits over the surface. Talk rows 16 and 18.
+//
+// The limits are PalmTuning::min_height_m, max_height_m and max_angle_rad, and no penetration of
+// the palm's capsules. The target is the smallest wrist correction that meets them
+// (shared/palm_fit.hpp), solved again whenever the hand moves, so that a hand can roll over an edge
+// while it grips. The target jumps at edges; the shown offset follows it at PalmTuning::rate_mps.
+// Only the shown hand moves, never the player.
+//
+// The target of a hand in an authored grip is the authored wrist, at the same rate. Talk row 10.
+//
+// Idempotent: the target of a hand tracked at its own target stays within 0.1 mm, except a lifted
+// hand, whose lift is added to the tracked pose.
+//
+// Fallbacks counted: none. search_grip counts hands without a surface, which are shown as tracked.
 void constrain_palms(const ConstrainPalmsIo& io, const Tuning& tuning);
 
 }  // namespace handhold

@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-constexpr double k_hand_length_m = 0.25;
+constexpr double k_hand_length_m = 0.25;  // bodies within this of the palm are near
 
 class Gatherer {
   public:
@@ -28,14 +28,15 @@ class Gatherer {
         out.meshes.clear();
         out.signature = 0;
         out.authored = nullptr;
-        out.grips = grab.kind != GripKind::none;
-        const bool is_there = io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
-        if (grab.kind == GripKind::none || !is_there) {
+        out.is_gripping = grab.kind != GripKind::none;
+        const bool body_exists =
+            io_.body_pose.contains(grab.body) || io_.origin.contains(grab.body);
+        if (grab.kind == GripKind::none || !body_exists) {
             return;
         }
         out.body_ws = gripped_pose_ws(io_.body_pose, io_.origin, io_.head, grab.body);
         out.wrist_bs = grab.anchor_bs;
-        if (turns_on_its_grip(grab)) {
+        if (may_turn_on_grip(grab)) {
             out.wrist_bs.rotation =
                 (out.body_ws.rotation.conjugate() * tracked_ws.rotation).normalized();
         }
@@ -43,20 +44,21 @@ class Gatherer {
             hold != nullptr && hold->body == grab.body) {
             out.authored = &hold->hand;
         }
-        if (const PlacedMesh own = {mesh_of(grab.body), {}}; own.mesh != nullptr) {
+        if (const PlacedMesh gripped = {mesh_of(grab.body), {}}; gripped.mesh != nullptr) {
             out.body = grab.body;
-            out.meshes.push_back(own);
+            out.meshes.push_back(gripped);
             HashStream stream;
-            add_to(stream, grab.body, out.meshes.back());
-            add_near(out, stream);
-            out.signature = stream.value() | 1U;
+            add_to_signature(stream, grab.body, out.meshes.back());
+            add_nearby_meshes(out, stream);
+            out.signature = stream.value() | 1U;  // 0 means empty
         } else if (io_.meshes != nullptr && io_.body_pose.contains(grab.body)) {
             stats_.count(Fallback::body_no_surface);
         }
     }
 
   private:
-    static bool turns_on_its_grip(const Grab& grab) {
+    // The hand turns freely on its anchor; an object held in one hand turns with the hand.
+    static bool may_turn_on_grip(const Grab& grab) {
         return grab.kind != GripKind::held || grab.jointed || grab.two_handed;
     }
 
@@ -67,24 +69,26 @@ class Gatherer {
         return is_known ? &io_.meshes->at(collider->shape) : nullptr;
     }
 
-    void add_to(HashStream& stream, Entity body, const PlacedMesh& placed) const {
+    // Hashes the body and its pose, rounded so that rounding errors do not change the signature.
+    void add_to_signature(HashStream& stream, Entity body, const PlacedMesh& placed) const {
         constexpr double k_steps_per_m = 1e4;
-        constexpr double k_most = 1e15;
+        constexpr double k_max_steps = 1e15;
         const auto add = [&](double value) {
-            stream.add(std::floor(std::clamp(value * k_steps_per_m, -k_most, k_most) + 0.5));
+            stream.add(
+                std::floor(std::clamp(value * k_steps_per_m, -k_max_steps, k_max_steps) + 0.5));
         };
         stream.add(io_.persistent_id.at(body).value);
         stream.add(std::uint64_t{placed.mesh->contact.triangles.size()});
-        const Vec3 ahead = placed.pose.rotation * Vec3::UnitX();
-        const Vec3 aside = placed.pose.rotation * Vec3::UnitY();
+        const Vec3 x_axis = placed.pose.rotation * Vec3::UnitX();
+        const Vec3 y_axis = placed.pose.rotation * Vec3::UnitY();
         for (int axis = 0; axis < 3; ++axis) {
             add(placed.pose.position[axis]);
-            add(ahead[axis]);
-            add(aside[axis]);
+            add(x_axis[axis]);
+            add(y_axis[axis]);
         }
     }
 
-    void add_near(HandSurroundings& out, HashStream& stream) const {
+    void add_nearby_meshes(HandSurroundings& out, HashStream& stream) const {
         const Vec3 palm_ws =
             transform_point(out.body_ws, transform_point(out.wrist_bs, out.rig->palm_center_hs));
         for (std::size_t i = 0; i < io_.frame.entities.size(); ++i) {
@@ -100,7 +104,7 @@ class Gatherer {
             const Vec3 palm_bs = inverse_transform_point(pose_ws, palm_ws);
             if (mesh->contact_bvh.may_be_near(palm_bs, k_hand_length_m)) {
                 out.meshes.push_back({mesh, inverse(out.body_ws) * pose_ws});
-                add_to(stream, body, out.meshes.back());
+                add_to_signature(stream, body, out.meshes.back());
             }
         }
     }

@@ -18,26 +18,31 @@
 namespace handhold {
 
 struct GatherSurroundingsIo {
-    const GripMeshLibrary* meshes = nullptr;        // in; null: hands are not fitted to anything
-    const std::array<HandRig, k_hand_count>& rigs;  // in, by HandSide
-    const FrameGraph& frame;                        // in: proxies, entities
+    // In. Null: hands are not fitted to surfaces.
+    const GripMeshLibrary* meshes = nullptr;
+    const std::array<HandRig, k_hand_count>& rigs;  // in: by HandSide; hand space, metres
+    const FrameGraph& frame;                        // in: entities
     const Column<PersistentId>& persistent_id;      // in
     const Column<HandOwner>& owner;                 // in
-    const Column<HandTracking>& hand;               // in
-    const Column<Grab>& grab;                       // in
-    const Column<PlayerOrigin>& origin;             // in: at the end of the frame
-    const Column<HeadTracking>& head;               // in
-    const Column<BodyPose>& body_pose;              // in: at the end of the frame
-    const Column<Collider>& collider;               // in
-    const Column<AuthoredHold>& authored_hold;      // in: stays in place until the hands are posed
-    std::vector<HandSurroundings>& surroundings;    // out: one for each row of owner, in its order
+    const Column<HandTracking>& hand;               // in: pose_ps, end of the frame
+    const Column<Grab>& grab;                       // in: kind, body, anchor_bs
+    const Column<PlayerOrigin>& origin;             // in: pose_ws, end of the frame
+    const Column<HeadTracking>& head;               // in: pose_ps, for hands on a player's head
+    const Column<BodyPose>& body_pose;              // in: pose_ws, end of the frame
+    const Column<Collider>& collider;               // in: shape, the key into `meshes`
+    // In. HandSurroundings::authored points into it, so it must not change until hands are posed.
+    const Column<AuthoredHold>& authored_hold;
+    std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
 };
 
-// Where each hand is before it is fitted to anything, and what it has around it. A gripping hand is
-// where its grip holds it: on its anchor, turned as it is tracked, or, where it holds an object,
-// with the object. Bodies are near where the box around their mesh comes within a hand's length of
-// the palm. A held head is no surface: hands on it are shown as they are.
-// A held body that should have a surface and has none is counted.
+// Collects, for each hand, its wrist pose and the surfaces near it, in the gripped body's frame.
+// First of the hand stages; the others read only its output and their own columns.
+//
+// The wrist of a gripping hand is its anchor. It keeps the tracked rotation, except on an object
+// that turns with the hand. A body is near if its mesh's bounding box comes within 0.25 m of the
+// palm. Heads have no grip mesh: a hand on one is shown as tracked.
+//
+// Fallbacks counted: body_no_surface.
 void gather_surroundings(const GatherSurroundingsIo& io, StageStats& stats);
 
 }  // namespace handhold

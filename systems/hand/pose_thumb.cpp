@@ -13,10 +13,11 @@
 namespace handhold {
 namespace {
 
-constexpr double k_gap_seen_m = 0.05;  // a tip farther from every surface counts as this far
+constexpr double k_max_tip_gap_m = 0.05;
 
+// Gap between the tip's end and the nearest surface, at most k_max_tip_gap_m.
 double tip_gap_m(const Capsule& tip, std::span<const PlacedMesh> meshes) {
-    double gap_m = k_gap_seen_m;
+    double gap_m = k_max_tip_gap_m;
     for (const PlacedMesh& placed : meshes) {
         const Vec3 point = inverse_transform_point(placed.pose, tip.ends[1]);
         const auto near = placed.mesh->contact_bvh.closest_point(point, gap_m + tip.radius_m);
@@ -33,6 +34,9 @@ struct ThumbFit {
     ChainFit fit;
 };
 
+// Fits one thumb at a time. A new grip starts a search over all oppositions, a few per frame. After
+// that the fit is carried along; if it penetrates or touches nothing, one other opposition is
+// evaluated at a time, with a back-off.
 class ThumbPoser {
   public:
     ThumbPoser(const PoseThumbIo& io, const Tuning& tuning, SearchOrder order, StageStats& stats)
@@ -40,15 +44,16 @@ class ThumbPoser {
         settings_.order = order;
     }
 
-    void pose(std::size_t place, std::size_t f) {
-        const HandSurroundings& hand = io_.hands[place];
+    void pose(std::size_t hand_index, std::size_t f) {
+        const HandSurroundings& hand = io_.hands[hand_index];
         FingerPose& pose = io_.fingers.at(hand.hand);
         const FingerRig& thumb = hand.rig->fingers[f];
-        const bool was_deferred = std::exchange(pose.thumb_refit_pending, false);
+        const bool was_pending = std::exchange(pose.thumb_refit_pending, false);
         if (io_.surface.at(hand.hand).triangle == GripSurface::k_none) {
-            set_rest_pose(thumb, !hand.grips && io_.hand.at(hand.hand).pressed, pose.target[f]);
-            if (const auto posed = posed_in(hand, thumb)) {
-                pose.target[f] = *posed;
+            set_rest_pose(thumb, !hand.is_gripping && io_.hand.at(hand.hand).pressed,
+                          pose.target[f]);
+            if (const auto authored = authored_angles(hand, thumb)) {
+                pose.target[f] = *authored;
             }
             pose.thumb_solved = false;
             pose.thumb_search = {};
@@ -56,13 +61,13 @@ class ThumbPoser {
             return;
         }
         if (pose.thumb_solved && pose.thumb_converged &&
-            same_pose(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
+            is_same_pose(pose.thumb_wrist_bs, pose.solved_wrist_bs)) {
             return;
         }
-        if (take_posed(hand, thumb, pose, f) || defer_to_fingers(hand, f, pose)) {
+        if (take_authored_pose(hand, thumb, pose, f) || defer_to_fingers(hand, f, pose)) {
             return;
         }
-        const ThumbFit best = fit_thumb(hand, thumb, f, was_deferred, pose);
+        const ThumbFit best = fit_thumb(hand, thumb, f, was_pending, pose);
         pose.target[f] = {best.fit.angle_rad, best.opposition_rad};
         if (best.fit.contact_triangle != k_no_triangle) {
             pose.seed_triangle[f] = best.fit.contact_triangle;
@@ -76,24 +81,25 @@ class ThumbPoser {
             stats_.count(Fallback::finger_no_contact);
         }
         if (!io_.traces.empty()) {
-            io_.traces[place][f] = {best.fit.discs,        best.fit.pops,     best.fit.walked,
-                                    best.fit.contact_link, best.fit.fallback, best.fit.depth_m};
+            io_.traces[hand_index][f] = {best.fit.discs,    best.fit.pops,
+                                         best.fit.walked,   best.fit.contact_link,
+                                         best.fit.fallback, best.fit.depth_m};
         }
     }
 
   private:
-    static constexpr std::uint32_t k_neighbour_steps =
-        3;  // an opposition's step and those beside it
+    // An opposition's own step and its two neighbours.
+    static constexpr std::uint32_t k_neighbour_steps = 3;
 
-    static std::optional<FingerAngles> posed_in(const HandSurroundings& hand,
-                                                const FingerRig& thumb) {
+    static std::optional<FingerAngles> authored_angles(const HandSurroundings& hand,
+                                                       const FingerRig& thumb) {
         return hand.authored != nullptr ? posed_angles(thumb, *hand.authored) : std::nullopt;
     }
 
-    // As an authored grip has it, where it has it so that it is not sunk.
-    bool take_posed(const HandSurroundings& hand, const FingerRig& thumb, FingerPose& pose,
-                    std::size_t f) {
-        const auto posed = posed_in(hand, thumb);
+    // Takes the thumb's authored pose unless it penetrates. Returns whether it did.
+    bool take_authored_pose(const HandSurroundings& hand, const FingerRig& thumb, FingerPose& pose,
+                            std::size_t f) {
+        const auto posed = authored_angles(hand, thumb);
         if (!posed) {
             pose.authored_pose_rejected[f] = false;
             return false;
@@ -114,22 +120,24 @@ class ThumbPoser {
         return true;
     }
 
-    // At first fingers are closed, a few in each frame, and then the thumb; but where they have no
-    // end, since the hand is fast, it has its turn beside them.
+    // Waits while fingers are queued for their first fit, so that the thumb closes last. At most 4
+    // frames: on a fast hand the queue never empties.
     static bool defer_to_fingers(const HandSurroundings& hand, std::size_t thumb,
                                  FingerPose& pose) {
         constexpr std::uint32_t k_max_frames = 4;
-        bool is_queue = false;
+        bool has_queued_finger = false;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
-            is_queue = is_queue || (f != thumb && pose.backoff[f].queued_frames > 0);
+            has_queued_finger =
+                has_queued_finger || (f != thumb && pose.backoff[f].queued_frames > 0);
         }
         std::uint32_t& queued_frames = pose.backoff[thumb].queued_frames;
-        const bool is_deferred = is_queue && !pose.thumb_solved && queued_frames < k_max_frames;
+        const bool is_deferred =
+            has_queued_finger && !pose.thumb_solved && queued_frames < k_max_frames;
         queued_frames = is_deferred ? queued_frames + 1 : 0;
         return is_deferred;
     }
 
-    // As a thumb should be: else another opposition may do better.
+    // Touches and does not penetrate. Otherwise another opposition may be better.
     bool is_good_fit(const ChainFit& fit) const {
         return fit.depth_m <= settings_.open_depth_m && fit.fallback != ChainFallback::rest_pose &&
                !is_bent_clear(fit);
@@ -156,12 +164,12 @@ class ThumbPoser {
         target.opposition_rad = rest_opposition(thumb);
         for (std::size_t i = 0; i < thumb.link_count; ++i) {
             const double fist =
-                thumb.lower_rad[i] + k_fist * (thumb.upper_rad[i] - thumb.lower_rad[i]);
+                thumb.lower_rad[i] + k_fist_curl * (thumb.upper_rad[i] - thumb.lower_rad[i]);
             target.curl_rad[i] = is_fist ? fist : thumb.rest_rad[i];
         }
     }
 
-    static bool same_pose(const Pose& a, const Pose& b) {
+    static bool is_same_pose(const Pose& a, const Pose& b) {
         return a.position == b.position && a.rotation.coeffs() == b.rotation.coeffs();
     }
 
@@ -171,7 +179,7 @@ class ThumbPoser {
                share * (thumb.upper_opposition_rad - thumb.lower_opposition_rad);
     }
 
-    // The step nearest to an opposition.
+    // The step nearest to an opposition angle.
     std::uint32_t step_at(const FingerRig& thumb, double opposition_rad) const {
         const double range_rad = thumb.upper_opposition_rad - thumb.lower_opposition_rad;
         if (!(range_rad > 0.0)) {
@@ -186,10 +194,10 @@ class ThumbPoser {
         return static_cast<std::uint32_t>(std::max(1, tuning_.thumb.opposition_steps));
     }
 
-    // As long as it touches there and is hardly sunk, a thumb keeps its opposition; and where
-    // another was looked for in vain, for a while.
+    // Fits the thumb for this frame. Keeps its opposition while it touches there without
+    // penetrating, and while the back-off after a failed refit lasts.
     ThumbFit fit_thumb(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
-                       bool was_deferred, FingerPose& pose) {
+                       bool was_pending, FingerPose& pose) {
         FingerBackoff& backoff = pose.backoff[f];
         const bool is_new =
             !pose.thumb_solved || !is_small_move(pose.thumb_wrist_bs, pose.solved_wrist_bs);
@@ -220,27 +228,30 @@ class ThumbPoser {
             backoff.failures = backoff.retry_in_m <= 0.0 ? 0 : backoff.failures;
             return kept;
         }
-        // A judged surface takes the turn of both: whose it was stays.
+        // The thumb is next if the fingers used this frame's refit, or if it was next already and
+        // candidate evaluation used the frame.
         pose.thumb_refit_pending =
-            is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_deferred);
+            is_retry_due(backoff) && !has_budget && (pose.finger_refit_this_frame || was_pending);
         if (!is_retry_due(backoff) || !has_budget) {
             return kept;
         }
         return refit_if_better(hand, thumb, f, kept, pose);
     }
 
-    // One opposition at a time: a hand that slides never pays for more in one frame.
+    // Evaluates one other opposition, and changes to it if it is better. The next call tries the
+    // next nearest.
     ThumbFit refit_if_better(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                              const ThumbFit& kept, FingerPose& pose) {
         const bool is_penetrating = kept.fit.depth_m > settings_.open_depth_m;
-        const std::uint32_t most = is_penetrating ? steps() : std::min(steps(), k_neighbour_steps);
+        const std::uint32_t option_count =
+            is_penetrating ? steps() : std::min(steps(), k_neighbour_steps);
         FingerBackoff& backoff = pose.backoff[f];
         const bool slow_hand = is_slow(pose);
         if (slow_hand && backoff.was_fast_hand) {
-            backoff.failures = 0;  // all of them once more
+            backoff.failures = 0;  // evaluate every option again with a slow hand's settings
         }
         const std::uint32_t kept_step = step_at(thumb, kept.opposition_rad);
-        const std::uint32_t step = nearest_step(kept_step, backoff.failures % most);
+        const std::uint32_t step = nearest_step(kept_step, backoff.failures % option_count);
         const ChainFitSettings saved_settings = std::exchange(
             settings_, sliding_refit_settings(settings_, kept.fit.angle_rad, slow_hand));
         ThumbFit refitted =
@@ -250,33 +261,33 @@ class ThumbPoser {
             is_good_fit(refitted.fit) ||
             (is_penetrating && is_clearly_better(refitted.fit, kept.fit, settings_));
         const double travel_since_m = backoff.travel_since_m;
-        record_attempt(backoff, !is_good_fit(refitted.fit), !slow_hand, most);
+        record_attempt(backoff, !is_good_fit(refitted.fit), !slow_hand, option_count);
         if (!changes) {
             return kept;
         }
         if (!is_good_fit(refitted.fit) && step != kept_step) {
-            backoff.failures = 1;  // those beside it come next
+            backoff.failures = 1;  // the new step's neighbours come next
             backoff.travel_since_m = travel_since_m;
         }
         begin_transition(refitted.fit.angle_rad, f, pose);
         pose.lookahead[f] = {};
-        refitted.fit.is_turn_limited = true;  // hinges that it was stopped by nothing at close on
+        refitted.fit.is_turn_limited = true;  // hinges that nothing stopped close on next frame
         return refitted;
     }
 
-    // Of all steps the one that is `rank`th nearest to `step`, from 0.
+    // The `rank`th nearest step to `step`, counted from 0, which is `step` itself.
     std::uint32_t nearest_step(std::uint32_t step, std::uint32_t rank) const {
         const std::uint32_t last = steps() - 1;
         step = std::min(step, last);
         if (rank-- == 0) {
             return step;
         }
-        for (std::uint32_t away = 1; away <= last; ++away) {
-            if (step + away <= last && rank-- == 0) {
-                return step + away;
+        for (std::uint32_t distance = 1; distance <= last; ++distance) {
+            if (step + distance <= last && rank-- == 0) {
+                return step + distance;
             }
-            if (step >= away && rank-- == 0) {
-                return step - away;
+            if (step >= distance && rank-- == 0) {
+                return step - distance;
             }
         }
         return step;
@@ -293,8 +304,8 @@ class ThumbPoser {
         pose.thumb_search.start_step = step_at(thumb, from_rad);
     }
 
-    // The cheapest of all oppositions. A few are tried in each frame, those next to where it stands
-    // first; a thumb that was posed before turns by one step at most, as long as it fits there.
+    // Evaluates the next few oppositions of the running search, nearest to its start first. A thumb
+    // that was posed before ends the search after its neighbouring steps if one of them is clear.
     ThumbFit continue_search(const HandSurroundings& hand, const FingerRig& thumb, std::size_t f,
                              FingerPose& pose) {
         constexpr double k_verify_travel_m = 1e-3;
@@ -312,7 +323,7 @@ class ThumbPoser {
         search.needs_depenetration = best.fit.needs_depenetration;
         search.is_running = !is_done(search, best);
         if (!std::isinf(io_.dt_s)) {
-            // It is looked at once more in the next frame: what is sunk is mended then.
+            // The next frame fits the best once more, which also depenetrates it.
             best.fit.is_turn_limited = true;
             pose.backoff[f].travel_since_m = k_verify_travel_m;
             return best;
@@ -322,7 +333,8 @@ class ThumbPoser {
             add_visits(best.fit, depenetrated.fit);
             best = depenetrated;
         }
-        record_attempt(pose.backoff[f], !is_good_fit(best.fit), false);  // all oppositions
+        // Counts as one option: every opposition was evaluated.
+        record_attempt(pose.backoff[f], !is_good_fit(best.fit), false);
         return best;
     }
 
@@ -350,7 +362,7 @@ class ThumbPoser {
                    : static_cast<std::uint32_t>(std::max(1, tuning_.thumb.evaluations_per_frame));
     }
 
-    // Keeps the cheaper, and counts what both took.
+    // Keeps the cheaper fit with the search counters of both.
     static void keep_better(ThumbFit candidate, ThumbFit& best) {
         if (candidate.cost_m < best.cost_m) {
             std::swap(candidate, best);
@@ -377,7 +389,7 @@ class ThumbPoser {
         return closed;
     }
 
-    // And what it costs.
+    // As fit_at_opposition, with its cost (see pose_thumb.hpp).
     ThumbFit evaluate_opposition(const HandSurroundings& hand, const FingerRig& thumb,
                                  double opposition_rad, std::uint32_t last_triangle) const {
         ThumbFit candidate = fit_at_opposition(hand, thumb, opposition_rad, last_triangle);
@@ -403,11 +415,11 @@ class ThumbPoser {
 
 void pose_thumb(const PoseThumbIo& io, const Tuning& tuning, StageStats& stats, SearchOrder order) {
     ThumbPoser poser(io, tuning, order, stats);
-    for (std::size_t place = 0; place < io.hands.size(); ++place) {
-        const HandSurroundings& hand = io.hands[place];
+    for (std::size_t hand_index = 0; hand_index < io.hands.size(); ++hand_index) {
+        const HandSurroundings& hand = io.hands[hand_index];
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (hand.rig->fingers[f].name == FingerName::thumb) {
-                poser.pose(place, f);
+                poser.pose(hand_index, f);
                 follow_target(f, io.dt_s, tuning.finger, io.fingers.at(hand.hand));
             }
         }

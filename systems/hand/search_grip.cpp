@@ -12,12 +12,13 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_patience = 24;            // pops without a better triangle end the search
-constexpr std::uint32_t k_follow_patience = 6;      // where it was found a moment ago
-constexpr double k_full_search_interval_m = 0.006;  // what was found is followed so far
+// A search ends after so many pops without a cheaper triangle.
+constexpr std::uint32_t k_max_idle_pops = 24;
+constexpr std::uint32_t k_follow_max_idle_pops = 6;  // while following last frame's surface
+constexpr double k_full_search_interval_m = 0.006;   // travel between full searches
 constexpr std::uint32_t k_max_stationary_refine_frames = 24;
 
-// Under a palm in an authored grip: fingers that close begin there.
+// The surface nearest to a palm in an authored grip: a seed for its closing fingers.
 GripSurface authored_grip_surface(const HandSurroundings& hand, double dt_s,
                                   const PalmTuning& tuning) {
     const PalmFitter fitter(hand, hand.authored->wrist_bs, dt_s, tuning);
@@ -28,7 +29,7 @@ GripSurface authored_grip_surface(const HandSurroundings& hand, double dt_s,
         surface = fitter.surface_at({near->triangle, near->point, 0.0});
     }
     surface.wrist_bs = hand.authored->wrist_bs;
-    surface.surroundings_signature = 0;  // out of the grip the surface is searched for
+    surface.surroundings_signature = 0;  // invalid key: forces a search once the grip is left
     return surface;
 }
 
@@ -39,7 +40,8 @@ std::optional<TriangleHit> cast_palm_ray(const PalmFitter& fitter, const HandTun
         palm.center - (tuning.ray_length_m - tuning.ray_back_m) * palm.up);
 }
 
-// Of one hand, over where it was a frame ago: `last`, whose triangle is of this mesh or none.
+// Searches one hand's surface for one frame. `last` is its result of the last frame, whose triangle
+// is k_none or of this mesh.
 class GripSearcher {
   public:
     GripSearcher(const HandSurroundings& hand, double dt_s, const Tuning& tuning,
@@ -57,10 +59,10 @@ class GripSearcher {
     GripSurface run() {
         const bool is_known = last_.triangle != GripSurface::k_none;
         const double full_search_in_m = last_.full_search_in_m - travel_m_;
-        // What fails to follow is not held anew: what is taken of it keeps its normal for as long.
+        // If following fails, the interval restarts, so that the new normal is kept just as long.
         double next_full_search_in_m = k_full_search_interval_m;
         if (is_known && full_search_in_m > 0.0 && !fitter_.is_unbudgeted()) {
-            search_.run(k_follow_patience);
+            search_.run(k_follow_max_idle_pops);
             next_full_search_in_m = full_search_in_m;
             fitter_.reuse_normal(last_.normal_bs);
             if (auto surface = follow_last()) {
@@ -87,10 +89,10 @@ class GripSearcher {
                                                                           tuning_.palm.reach_m);
         search_.add_seed(hit ? hit->triangle : GripSurface::k_none);
         search_.add_seed(near ? near->triangle : GripSurface::k_none);
-        search_.run(k_patience);
+        search_.run(k_max_idle_pops);
     }
 
-    // On the surface that it had. None where surfaces are to be judged.
+    // Stays on last frame's surface. None if candidates must be evaluated.
     std::optional<GripSurface> follow_last() {
         std::optional<GripSurface> surface;
         if (last_.evaluated_this_frame && !fitter_.is_unbudgeted()) {
@@ -105,16 +107,17 @@ class GripSearcher {
         return surface;
     }
 
-    // Time counts as a way too: a hand at rest looks again.
+    // `remaining_m` less this frame's travel. Elapsed time counts as travel, so that a hand at rest
+    // is checked again too.
     double travel_left_m(double remaining_m) const {
         constexpr double k_travel_per_time_mps = 0.045;
-        constexpr double k_at_once_m = 5e-4;
-        const double least_m =
-            fitter_.is_unbudgeted() ? k_at_once_m : k_travel_per_time_mps * dt_s_;
-        return remaining_m - std::max(travel_m_, least_m);
+        constexpr double k_unbudgeted_travel_m = 5e-4;
+        const double min_travel_m =
+            fitter_.is_unbudgeted() ? k_unbudgeted_travel_m : k_travel_per_time_mps * dt_s_;
+        return remaining_m - std::max(travel_m_, min_travel_m);
     }
 
-    // As it is held. None where it is gone, or had room and has it no more.
+    // Refines the fit on last frame's surface. None if the surface is gone or lost its clearance.
     std::optional<GripSurface> refine_last() {
         const auto near = fitter_.candidate_near_last(search_, last_);
         if (!near) {
@@ -130,10 +133,10 @@ class GripSearcher {
         return surface;
     }
 
-    // No surface is judged in two frames in a row: digits have their turn. None where it is gone,
-    // or its room is.
+    // Last frame evaluated candidates, so this frame's budget belongs to the digits. None if the
+    // surface is gone or lost its clearance.
     std::optional<GripSurface> skip_after_evaluation() {
-        constexpr double k_next_m = 1e-9;
+        constexpr double k_due_next_frame_m = 1e-9;
         std::optional<GripSurface> surface = refine_last();
         if (surface) {
             surface->cost_m = last_.cost_m;
@@ -144,14 +147,14 @@ class GripSearcher {
             surface->pending_finger_samples = last_.pending_finger_samples;
             surface->candidate_recheck_in_m =
                 last_.candidate_recheck_in_m > 0.0
-                    ? std::max(travel_left_m(last_.candidate_recheck_in_m), k_next_m)
+                    ? std::max(travel_left_m(last_.candidate_recheck_in_m), k_due_next_frame_m)
                     : 0.0;
         }
         return surface;
     }
 
-    // Looking for room is dear, and what has none mostly has none a little farther on: a hand that
-    // looked stays with what it found for a while. None where it is to look now.
+    // Keeps the chosen candidate until its recheck is due: evaluation is expensive and its result
+    // rarely changes nearby. None if the recheck is due.
     std::optional<GripSurface> reuse_candidate() {
         const double remaining_m = travel_left_m(last_.candidate_recheck_in_m);
         std::optional<GripSurface> surface;
@@ -164,7 +167,8 @@ class GripSearcher {
         return surface;
     }
 
-    // What had room for fingers mostly has it a little farther on. None where it is to be asked.
+    // Keeps a surface with clearance that is still the cheapest in closed form. None if the
+    // clearance must be checked.
     std::optional<GripSurface> reuse_clearance() {
         const double remaining_m = travel_left_m(last_.clearance_recheck_in_m);
         const auto cheapest = search_.cheapest_excluding({});
@@ -184,13 +188,12 @@ class GripSearcher {
     const Tuning& tuning_;
     const GripSurface& last_;
     GripSearchScratch& scratch_;
-    double travel_m_;  // of the hand since then
+    double travel_m_;  // travel of the hand since the last frame
     PalmFitter fitter_;
     SurfaceSearch search_;
 };
 
-// Where the hand was a frame ago; nothing where that was on another body, or on a mesh that was
-// larger.
+// Last frame's surface; empty if it was on another body or its triangle no longer exists.
 GripSurface valid_last_surface(const HandSurroundings& hand, const GripSurface& surface) {
     const std::size_t triangles = hand.meshes.front().mesh->search.triangles.size();
     return surface.body == hand.body && surface.triangle < triangles ? surface : GripSurface{};
@@ -234,14 +237,16 @@ void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats
             surface.evaluated_this_frame = false;
             continue;
         }
-        // While it looks, each is tried with a few pushes: those of the best are still to come.
-        const std::uint32_t more = surface.evaluated_count > 0 ? 0 : 1;
-        const std::uint32_t pushed = is_stationary ? surface.stationary_refine_frames + more : 0;
+        // Frames of candidate evaluation do not count: the best candidate is refined only
+        // afterwards.
+        const std::uint32_t refined = surface.evaluated_count > 0 ? 0 : 1;
+        const std::uint32_t refine_frames =
+            is_stationary ? surface.stationary_refine_frames + refined : 0;
         const GripSurface last = valid_last_surface(hand, surface);
         surface = search == GripSearch::ray_only
                       ? surface_of_ray(hand, io.dt_s, tuning)
                       : GripSearcher(hand, io.dt_s, tuning, last, io.scratch).run();
-        surface.stationary_refine_frames = pushed;
+        surface.stationary_refine_frames = refine_frames;
         if (surface.triangle == GripSurface::k_none) {
             stats.count(Fallback::palm_no_surface);
         }

@@ -11,31 +11,38 @@
 
 namespace handhold {
 
-// Which surface the palm is held to where the ray's is not the only one.
+// How a palm's surface is chosen.
 enum class GripSearch : std::uint8_t {
-    smallest_sync,  // the one that moves the palm least
-    ray_only,       // where the palm's ray ends; for comparison
+    smallest_sync,  // the surface that moves the palm least
+    ray_only,       // the surface that the palm ray hits; for comparison
 };
 
 struct SearchGripIo {
-    double dt_s = 0.0;                        // of the frame; infinity: all is tried at once
-    std::span<const HandSurroundings> hands;  // in
-    Column<GripSurface>& surface;             // in/out: last frame's is where the search begins too
+    double dt_s = 0.0;  // in: length of the frame; infinity: no budget, evaluate all candidates
+    std::span<const HandSurroundings> hands;  // in: body frame (_bs)
+    Column<GripSurface>& surface;             // in/out: last frame's result seeds the search; _bs
     GripSearchScratch& scratch;
 };
 
-// Finds the triangle under each gripping palm that needs the least movement of the palm to meet its
-// limits: best first over the surface's neighbours, from where the palm's ray ends, from the
-// nearest triangle, and from last frame's. Moving the palm and tilting it are costs of one unit,
-// PalmTuning::tilt_cost_m_per_rad apart. In the order of these costs surfaces are tried,
-// PalmTuning::evaluations_per_frame in every second frame, until the others' are no less than the
-// best one's (where that is not near, all around is looked at for one such turn, and listed): what
-// counts then is the whole move that holds the palm there and pushes it out of what it is sunk in,
-// and, where palm or fingers have no room however they bend, what stays sunk; such fingers are held
-// clear with the palm where that costs less. A surface that is held is followed from its triangle
-// for some millimetres before all around is searched again. Hands with nothing within
-// PalmTuning::reach_m are left without a surface. Talk rows 2, 11, 17. Under a palm in an authored
-// grip nothing is searched for: it has the nearest triangle.
+// Chooses the surface under each gripping palm: the one that needs the least palm movement
+// ("sync"). Talk rows 2, 11, 17.
+//
+// 1. Search (shared/surface_search.hpp): best first over triangle neighbours, within
+//    PalmTuning::reach_m, seeded at the palm ray's hit, the nearest triangle and last frame's
+//    triangle. The cost in closed form is the palm translation into the height limits plus
+//    PalmTuning::tilt_cost_m_per_rad times the rotation into the tilt limit.
+// 2. Evaluation (shared/surface_candidates.hpp): candidates are fitted in the order of that cost
+//    until none can be cheaper. The full cost is the movement of the fitted, depenetrated palm,
+//    plus the remaining penetration of palm and fingers. Fingers without clearance are evaluated
+//    once more as part of the palm's collision shape.
+//
+// Work is spread over frames: PalmTuning::evaluations_per_frame in every second frame. A chosen
+// surface is followed for a few millimetres of travel before the next full search. A hand whose
+// wrist and surroundings are unchanged keeps its result.
+//
+// A palm in an authored grip gets the nearest triangle without a search. Talk row 10.
+//
+// Fallbacks counted: palm_no_surface (GripSurface::triangle is k_none).
 void search_grip(const SearchGripIo& io, const Tuning& tuning, StageStats& stats,
                  GripSearch search = GripSearch::smallest_sync);
 

@@ -11,12 +11,14 @@
 namespace handhold {
 namespace {
 
+// True if the hand's finger targets can be kept as they are.
 bool is_cached(const FingerPose& pose, const HandSurroundings& hand, double travel_m,
                double reuse_travel_m) {
     return pose.solved && pose.converged && pose.solved_signature == hand.signature &&
            travel_m < reuse_travel_m;
 }
 
+// Sets the fingers of an empty hand to the rest pose, or to a fist.
 void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
     for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
         const FingerRig& finger = rig.fingers[f];
@@ -25,7 +27,7 @@ void rest_fingers(const HandRig& rig, bool is_fist, FingerPose& pose) {
         }
         for (std::size_t i = 0; i < finger.link_count; ++i) {
             const double fist =
-                finger.lower_rad[i] + k_fist * (finger.upper_rad[i] - finger.lower_rad[i]);
+                finger.lower_rad[i] + k_fist_curl * (finger.upper_rad[i] - finger.lower_rad[i]);
             pose.target[f].curl_rad[i] = is_fist ? fist : finger.rest_rad[i];
         }
         pose.backoff[f].queued_frames = 0;
@@ -49,6 +51,10 @@ void count_fallback(ChainFallback fallback, StageStats& stats) {
 
 using FingerSet = std::array<bool, k_finger_count>;
 
+// Fits the fingers of one hand at a time. Digits fall into three groups per frame:
+// - queued: without a usable fit; closed from scratch, refits_per_frame of them at a time;
+// - kept: carried along from the last fit (refit_last), which is cheap;
+// - one kept finger that penetrates, and whose back-off is over, is refitted from scratch.
 class FingerFitter {
   public:
     FingerFitter(const SweepFingersIo& io, const Tuning& tuning, SearchOrder order,
@@ -57,14 +63,14 @@ class FingerFitter {
         settings_.order = order;
     }
 
-    void close(std::size_t place) {
-        const HandSurroundings& hand = io_.hands[place];
+    void close(std::size_t hand_index) {
+        const HandSurroundings& hand = io_.hands[hand_index];
         const GripSurface& surface = io_.surface.at(hand.hand);
         const PalmOffset& offset = io_.offset.at(hand.hand);
         FingerPose& pose = io_.fingers.at(hand.hand);
         pose.finger_refit_this_frame = false;
         if (surface.triangle == GripSurface::k_none) {
-            rest_fingers(*hand.rig, !hand.grips && io_.hand.at(hand.hand).pressed, pose);
+            rest_fingers(*hand.rig, !hand.is_gripping && io_.hand.at(hand.hand).pressed, pose);
             pose_unverified(hand, pose);
             return;
         }
@@ -83,10 +89,10 @@ class FingerFitter {
         if (pose.solved_signature != hand.signature) {
             expire_caches(pose);
         }
-        // On its way into its grip a hand is solved in every frame, however slow it is: what is
-        // sunk there is not in the grip.
+        // A hand still moving into its authored grip is solved every frame, even if it travels less
+        // than reuse_travel_m: a pose that penetrates now can be clear in the grip.
         pose.converged = hand.authored == nullptr || is_at_target(offset);
-        const double depth_m = fit_fingers(place, wrist_bs, travel_m, pose);
+        const double depth_m = fit_fingers(hand_index, wrist_bs, travel_m, pose);
         pose.solved = true;
         pose.solved_body = hand.body;
         pose.solved_signature = hand.signature;
@@ -95,17 +101,17 @@ class FingerFitter {
     }
 
   private:
-    // Something near has moved, the hand need not have.
+    // Something near the hand has moved, which counts as travel of the hand.
     static void expire_caches(FingerPose& pose) {
-        constexpr double k_seen_as_m = 1e-3;
+        constexpr double k_equivalent_travel_m = 1e-3;
         pose.thumb_converged = false;
         for (FingerBackoff& backoff : pose.backoff) {
-            advance(backoff, k_seen_as_m, 0.0);
+            advance(backoff, k_equivalent_travel_m, 0.0);
         }
         pose.lookahead = {};
     }
 
-    // Where there is no surface near an authored grip its fingers stand as they were posed.
+    // Without a surface to check against, fingers take their authored poses unchecked.
     static void pose_unverified(const HandSurroundings& hand, FingerPose& pose) {
         for (std::size_t f = 0; hand.authored != nullptr && f < hand.rig->fingers.size(); ++f) {
             const auto posed = posed_angles(hand.rig->fingers[f], *hand.authored);
@@ -115,9 +121,9 @@ class FingerFitter {
         }
     }
 
-    // As an authored grip has the finger, where it has it so that it is not sunk.
-    bool take_posed(const HandSurroundings& hand, std::size_t f, const HingeChain& chain,
-                    FingerPose& pose) {
+    // Takes the finger's authored pose unless it penetrates. Returns whether it did.
+    bool take_authored_pose(const HandSurroundings& hand, std::size_t f, const HingeChain& chain,
+                            FingerPose& pose) {
         const auto posed = hand.authored != nullptr
                                ? posed_angles(hand.rig->fingers[f], *hand.authored)
                                : std::nullopt;
@@ -135,20 +141,19 @@ class FingerFitter {
         return true;
     }
 
-    // Fingers stay with the fits that they have, but for a few: those that have none have their
-    // turn to close anew, or one of those that are sunk. A hand never pays for more in one frame.
-    // Returns how deep the fingers are, but for what is yet to be closed anew.
-    double fit_fingers(std::size_t place, const Pose& wrist_bs, double travel_since_solve_m,
+    // Fits all fingers for this frame, within its budget (see the class). Returns the largest
+    // penetration, not counting fingers whose refit is due.
+    double fit_fingers(std::size_t hand_index, const Pose& wrist_bs, double travel_since_solve_m,
                        FingerPose& pose) {
-        const HandSurroundings& hand = io_.hands[place];
+        const HandSurroundings& hand = io_.hands[hand_index];
         const bool reuses_fit = can_reuse_fit(pose, hand, wrist_bs);
-        const FingerSet is_free = update_queue(hand, wrist_bs, reuses_fit, pose);
+        const FingerSet needs_fit = update_queue(hand, wrist_bs, reuses_fit, pose);
         std::size_t refits_left = max_refits();
         FingerSet is_fitted = refit_queued(hand, wrist_bs, refits_left, pose);
         const double travel_m = reuses_fit ? travel_since_solve_m : 0.0;
         FingerSet is_kept = {};
         for (std::size_t f = 0; f < k_finger_count; ++f) {
-            is_kept[f] = is_free[f] && !is_fitted[f] && pose.backoff[f].queued_frames == 0;
+            is_kept[f] = needs_fit[f] && !is_fitted[f] && pose.backoff[f].queued_frames == 0;
             if (is_kept[f]) {
                 advance(pose.backoff[f], travel_m, io_.dt_s);
                 advance(pose.lookahead[f], travel_m, io_.dt_s);
@@ -183,32 +188,32 @@ class FingerFitter {
         double depth_m = 0.0;
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (is_fitted[f]) {
-                depth_m = std::max(depth_m, take_fit(place, f, pose));
+                depth_m = std::max(depth_m, take_fit(hand_index, f, pose));
             }
             pose.converged = pose.converged && queued_frames_of(hand, f, pose) == 0;
         }
         return depth_m;
     }
 
-    // Those that are to be closed anew wait one frame longer. Returns the fingers that are to be
-    // fitted: thumbs and those that an authored grip poses are not.
+    // Queues fingers that must be closed from scratch, or counts another frame of waiting. Returns
+    // the fingers to fit: all but thumbs and fingers in an authored pose.
     FingerSet update_queue(const HandSurroundings& hand, const Pose& wrist_bs, bool reuses_fit,
                            FingerPose& pose) {
-        FingerSet is_free = {};
+        FingerSet needs_fit = {};
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             const FingerRig& finger = hand.rig->fingers[f];
             if (finger.name == FingerName::thumb) {
                 continue;
             }
-            is_free[f] = !take_posed(hand, f, finger_chain(finger, 0.0, wrist_bs), pose);
+            needs_fit[f] = !take_authored_pose(hand, f, finger_chain(finger, 0.0, wrist_bs), pose);
             std::uint32_t& queued_frames = pose.backoff[f].queued_frames;
             queued_frames =
-                is_free[f] && (queued_frames > 0 || !reuses_fit) ? queued_frames + 1 : 0;
+                needs_fit[f] && (queued_frames > 0 || !reuses_fit) ? queued_frames + 1 : 0;
         }
-        return is_free;
+        return needs_fit;
     }
 
-    // As many as may be, those that wait longest first.
+    // Closes queued fingers from scratch, the longest waiting first, while the budget lasts.
     FingerSet refit_queued(const HandSurroundings& hand, const Pose& wrist_bs,
                            std::size_t& refits_left, FingerPose& pose) {
         FingerSet is_refitted = {};
@@ -228,7 +233,7 @@ class FingerFitter {
         return is_refitted;
     }
 
-    // Frames that a finger waits for its turn; a thumb has its own.
+    // Frames that a finger has waited in the queue; 0 for thumbs, which pose_thumb queues.
     static std::uint32_t queued_frames_of(const HandSurroundings& hand, std::size_t f,
                                           const FingerPose& pose) {
         const bool is_finger =
@@ -236,20 +241,20 @@ class FingerFitter {
         return is_finger ? pose.backoff[f].queued_frames : 0;
     }
 
-    // So deep that another fit is worth the change.
+    // Deep enough for another fit to be worth the visible change.
     bool is_penetrating(const ChainFit& fit) const {
         return fit.depth_m > settings_.search_depth_m;
     }
 
-    // In the air, and not on its way to anything, since it was bent out of what it was sunk in: it
-    // may come back when the hand is slow.
+    // At a clear sample pose with nothing ahead to close on. A slow hand may bring the finger back
+    // to the surface.
     static bool is_idle_bent_clear(const ChainFit& fit, std::size_t f, const FingerPose& pose) {
         const FingerLookahead& lookahead = pose.lookahead[f];
         return !touches(fit) && pose.backoff[f].failures > 0 &&
                !(lookahead.is_known && lookahead.has_surface_ahead);
     }
 
-    // For a slow hand another fit is worth the change where for a fast one it is not.
+    // A slow hand refits more readily: on a fast one the new fit would not last.
     bool needs_refit(const ChainFit& fit, std::size_t f, const FingerPose& pose) const {
         return is_slow(pose) ? is_penetrating(fit) || is_idle_bent_clear(fit, f, pose)
                              : fit.depth_m > tuning_.finger.fast_refit_depth_m;
@@ -261,8 +266,8 @@ class FingerFitter {
                    : static_cast<std::size_t>(std::max(1, tuning_.finger.refits_per_frame));
     }
 
-    // What is ahead is looked at anew by one finger in a frame, of those that may the one that
-    // looked longest ago; by none where a surface was judged.
+    // The one finger that may query its look-ahead again in this frame: the due finger with the
+    // oldest result. None (k_finger_count) if candidates were evaluated in this frame.
     std::size_t next_lookahead(const HandSurroundings& hand, const FingerSet& is_kept,
                                const FingerPose& pose) const {
         std::size_t next = k_finger_count;
@@ -276,6 +281,7 @@ class FingerFitter {
         return io_.surface.at(hand.hand).evaluated_this_frame ? k_finger_count : next;
     }
 
+    // Carries the finger's last fit along to the present wrist.
     ChainFit refit_last(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                         bool may_query_lookahead, FingerPose& pose) {
         ChainRefitSettings refit;
@@ -288,6 +294,8 @@ class FingerFitter {
         return fit;
     }
 
+    // Closes a penetrating or idle finger from scratch, and changes to that fit if it is clearly
+    // better.
     void refit_if_better(const HandSurroundings& hand, const Pose& wrist_bs, std::size_t f,
                          FingerPose& pose) {
         const bool slow_hand = is_slow(pose);
@@ -299,11 +307,12 @@ class FingerFitter {
             (is_penetrating(fits_[f]) || touches(refitted))) {
             begin_transition(refitted.angle_rad, f, pose);
             fits_[f] = refitted;
-            fits_[f].is_turn_limited = true;  // hinges that it was stopped by nothing at close on
+            fits_[f].is_turn_limited = true;  // hinges that nothing stopped close on next frame
         }
     }
 
-    double take_fit(std::size_t place, std::size_t f, FingerPose& pose) {
+    // Makes the fit the finger's target. Returns its penetration; 0 if a refit is due.
+    double take_fit(std::size_t hand_index, std::size_t f, FingerPose& pose) {
         const ChainFit& fit = fits_[f];
         pose.target[f].curl_rad = fit.angle_rad;
         pose.target[f].opposition_rad = 0.0;
@@ -312,8 +321,8 @@ class FingerFitter {
                                (!is_penetrating(fit) && fit.is_turn_limited);
         pose.converged = pose.converged && !is_moving;
         if (!io_.traces.empty()) {
-            io_.traces[place][f] = {fit.discs,        fit.pops,     fit.walked,
-                                    fit.contact_link, fit.fallback, fit.depth_m};
+            io_.traces[hand_index][f] = {fit.discs,        fit.pops,     fit.walked,
+                                         fit.contact_link, fit.fallback, fit.depth_m};
         }
         const bool is_refit_due = needs_refit(fit, f, pose) && pose.backoff[f].retry_in_m <= 0.0;
         return is_refit_due ? 0.0 : fit.depth_m;
@@ -346,7 +355,7 @@ class FingerFitter {
     const Tuning& tuning_;
     ChainFitSettings settings_;
     StageStats& stats_;
-    std::array<ChainFit, k_finger_count> fits_;  // of the hand that is being closed
+    std::array<ChainFit, k_finger_count> fits_;  // of the present hand
 };
 
 }  // namespace
@@ -354,9 +363,9 @@ class FingerFitter {
 void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats,
                    SearchOrder order) {
     FingerFitter fitter(io, tuning, order, stats);
-    for (std::size_t place = 0; place < io.hands.size(); ++place) {
-        fitter.close(place);
-        const HandSurroundings& hand = io.hands[place];
+    for (std::size_t hand_index = 0; hand_index < io.hands.size(); ++hand_index) {
+        fitter.close(hand_index);
+        const HandSurroundings& hand = io.hands[hand_index];
         FingerPose& pose = io.fingers.at(hand.hand);
         for (std::size_t f = 0; f < hand.rig->fingers.size(); ++f) {
             if (hand.rig->fingers[f].name != FingerName::thumb) {

@@ -14,25 +14,36 @@
 namespace handhold {
 
 struct SweepFingersIo {
-    double dt_s = 0.0;                        // of the frame; infinity: shown is target at once
-    std::span<const HandSurroundings> hands;  // in
+    double dt_s = 0.0;  // in: length of the frame; infinity: no rate limit and no budget
+    std::span<const HandSurroundings> hands;  // in: body frame (_bs)
     const Column<HandTracking>& hand;         // in: pressed
-    const Column<GripSurface>& surface;       // in
-    const Column<PalmPose>& palm;             // in
-    Column<PalmOffset>& offset;               // in/out: lift_m
-    Column<FingerPose>& fingers;              // in/out: all but thumbs
-    std::span<std::array<FingerTrace, k_finger_count>> traces;  // out, by place in hands; may be
-                                                                // empty
+    const Column<GripSurface>& surface;       // in: body frame (_bs)
+    const Column<PalmPose>& palm;             // in: shown wrist, world space
+    Column<PalmOffset>& offset;               // in/out: lift_m, metres
+    Column<FingerPose>& fingers;              // in/out: all digits but thumbs, radians
+    std::span<std::array<FingerTrace, k_finger_count>>
+        traces;  // out: by index in `hands`; or empty
     ChainFitScratch& scratch;
 };
 
-// Closes the fingers of each gripping hand on what its palm is held to, and on whatever else is
-// near: chain_fit.hpp says how, and of a hand that slides chain_refit.hpp and chain_follow.hpp.
-// Hands that did not move on their surface by FingerTuning::reuse_travel_m keep their fingers.
-// Where fingers stay sunk, the palm is lifted from the next frame on. Empty hands are at ease, or a
-// fist where the player closes them. Talk rows 12 to 15. Fingers that an authored grip poses stand
-// so, where they are not sunk there by more than FingerTuning::search_depth_m; the palm is not
-// lifted then. Talk row 10.
+// Closes the fingers of each gripping hand until they touch the surfaces near it. Talk rows 12 to
+// 15.
+//
+// A finger closes from fully open, all hinges in step. Where a link first touches, its hinge and
+// those before it stop and the links beyond close on (engine/geometry/chain_fit.hpp,
+// disc_contact.hpp). The result is checked and depenetrated in three dimensions. While a hand
+// slides, the last fit is carried along (chain_refit.hpp, chain_follow.hpp); a finger that still
+// penetrates is refitted from scratch with a back-off (FingerBackoff). Angles are kept while the
+// shown wrist travels less than FingerTuning::reuse_travel_m.
+//
+// If fingers still penetrate, PalmOffset::lift_m grows, which raises the palm from the next frame
+// on. Fingers of an empty hand take the rest pose, or a fist while the player presses the grip.
+//
+// Fingers with an authored pose take it, unless it penetrates by more than
+// FingerTuning::search_depth_m. A hand in an authored grip is not lifted. Talk row 10.
+//
+// Fallbacks counted: finger_full_search, finger_depenetrated, finger_opened, finger_no_contact,
+// palm_lifted, authored_finger_rejected.
 void sweep_fingers(const SweepFingersIo& io, const Tuning& tuning, StageStats& stats,
                    SearchOrder order = SearchOrder::best_first);
 

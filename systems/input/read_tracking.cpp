@@ -239,7 +239,7 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
         } else {
             if (jump != PlaySpaceTracker::Jump::none) {
                 stats.count(jump == PlaySpaceTracker::Jump::head ? Fallback::head_recentred
-                                                                 : Fallback::play_space_recentred);
+                                                                 : Fallback::space_recentred);
             }
             head.shift_m = space.shift_m();
             head.shift_turn = space.shift_turn();

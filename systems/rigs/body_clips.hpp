@@ -9,7 +9,8 @@
 #include "engine/math/math.hpp"
 
 // What an animator lays on top of the body that is estimated (talk row 24): small turns of bones by
-// time, by where one looks, by how a hand reaches. An asset; docs/body_clips.md has the file.
+// time, by where one looks, by how a hand reaches. An asset; docs/reference/body_clips.md has the
+// file.
 namespace handhold {
 
 // Links of the spine from the top down, left leg, right leg; then the clavicle, as a right one.

@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "systems/frame.hpp"
-#include "systems/input/read_tracking.hpp"
+#include <handhold/handhold.hpp>
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "tools/lab/solve_command.hpp"
 
 // Runs of `solve` in a folder of their own, and a reader of what they write that knows the format
-// only: docs/lab.md.
+// only: docs/reference/lab.md.
 namespace handhold::lab {
 
 class LabTest : public testing::Test {

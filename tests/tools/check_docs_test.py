@@ -62,8 +62,8 @@ class CheckDocs(unittest.TestCase):
                          ["docs/talk_map.md:1: engine/a.cpp does not exist"])
 
     def test_missing_test_in_a_map_is_named(self):
-        self.assertEqual(breaches(TEST_FILE | {"docs/frame.md": "`SolvePhases.Other`\n"}),
-                         ["docs/frame.md:1: no test is called SolvePhases.Other"])
+        self.assertEqual(breaches(TEST_FILE | {"docs/reference/stages.md": "`SolvePhases.Other`\n"}),
+                         ["docs/reference/stages.md:1: no test is called SolvePhases.Other"])
 
     def test_other_documents_may_name_files_to_be_made(self):
         self.assertEqual(breaches({"CONTRIBUTING.md": "make `systems/grip/new_stage.cpp`\n"}), [])

@@ -1,22 +1,17 @@
 # cmake --install: the runtime library for find_package(handhold), which gives the target handhold::runtime. The game is a
 # program of its own and is run where it is built.
 include(CMakePackageConfigHelpers)
-include(GNUInstallDirs)
 
 set(handhold_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/handhold)
 set_target_properties(handhold_runtime PROPERTIES EXPORT_NAME runtime)
 install(TARGETS handhold_runtime EXPORT handholdTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT handhold_runtime)
 install(EXPORT handholdTargets NAMESPACE handhold:: DESTINATION ${handhold_package_dir} COMPONENT handhold_runtime)
-# All headers but those that show Bullet's, tinygltf's or nlohmann-json's types: these are ours alone.
-install(DIRECTORY engine components systems DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/handhold COMPONENT handhold_runtime
-  FILES_MATCHING PATTERN "*.hpp"
-  PATTERN "engine/collision/bullet_*.hpp" EXCLUDE
-  PATTERN "engine/collision/pair_contact.hpp" EXCLUDE
-  PATTERN "engine/collision/mesh_contact.hpp" EXCLUDE
-  PATTERN "engine/io/gltf_buffer.hpp" EXCLUDE
-  PATTERN "engine/io/gltf_model.hpp" EXCLUDE
-  PATTERN "engine/io/json.hpp" EXCLUDE)
+# The public headers and what they reach; see install_headers.cmake.
+install(CODE "set(SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")
+set(PUBLIC_DIR \"${PROJECT_SOURCE_DIR}/systems/host/include\")
+set(DESTINATION \"${CMAKE_INSTALL_INCLUDEDIR}\")" COMPONENT handhold_runtime)
+install(SCRIPT ${PROJECT_SOURCE_DIR}/tools/cmake/install_headers.cmake COMPONENT handhold_runtime)
 configure_package_config_file(tools/cmake/handholdConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/handholdConfig.cmake
   INSTALL_DESTINATION ${handhold_package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/handholdConfigVersion.cmake COMPATIBILITY SameMinorVersion)

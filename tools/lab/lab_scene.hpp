@@ -14,7 +14,8 @@
 
 // The scenes that constraint solvers are measured on, as plain descriptions: one builder makes a
 // World of them (runtime_run), another a world of Bullet's own (bullet_run), a third the JSON.
-// No gravity; hands and driven bodies are functions of the time. docs/lab.md lists the scenes.
+// No gravity; hands and driven bodies are functions of the time. docs/reference/lab.md lists the
+// scenes.
 namespace handhold::lab {
 
 inline constexpr int k_world = -1;
@@ -151,7 +152,7 @@ struct SceneOptions {
     Holder holder = Holder::player;  // kinematic: levers, drawers and doors are not pulled too far
 };
 
-// All scenes' names, in the order of docs/lab.md.
+// All scenes' names, in the order of docs/reference/lab.md.
 std::vector<std::string_view> scene_names();
 // `name` is one of them.
 LabScene make_scene(std::string_view name, const SceneOptions& options);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <handhold/version.hpp>
 
 #include "tools/lab/body_command.hpp"
 #include "tools/lab/grip_command.hpp"
@@ -104,6 +105,7 @@ void add_body_options(CLI::App& body, lab::BodyOptions& options) {
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
 int main(int argc, char** argv) {
     CLI::App app{"Handhold's laboratory: the runtime measured from outside"};
+    app.set_version_flag("--version", "handhold-lab " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
     lab::SolveOptions options;
     CLI::App* const solve =

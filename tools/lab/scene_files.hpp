@@ -5,8 +5,8 @@
 #include "tools/lab/lab_scene.hpp"
 #include "tools/lab/measure.hpp"
 
-// What `handhold-lab solve` writes. The formats are a contract: docs/lab.md. Fields may be added,
-// none renamed or dropped.
+// What `handhold-lab solve` writes. The formats are a contract: docs/reference/lab.md. Fields may
+// be added, none renamed or dropped.
 namespace handhold::lab {
 
 struct RunLabels {

@@ -7,11 +7,12 @@
 namespace handhold {
 namespace {
 
-constexpr double k_travel_per_time_mps = 0.1;  // a hand that comes to rest need not wait for ever
-constexpr double k_max_way_m = 1.0;
+// Travel credited per second, so that back-offs also expire for a hand at rest.
+constexpr double k_travel_per_time_mps = 0.1;
+constexpr double k_max_travel_m = 1.0;  // bound of all stored travel values
 constexpr double k_lookahead_interval_m = 0.004;
 
-// In the mesh's frame.
+// Seeds are in the mesh's frame.
 GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface) {
     const SurfaceGraph& graph = placed.mesh->search;
     if (surface.triangle >= graph.triangles.size()) {
@@ -23,8 +24,8 @@ GraphPoint seed_under_palm(const PlacedMesh& placed, const GripSurface& surface)
 
 GraphPoint seed_near_finger(const PlacedMesh& placed, const HingeChain& chain) {
     const double radius_m = reach_m(chain);
-    const Vec3 half_closed(0.0, -0.2 * radius_m, -0.4 * radius_m);  // about its middle
-    const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed);
+    const Vec3 half_closed_middle(0.0, -0.2 * radius_m, -0.4 * radius_m);  // in the base's frame
+    const Vec3 middle = transform_point(inverse(placed.pose) * chain.base, half_closed_middle);
     const auto near = placed.mesh->search_bvh.closest_point(middle, radius_m);
     return near ? GraphPoint{near->triangle, near->point} : GraphPoint{};
 }
@@ -91,10 +92,11 @@ double hand_travel_m(const Pose& from, const Pose& to) {
     return moved.position.norm() + k_arm_m * rotation_to_vector(moved.rotation).norm();
 }
 
-bool is_clearly_better(const ChainFit& fit, const ChainFit& than,
+bool is_clearly_better(const ChainFit& fit, const ChainFit& current,
                        const ChainFitSettings& settings) {
-    constexpr double k_clearly = 0.5;
-    return fit.depth_m <= settings.open_depth_m || fit.depth_m < k_clearly * than.depth_m;
+    constexpr double k_max_depth_ratio = 0.5;
+    return fit.depth_m <= settings.open_depth_m ||
+           fit.depth_m < k_max_depth_ratio * current.depth_m;
 }
 
 bool is_small_move(const Pose& from, const Pose& to) {
@@ -120,27 +122,31 @@ void count_rejected_pose(const PalmOffset& offset, std::size_t finger, FingerPos
 }
 
 void advance(FingerBackoff& backoff, double travel_m, double dt_s) {
-    backoff.travel_since_m = std::min(backoff.travel_since_m + travel_m, k_max_way_m);
+    backoff.travel_since_m = std::min(backoff.travel_since_m + travel_m, k_max_travel_m);
     backoff.retry_in_m =
-        std::max(backoff.retry_in_m - travel_m - k_travel_per_time_mps * dt_s, -k_max_way_m);
+        std::max(backoff.retry_in_m - travel_m - k_travel_per_time_mps * dt_s, -k_max_travel_m);
 }
 
 bool is_retry_due(const FingerBackoff& backoff) {
     return backoff.retry_in_m <= 0.0 && backoff.travel_since_m > 0.0;
 }
 
-void record_attempt(FingerBackoff& backoff, bool has_failed, bool is_fast, std::uint32_t most) {
-    constexpr double k_first_m = 0.006;
-    constexpr std::uint32_t k_max_rounds = 2;
+void record_attempt(FingerBackoff& backoff, bool has_failed, bool is_fast,
+                    std::uint32_t option_count) {
+    constexpr double k_first_backoff_m = 0.006;
+    constexpr std::uint32_t k_max_doublings = 2;
     constexpr std::uint32_t k_max_failures = 1000;
     backoff.failures = has_failed ? backoff.failures + 1 : 0;
-    if (backoff.failures > k_max_failures) {  // whose turn it is stays
-        backoff.failures -= most * ((backoff.failures - k_max_rounds - 1) / most);
+    if (backoff.failures > k_max_failures) {
+        // Bounds the count but keeps failures % option_count, which selects the next option.
+        backoff.failures -=
+            option_count * ((backoff.failures - k_max_doublings - 1) / option_count);
     }
-    const std::uint32_t rounds = has_failed ? std::min(backoff.failures - 1, k_max_rounds) : 0;
-    backoff.retry_in_m = k_first_m * (1U << rounds);
+    const std::uint32_t doublings =
+        has_failed ? std::min(backoff.failures - 1, k_max_doublings) : 0;
+    backoff.retry_in_m = k_first_backoff_m * (1U << doublings);
     backoff.travel_since_m =
-        !is_fast && backoff.failures % most == 0 ? 0.0 : backoff.travel_since_m;
+        !is_fast && backoff.failures % option_count == 0 ? 0.0 : backoff.travel_since_m;
     backoff.was_fast_hand = is_fast;
 }
 
@@ -156,7 +162,7 @@ void advance(FingerLookahead& lookahead, double travel_m, double dt_s) {
     if (travel_m > 0.0) {
         lookahead.retry_in_m = std::min(lookahead.retry_in_m, k_lookahead_interval_m);
     }
-    lookahead.travel_since_m = std::min(lookahead.travel_since_m + travel_m, k_max_way_m);
+    lookahead.travel_since_m = std::min(lookahead.travel_since_m + travel_m, k_max_travel_m);
     lookahead.retry_in_m =
         std::max(lookahead.retry_in_m - travel_m - k_travel_per_time_mps * dt_s, 0.0);
 }
@@ -169,12 +175,12 @@ std::optional<bool> has_surface_ahead(const FingerLookahead& lookahead, bool may
 
 void update_lookahead(ChainFit& fit, FingerLookahead& lookahead) {
     if (fit.has_look_ahead) {
-        // What a hand that stands saw from one pose and not from the next, it would see again from
-        // the first: it goes to and fro no more until the hand moves, or for ten seconds.
-        const bool is_gone =
+        // A finger of a hand at rest may see a surface from one pose and not from the next. Waiting
+        // until the hand moves (or ten seconds) stops it from oscillating between the two.
+        const bool is_lost =
             lookahead.is_known && lookahead.has_surface_ahead && !fit.has_surface_ahead;
         const bool is_still = lookahead.travel_since_m <= 0.0;
-        lookahead = {is_gone && is_still ? k_max_way_m : k_lookahead_interval_m, 0.0,
+        lookahead = {is_lost && is_still ? k_max_travel_m : k_lookahead_interval_m, 0.0,
                      fit.has_surface_ahead, true};
     } else if (touches(fit)) {
         lookahead = {};
@@ -186,13 +192,13 @@ void update_lookahead(ChainFit& fit, FingerLookahead& lookahead) {
 bool lift_if_penetrating(const HandSurroundings& hand, double depth_m, const PalmTuning& tuning,
                          PalmOffset& offset) {
     constexpr double k_max_lifts = 3.0;
-    const double most_m = k_max_lifts * tuning.lift_m;
-    const bool is_turn_limited = !is_at_target(offset) || offset.target_lift_m != offset.lift_m;
-    if (is_turn_limited || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
-        offset.lift_m >= most_m) {
+    const double max_lift_m = k_max_lifts * tuning.lift_m;
+    const bool is_moving = !is_at_target(offset) || offset.solved_lift_m != offset.lift_m;
+    if (is_moving || hand.authored != nullptr || depth_m <= tuning.lift_from_depth_m ||
+        offset.lift_m >= max_lift_m) {
         return false;
     }
-    offset.lift_m = std::min(offset.lift_m + tuning.lift_m, most_m);
+    offset.lift_m = std::min(offset.lift_m + tuning.lift_m, max_lift_m);
     offset.lift_wrist_bs = hand.wrist_bs;
     return true;
 }
@@ -213,8 +219,9 @@ void follow_target(std::size_t finger, double dt_s, const FingerTuning& tuning, 
     FingerAngles& shown = pose.shown[finger];
     for (std::size_t i = 0; i < k_max_links; ++i) {
         double& opening_lag_rad = pose.opening_lag_rad[finger][i];
-        const double left_rad = std::max(0.0, opening_lag_rad - dt_s * tuning.transition_radps);
-        opening_lag_rad = std::min(left_rad, std::max(0.0, shown.curl_rad[i] - target.curl_rad[i]));
+        const double max_lag_rad = std::max(0.0, shown.curl_rad[i] - target.curl_rad[i]);
+        const double reduced_rad = std::max(0.0, opening_lag_rad - dt_s * tuning.transition_radps);
+        opening_lag_rad = std::min(reduced_rad, max_lag_rad);
         shown.curl_rad[i] =
             std::min(target.curl_rad[i] + opening_lag_rad, shown.curl_rad[i] + step_rad);
     }

@@ -9,87 +9,94 @@
 #include "components/tuning.hpp"
 #include "engine/geometry/chain_fit.hpp"
 
-// Fingers and thumbs as chains of hinged capsules: what sweep_fingers and pose_thumb share.
+// Fingers and thumbs as chains of hinged capsules: code shared by sweep_fingers and pose_thumb.
 namespace handhold {
 
-// In the frame that `wrist` is in.
+// The digit's chain in the frame of `wrist`.
 HingeChain finger_chain(const FingerRig& finger, double opposition_rad, const Pose& wrist);
 
 ChainFitSettings chain_settings(const FingerTuning& tuning);
-// FingerPose::slow_s' frame: the wrist shown went `way_m`.
+// Updates FingerPose::slow_s for one frame in which the shown wrist travelled `travel_m`.
 void update_slow_time(double travel_m, double dt_s, const FingerTuning& tuning, FingerPose& pose);
-// The wrist shown stands, trembles or hardly slides, and has so for a moment: hands whose samples
-// come at half the frames' rate stand in every second frame.
+// True if the shown wrist has been slow for 0.1 s. A single slow frame does not count: a hand
+// sampled at half the frame rate stands still in every second frame.
 bool is_slow(const FingerPose& pose);
-// For what a sliding hand tries anew beside the fit that it has: cheap, and near to that. A digit
-// of a fast hand does not come back from where it is bent clear: it would soon be sunk again.
+// Settings for refitting a digit of a sliding hand from scratch: cheap, and preferring fits near
+// `last_rad`. A digit of a fast hand stays at a clear sample pose instead of closing from there
+// until it touches, because it would soon penetrate again.
 ChainFitSettings sliding_refit_settings(ChainFitSettings settings, const ChainAngles& last_rad,
                                         bool is_slow);
 
-// Where a finger's searches begin: at the triangle where they ended last time, nearest to the
-// finger's base. Where that is none, under the palm, and, as the palm may lie on another part than
-// the finger will, at what is nearest to where a finger is when it is half closed. `chain` is in
-// the body's frame; the triangle may be of an older mesh. Precondition: there is a mesh.
+// Seeds of a finger's cut searches: its last search's triangle, at the point nearest to the
+// finger's base. Without a valid `last_triangle`, two seeds: under the palm, and nearest to the
+// half-closed finger, which may be over another part of the mesh. `chain` is in the body's frame;
+// the triangle may be from an older mesh. Precondition: the hand has a mesh.
 ChainSeed chain_seed(const HandSurroundings& hand, const GripSurface& surface,
                      std::uint32_t last_triangle, const HingeChain& chain);
 
-// How far the parts of a hand have moved, roughly: a turn moves fingers by its angle times 0.1 m.
+// Approximate travel of a hand's parts between two wrist poses: |translation| + 0.1 m * |rotation|.
 double hand_travel_m(const Pose& from, const Pose& to);
 
-// Of a chain sunk deeper than it should be: whether it is worth changing from one fit to another.
-bool is_clearly_better(const ChainFit& fit, const ChainFit& than, const ChainFitSettings& settings);
+// True if replacing the penetrating fit `current` by `fit` is worth the visible change: `fit` is
+// clear, or less than half as deep.
+bool is_clearly_better(const ChainFit& fit, const ChainFit& current,
+                       const ChainFitSettings& settings);
 
-// True where the hand's fingers were fitted a moment ago, with the wrist shown nearly at
-// `wrist_bs`: their angles are where to begin from.
+// True if the fingers were fitted on this body with the shown wrist near `wrist_bs`, so that their
+// angles can be carried along.
 bool can_reuse_fit(const FingerPose& pose, const HandSurroundings& hand, const Pose& wrist_bs);
-// The same of two places of the wrist on one body.
+// True if the hand travels less than 8 mm between two wrist poses on one body.
 bool is_small_move(const Pose& from, const Pose& to);
 
-// The palm shown has come to where it is bound for.
+// True if the shown palm offset equals its target.
 bool is_at_target(const PalmOffset& offset);
 
-// An authored pose that would be sunk: counted once, when the palm is in its grip. On its way there
-// it is no wonder.
+// Counts a penetrating authored pose, once per grip and only after the palm has reached its target:
+// penetration on the way there is expected.
 void count_rejected_pose(const PalmOffset& offset, std::size_t finger, FingerPose& pose,
                          StageStats& stats);
 
-// FingerBackoff's frame: the wrist shown went `way_m`.
+// Advances the back-off by one frame in which the shown wrist travelled `travel_m`.
 void advance(FingerBackoff& backoff, double travel_m, double dt_s);
 bool is_retry_due(const FingerBackoff& backoff);
-// After a try, of `most` things that there are to try. A fast hand's is not all that there is.
-void record_attempt(FingerBackoff& backoff, bool has_failed, bool is_fast, std::uint32_t most = 1);
-// Something is in its way where it is; false of what is relaxed, sunk or not.
+// Records one of `option_count` different refits. The back-off doubles after a failure, up to four
+// times the first. Once every option has failed, nothing is due until the wrist travels again,
+// except that attempts of a fast hand do not count as complete.
+void record_attempt(FingerBackoff& backoff, bool has_failed, bool is_fast,
+                    std::uint32_t option_count = 1);
+// True if a surface stops the chain; false for a rest pose, even a penetrating one.
 bool touches(const ChainFit& fit);
-// Clear of what it was sunk in, but only because it was bent out of it: it touches nothing there.
+// True if the fit is a clear sample pose that touches nothing.
 bool is_bent_clear(const ChainFit& fit);
 
-// FingerLookahead's frame: the wrist shown went `way_m`.
+// Advances the look-ahead by one frame in which the shown wrist travelled `travel_m`.
 void advance(FingerLookahead& lookahead, double travel_m, double dt_s);
-// What of it still counts for a chain that is fitted again; where that may not look now, all that
-// is known.
+// The cached look-ahead to use for a refit; none: query it. If no query is allowed now, an outdated
+// result is used too.
 std::optional<bool> has_surface_ahead(const FingerLookahead& lookahead, bool may_query_lookahead);
-// After the chain was fitted again: it looked, it touches something and need not, or it goes by
-// what it knew. What it knew of another place has to be looked at again where the hand rests.
+// Updates the cache after a refit: stores a new query, or clears the cache if the chain touches. A
+// fit that used a result from another wrist pose is marked as turn-limited, so that a hand at rest
+// queries again.
 void update_lookahead(ChainFit& fit, FingerLookahead& lookahead);
 
-// Lifts the palm by one step more where fingers or the thumb are sunk so deep, up to three times.
-// Not before the hand that is shown has come to where it is bound for: on its way there they may
-// well be sunk.
+// Raises the palm by one step (PalmTuning::lift_m, up to three) if a digit penetrates deeper than
+// PalmTuning::lift_from_depth_m. Only once the shown palm has reached its target: penetration on
+// the way there is expected. Returns whether it did.
 bool lift_if_penetrating(const HandSurroundings& hand, double depth_m, const PalmTuning& tuning,
                          PalmOffset& offset);
-// True where a lift is shown within one frame: the fits that the fingers had are of no use then.
+// True if a lift step is shown within one frame, which invalidates the current finger fits.
 bool lifts_within_frame(const PalmTuning& tuning, double dt_s);
 
-// A digit of a hand that slides was sunk, or touched nothing, and changes to another fit: what is
-// shown opens on its way there at a rate. Before its target is set. First closings, fast hands,
-// authored poses and letting go open at once.
+// Starts a change of a sliding hand's digit to another fit: `shown` will open towards it at
+// FingerTuning::transition_radps. Call before the target is set. Without it `shown` opens at once.
 void begin_transition(const ChainAngles& to_rad, std::size_t finger, FingerPose& pose);
 
-// What is shown of a finger follows its target: opens at once but for a change, closes at a rate;
-// opposition turns at that rate either way.
+// Moves a finger's `shown` angles towards its target for one frame. Curl opens at once, except for
+// opening_lag_rad, and closes at FingerTuning::close_radps; opposition turns at that rate both
+// ways.
 void follow_target(std::size_t finger, double dt_s, const FingerTuning& tuning, FingerPose& pose);
 
-// How curled a fist is, of the way from open to curled.
-inline constexpr double k_fist = 0.85;
+// Curl of a fist, as a share of the range from open (0) to fully curled (1).
+inline constexpr double k_fist_curl = 0.85;
 
 }  // namespace handhold

@@ -10,8 +10,8 @@
 namespace handhold {
 namespace {
 
-// Shares of the way from open to closed: of the first hinge, and of the others. Straight first,
-// since most fingers have room there.
+// Curls as shares of the range from open to closed: of the first hinge, and of the others. Straight
+// comes first, because most fingers have clearance there.
 struct SamplePose {
     double first;
     double others;
@@ -29,9 +29,9 @@ std::uint32_t opposition_count(const FingerRig& finger) {
     return finger.name == FingerName::thumb ? 3 : 1;
 }
 
-double opposition_rad(const FingerRig& finger, std::uint32_t place) {
+double opposition_rad(const FingerRig& finger, std::uint32_t step) {
     const std::uint32_t count = opposition_count(finger);
-    const double share = count > 1 ? place / (count - 1.0) : 0.0;
+    const double share = count > 1 ? step / (count - 1.0) : 0.0;
     return finger.lower_opposition_rad +
            share * (finger.upper_opposition_rad - finger.lower_opposition_rad);
 }
@@ -46,27 +46,28 @@ ChainAngles sample_curl(const SamplePose& sample, const ChainAngles& open_rad,
     return angle_rad;
 }
 
-// No bend turns a hinge farther.
+// The largest curl of any sample pose, per hinge: bounds the region to gather.
 ChainAngles max_sample_curl(const HingeChain& chain) {
-    constexpr SamplePose k_most = [] {
-        SamplePose most = {0.0, 0.0};
+    constexpr SamplePose k_largest = [] {
+        SamplePose largest = {0.0, 0.0};
         for (const SamplePose& sample : k_pose_samples) {
-            most = {std::max(most.first, sample.first), std::max(most.others, sample.others)};
+            largest = {std::max(largest.first, sample.first),
+                       std::max(largest.others, sample.others)};
         }
-        return most;
+        return largest;
     }();
-    return sample_curl(k_most, chain.open_rad, chain.closed_rad, chain.link_count);
+    return sample_curl(k_largest, chain.open_rad, chain.closed_rad, chain.link_count);
 }
 
 struct BestSample {
     double penetration_m = std::numeric_limits<double>::infinity();
-    std::size_t sample = 0;  // of k_bends
+    std::size_t sample = 0;  // index into k_pose_samples
     std::uint32_t opposition = 0;
 
     bool has_clearance() const { return penetration_m <= k_finger_penetration_tolerance_m; }
 };
 
-// Straight, as most have room, and there is little to gather.
+// The straight pose alone: usually clear, and it needs few triangles.
 void evaluate_straight(const HandSurroundings& hand, const HingeChain& chain,
                        std::uint32_t opposition, ChainPatch& patch, BestSample& best) {
     const double straight_m = posed_depth_m(chain, chain.open_rad, hand.meshes, patch);
@@ -75,7 +76,7 @@ void evaluate_straight(const HandSurroundings& hand, const HingeChain& chain,
     }
 }
 
-// The other bends, at the opposition of the best; the first with room will do.
+// The other sample poses, at the opposition of the best so far. Stops at the first with clearance.
 void evaluate_samples(const HandSurroundings& hand, const HingeChain& chain, ChainPatch& patch,
                       BestSample& best) {
     patch.gather(
@@ -136,12 +137,12 @@ std::optional<FingerAngles> sample_pose_angles(const FingerRig& finger, std::uin
     if (sample == 0 || sample > k_pose_samples.size() * opposition_count(finger)) {
         return std::nullopt;
     }
-    const std::size_t place = sample - std::size_t{1};
+    const std::size_t index = sample - std::size_t{1};
     FingerAngles angles;
-    angles.curl_rad = sample_curl(k_pose_samples[place % k_pose_samples.size()], finger.lower_rad,
+    angles.curl_rad = sample_curl(k_pose_samples[index % k_pose_samples.size()], finger.lower_rad,
                                   finger.upper_rad, finger.link_count);
     angles.opposition_rad =
-        opposition_rad(finger, static_cast<std::uint32_t>(place / k_pose_samples.size()));
+        opposition_rad(finger, static_cast<std::uint32_t>(index / k_pose_samples.size()));
     return angles;
 }
 

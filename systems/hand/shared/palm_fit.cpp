@@ -14,25 +14,25 @@
 namespace handhold {
 namespace {
 
-constexpr int k_min_iterations = 2;   // then it may be given up
-constexpr double k_min_arm_m = 1e-3;  // turning is never quite free
-constexpr double k_first_step_m = 1.0;
-constexpr double k_penetration_slop_m = 5e-5;  // what is sunk less is not pushed out
-constexpr double k_query_margin_m = 0.003;     // gaps as wide are seen
-constexpr double k_max_inside_m = 0.03;        // deeper than this inside of something is not seen
+constexpr int k_min_iterations = 2;            // before a fit can be abandoned
+constexpr double k_min_arm_m = 1e-3;           // keeps rotation from being free
+constexpr double k_first_step_m = 1.0;         // "step" before the first iteration: not converged
+constexpr double k_penetration_slop_m = 5e-5;  // smaller penetrations are left
+constexpr double k_query_margin_m = 0.003;     // widest gap that a query reports
+constexpr double k_max_inside_m = 0.03;        // deepest sphere centre inside a solid that is found
 
-// How far beside the found triangle the palm is: along the triangle's plane, zero over it.
+// Shortest translation within the triangle's plane that brings the palm over the triangle.
 Vec3 offset_onto_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Vec3& center_bs) {
     const SurfaceGraph& graph = placed.mesh->search;
     const Corners corners = corners_of(graph, triangle);
     const Vec3 center = inverse_transform_point(placed.pose, center_bs);
     const Vec3& normal = graph.normals[triangle];
-    const Vec3 flat = center - (center - corners[0]).dot(normal) * normal;
-    return placed.pose.rotation * Vec3(closest_on_triangle(flat, corners) - flat);
+    const Vec3 in_plane = center - (center - corners[0]).dot(normal) * normal;
+    return placed.pose.rotation * Vec3(closest_on_triangle(in_plane, corners) - in_plane);
 }
 
-// Turned back, by the shortest way, to where the palm is tilted against the normal as far as it
-// may.
+// The rotation turned by the smallest angle so that the palm's tilt against `normal` is at most
+// `max_rad`.
 Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, double max_rad) {
     const Vec3 up = rotation * -rig.palm_normal_hs;
     const Vec3 across = up.cross(normal);
@@ -43,7 +43,8 @@ Quat clamp_tilt(const Quat& rotation, const HandRig& rig, const Vec3& normal, do
     return (rotation_about(across.normalized(), angle_rad - max_rad) * rotation).normalized();
 }
 
-// Height first, tilt second: tilting about the palm's centre keeps its height.
+// The tracked wrist moved into the height limits, then into the tilt limit. Tilting about the
+// palm's centre keeps its height.
 Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
                      const GripSurface& surface, double lift_m, const PalmTuning& tuning) {
     const HandRig& rig = *hand.rig;
@@ -62,44 +63,44 @@ Pose clamp_to_limits(const HandSurroundings& hand, const Pose& tracked_bs,
     return wrist;
 }
 
-// What a palm must keep open; below 0 it is not. A small move opens it by
-// along . way + turn . rotation vector about the palm's centre.
+// One inequality of the fit: gap >= 0. A small move (translation t, rotation vector r about the
+// palm's centre) changes the gap by along . t + turn . r.
 struct PalmGap {
     Vec3 along = Vec3::Zero();
     Vec3 turn = Vec3::Zero();
-    double gap_m = 0.0;
+    double gap_m = 0.0;  // below 0: violated
 };
 
 class PalmGaps {
   public:
     void clear() { count_ = 0; }
-    // The first of them; the limits always have their places.
+    // Ignored when full; places for the limits are reserved.
     void add_contact(const PalmGap& gap) {
-        if (count_ < k_most - k_limits) {
+        if (count_ < k_max_gaps - k_max_limits) {
             gaps_[count_++] = gap;
         }
     }
-    // Precondition: no more than k_limits since the last clear().
+    // Precondition: at most k_max_limits calls since the last clear().
     void add_limit(const PalmGap& gap) { gaps_[count_++] = gap; }
     std::span<const PalmGap> all() const { return {gaps_.data(), count_}; }
 
-    static constexpr std::size_t k_limits = 3;
-    static constexpr std::size_t k_most = 256;  // those of five bodies about a bent hand
+    static constexpr std::size_t k_max_limits = 3;
+    static constexpr std::size_t k_max_gaps = 256;  // enough for a curled hand among five bodies
 
   private:
-    std::array<PalmGap, k_most> gaps_;  // NOLINT(*-member-init): filled as it grows
+    std::array<PalmGap, k_max_gaps> gaps_;  // NOLINT(*-member-init): filled as it grows
     std::size_t count_ = 0;
 };
 
-// The limits on height and tilt, lift_m higher than else.
+// Adds the limits on height (raised by lift_m) and tilt.
 void add_limits(const HandSurroundings& hand, const GripSurface& surface, const Pose& wrist,
                 double lift_m, const PalmTuning& tuning, double arm_m, PalmGaps& gaps) {
     const Vec3& normal = surface.normal_bs;
     const Vec3 center = transform_point(wrist, hand.rig->palm_center_hs);
     const double height_m = (center - surface.point_bs).dot(normal) - lift_m;
-    const double most_m = std::max(tuning.min_height_m, tuning.max_height_m);
+    const double max_height_m = std::max(tuning.min_height_m, tuning.max_height_m);
     gaps.add_limit({normal, Vec3::Zero(), height_m - tuning.min_height_m});
-    gaps.add_limit({-normal, Vec3::Zero(), most_m - height_m});
+    gaps.add_limit({-normal, Vec3::Zero(), max_height_m - height_m});
     const Vec3 up = wrist.rotation * -hand.rig->palm_normal_hs;
     const Vec3 across = up.cross(normal);
     if (across.norm() > 1e-9) {
@@ -109,11 +110,12 @@ void add_limits(const HandSurroundings& hand, const GripSurface& surface, const 
     }
 }
 
-// Looks at the palm as spheres along its capsules; which side of a surface is out follows from its
-// winding, and from which side the palm is held to.
+// Queries the gaps of the palm, approximated by spheres along its capsules. A surface's outside
+// follows from its winding; on the gripped mesh, flipped if the palm is held to a backface.
 class PalmSpheres {
   public:
-    // `is_clear`: nothing was sunk a moment ago, so that nothing is deep inside of something.
+    // `was_clear`: nothing penetrated a moment ago, so no sphere can be deep inside a solid and a
+    // small query radius suffices.
     PalmSpheres(const HandSurroundings& hand, const GripSurface& surface, bool was_clear)
         : hand_(hand), was_clear_(was_clear) {
         const PlacedMesh& placed = hand.meshes.front();
@@ -124,23 +126,23 @@ class PalmSpheres {
         }
     }
 
-    // The gaps between the spheres of a hand at `wrist` and what is nearest to each, where that is
-    // near; returns how deep the deepest is sunk.
+    // Adds the gap of every sphere to its nearest surface point, if within the query radius, with
+    // the hand at `wrist`. Returns the largest penetration of the palm, at least 0.
     double query(const Pose& wrist, PalmGaps& gaps) {
-        std::size_t place = 0;
+        std::size_t cache_index = 0;
         double deepest_m = 0.0;
         for (const PalmCapsule& capsule : hand_.rig->palm) {
-            deepest_m = std::max(deepest_m, query_capsule(wrist, capsule, 0, place, gaps));
+            deepest_m = std::max(deepest_m, query_capsule(wrist, capsule, 0, cache_index, gaps));
         }
         finger_penetration_m_ = 0.0;
         for (std::size_t i = 0; i < link_count_; ++i) {
             finger_penetration_m_ =
                 std::max(finger_penetration_m_,
-                         query_capsule(wrist, links_[i], is_first_[i] ? 0 : 1, place, gaps));
+                         query_capsule(wrist, links_[i], is_first_[i] ? 0 : 1, cache_index, gaps));
         }
         return deepest_m;
     }
-    // Then: of the fingers that are held clear with the palm.
+    // After query(): largest penetration of the fingers that are part of the shape.
     double finger_penetration_m() const { return finger_penetration_m_; }
 
   private:
@@ -156,9 +158,9 @@ class PalmSpheres {
         }
     }
 
-    // From sphere `first` on: at a hinge the link before it is as thick.
+    // Skips the spheres before `first`: a link's first sphere is the previous link's last.
     double query_capsule(const Pose& wrist, const PalmCapsule& capsule, int first,
-                         std::size_t& place, PalmGaps& gaps) {
+                         std::size_t& cache_index, PalmGaps& gaps) {
         constexpr int k_spheres = 3;
         double deepest_m = 0.0;
         const Vec3 middle = transform_point(wrist, hand_.rig->palm_center_hs);
@@ -166,9 +168,9 @@ class PalmSpheres {
             const double share = static_cast<double>(i) / (k_spheres - 1);
             const Vec3 center =
                 transform_point(wrist, capsule.a_hs + share * (capsule.b_hs - capsule.a_hs));
-            for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++place) {
+            for (std::size_t m = 0; m < hand_.meshes.size(); ++m, ++cache_index) {
                 auto gap = gap_under(hand_.meshes[m], m == 0 ? side_ : 1.0,
-                                     {center, capsule.radius_m}, place);
+                                     {center, capsule.radius_m}, cache_index);
                 if (gap) {
                     gap->turn = (center - middle).cross(gap->along);
                     gaps.add_contact(*gap);
@@ -183,22 +185,25 @@ class PalmSpheres {
         Vec3 center;
         double radius_m = 0.0;
     };
-    // What a sphere found when it was last looked at: until it has moved so far that it may be sunk
-    // it need not be looked at again, and the nearest point is no farther than the last one.
+    // A sphere's last query, in the mesh's frame. While the sphere has moved less than the
+    // clearance it cannot penetrate and is not queried again. A later nearest point cannot be
+    // farther than `point`, which bounds the next query.
     struct CachedQuery {
         Vec3 center = Vec3::Zero();
         Vec3 point = Vec3::Zero();
         double clearance_m = 0.0;
-        bool has_point = false;
+        bool has_point = false;  // a surface was within the query radius
     };
 
-    // Its turn is not known here.
+    // The sphere's gap to the nearest point of one mesh; PalmGap::turn is left to the caller.
+    // `side` is -1 if the outside is against the winding.
     std::optional<PalmGap> gap_under(const PlacedMesh& placed, double side, const Sphere& sphere_bs,
-                                     std::size_t place) {
+                                     std::size_t cache_index) {
         const Sphere sphere = {inverse_transform_point(placed.pose, sphere_bs.center),
                                sphere_bs.radius_m};
         CachedQuery overflow;
-        CachedQuery& cached = place < query_cache_.size() ? query_cache_[place] : overflow;
+        CachedQuery& cached =
+            cache_index < query_cache_.size() ? query_cache_[cache_index] : overflow;
         if ((sphere.center - cached.center).squaredNorm() <
             cached.clearance_m * cached.clearance_m) {
             return cached.has_point ? std::optional(gap_over(placed, sphere, cached.point))
@@ -207,9 +212,9 @@ class PalmSpheres {
         double query_radius_m = was_clear_ ? sphere.radius_m + k_query_margin_m
                                            : std::max(sphere.radius_m, k_max_inside_m);
         if (cached.has_point) {
-            constexpr double k_noise_m = 1e-9;
+            constexpr double k_rounding_m = 1e-9;
             query_radius_m =
-                std::min(query_radius_m, (sphere.center - cached.point).norm() + k_noise_m);
+                std::min(query_radius_m, (sphere.center - cached.point).norm() + k_rounding_m);
         }
         const auto near = placed.mesh->contact_bvh.closest_point(sphere.center, query_radius_m);
         cached = {sphere.center, near ? near->point : Vec3::Zero(),
@@ -222,7 +227,7 @@ class PalmSpheres {
         return gap;
     }
 
-    // `sphere` in the mesh's frame, and outside of it.
+    // Gap to a known point. `sphere` is in the mesh's frame, its centre outside the solid.
     static PalmGap gap_over(const PlacedMesh& placed, const Sphere& sphere, const Vec3& point) {
         const Vec3 from_surface = sphere.center - point;
         const double distance_m = from_surface.norm();
@@ -230,15 +235,16 @@ class PalmSpheres {
                 distance_m - sphere.radius_m};
     }
 
-    // `sphere` in the mesh's frame.
+    // Gap to a query's hit, which may be inside the solid. `sphere` is in the mesh's frame.
     static PalmGap gap_at(const PlacedMesh& placed, double side, const TriangleHit& near,
                           const Sphere& sphere) {
         const Vec3 outward = side * placed.mesh->contact.normals[near.triangle];
         const double height_m = outward.dot(sphere.center - near.point);
-        // Beyond an edge a sphere is high over neither side, but not inside either.
-        constexpr double k_surely_below = 0.5;
+        // Beyond an edge, a centre outside the solid can be slightly below one triangle's plane. It
+        // counts as inside only if it is clearly below.
+        constexpr double k_min_inside_ratio = 0.5;
         constexpr double k_on_surface_m = 1e-9;
-        const bool is_inside = height_m < -k_surely_below * near.distance_m;
+        const bool is_inside = height_m < -k_min_inside_ratio * near.distance_m;
         if (near.distance_m <= k_on_surface_m) {
             return {placed.pose.rotation * outward, Vec3::Zero(), -sphere.radius_m};
         }
@@ -247,13 +253,13 @@ class PalmSpheres {
                 (is_inside ? -near.distance_m : near.distance_m) - sphere.radius_m};
     }
 
-    static constexpr std::size_t k_max_cached_queries = 96;  // the others are looked at every time
+    static constexpr std::size_t k_max_cached_queries = 96;  // spheres beyond are always queried
 
     const HandSurroundings& hand_;
     bool was_clear_;
     double side_ = 1.0;
-    std::array<PalmCapsule, k_finger_count * k_max_links> links_;  // of bent fingers
-    std::array<bool, k_finger_count* k_max_links> is_first_ = {};  // of its finger
+    std::array<PalmCapsule, k_finger_count * k_max_links> links_;  // of fingers in a sample pose
+    std::array<bool, k_finger_count* k_max_links> is_first_ = {};  // first link of its finger
     std::size_t link_count_ = 0;
     double finger_penetration_m_ = 0.0;
     std::array<CachedQuery, k_max_cached_queries> query_cache_;
@@ -264,39 +270,42 @@ struct PalmMove {
     Vec3 turn_rad = Vec3::Zero();  // rotation vector, about the palm's centre
 };
 
-// The least move, from where the palm was first, that opens all gaps, which were seen with the palm
-// moved by `moved`, as far as they are straight. Least is the square of its way and of its turn, a
-// radian counted as arm_m. By projected Gauss-Seidel; where no move opens all, a compromise.
+// The smallest total move m = (t, r) from the palm within its limits that opens all gaps,
+// linearised at `moved`:
+//   minimise |t|^2 + (arm_m |r|)^2   subject to   J_i m >= J_i moved - gap_i
+// where J_i = (along_i, turn_i). Solved by projected Gauss-Seidel on the multipliers. If the gaps
+// contradict each other, the result is a compromise.
 PalmMove smallest_correction(std::span<const PalmGap> gaps, const PalmMove& moved, double arm_m) {
-    constexpr int k_rounds = 24;
+    constexpr int k_max_sweeps = 24;
     constexpr double k_converged_m = 1e-8;
-    struct Push {
-        double wanted_m;  // that a move is to open the gap by, from where the palm was first
-        double share;     // of what it lacks, that is pushed
-        double size = 0.0;
+    struct Row {
+        double required_m;      // right-hand side J_i moved - gap_i
+        double inverse_weight;  // 1 / (J_i M^-1 J_i^T), with M = diag(1, arm_m^2)
+        double multiplier = 0.0;
     };
-    const double turning = 1.0 / (arm_m * arm_m);
-    std::array<Push, PalmGaps::k_most> pushes;  // NOLINT(*-member-init): filled as far as used
+    const double inverse_inertia = 1.0 / (arm_m * arm_m);
+    std::array<Row, PalmGaps::k_max_gaps> rows;  // NOLINT(*-member-init): filled as far as used
     for (std::size_t i = 0; i < gaps.size(); ++i) {
         const auto& [along, turn, gap_m] = gaps[i];
-        pushes[i] = {along.dot(moved.translation_m) + turn.dot(moved.turn_rad) - gap_m,
-                     1.0 / (along.squaredNorm() + turning * turn.squaredNorm())};
+        rows[i] = {along.dot(moved.translation_m) + turn.dot(moved.turn_rad) - gap_m,
+                   1.0 / (along.squaredNorm() + inverse_inertia * turn.squaredNorm())};
     }
     PalmMove move;
     double change_m = 1.0;
-    for (int round = 0; round < k_rounds && change_m > k_converged_m; ++round) {
+    for (int sweep = 0; sweep < k_max_sweeps && change_m > k_converged_m; ++sweep) {
         change_m = 0.0;
         for (std::size_t i = 0; i < gaps.size(); ++i) {
             const PalmGap& gap = gaps[i];
-            Push& push = pushes[i];
+            Row& row = rows[i];
             const double violation_m =
-                push.wanted_m - gap.along.dot(move.translation_m) - gap.turn.dot(move.turn_rad);
-            const double size = std::max(0.0, push.size + push.share * violation_m);
-            const double more_m = size - push.size;
-            move.translation_m += more_m * gap.along;
-            move.turn_rad += more_m * turning * gap.turn;
-            push.size = size;
-            change_m = std::max(change_m, std::abs(more_m));
+                row.required_m - gap.along.dot(move.translation_m) - gap.turn.dot(move.turn_rad);
+            const double multiplier =
+                std::max(0.0, row.multiplier + row.inverse_weight * violation_m);
+            const double delta_m = multiplier - row.multiplier;
+            move.translation_m += delta_m * gap.along;
+            move.turn_rad += delta_m * inverse_inertia * gap.turn;
+            row.multiplier = multiplier;
+            change_m = std::max(change_m, std::abs(delta_m));
         }
     }
     return move;
@@ -306,7 +315,8 @@ double size_of(const PalmMove& move, double arm_m) {
     return move.translation_m.norm() + arm_m * move.turn_rad.norm();
 }
 
-// Pushing on does not help any more.
+// True if further iterations are pointless: clear and either uncorrected or no longer moving, or
+// penetrating and stuck. A clear palm with a correction goes on because less may suffice.
 bool is_converged(double deepest_m, double step_m, bool is_corrected) {
     constexpr double k_stuck_m = 2e-5;
     constexpr double k_converged_m = 2e-4;
@@ -319,9 +329,9 @@ PalmMove move_between(const Pose& from, const Pose& to, const Vec3& center_hs) {
             rotation_to_vector((to.rotation * from.rotation.conjugate()).normalized())};
 }
 
-// Nothing was sunk a moment ago, and nothing can have come deep into it since: it and its fingers
-// had room where it was judged, farther than it went and is lifted, nothing around it moved, and no
-// other fingers are to be held clear.
+// True if the hand was clear at `last` and cannot penetrate deeply now: it travelled (and is
+// lifted) less than its clearance recheck distance, the surroundings are unchanged, and the same
+// fingers are part of its shape.
 bool is_still_clear(const HandSurroundings& hand, const GripSurface& surface,
                     const GripSurface& last, double lift_m) {
     return last.clearance_recheck_in_m > hand_travel_m(last.wrist_bs, hand.wrist_bs) + lift_m &&
@@ -359,7 +369,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
     double deepest_m = std::max(best.penetration_m, best.finger_penetration_m);
     double smallest_m = deepest_m;
     double step_m = k_first_step_m;
-    const bool is_corrected = size_of(moved, arm_m) > 0.0;  // what is clear may be so with less
+    const bool is_corrected = size_of(moved, arm_m) > 0.0;
     for (int i = 0; i < settings.max_iterations && !is_converged(deepest_m, step_m, is_corrected);
          ++i) {
         if (i >= k_min_iterations && smallest_m > settings.max_penetration_m) {
@@ -369,7 +379,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         const PalmMove before = moved;
         moved = smallest_correction(gaps.all(), moved, arm_m);
         wrist = moved_by(moved, held, center_hs);
-        // Of large turns the limit on tilt is not straight.
+        // The linearised tilt limit is inexact for large turns.
         wrist.rotation =
             clamp_tilt(wrist.rotation, *hand.rig, surface.normal_bs, tuning.max_angle_rad);
         wrist.position =
@@ -377,7 +387,7 @@ PalmFit fit_palm(const HandSurroundings& hand, const GripSurface& surface, doubl
         moved = move_between(held, wrist, center_hs);
         step_m = size_of(
             {moved.translation_m - before.translation_m, moved.turn_rad - before.turn_rad}, arm_m);
-        // No farther than what was seen around it.
+        // The step stays within the region that the last query covered.
         if (!settings.verifies_last_step && i + 1 == settings.max_iterations &&
             step_m <= k_query_margin_m) {
             return {wrist, best.penetration_m, best.finger_penetration_m, false};

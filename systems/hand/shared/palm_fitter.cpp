@@ -10,36 +10,36 @@
 namespace handhold {
 namespace {
 
-constexpr int k_refine_iterations = 1;  // of a palm that goes on: it settles from frame to frame
-constexpr double k_crossing_m = 1e-6;   // surfaces as near to each other are crossed together
+constexpr int k_refine_iterations = 1;  // a followed palm converges over several frames
+constexpr double k_crossing_m = 1e-6;   // surfaces this close are crossed at once
 
 PalmFrame palm_in(const Pose& frame, const HandRig& rig, const Pose& wrist_bs) {
     const Pose wrist = inverse(frame) * wrist_bs;
     return {transform_point(wrist, rig.palm_center_hs), wrist.rotation * -rig.palm_normal_hs};
 }
 
-// The mean of the surface around the point, by area, of what is wound so that it looks towards
-// `outward`; unit.
+// Area-weighted mean normal, within the radius of the point, of the triangles that face `outward`;
+// unit.
 Vec3 mean_normal(const GripMesh& mesh, const Vec3& point, const Vec3& triangle_normal,
                  const Vec3& outward, double radius_m) {
-    // A triangle that reaches far out counts no more than the sphere's cut can.
+    // Caps the weight of a triangle that reaches far outside the sphere.
     const double max_area_m2 = 2.0 * std::numbers::pi * radius_m * radius_m;
     const Vec3 sum = mesh.contact_bvh.areas_in_sphere(point, radius_m, outward, max_area_m2);
     const double length = sum.norm();
     return length > 1e-12 ? Vec3(sum / length) : triangle_normal;
 }
 
-// What a way does at a place on a surface: 1 where it goes in, -1 where it comes out, 0 where it
-// does both: between two bodies that touch, through a sheet with two sides, along an edge.
-int crossing_sign(const GripMesh& mesh, const Vec3& place, const Vec3& direction) {
-    bool goes_in = false;
-    bool comes_out = false;
-    mesh.contact_bvh.visit_in_sphere(place, k_crossing_m, [&](std::uint32_t triangle) {
+// Sign of a path's crossing of the surface at a point: 1 if it enters, -1 if it leaves, 0 if both
+// (between two touching bodies, through a two-sided sheet, along an edge).
+int crossing_sign(const GripMesh& mesh, const Vec3& point, const Vec3& direction) {
+    bool enters = false;
+    bool leaves = false;
+    mesh.contact_bvh.visit_in_sphere(point, k_crossing_m, [&](std::uint32_t triangle) {
         const double along = mesh.contact.normals[triangle].dot(direction);
-        goes_in = goes_in || along < 0.0;
-        comes_out = comes_out || along > 0.0;
+        enters = enters || along < 0.0;
+        leaves = leaves || along > 0.0;
     });
-    return (goes_in ? 1 : 0) - (comes_out ? 1 : 0);
+    return (enters ? 1 : 0) - (leaves ? 1 : 0);
 }
 
 }  // namespace
@@ -54,27 +54,27 @@ PalmFitter::PalmFitter(const HandSurroundings& hand, const Pose& wrist_bs, doubl
 
 bool PalmFitter::is_unbudgeted() const { return std::isinf(dt_s_); }
 
-GripSurface PalmFitter::surface_at(const Candidate& found) const {
+GripSurface PalmFitter::surface_at(const Candidate& candidate) const {
     const GripMesh& mesh = *placed_.mesh;
-    const auto on_contact = mesh.contact_bvh.closest_point(found.point, tuning_.reach_m);
-    const Vec3 point = on_contact ? on_contact->point : found.point;
-    // Where the triangle is wound the other way, so is what counts around it.
-    const Vec3 wound = mesh.search.normals[found.triangle];
-    const double side = wound.dot(palm_.up) < 0.0 ? -1.0 : 1.0;
+    const auto on_contact = mesh.contact_bvh.closest_point(candidate.point, tuning_.reach_m);
+    const Vec3 point = on_contact ? on_contact->point : candidate.point;
+    // The mean normal includes only triangles that are wound like this one.
+    const Vec3 winding_normal = mesh.search.normals[candidate.triangle];
+    const double side = winding_normal.dot(palm_.up) < 0.0 ? -1.0 : 1.0;
     GripSurface surface;
     surface.body = hand_.body;
     surface.wrist_bs = hand_.wrist_bs;
     surface.surroundings_signature = hand_.signature;
-    surface.triangle = found.triangle;
+    surface.triangle = candidate.triangle;
     surface.point_bs = transform_point(placed_.pose, point);
-    const Vec3 own_bs = placed_.pose.rotation * Vec3(side * wound);
-    constexpr double k_alike = 0.7;
-    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_alike) {
+    const Vec3 own_bs = placed_.pose.rotation * Vec3(side * winding_normal);
+    constexpr double k_min_cosine = 0.7;
+    if (reused_normal_bs_ && reused_normal_bs_->dot(own_bs) > k_min_cosine) {
         surface.normal_bs = *reused_normal_bs_;
     } else {
-        surface.normal_bs =
-            placed_.pose.rotation *
-            Vec3(side * mean_normal(mesh, point, wound, side * palm_.up, tuning_.normal_radius_m));
+        surface.normal_bs = placed_.pose.rotation *
+                            Vec3(side * mean_normal(mesh, point, winding_normal, side * palm_.up,
+                                                    tuning_.normal_radius_m));
     }
     return surface;
 }
@@ -83,48 +83,50 @@ PalmFitter::Candidate PalmFitter::candidate_at(std::uint32_t triangle) const {
     const SurfaceGraph& graph = placed_.mesh->search;
     const auto known = std::min<std::size_t>(triangle, graph.triangles.size() - 1);
     triangle = static_cast<std::uint32_t>(known);
-    const PalmCost candidate = cost_of(graph, triangle, palm_, tuning_);
-    return {triangle, candidate.point, candidate.cost_m};
+    const PalmCost cost = cost_of(graph, triangle, palm_, tuning_);
+    return {triangle, cost.point, cost.cost_m};
 }
 
-FittedPalm PalmFitter::refine_at(const Candidate& found, const GripSurface& last) {
+FittedPalm PalmFitter::refine_at(const Candidate& candidate, const GripSurface& last) {
     PalmFitSettings settings{.last = &last};
     if (!is_unbudgeted()) {
         settings.max_iterations = k_refine_iterations;
     }
-    return fit_at(found, last.finger_samples, settings);
+    return fit_at(candidate, last.finger_samples, settings);
 }
 
-GripSurface PalmFitter::refine_unchecked(const Candidate& found, const GripSurface& last) const {
+GripSurface PalmFitter::refine_unchecked(const Candidate& candidate,
+                                         const GripSurface& last) const {
     PalmFitSettings settings{.last = &last};
     if (!is_unbudgeted()) {
         settings.max_iterations = k_refine_iterations;
         settings.verifies_last_step = false;
     }
-    return fit_uncached(found, last.finger_samples, settings).surface;
+    return fit_uncached(candidate, last.finger_samples, settings).surface;
 }
 
-FittedPalm PalmFitter::fit_at(const Candidate& found, const FingerSamplePoses& finger_samples,
+FittedPalm PalmFitter::fit_at(const Candidate& candidate, const FingerSamplePoses& finger_samples,
                               const PalmFitSettings& settings) {
     for (std::size_t i = 0; i < cache_count_; ++i) {
         const GripSurface& known = cache_[i].surface;
-        if (known.triangle == found.triangle && known.finger_samples == finger_samples &&
+        if (known.triangle == candidate.triangle && known.finger_samples == finger_samples &&
             cache_[i].is_warm_started == (settings.last != nullptr)) {
             return cache_[i];
         }
     }
-    FittedPalm held = fit_uncached(found, finger_samples, settings);
+    FittedPalm held = fit_uncached(candidate, finger_samples, settings);
     if (cache_count_ < cache_.size()) {
         cache_[cache_count_++] = held;
     }
     return held;
 }
 
-FittedPalm PalmFitter::fit_uncached(const Candidate& found, const FingerSamplePoses& finger_samples,
+FittedPalm PalmFitter::fit_uncached(const Candidate& candidate,
+                                    const FingerSamplePoses& finger_samples,
                                     const PalmFitSettings& settings) const {
     FittedPalm held;
     held.is_warm_started = settings.last != nullptr;
-    held.surface = surface_at(found);
+    held.surface = surface_at(candidate);
     held.surface.finger_samples = finger_samples;
     const PalmFit fit = fit_palm(hand_, held.surface, 0.0, tuning_, settings);
     held.surface.fitted_wrist_bs = fit.wrist_bs;
@@ -137,22 +139,22 @@ FittedPalm PalmFitter::fit_uncached(const Candidate& found, const FingerSamplePo
     return held;
 }
 
-bool PalmFitter::is_backface(const Candidate& found) const {
-    return placed_.mesh->search.normals[found.triangle].dot(palm_.up) < 0.0;
+bool PalmFitter::is_backface(const Candidate& candidate) const {
+    return placed_.mesh->search.normals[candidate.triangle].dot(palm_.up) < 0.0;
 }
 
-bool PalmFitter::is_inside(const Candidate& found) const {
+bool PalmFitter::is_inside(const Candidate& candidate) const {
     constexpr double k_ray_start_m = 1e-3;
     constexpr double k_ray_m = 1.0;
     const GripMesh& mesh = *placed_.mesh;
-    const Vec3 out = -mesh.search.normals[found.triangle];
-    const auto hit =
-        mesh.search_bvh.cast_ray(found.point + k_ray_start_m * out, found.point + k_ray_m * out);
+    const Vec3 out = -mesh.search.normals[candidate.triangle];
+    const auto hit = mesh.search_bvh.cast_ray(candidate.point + k_ray_start_m * out,
+                                              candidate.point + k_ray_m * out);
     return hit && mesh.search.normals[hit->triangle].dot(out) > 0.0;
 }
 
 bool PalmFitter::enters_solid(const FittedPalm& held) const {
-    constexpr int k_max_crossed = 32;  // what goes through more is as good as inside
+    constexpr int k_max_crossed = 32;  // a path with more crossings counts as entering
     const Vec3 to = palm_in(placed_.pose, *hand_.rig, held.surface.fitted_wrist_bs).center;
     const Vec3 direction = (to - palm_.center).normalized();
     Vec3 from = palm_.center;
@@ -192,9 +194,9 @@ double PalmFitter::crossing_depth_m(const FittedPalm& held) const {
     return deepest_m;
 }
 
-bool PalmFitter::is_near_last(const Candidate& found, const GripSurface& last) const {
+bool PalmFitter::is_near_last(const Candidate& candidate, const GripSurface& last) const {
     const SurfaceGraph& graph = placed_.mesh->search;
-    return is_duplicate_place(found.point, graph.normals[found.triangle],
+    return is_duplicate_place(candidate.point, graph.normals[candidate.triangle],
                               inverse_transform_point(placed_.pose, last.point_bs),
                               graph.normals[last.triangle]);
 }

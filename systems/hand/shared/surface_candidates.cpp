@@ -7,13 +7,15 @@
 namespace handhold {
 namespace {
 
-constexpr int k_evaluation_iterations = 2;    // of a palm that is taken only if it is better
-constexpr double k_max_direct_sync_m = 0.05;  // of sync: a palm that comes out farther went through
-constexpr double k_good_enough_cost_m = 0.02;  // with room: nothing farther is looked for
-constexpr double k_inside_cost_m = 0.05;       // of a back that is seen from inside
-constexpr double k_enters_solid_cost_m = 0.3;  // as of a palm that is sunk 25 mm
-constexpr double k_penetration_cost = 12.0;    // of a metre that a palm stays sunk
-constexpr double k_finger_cost = 9.0;          // and a finger
+constexpr int k_evaluation_iterations =
+    2;  // fit_palm iterations per candidate; the best is refined
+// A first candidate with a larger sync may lie on a surface that the palm has crossed.
+constexpr double k_max_direct_sync_m = 0.05;
+constexpr double k_good_enough_cost_m = 0.02;  // with clearance: other candidates are not listed
+constexpr double k_inside_cost_m = 0.05;       // backface inside a solid
+constexpr double k_enters_solid_cost_m = 0.3;  // equals 25 mm of palm penetration
+constexpr double k_penetration_cost = 12.0;    // per metre of palm penetration
+constexpr double k_finger_cost = 9.0;          // per metre of finger penetration
 
 }  // namespace
 
@@ -67,7 +69,7 @@ void SurfaceCandidates::save_progress(GripSurface& surface) const {
     }
 }
 
-// What was tried in the frames before, where the hand is now; the best of it is near `last`.
+// Restores the progress of earlier frames for the hand's present pose. The best so far is `last`.
 void SurfaceCandidates::restore_progress(const Candidate& near, const GripSurface& last) {
     best_.surface = fitter_.refine_unchecked(near, last);
     best_.surface.cost_m = last.cost_m;
@@ -83,16 +85,17 @@ void SurfaceCandidates::restore_progress(const Candidate& near, const GripSurfac
     allows_backfaces_ = last.allows_backfaces;
 }
 
-// Where the palm is, by the fit that it has, if that is the palm's alone.
+// Evaluates the surface of `last` as the first candidate. Reuses its fit unless fingers were part
+// of it.
 void SurfaceCandidates::evaluate_last_surface(const Candidate& near, const GripSurface& last) {
     candidates_[evaluated_count_++] = near;
-    const bool is_alone = last.finger_samples == FingerSamplePoses{} && last.has_fitted_wrist;
-    evaluate(near,
-             is_alone ? fitter_.refine_at(near, last) : fitter_.fit_at(near, {}, fit_settings()));
+    const bool is_palm_only = last.finger_samples == FingerSamplePoses{} && last.has_fitted_wrist;
+    evaluate(near, is_palm_only ? fitter_.refine_at(near, last)
+                                : fitter_.fit_at(near, {}, fit_settings()));
     --budget_left_;
 }
 
-// False where the frame has none left.
+// Returns false if this frame's budget is used up.
 bool SurfaceCandidates::spend_budget() {
     if (budget_left_ == 0) {
         return false;
@@ -101,7 +104,7 @@ bool SurfaceCandidates::spend_budget() {
     return true;
 }
 
-// As many as there are turns. True where there is none to try any more.
+// Evaluates candidates within the frame's budget. Returns true once no candidate is left.
 bool SurfaceCandidates::evaluate_others(const GripSurface& last) {
     for (;;) {
         if (has_pending_fingers()) {
@@ -110,8 +113,9 @@ bool SurfaceCandidates::evaluate_others(const GripSurface& last) {
             }
             evaluate_with_pending_fingers(last);
         }
-        const bool is_near = best_.has_clearance && best_.surface.cost_m < k_good_enough_cost_m;
-        if (evaluated_count_ > 0 && !is_listed() && !is_near) {
+        const bool is_good_enough =
+            best_.has_clearance && best_.surface.cost_m < k_good_enough_cost_m;
+        if (evaluated_count_ > 0 && !is_listed() && !is_good_enough) {
             if (!spend_budget()) {
                 return false;
             }
@@ -129,8 +133,8 @@ bool SurfaceCandidates::evaluate_others(const GripSurface& last) {
     }
 }
 
-// The next one in the list, or else the cheapest that is left, that may be cheaper than the best;
-// those passed over are done with.
+// The next listed candidate, or before listing the cheapest remaining one, that may be cheaper than
+// the best. Candidates skipped on the way count as evaluated.
 std::optional<SurfaceCandidates::Candidate> SurfaceCandidates::next_candidate() {
     if (is_listed()) {
         while (evaluated_count_ < candidate_count_ &&
@@ -153,13 +157,13 @@ std::optional<SurfaceCandidates::Candidate> SurfaceCandidates::next_candidate() 
     return std::nullopt;
 }
 
-// No backs, but where the palm may have gone through what it came to first: fingers have room
-// behind walls as well, but no palm goes there for it.
+// Backfaces are excluded, unless the palm may have crossed the first candidate's surface. Otherwise
+// a palm would be moved behind a wall only because its fingers have clearance there.
 bool SurfaceCandidates::is_eligible(const Candidate& candidate) const {
     return !fitter_.is_backface(candidate) || (allows_backfaces_ && !fitter_.is_inside(candidate));
 }
 
-// All around, what may be cheaper than the best.
+// Lists the candidates around the palm that may be cheaper than the best.
 void SurfaceCandidates::list_candidates() {
     seed_from_surroundings();
     const std::size_t count =
@@ -174,21 +178,22 @@ void SurfaceCandidates::list_candidates() {
     }
 }
 
-// From the nearest triangles to places around the palm, as long as there is anything to see.
+// Searches from the triangles nearest to six points around the palm, without an idle limit.
 void SurfaceCandidates::seed_from_surroundings() {
-    const double apart_m = 0.5 * tuning_.reach_m;
+    const double distance_m = 0.5 * tuning_.reach_m;
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
-            const Vec3 place = fitter_.palm().center + side * apart_m * Vec3::Unit(axis);
-            const auto near = fitter_.placed().mesh->search_bvh.closest_point(place, apart_m);
+            const Vec3 point = fitter_.palm().center + side * distance_m * Vec3::Unit(axis);
+            const auto near = fitter_.placed().mesh->search_bvh.closest_point(point, distance_m);
             searcher_.add_seed(near ? near->triangle : GripSurface::k_none);
         }
     }
     searcher_.run(SurfaceSearch::k_max_pops);
 }
 
-// Where the palm alone costs more than the best its fingers are not asked: they make it no cheaper.
-// Where they have no room they are to be held clear with the palm, in their own turn.
+// Evaluates one candidate. Fingers are checked only if the palm alone is cheaper than the best,
+// since they can only add cost. If they have no clearance, the candidate becomes pending: it is
+// evaluated again with those fingers as part of the palm.
 void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
     const double placement_m = placement_cost_m(candidate, held);
     add_crossing_depth(placement_m, held);
@@ -209,15 +214,16 @@ void SurfaceCandidates::evaluate(const Candidate& candidate, FittedPalm held) {
     keep_better(result);
 }
 
-// The last that was tried; the others of its fingers had room there, and mostly still have it.
+// Evaluates the last candidate again with its pending fingers as part of the palm. Its other
+// fingers had clearance there and are not checked again.
 void SurfaceCandidates::evaluate_with_pending_fingers(const GripSurface& last) {
-    const Candidate& found = candidates_[evaluated_count_ - 1];
+    const Candidate& candidate = candidates_[evaluated_count_ - 1];
     PalmFitSettings from_last = fit_settings();
-    if (last.triangle != GripSurface::k_none && fitter_.is_near_last(found, last)) {
+    if (last.triangle != GripSurface::k_none && fitter_.is_near_last(candidate, last)) {
         from_last.last = &last;
     }
-    FittedPalm held = fitter_.fit_at(found, pending_finger_samples_, from_last);
-    const double placement_m = placement_cost_m(found, held);
+    FittedPalm held = fitter_.fit_at(candidate, pending_finger_samples_, from_last);
+    const double placement_m = placement_cost_m(candidate, held);
     add_crossing_depth(placement_m, held);
     Evaluated result = scored(held, placement_m, held.finger_penetration_m);
     if (is_cheaper(result.surface.cost_m)) {
@@ -229,15 +235,16 @@ void SurfaceCandidates::evaluate_with_pending_fingers(const GripSurface& last) {
     pending_finger_samples_ = {};
 }
 
-// The spheres that a palm is held by see no thin wall, no rod and no rim between them. Where it
-// costs more than the best already it is not asked.
+// Adds the depth of surfaces that cross the palm's capsules: the spheres of fit_palm miss thin
+// walls, rods and rims between them. Skipped if the candidate is already more expensive than the
+// best.
 void SurfaceCandidates::add_crossing_depth(double placement_m, FittedPalm& held) const {
     if (is_cheaper(scored(held, placement_m, held.finger_penetration_m).surface.cost_m)) {
         held.penetration_m = std::max(held.penetration_m, fitter_.crossing_depth_m(held));
     }
 }
 
-// What stays sunk so deep that it is no better is given up soon.
+// A fit is abandoned early if its penetration alone costs more than the best.
 PalmFitSettings SurfaceCandidates::fit_settings() const {
     PalmFitSettings fit_settings;
     if (!fitter_.is_unbudgeted()) {
@@ -249,11 +256,12 @@ PalmFitSettings SurfaceCandidates::fit_settings() const {
     return fit_settings;
 }
 
-// What the place costs, wherever the fingers are; less where that is dearer than the best already.
-double SurfaceCandidates::placement_cost_m(const Candidate& found, const FittedPalm& held) const {
+// Cost of the place independent of the fingers. A lower bound if that already exceeds the best.
+double SurfaceCandidates::placement_cost_m(const Candidate& candidate,
+                                           const FittedPalm& held) const {
     double cost_m = 0.0;
-    if (fitter_.is_backface(found)) {
-        cost_m += tuning_.backface_cost_m + (fitter_.is_inside(found) ? k_inside_cost_m : 0.0);
+    if (fitter_.is_backface(candidate)) {
+        cost_m += tuning_.backface_cost_m + (fitter_.is_inside(candidate) ? k_inside_cost_m : 0.0);
     }
     if (is_cheaper(held.sync_m + cost_m) && fitter_.enters_solid(held)) {
         cost_m += k_enters_solid_cost_m;
@@ -261,23 +269,23 @@ double SurfaceCandidates::placement_cost_m(const Candidate& found, const FittedP
     return cost_m;
 }
 
-SurfaceCandidates::Evaluated SurfaceCandidates::scored(const FittedPalm& held,
-                                                       double placement_cost_m, double fingers_m) {
+SurfaceCandidates::Evaluated SurfaceCandidates::scored(const FittedPalm& held, double placement_m,
+                                                       double finger_depth_m) {
     Evaluated result = {held.surface, held.penetration_m <= k_palm_penetration_tolerance_m &&
-                                          fingers_m <= k_finger_penetration_tolerance_m};
-    result.surface.cost_m = held.sync_m + placement_cost_m;
+                                          finger_depth_m <= k_finger_penetration_tolerance_m};
+    result.surface.cost_m = held.sync_m + placement_m;
     if (result.has_clearance) {
         result.surface.clearance_recheck_in_m = k_recheck_interval_m;
     } else {
         result.surface.cost_m +=
-            k_penetration_cost * held.penetration_m + k_finger_cost * fingers_m;
+            k_penetration_cost * held.penetration_m + k_finger_cost * finger_depth_m;
     }
     return result;
 }
 
-void SurfaceCandidates::keep_better(const Evaluated& scored) {
-    if (is_cheaper(scored.surface.cost_m)) {
-        best_ = scored;
+void SurfaceCandidates::keep_better(const Evaluated& candidate) {
+    if (is_cheaper(candidate.surface.cost_m)) {
+        best_ = candidate;
     }
     has_best_ = true;
     evaluated_this_frame_ = true;

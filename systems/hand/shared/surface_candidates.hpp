@@ -12,23 +12,28 @@
 
 namespace handhold {
 
-// A hand goes so far before it looks again for room, or for another surface.
+// Travel of the hand after which clearance, or the choice among candidates, is checked again.
 inline constexpr double k_recheck_interval_m = 0.016;
 
-// Tries surfaces for one palm, a few in each frame: search_grip's choice among what it found.
+// Evaluates candidate surfaces for one palm, a few per frame: the evaluation stage of search_grip.
 //
-// The surface is the one where what it takes to hold the palm there is least, pushes out of what it
-// is sunk in included; where palm or fingers have no room, so is what stays sunk. They are tried in
-// the order of their costs in closed form, which are rarely more, until those are. Refers to all
-// that it is made of; the patch is only worked in.
+// The chosen candidate has the smallest full cost:
+//   cost = sync + placement
+//        + (without clearance) 12 * palm penetration + 9 * finger penetration
+// sync is the movement of the fitted, depenetrated palm (FittedPalm::sync_m). placement penalises
+// backfaces and palms inside a solid. Candidates are evaluated in the order of their closed-form
+// costs (cost_of), which rarely exceed the full costs, until none can be cheaper than the best.
+//
+// Keeps references to its constructor arguments; `patch` is scratch.
 class SurfaceCandidates {
   public:
     SurfaceCandidates(PalmFitter& fitter, SurfaceSearch& searcher, const PalmTuning& tuning,
                       ChainPatch& patch);
 
-    // Once. Goes on from where `last` came to, or begins with where that is; the state of the
-    // search is in what it returns. No triangle: nothing was found. Precondition: a `last` that has
-    // a triangle has one of this mesh.
+    // Runs one frame's share; call once. Resumes the search stored in `last`, or starts one with
+    // the surface of `last` as its first candidate. Returns the best surface so far with the
+    // search's progress; its triangle is k_none if there is none. Precondition: last.triangle is
+    // k_none or a triangle of this mesh.
     GripSurface run(const GripSurface& last);
 
   private:
@@ -50,9 +55,9 @@ class SurfaceCandidates {
     void evaluate(const Candidate& candidate, FittedPalm held);
     void evaluate_with_pending_fingers(const GripSurface& last);
     void add_crossing_depth(double placement_m, FittedPalm& held) const;
-    double placement_cost_m(const Candidate& found, const FittedPalm& held) const;
-    static Evaluated scored(const FittedPalm& held, double placement_cost_m, double fingers_m);
-    void keep_better(const Evaluated& scored);
+    double placement_cost_m(const Candidate& candidate, const FittedPalm& held) const;
+    static Evaluated scored(const FittedPalm& held, double placement_m, double finger_depth_m);
+    void keep_better(const Evaluated& candidate);
     PalmFitSettings fit_settings() const;
     void save_progress(GripSurface& surface) const;
 
@@ -69,18 +74,17 @@ class SurfaceCandidates {
     const PalmTuning& tuning_;
     ChainPatch& patch_;
 
-    // Those that were tried or passed over, then those that are to be tried, the cheapest first,
-    // once they are listed.
+    // [0, evaluated_count_): evaluated or skipped. [evaluated_count_, candidate_count_): listed,
+    // cheapest first.
     std::array<Candidate, GripSurface::k_max_candidates> candidates_;
     std::size_t evaluated_count_ = 0;
-    std::size_t candidate_count_ = 0;  // with those to be tried; 0: not listed
+    std::size_t candidate_count_ = 0;  // 0: not listed yet
     Evaluated best_;
     bool has_best_ = false;
-    bool evaluated_this_frame_ = false;  // in this frame
-    FingerSamplePoses pending_finger_samples_ =
-        {};                          // at the last of those tried, which is to be judged so as well
-    bool allows_backfaces_ = false;  // GripSurface::goes_through
-    std::size_t budget_left_ = 0;    // in this frame
+    bool evaluated_this_frame_ = false;
+    FingerSamplePoses pending_finger_samples_ = {};  // GripSurface::pending_finger_samples
+    bool allows_backfaces_ = false;                  // GripSurface::allows_backfaces
+    std::size_t budget_left_ = 0;                    // evaluations left in this frame
 };
 
 }  // namespace handhold

@@ -16,26 +16,27 @@ bool is_later(const GripSearchScratch::Node& a, const GripSearchScratch::Node& b
 PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFrame& palm,
                  const PalmTuning& tuning) {
     const Corners corners = corners_of(graph, triangle);
-    const bool turned_away = graph.normals[triangle].dot(palm.up) < 0.0;
-    const Vec3 normal = turned_away ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
+    const bool is_backface = graph.normals[triangle].dot(palm.up) < 0.0;
+    const Vec3 normal = is_backface ? Vec3(-graph.normals[triangle]) : graph.normals[triangle];
     const double height_m = (palm.center - corners[0]).dot(normal);
     const Vec3 point = closest_on_triangle(palm.center - height_m * normal, corners);
-    const Vec3 moved = point + std::clamp(height_m, tuning.min_height_m,
-                                          std::max(tuning.min_height_m, tuning.max_height_m)) *
-                                   normal;
+    const Vec3 moved_center =
+        point + std::clamp(height_m, tuning.min_height_m,
+                           std::max(tuning.min_height_m, tuning.max_height_m)) *
+                    normal;
     const double angle_rad = arc_tangent2(palm.up.cross(normal).norm(), palm.up.dot(normal));
-    return {(moved - palm.center).norm() +
+    return {(moved_center - palm.center).norm() +
                 tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
-                (turned_away ? tuning.backface_cost_m : 0.0),
+                (is_backface ? tuning.backface_cost_m : 0.0),
             point};
 }
 
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal) {
-    constexpr double k_near_m = 0.025;
-    constexpr double k_alike = 0.7;
-    return (point - other).squaredNorm() < k_near_m * k_near_m &&
-           normal.dot(other_normal) > k_alike;
+    constexpr double k_max_distance_m = 0.025;
+    constexpr double k_min_cosine = 0.7;
+    return (point - other).squaredNorm() < k_max_distance_m * k_max_distance_m &&
+           normal.dot(other_normal) > k_min_cosine;
 }
 
 SurfaceSearch::SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm,
@@ -60,17 +61,17 @@ void SurfaceSearch::add_seed(std::uint32_t triangle) {
     }
 }
 
-void SurfaceSearch::run(std::uint32_t patience) {
-    std::uint32_t idle = 0;
-    while (pops_ < k_max_pops && idle < patience && !open_.empty()) {
+void SurfaceSearch::run(std::uint32_t max_idle_pops) {
+    std::uint32_t idle_pops = 0;
+    while (pops_ < k_max_pops && idle_pops < max_idle_pops && !open_.empty()) {
         ++pops_;
         std::pop_heap(open_.begin(), open_.end(), is_later);
         const GripSearchScratch::Node node = open_.back();
         open_.pop_back();
-        ++idle;
+        ++idle_pops;
         if (visited_.empty() || node.cost_m < best_m_) {
             best_m_ = node.cost_m;
-            idle = 0;
+            idle_pops = 0;
         }
         visited_.push_back({node.triangle, node.point, node.cost_m});
         for (const std::uint32_t next : graph_.neighbours[node.triangle]) {
@@ -95,22 +96,22 @@ std::optional<SurfaceSearch::Candidate> SurfaceSearch::cheapest_excluding(
     return best;
 }
 
-std::size_t SurfaceSearch::append_cheapest_excluding(std::span<Candidate> excluded,
-                                                     std::size_t count, double most_m) const {
+std::size_t SurfaceSearch::append_cheapest_excluding(std::span<Candidate> candidates,
+                                                     std::size_t count, double max_cost_m) const {
     remaining_.assign(visited_.begin(), visited_.end());
-    std::erase_if(remaining_, [&](const Candidate& found) { return !(found.cost_m < most_m); });
+    std::erase_if(remaining_, [&](const Candidate& found) { return !(found.cost_m < max_cost_m); });
     const auto drop_duplicates_of = [&](const Candidate& other) {
         std::erase_if(remaining_,
                       [&](const Candidate& found) { return is_duplicate_of(found, other); });
     };
-    for (const Candidate& other : excluded.first(count)) {
+    for (const Candidate& other : candidates.first(count)) {
         drop_duplicates_of(other);
     }
-    while (count < excluded.size() && !remaining_.empty()) {
-        excluded[count] = *std::min_element(
+    while (count < candidates.size() && !remaining_.empty()) {
+        candidates[count] = *std::min_element(
             remaining_.begin(), remaining_.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost_m < b.cost_m; });
-        drop_duplicates_of(excluded[count]);
+        drop_duplicates_of(candidates[count]);
         ++count;
     }
     return count;

@@ -11,54 +11,55 @@
 #include "engine/geometry/surface_graph.hpp"
 #include "engine/geometry/triangle_set.hpp"
 
-// Triangles around a palm in the order of what it takes to hold the palm to them: search_grip's
-// search. All in the frame of the mesh. Talk rows 11, 17.
+// Best-first search over the triangles around a palm, ordered by the cost of holding the palm to
+// them: the search stage of search_grip. Everything is in the mesh's frame. Talk rows 11, 17.
 namespace handhold {
 
 struct PalmFrame {
-    Vec3 center;
-    Vec3 up;  // unit: towards the back of the hand
+    Vec3 center;  // on the palm's skin
+    Vec3 up;      // unit, towards the back of the hand
 };
 
 struct PalmCost {
     double cost_m = std::numeric_limits<double>::infinity();
-    Vec3 point = Vec3::Zero();  // under the palm, on the triangle
+    Vec3 point = Vec3::Zero();  // on the triangle, under the palm
 };
 
-// What it takes to hold the palm to one triangle, in closed form: along the triangle's normal into
-// the range of heights, then about the palm's own centre, which keeps its height, into the range of
-// angles. Precondition: the graph has the triangle.
+// Cost of holding the palm to one triangle, in closed form:
+//   cost = |c' - c| + tilt_cost_m_per_rad * max(0, angle - max_angle_rad) + backface cost
+// c is the palm's centre; c' is the nearest place over the triangle within the height limits; angle
+// is between the palm's up and the triangle's normal, flipped to the palm's side. Tilting turns
+// about the palm's centre, which keeps its height. Precondition: the graph has the triangle.
 PalmCost cost_of(const SurfaceGraph& graph, std::uint32_t triangle, const PalmFrame& palm,
                  const PalmTuning& tuning);
 
-// Of two places on a surface, with unit normals: the one is hardly another one than the other.
+// True if two surface points with unit normals count as the same place: within 25 mm and about 45
+// degrees.
 bool is_duplicate_place(const Vec3& point, const Vec3& normal, const Vec3& other,
                         const Vec3& other_normal);
 
-// Best first over the neighbours of what it is seeded with, within PalmTuning::reach_m. Refers to
-// all that it is made of; the scratch is its alone while it lives.
+// Best-first search over triangle neighbours from the seeds, within PalmTuning::reach_m. Keeps
+// references to its constructor arguments; owns the scratch while it lives.
 class SurfaceSearch {
   public:
     using Candidate = GripSearchScratch::Candidate;
-    static constexpr std::uint32_t k_max_pops = 300;  // in all calls of run
+    static constexpr std::uint32_t k_max_pops = 300;  // over all calls of run
 
     SurfaceSearch(const SurfaceGraph& graph, const PalmFrame& palm, const PalmTuning& tuning,
                   GripSearchScratch& scratch);
 
-    // A triangle that the graph has not is left out.
+    // Ignores triangles that the graph does not have.
     void add_seed(std::uint32_t triangle);
-    // Goes on until `patience` pops in a row found nothing cheaper; may be called again.
-    void run(std::uint32_t patience);
+    // Continues until `max_idle_pops` pops in a row found nothing cheaper. Can be called again.
+    void run(std::uint32_t max_idle_pops);
 
-    // The cheapest of those found that is not near any of `tried` and alike; none where there is
-    // none.
+    // The cheapest triangle visited that is no duplicate place of any in `excluded`.
     std::optional<Candidate> cheapest_excluding(std::span<const Candidate> excluded) const;
-    // Adds to the first `count` of `tried` what cheapest_excluding would, one after the other, as
-    // long as it costs less than most_m and there is room. Returns how many there are then.
-    // Precondition: count <= tried.size().
-    std::size_t append_cheapest_excluding(std::span<Candidate> excluded, std::size_t count,
-                                          double most_m) const;
-    // The cheapest of those found that is near `other` and alike.
+    // Appends cheapest_excluding() to the first `count` candidates, repeatedly, while it costs less
+    // than max_cost_m and fits. Returns the new count. Precondition: count <= candidates.size().
+    std::size_t append_cheapest_excluding(std::span<Candidate> candidates, std::size_t count,
+                                          double max_cost_m) const;
+    // The cheapest triangle visited that is a duplicate place of `other` on `other_triangle`.
     std::optional<Candidate> cheapest_near(const Vec3& other, std::uint32_t other_triangle) const;
 
   private:

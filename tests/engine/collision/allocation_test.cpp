@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
-#include "collision_scene.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 namespace handhold::collision_allocation_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Sweeps of every kind of body against every kind of thing, compounds and spinning included. The
 // oracle is the distance at rest (certified in collision_shapes_test.cpp) at small steps of the

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Resting bodies against a flat floor (a box's top, a mesh of many triangles): every separation has
 // a closed form.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
+#include "tests/engine/collision/oracle.hpp"
 
 // The oracle of most tests here is a certificate: two points, one on each convex body, are the
 // closest pair if and only if no point of either body lies between the planes through them across

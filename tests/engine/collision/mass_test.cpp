@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/collision/mass_properties.hpp"
 #include "engine/core/check.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Expected values are the textbooks' closed forms, of boxes and cylinders put together.
 namespace handhold::collision_mass_test {

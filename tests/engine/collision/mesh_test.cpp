@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
 #include "engine/io/gltf.hpp"
+#include "tests/engine/collision/oracle.hpp"
 #include "tests/places.hpp"
 
 // What meshes alone can get wrong: internal edges, sides, slivers.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "collision_scene.hpp"
 #include "engine/collision/closest_point.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Distances of convex shapes found without the library under test: all features are compared.
 namespace handhold::test {

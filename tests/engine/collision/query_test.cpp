@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/collision/closest_point.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 namespace handhold::collision_query_test {
 namespace {

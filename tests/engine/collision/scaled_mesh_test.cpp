@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/io/gltf.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // A scaled mesh is the mesh whose positions were multiplied: that one is the oracle.
 namespace handhold::collision_scaled_mesh_test {

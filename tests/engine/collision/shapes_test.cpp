@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
 #include "engine/core/check.hpp"
+#include "tests/engine/collision/oracle.hpp"
 
 // Cylinders, hulls and compounds: distances carry their certificate (collision_distance_test.cpp),
 // and what is a box by other means behaves as the box does.

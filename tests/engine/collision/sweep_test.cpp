@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_oracle.hpp"
+#include "tests/engine/collision/oracle.hpp"
 
 // Bodies that move far in one call: contacts where they first touch, depth at the end of the way.
 namespace handhold::collision_sweep_test {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Four threads ask one world at the same time; preset tsan runs what is called Threaded.
 namespace handhold::collision_threaded_test {

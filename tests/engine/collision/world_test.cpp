@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // The world as a cache: equal proxies give equal answers, whatever it saw before.
 namespace handhold::collision_world_test {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/hash.hpp"
+#include "tests/engine/allocation_count.hpp"
 
 namespace handhold::parallel_test {
 namespace {

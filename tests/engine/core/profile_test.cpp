@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "allocation_count.hpp"
+#include "tests/engine/allocation_count.hpp"
 
 namespace handhold::profile_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "collision_scene.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Meshes as people make them, from clean ones: each function breaks one thing.
 namespace handhold::test {

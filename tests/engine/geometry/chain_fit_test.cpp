@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
 #include "broken_meshes.hpp"
-#include "sunk_oracle.hpp"
 #include "surface_cuts.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/engine/geometry/penetration_oracle.hpp"
 
 namespace handhold::chain_fit_test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
 #include "surface_cuts.hpp"
+#include "tests/engine/allocation_count.hpp"
 
 namespace handhold::chain_refit_test {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/io/gltf.hpp"
+#include "tests/engine/collision/scene.hpp"
 #include "tests/places.hpp"
 
 // The oracle is what a hull is: no given point outside of it, every corner a given point, and a

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
 #include "disc_oracle.hpp"
+#include "tests/engine/allocation_count.hpp"
 
 namespace handhold::disc_contact_test {
 namespace {

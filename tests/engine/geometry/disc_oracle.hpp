@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "collision_scene.hpp"
 #include "engine/geometry/disc_contact.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // Distances in the plane in closed form, in double precision, and chains replayed in small steps:
 // nothing of the code under test.

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_scene.hpp"
 #include "engine/collision/shape_query.hpp"
 #include "graph_claims.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // The closed forms of shape_query.hpp and plain formulas are the oracle for tessellated shapes.
 namespace handhold::grip_mesh_test {

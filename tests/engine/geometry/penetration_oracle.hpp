@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include "collision_scene.hpp"
 #include "engine/collision/closest_point.hpp"
 #include "engine/geometry/chain_fit.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // How deep capsules are sunk, found by looking at every triangle. A point's distance from a
 // triangle is convex along a line: halving finds where it is least.

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sunk_oracle.hpp"
+#include "tests/engine/geometry/penetration_oracle.hpp"
 
 namespace handhold::segment_triangle_test {
 namespace {

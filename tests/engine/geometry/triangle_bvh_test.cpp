@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
-#include "collision_scene.hpp"
 #include "data_meshes.hpp"
 #include "engine/collision/closest_point.hpp"
+#include "tests/engine/allocation_count.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // The oracle looks at every triangle.
 namespace handhold::triangle_bvh_test {

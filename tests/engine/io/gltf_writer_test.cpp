@@ -9,7 +9,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/io/gltf.hpp"
-#include "io_gltf_builder.hpp"
+#include "tests/engine/io/gltf_builder.hpp"
 
 namespace handhold::io_gltf_writer_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/solver/packed/triad_system.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 // A long rope that is pulled at one end is busy there and at rest elsewhere.
 namespace handhold::solver_busy_rows_test {

@@ -10,7 +10,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/math/flush_denormals.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 #include "triad_steps.hpp"
 
 // What pulls at one end of a long rope fades on its way.

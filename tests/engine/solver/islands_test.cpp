@@ -11,7 +11,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/solver/contact/contact_rows.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_islands_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_joint_rows_test {
 namespace {

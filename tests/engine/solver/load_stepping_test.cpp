@@ -8,7 +8,7 @@
 
 #include "engine/solver/newton/load_stepped_drives.hpp"
 #include "engine/solver/newton/newton.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::led_hands_test {
 namespace {

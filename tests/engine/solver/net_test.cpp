@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_net_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_newton_test {
 namespace {

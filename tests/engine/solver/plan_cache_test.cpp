@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_count.hpp"
 #include "engine/solver/packed/triad_plan.hpp"
+#include "tests/engine/allocation_count.hpp"
 
 namespace handhold::solver_plan_cache_test {
 namespace {

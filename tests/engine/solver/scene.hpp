@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "collision_scene.hpp"
 #include "engine/solver/model/islands.hpp"
 #include "engine/solver/model/rows.hpp"
 #include "engine/solver/newton/newton.hpp"
 #include "engine/solver/newton/velocities.hpp"
+#include "tests/engine/collision/scene.hpp"
 
 // What the solver's tests share: bodies with the masses that they really have, rows, and a graph
 // that is solved island by island.

@@ -8,7 +8,7 @@
 
 #include "engine/solver/newton/geometric_stiffness.hpp"
 #include "engine/solver/packed/triad_kernels.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_stiffness_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/solver/newton/active_set.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_system_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/solver/packed/triad_system.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 #include "triad_steps.hpp"
 
 namespace handhold::solver_triads_test {

@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/solver/newton/newton.hpp"
-#include "solver_scene.hpp"
+#include "tests/engine/solver/scene.hpp"
 
 namespace handhold::solver_velocity_test {
 namespace {

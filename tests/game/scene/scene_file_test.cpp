@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 // The text between ```json and ``` of the scene format's document.
 std::string document_example() {
-    const std::string text = read_file(source_dir() / "docs/scene_format.md").value();
+    const std::string text = read_file(source_dir() / "docs/reference/scene_format.md").value();
     const std::string opening = "```json\n";
     const std::size_t begin = text.find(opening) + opening.size();
     return text.substr(begin, text.find("```", begin) - begin);

@@ -1,4 +1,4 @@
-// Joints and chains of a scene file: docs/scene_format.md, "Joints" and "Chains".
+// Joints and chains of a scene file: docs/reference/scene_format.md, "Joints" and "Chains".
 #include "game/scene/scene_joint.hpp"
 
 #include <algorithm>

@@ -232,7 +232,7 @@ TEST(Recording, SaveIntoAbsentFolderIsAnError) {
 }
 
 TEST(Recording, ExampleOfItsDocumentLoads) {
-    const std::string example = example_of(source_dir() / "docs/recording_format.md");
+    const std::string example = example_of(source_dir() / "docs/reference/recording_format.md");
     const Result<Recording> recording = parse_recording(example, "recording_format.md");
     ASSERT_TRUE(recording.ok()) << recording.error().message();
     ASSERT_EQ(recording.value().samples.size(), 3U);

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "systems/arm/pose_arms.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::estimate_arms_test {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/io/csv.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
 #include "tests/places.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::body_rates_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::calibrate_players_test {
 namespace {

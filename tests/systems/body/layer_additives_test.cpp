@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "components/body_clip_state.hpp"
 #include "systems/arm/estimate_arms.hpp"
 #include "systems/arm/pose_arms.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "systems/rigs/body_clips_json.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::layer_additives_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::propagate_spine_test {
 namespace {

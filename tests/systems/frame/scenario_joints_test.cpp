@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "joint_errors.hpp"
+#include "tests/systems/physics/joint_errors.hpp"
 
 namespace handhold::scenario_joints_test {
 namespace {

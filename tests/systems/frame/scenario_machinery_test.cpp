@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/parallel.hpp"
-#include "joint_errors.hpp"
 #include "systems/snapshot.hpp"
 #include "tests/random.hpp"
+#include "tests/systems/physics/joint_errors.hpp"
 
 namespace handhold::scenario_machinery_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "systems/snapshot_schema.hpp"
 
 // Snapshots that were tampered with by somebody who knows the format: the checksum fits.
-// Written from docs/snapshot_format.md, not from the code.
+// Written from docs/reference/snapshot_format.md, not from the code.
 namespace handhold::test {
 
 struct SnapshotBytes {

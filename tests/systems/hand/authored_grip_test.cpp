@@ -1,4 +1,4 @@
-// Talk row 10: grips that were posed beforehand, from the snap zone to what is shown.
+// Talk row 10: authored grips, from the snap zone to the shown hand.
 #include "components/authored_grip.hpp"
 
 #include <cmath>
@@ -19,13 +19,13 @@ namespace {
 using test::count_of;
 using test::distance;
 using test::FittedHand;
-using test::k_at_once_s;
+using test::k_unbudgeted_s;
 using test::Random;
 using test::wrist_with_palm_at;
 
 constexpr double k_rod_radius_m = 0.016;
 
-// A hand over a rod along X through the origin, palm down on it.
+// Authored pose of a hand with its palm down on a rod along X through the origin.
 AuthoredHand over_rod(HandSide side) {
     AuthoredHand hand;
     hand.is_there = true;
@@ -41,10 +41,11 @@ AuthoredGrips right_grip(const AuthoredHand& hand) {
     return grips;
 }
 
-// --- What a grip is ------------------------------------------------------------------------------
+// --- Grips as data -------------------------------------------------------------------------------
+// ---------------------------------------------------------------------------------
 
-// Expected: the reflection itself, of every point of the hand.
-TEST(AuthoredGrip, MirrorImageOfAHandHasTheMirroredPointsOfTheOtherHand) {
+// Expected: the reflection of every joint of the hand.
+TEST(AuthoredGrip, MirroredHandHasMirroredPoints) {
     Random random(77);
     const HandRig right = builtin_hand_rig(HandSide::right);
     const HandRig left = builtin_hand_rig(HandSide::left);
@@ -68,7 +69,7 @@ TEST(AuthoredGrip, MirrorImageOfAHandHasTheMirroredPointsOfTheOtherHand) {
     }
 }
 
-TEST(AuthoredGrip, AnglesOfLinksAreThoseThatTheLinksWerePosedAt) {
+TEST(AuthoredGrip, AnglesOfLinksInvertsLinkFrames) {
     Random random(78);
     const HandRig rig = builtin_hand_rig(HandSide::left);
     for (int turn = 0; turn < 50; ++turn) {
@@ -93,15 +94,15 @@ TEST(AuthoredGrip, AnglesOfLinksAreThoseThatTheLinksWerePosedAt) {
     }
 }
 
-// --- How a hand is held to it --------------------------------------------------------------------
+// --- Fitting a hand to a grip --------------------------------------------------------------------
 
-struct OnFloor : testing::Test {
+struct AuthoredGripOnFloor : testing::Test {
     GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Pose closed = wrist_with_palm_at(rig, {0.02, 0.05, 0.03}, Vec3::UnitY());
     AuthoredHand grip;
 
-    OnFloor() {
+    AuthoredGripOnFloor() {
         grip.is_there = true;
         grip.wrist_bs = wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, Vec3(0.1, 1.0, 0.0).normalized());
         for (std::size_t f = 0; f < k_finger_count; ++f) {
@@ -112,28 +113,28 @@ struct OnFloor : testing::Test {
     }
 };
 
-TEST_F(OnFloor, PalmGoesToTheAuthoredPoseAtTheRateOfShownPalms) {
+TEST_F(AuthoredGripOnFloor, PalmMovesToAuthoredPoseAtPalmRate) {
     FittedHand hand(floor, closed);
     hand.hands.front().authored = &grip;
     const double dt_s = 1.0 / 90.0;
     Pose before = closed;
-    double way_m = 0.0;
+    double travel_m = 0.0;
     for (int frame = 0; frame < 90; ++frame) {
         hand.frame(dt_s);
         const double step_m = (hand.shown_bs().position - before.position).norm();
         EXPECT_LE(step_m, hand.tuning.palm.rate_mps * dt_s + 1e-9);
-        way_m += step_m;
+        travel_m += step_m;
         before = hand.shown_bs();
     }
     EXPECT_LT(distance(hand.shown_bs(), grip.wrist_bs), 1e-9);
-    EXPECT_GT(way_m, 0.9 * (grip.wrist_bs.position - closed.position).norm());
-    // Out of the grip it is held to the surface again.
+    EXPECT_GT(travel_m, 0.9 * (grip.wrist_bs.position - closed.position).norm());
+    // After leaving the grip the palm is fitted to the surface again.
     hand.hands.front().authored = nullptr;
-    hand.frame(k_at_once_s);
+    hand.frame(k_unbudgeted_s);
     EXPECT_GT(distance(hand.shown_bs(), grip.wrist_bs), 0.01);
 }
 
-TEST_F(OnFloor, FingersStandAsPosedAtTheirUsualRate) {
+TEST_F(AuthoredGripOnFloor, FingersTakeAuthoredPoseAtClosingRate) {
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
     hand.tuning.finger.close_radps = 1.0;
@@ -142,18 +143,18 @@ TEST_F(OnFloor, FingersStandAsPosedAtTheirUsualRate) {
         EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad) << f;
         EXPECT_LE(hand.pose().shown[f].curl_rad[1], 0.01 + 1e-12) << f;
     }
-    hand.frame(k_at_once_s);
+    hand.frame(k_unbudgeted_s);
     EXPECT_EQ(hand.pose().shown[0].opposition_rad, -1.0);
     EXPECT_EQ(hand.pose().shown[2].curl_rad, grip.fingers[2].curl_rad);
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
 }
 
-// Expected: by find_penetration, which has tests of its own.
-TEST_F(OnFloor, PosedFingerThatWouldBeSunkIsFittedAndCounted) {
+// Oracle: find_penetration, which has its own tests.
+TEST_F(AuthoredGripOnFloor, PenetratingAuthoredFingerIsFittedAndCounted) {
     grip.fingers[1].curl_rad = {1.2, 0.3, 0.1};  // through the floor
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
-    hand.frame(k_at_once_s);
+    hand.frame(k_unbudgeted_s);
     EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 1U);
     const HingeChain chain = finger_chain(rig.fingers[1], 0.0, hand.shown_bs());
     for (const Capsule& capsule : chain_capsules(chain, hand.pose().target[1].curl_rad)) {
@@ -162,12 +163,13 @@ TEST_F(OnFloor, PosedFingerThatWouldBeSunkIsFittedAndCounted) {
     EXPECT_EQ(hand.pose().target[2].curl_rad, grip.fingers[2].curl_rad);
 }
 
-// The palm comes up from the floor, sunk fingers first; 3 cm over it they just clear.
-struct OnTheWayUp : OnFloor {
+// The palm rises from the floor, where its authored fingers penetrate, to 3 cm above it, where they
+// are just clear.
+struct AuthoredGripRisingPalm : AuthoredGripOnFloor {
     const Pose low = wrist_with_palm_at(rig, {0.0, 0.004, 0.0}, Vec3::UnitY());
     const double dt_s = 1.0 / 90.0;
 
-    OnTheWayUp() {
+    AuthoredGripRisingPalm() {
         grip.wrist_bs = wrist_with_palm_at(rig, {0.0, 0.03, 0.0}, Vec3::UnitY());
         for (const std::size_t f : {0U, 1U}) {
             while (depth_m(f) == 0.0 && turn_rad(f) < 1.5) {
@@ -176,7 +178,7 @@ struct OnTheWayUp : OnFloor {
             turn_rad(f) -= 0.02;
         }
     }
-    // Turns the finger to the floor.
+    // The angle that turns the finger towards the floor.
     double& turn_rad(std::size_t f) {
         return f == 0 ? grip.fingers[f].opposition_rad : grip.fingers[f].curl_rad[0];
     }
@@ -192,7 +194,7 @@ struct OnTheWayUp : OnFloor {
     }
 };
 
-TEST_F(OnTheWayUp, FingersAreTakenAsPosedWhereTheyClearAtTheEnd) {
+TEST_F(AuthoredGripRisingPalm, FingersTakeAuthoredPoseIfClearAtTheEnd) {
     for (const double reuse_travel_m : {1e-6, 0.01}) {
         FittedHand hand(floor, low);
         hand.tuning.finger.reuse_travel_m = reuse_travel_m;
@@ -208,20 +210,20 @@ TEST_F(OnTheWayUp, FingersAreTakenAsPosedWhereTheyClearAtTheEnd) {
         EXPECT_LT(distance(hand.shown_bs(), grip.wrist_bs), 1e-9);
         for (std::size_t f = 0; f < rig.fingers.size(); ++f) {
             EXPECT_EQ(hand.pose().target[f].curl_rad, grip.fingers[f].curl_rad)
-                << "finger " << f << " stroll " << reuse_travel_m;
+                << "finger " << f << " reuse_travel_m " << reuse_travel_m;
         }
         EXPECT_EQ(count_of(hand.stats, Fallback::authored_finger_rejected), 0U);
     }
 }
 
-TEST_F(OnTheWayUp, FingersThatAreSunkInTheGripAreCountedOnce) {
+TEST_F(AuthoredGripRisingPalm, PenetratingFingersAreCountedOnce) {
     for (const std::size_t f : {0U, 1U}) {
         turn_rad(f) += 0.3;
     }
     for (const double reuse_travel_m : {1e-6, 0.01}) {
         FittedHand hand(floor, low);
         hand.tuning.finger.reuse_travel_m = reuse_travel_m;
-        hand.tuning.finger.close_radps = 0.5;  // long on their way
+        hand.tuning.finger.close_radps = 0.5;  // slow
         hand.hands.front().authored = &grip;
         for (int frame = 0; frame < 90; ++frame) {
             hand.frame(dt_s);
@@ -230,11 +232,11 @@ TEST_F(OnTheWayUp, FingersThatAreSunkInTheGripAreCountedOnce) {
     }
 }
 
-TEST_F(OnFloor, FingersThatAreNotPosedCloseOnTheSurface) {
+TEST_F(AuthoredGripOnFloor, FingersWithoutAuthoredPoseCloseOnSurface) {
     grip.is_posed.fill(false);
     FittedHand hand(floor, grip.wrist_bs);
     hand.hands.front().authored = &grip;
-    hand.frame(k_at_once_s);
+    hand.frame(k_unbudgeted_s);
     for (std::size_t f = 1; f < rig.fingers.size(); ++f) {
         EXPECT_GE(hand.traces[0][f].contact_link, 0) << f;
     }
@@ -242,13 +244,13 @@ TEST_F(OnFloor, FingersThatAreNotPosedCloseOnTheSurface) {
 
 // --- Through the whole frame ---------------------------------------------------------------------
 
-// A rod that floats before the player; the right hand closes beside its grip at 0.1 s.
+// A rod floating in front of the player; the right hand closes beside its grip at 0.1 s.
 class RodScene {
   public:
     Scenario s;
     Entity rod;
     Vec3 place{0.25, 1.3, 0.1};
-    // Of the hand against its grip when it closes, in the rod's frame; it stays there.
+    // Offset of the closing hand from its authored pose, in the rod's frame; constant.
     Pose off{Vec3(0.02, 0.01, -0.02), rotation_about(Vec3::UnitY(), 0.3)};
     double release_s = 1e9;
 
@@ -262,7 +264,7 @@ class RodScene {
         body.mass_kg = 2.0;
         body.inertia_kgm2 = solid_inertia(s.shapes.at(lying.shape), 2.0);
         rod = s.add("rod", body, shape, {place, along_x});
-        AuthoredGrips turned = grips;  // said along the rod, the capsule's y
+        AuthoredGrips turned = grips;  // into the capsule's frame, whose y axis is the rod
         for (AuthoredGrip& grip : turned.grips) {
             for (AuthoredHand& hand : grip.hands) {
                 hand.wrist_bs = Pose{Vec3::Zero(), along_x.conjugate()} * hand.wrist_bs;
@@ -284,7 +286,7 @@ class RodScene {
     const AuthoredHold* hold() const { return s.world.authored_hold.find(s.player.hands[1]); }
 };
 
-TEST(AuthoredGripScene, HandThatClosesInTheZoneSitsInTheGripAndTheThingComesIntoIt) {
+TEST(AuthoredGripScene, HandClosingInZoneTakesGripAndObjectMovesIntoHand) {
     RodScene scene;
     scene.begin();
     scene.s.run(0.15);
@@ -300,7 +302,7 @@ TEST(AuthoredGripScene, HandThatClosesInTheZoneSitsInTheGripAndTheThingComesInto
         EXPECT_EQ(scene.s.origin_ws(), origin) << "the view moved";
     });
     EXPECT_LE(fastest_m, scene.s.tuning.palm.rate_mps / scene.s.hz + 1e-4);
-    // The rod lies in the hand as authored, and the hand is where it is tracked.
+    // The rod is in the hand as authored, and the hand is shown as tracked.
     const Pose expected_hand =
         scene.s.world.body_pose.at(scene.rod).pose_ws *
         scene.s.world.authored_grips.at(scene.rod).grips[0].hands[1].wrist_bs;
@@ -309,18 +311,18 @@ TEST(AuthoredGripScene, HandThatClosesInTheZoneSitsInTheGripAndTheThingComesInto
     EXPECT_LT(scene.s.grab(HandSide::right).error_m, 1e-5);
 }
 
-TEST(AuthoredGripScene, HandFartherOffTakesTheSurface) {
+TEST(AuthoredGripScene, HandOutsideZoneTakesSurface) {
     RodScene scene;
     scene.off.position = Vec3(0.13, 0.0, 0.0);  // along the rod, beyond the zone
     scene.begin();
     scene.s.run(1.0);
     EXPECT_EQ(scene.hold(), nullptr);
     EXPECT_EQ(scene.shown().grip, GripKind::held);
-    // What is held by its surface stays as it was taken.
+    // An object gripped by its surface does not move into the hand.
     EXPECT_LT((scene.s.body(scene.rod).position - scene.place).norm(), 1e-5);
 }
 
-TEST(AuthoredGripScene, HandTurnedBeyondTheZonesAngleTakesTheSurface) {
+TEST(AuthoredGripScene, HandTurnedBeyondZoneAngleTakesSurface) {
     RodScene scene;
     scene.off = {Vec3::Zero(), rotation_about(Vec3::UnitY(), 1.2)};
     scene.begin();
@@ -329,7 +331,7 @@ TEST(AuthoredGripScene, HandTurnedBeyondTheZonesAngleTakesTheSurface) {
     EXPECT_EQ(scene.s.grab(HandSide::right).kind, GripKind::held);
 }
 
-TEST(AuthoredGripScene, GripForTheOtherHandDoesNotCount) {
+TEST(AuthoredGripScene, IgnoresGripForOtherHand) {
     AuthoredGrips left;
     left.count = 1;
     left.grips[0].hands[0] = over_rod(HandSide::left);
@@ -339,7 +341,7 @@ TEST(AuthoredGripScene, GripForTheOtherHandDoesNotCount) {
     EXPECT_EQ(scene.hold(), nullptr);
 }
 
-TEST(AuthoredGripScene, HigherPriorityGoesBeforeANearerGrip) {
+TEST(AuthoredGripScene, PrefersHigherPriorityOverNearerGrip) {
     AuthoredGrips grips = right_grip(over_rod(HandSide::right));
     grips.count = 3;
     grips.grips[1] = grips.grips[0];
@@ -350,7 +352,8 @@ TEST(AuthoredGripScene, HigherPriorityGoesBeforeANearerGrip) {
     nearest.begin();
     nearest.s.run(0.3);
     ASSERT_NE(nearest.hold(), nullptr);
-    EXPECT_EQ(nearest.hold()->grip, 0) << "of equal ones that which moves the palm least";
+    EXPECT_EQ(nearest.hold()->grip, 0)
+        << "among equal priorities, the grip that moves the palm least";
     grips.grips[1].priority = 1;
     RodScene scene(BodyKind::free, grips);
     scene.begin();
@@ -359,7 +362,7 @@ TEST(AuthoredGripScene, HigherPriorityGoesBeforeANearerGrip) {
     EXPECT_EQ(scene.hold()->grip, 1);
 }
 
-TEST(AuthoredGripScene, GripBehindAWallIsBlockedAndCounted) {
+TEST(AuthoredGripScene, GripBehindWallIsBlockedAndCounted) {
     RodScene scene(BodyKind::fixed);
     scene.off.position = Vec3(0.0, 0.06, 0.0);
     scene.off.rotation = Quat::Identity();
@@ -372,7 +375,7 @@ TEST(AuthoredGripScene, GripBehindAWallIsBlockedAndCounted) {
     EXPECT_EQ(scene.shown().grip, GripKind::surface);
 }
 
-TEST(AuthoredGripScene, OneHandHasAGripForItself) {
+TEST(AuthoredGripScene, OccupiedGripIsRefusedToSecondHand) {
     AuthoredGrips grips = right_grip(over_rod(HandSide::right));
     grips.grips[0].hands[0] = over_rod(HandSide::left);
     RodScene scene(BodyKind::free, grips);
@@ -382,15 +385,16 @@ TEST(AuthoredGripScene, OneHandHasAGripForItself) {
         return Pose{scene.place, Quat::Identity()} * over_rod(HandSide::left).wrist_bs *
                Pose{Vec3(-0.03, 0.0, 0.0), Quat::Identity()};
     };
-    std::uint64_t taken = 0;
-    scene.s.run(0.8, [&] { taken += count_of(scene.s.stats, Fallback::authored_grip_occupied); });
-    EXPECT_EQ(taken, 1U);
+    std::uint64_t occupied = 0;
+    scene.s.run(0.8,
+                [&] { occupied += count_of(scene.s.stats, Fallback::authored_grip_occupied); });
+    EXPECT_EQ(occupied, 1U);
     EXPECT_NE(scene.hold(), nullptr);
     EXPECT_FALSE(scene.s.world.authored_hold.contains(scene.s.player.hands[0]));
     EXPECT_EQ(scene.s.grab(HandSide::left).kind, GripKind::held);
 }
 
-TEST(AuthoredGripScene, FixedThingStaysAndTheShownHandSlidesOnto) {
+TEST(AuthoredGripScene, OnFixedBodyTheShownHandMovesIntoTheGrip) {
     RodScene scene(BodyKind::fixed);
     scene.begin();
     scene.s.run(1.0);
@@ -402,7 +406,7 @@ TEST(AuthoredGripScene, FixedThingStaysAndTheShownHandSlidesOnto) {
     EXPECT_LT(distance(scene.shown().tracked_ws, scene.hand()), 1e-6) << "the player moved";
 }
 
-TEST(AuthoredGripScene, HandThatTurnsFarAwayOnAFixedThingLeavesTheGrip) {
+TEST(AuthoredGripScene, HandTurnedFarOnFixedBodyLeavesGrip) {
     RodScene scene(BodyKind::fixed);
     scene.begin();
     std::uint64_t left = 0;
@@ -416,9 +420,9 @@ TEST(AuthoredGripScene, HandThatTurnsFarAwayOnAFixedThingLeavesTheGrip) {
     EXPECT_EQ(scene.shown().grip, GripKind::surface);
 }
 
-TEST(AuthoredGripScene, LettingGoLeavesTheGripAndThrowsByTheHandAlone) {
+TEST(AuthoredGripScene, ReleaseLeavesGripAndThrowsWithHandVelocityOnly) {
     RodScene scene;
-    scene.release_s = 0.2;  // while the rod still comes
+    scene.release_s = 0.2;  // while the rod still moves into the hand
     scene.begin();
     scene.s.run(0.4);
     EXPECT_EQ(scene.hold(), nullptr);
@@ -426,7 +430,7 @@ TEST(AuthoredGripScene, LettingGoLeavesTheGripAndThrowsByTheHandAlone) {
     EXPECT_LT(scene.s.body_velocity(scene.rod).norm(), 1e-6);
 }
 
-TEST(AuthoredGripScene, RestoredSnapshotGoesOnBitForBit) {
+TEST(AuthoredGripScene, RestoredSnapshotContinuesBitForBit) {
     RodScene scene;
     scene.begin();
     scene.s.run(0.2);
@@ -448,7 +452,7 @@ TEST(AuthoredGripScene, RestoredSnapshotGoesOnBitForBit) {
     EXPECT_EQ(hash_state(again.s.world), once);
 }
 
-TEST(AuthoredGripScene, GrabThatCallsItselfAuthoredIsNoSnapshot) {
+TEST(AuthoredGripScene, SnapshotWithAuthoredGrabKindIsRefused) {
     RodScene scene;
     scene.begin();
     scene.s.run(0.2);
@@ -462,7 +466,7 @@ TEST(AuthoredGripScene, GrabThatCallsItselfAuthoredIsNoSnapshot) {
 
 TEST(AuthoredGripScene, WarmFramesAllocateNothing) {
     if (!counts_allocations()) {
-        GTEST_SKIP() << "a sanitizer's own operator new does not count";
+        GTEST_SKIP() << "allocations are not counted under sanitizers";
     }
     AuthoredHand posed = over_rod(HandSide::right);
     posed.is_posed.fill(true);
@@ -474,16 +478,16 @@ TEST(AuthoredGripScene, WarmFramesAllocateNothing) {
     scene.s.script.grabs[1] = [](double t) { return std::fmod(t, 0.5) > 0.1; };
     scene.s.run(2.0);
     std::size_t in_frames = 0;
-    int seated = 0;
+    int in_grip = 0;
     for (int frame = 0; frame < 180; ++frame) {
         scene.s.prepare_step();
         const std::size_t before = allocation_count();
         scene.s.take_step();
         in_frames += allocation_count() - before;
-        seated += scene.shown().grip == GripKind::authored ? 1 : 0;
+        in_grip += scene.shown().grip == GripKind::authored ? 1 : 0;
     }
     EXPECT_EQ(in_frames, 0U);
-    EXPECT_GT(seated, 90);
+    EXPECT_GT(in_grip, 90);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace handhold::constrain_palms_test {
 namespace {
 
 using test::FittedHand;
-using test::k_at_once_s;
 using test::k_right;
+using test::k_unbudgeted_s;
 using test::wrist_with_palm_at;
 
-// Palms look down on a floor in the plane y = 0. The palm's own capsules reach below its centre by
-// less than the hand is held over the floor here: pushing has nothing to do.
+// Palms face down over a floor in the plane y = 0. The palm's capsules extend below its centre by
+// less than the minimum height, so level palms need no depenetration.
 struct ConstrainPalms : testing::Test {
     GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -25,14 +25,14 @@ struct ConstrainPalms : testing::Test {
     }
     void hold(FittedHand& hand) const {
         hand.search();
-        hand.constrain(k_at_once_s);
+        hand.constrain(k_unbudgeted_s);
     }
 };
 
-TEST_F(ConstrainPalms, LiftsSunkPalmToMinHeightAlongNormal) {
+TEST_F(ConstrainPalms, RaisesPenetratingPalmToMinHeightAlongNormal) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, -0.02, 0.007}, Vec3::UnitY()));
     hold(hand);
-    // Not lower than the least height; the heel and the ball of the thumb may need more.
+    // At least the minimum height; the heel and the ball of the thumb may need more.
     EXPECT_GE(hand.palm_center_bs().y(), hand.tuning.palm.min_height_m - 1e-9);
     EXPECT_LE(hand.palm_center_bs().y(), hand.tuning.palm.max_height_m);
     EXPECT_NEAR(hand.palm_center_bs().x(), 0.013, 1e-5);
@@ -40,9 +40,9 @@ TEST_F(ConstrainPalms, LiftsSunkPalmToMinHeightAlongNormal) {
     EXPECT_LT(tilt_rad(hand), 0.02);
 }
 
-// A tilted palm whose knuckles are sunk turns onto the floor: moved alone it would have to go as
-// far as they are deep.
-TEST_F(ConstrainPalms, TurnsTiltedPalmOutOfWhatItIsSunkIn) {
+// A tilted palm with penetrating knuckles turns onto the floor. Translation alone would have to
+// move it by their whole depth.
+TEST_F(ConstrainPalms, TurnsTiltedPalmOutOfPenetration) {
     const Vec3 up = rotation_about(Vec3::UnitX(), 0.4) * Vec3::UnitY();
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.005, 0.007}, up));
     const Pose tracked = hand.wrist_bs();
@@ -65,13 +65,12 @@ TEST_F(ConstrainPalms, TurnsTiltedPalmOutOfWhatItIsSunkIn) {
     EXPECT_LT(tilt_rad(hand), 0.4);
 }
 
-// Whatever it is pushed out of, a palm is never tilted farther than it may.
-TEST_F(ConstrainPalms, PushedPalmsKeepTheirTilt) {
+TEST_F(ConstrainPalms, DepenetratedPalmStaysWithinTiltLimit) {
     test::Random random(2103);
     int turned = 0;
     for (int i = 0; i < 150; ++i) {
         Mesh mesh = test::make_floor_mesh();
-        for (Vec3& position : mesh.positions) {  // blocks of 5 cm, some as high
+        for (Vec3& position : mesh.positions) {  // blocks of 5 cm with random heights
             const bool is_block = static_cast<int>(std::floor(position.x() / 0.05) +
                                                    3.0 * std::floor(position.z() / 0.05) + i) %
                                       3 ==
@@ -91,12 +90,11 @@ TEST_F(ConstrainPalms, PushedPalmsKeepTheirTilt) {
     EXPECT_GT(turned, 50);
 }
 
-// However sunk a lifted palm stays, it is lifted.
-TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
+TEST_F(ConstrainPalms, LiftedPalmIsRaisedEvenIfItPenetratesSomethingAbove) {
     constexpr double k_lift_m = 0.01;
     test::Random random(2107);
     const GripMesh roof = build_grip_mesh(*test::make_box_mesh({0.3, 0.02, 0.3}));
-    int worse = 0;  // where the lift costs room
+    int worse = 0;  // the lift increases penetration
     for (int i = 0; i < 150; ++i) {
         const Vec3 center(0.013, random.between(0.0, 0.02), 0.007);
         const Vec3 up = (Vec3::UnitY() + random.vector(0.2)).normalized();
@@ -118,10 +116,10 @@ TEST_F(ConstrainPalms, LiftedPalmsAreAsHighAsTheirLift) {
     EXPECT_GT(worse, 5);
 }
 
-// With nothing over it a lifted palm is where it is held without its lift, but for the lift.
-TEST_F(ConstrainPalms, LiftedPalmsGoNoFartherThanTheirLift) {
+// With nothing above, a lift moves the palm by the lift along the normal and nothing else.
+TEST_F(ConstrainPalms, LiftedPalmMovesOnlyByItsLift) {
     constexpr double k_lift_m = 0.01;
-    constexpr double k_pushed_less_m = 5e-3;  // higher, it needs less of its pushes
+    constexpr double k_tolerance_m = 5e-3;  // a higher palm needs less depenetration
     test::Random random(2108);
     for (int i = 0; i < 150; ++i) {
         const Vec3 center(0.013, random.between(-0.01, 0.02), 0.007);
@@ -131,9 +129,9 @@ TEST_F(ConstrainPalms, LiftedPalmsGoNoFartherThanTheirLift) {
         const GripSurface& surface = hand.surface.at(k_right);
         const PalmFit lifted =
             fit_palm(hand.hands.front(), surface, k_lift_m, hand.tuning.palm, {.last = &surface});
-        const Vec3 way = transform_point(lifted.wrist_bs, rig.palm_center_hs) -
-                         transform_point(surface.fitted_wrist_bs, rig.palm_center_hs);
-        EXPECT_LT((way - k_lift_m * surface.normal_bs).norm(), k_pushed_less_m) << i;
+        const Vec3 movement = transform_point(lifted.wrist_bs, rig.palm_center_hs) -
+                              transform_point(surface.fitted_wrist_bs, rig.palm_center_hs);
+        EXPECT_LT((movement - k_lift_m * surface.normal_bs).norm(), k_tolerance_m) << i;
         EXPECT_LE(lifted.penetration_m, 1e-4) << i;
     }
 }
@@ -145,7 +143,7 @@ TEST_F(ConstrainPalms, LowersHighPalmToMaxHeight) {
     EXPECT_NEAR(hand.palm_center_bs().x(), 0.013, 1e-9);
 }
 
-TEST_F(ConstrainPalms, LeavesPalmsWithinLimitsWhereTheyAre) {
+TEST_F(ConstrainPalms, LeavesPalmWithinLimitsAtTrackedPose) {
     const Vec3 up = rotation_about(Vec3::UnitZ(), 0.1) * Vec3::UnitY();
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.0149, 0.007}, up));
     hold(hand);
@@ -153,18 +151,18 @@ TEST_F(ConstrainPalms, LeavesPalmsWithinLimitsWhereTheyAre) {
     EXPECT_LT(hand.offset.at(k_right).target_turn_rad.norm(), 1e-12);
 }
 
-TEST_F(ConstrainPalms, TiltsBackOnlyTheExcessAndKeepsTheHeight) {
+TEST_F(ConstrainPalms, ReducesTiltToItsLimitAndKeepsHeight) {
     for (const double tilt : {0.3, 0.5, 0.6}) {
         const Vec3 up = rotation_about(Vec3::UnitZ(), tilt) * Vec3::UnitY();
         FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.05, 0.007}, up));
-        hand.tuning.palm.max_height_m = 0.05;  // room for a tilted palm
+        hand.tuning.palm.max_height_m = 0.05;  // clearance for a tilted palm
         hold(hand);
         EXPECT_NEAR(tilt_rad(hand), std::min(tilt, hand.tuning.palm.max_angle_rad), 1e-6);
         EXPECT_NEAR(hand.palm_center_bs().y(), 0.05, 1e-9);
     }
 }
 
-TEST_F(ConstrainPalms, HandOnItsTargetStaysWithinATenthOfAMillimetre) {
+TEST_F(ConstrainPalms, HandTrackedAtItsTargetStaysThere) {
     test::Random random(2101);
     for (int i = 0; i < 100; ++i) {
         const Vec3 up = (Vec3::UnitY() + random.vector(0.6)).normalized();
@@ -173,7 +171,7 @@ TEST_F(ConstrainPalms, HandOnItsTargetStaysWithinATenthOfAMillimetre) {
         hold(hand);
         const Pose target = hand.shown_bs();
         hand.wrist_bs() = target;
-        hand.constrain(k_at_once_s);
+        hand.constrain(k_unbudgeted_s);
         EXPECT_LT(hand.offset.at(k_right).target_m.norm(), 1e-4) << i;
         EXPECT_LT(hand.offset.at(k_right).target_turn_rad.norm(), 1e-3) << i;
     }
@@ -202,18 +200,18 @@ TEST_F(ConstrainPalms, ShownOffsetIsNeverFasterThanItsRate) {
     EXPECT_EQ(hand.offset.at(k_right).shown_m, hand.offset.at(k_right).target_m);
 }
 
-TEST_F(ConstrainPalms, EmptyHandReturnsToTracking) {
+TEST_F(ConstrainPalms, EmptyHandReturnsToTrackedPose) {
     FittedHand hand(floor, wrist_with_palm_at(rig, {0.0, -0.02, 0.0}, Vec3::UnitY()));
     hold(hand);
     EXPECT_GT(hand.offset.at(k_right).shown_m.norm(), 0.01);
     hand.hands.front().body = k_no_entity;
     hand.hands.front().meshes.clear();
     hand.search();
-    double way_m = hand.offset.at(k_right).shown_m.norm();
-    while (way_m > 0.0) {
+    double offset_m = hand.offset.at(k_right).shown_m.norm();
+    while (offset_m > 0.0) {
         hand.constrain(1.0 / 90.0);
-        ASSERT_LT(hand.offset.at(k_right).shown_m.norm(), way_m);
-        way_m = hand.offset.at(k_right).shown_m.norm();
+        ASSERT_LT(hand.offset.at(k_right).shown_m.norm(), offset_m);
+        offset_m = hand.offset.at(k_right).shown_m.norm();
     }
     EXPECT_EQ(hand.palm.at(k_right).pose_ws.position, hand.wrist_bs().position);
 }

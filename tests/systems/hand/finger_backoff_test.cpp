@@ -5,30 +5,30 @@
 
 #include "systems/hand/shared/finger_chain.hpp"
 
-namespace handhold::finger_retry_test {
+namespace handhold::finger_backoff_test {
 namespace {
 
-// However long it is in vain, every place of the round has its turn and the round comes to an end.
-TEST(FingerBackoff, RoundsGoOnForEver) {
-    for (const std::uint32_t most : {1U, 3U, 6U}) {
+// However often refits fail, each round tries every option once and then ends.
+TEST(FingerBackoff, TriesEveryOptionOncePerRound) {
+    for (const std::uint32_t option_count : {1U, 3U, 6U}) {
         FingerBackoff backoff;
         for (int round = 0; round < 2000; ++round) {
-            std::set<std::uint32_t> places;
-            for (std::uint32_t i = 0; i < most; ++i) {
+            std::set<std::uint32_t> options;
+            for (std::uint32_t i = 0; i < option_count; ++i) {
                 advance(backoff, 0.03, 0.011);
                 ASSERT_TRUE(is_retry_due(backoff)) << round;
-                places.insert(backoff.failures % most);
-                record_attempt(backoff, true, false, most);
+                options.insert(backoff.failures % option_count);
+                record_attempt(backoff, true, false, option_count);
             }
-            ASSERT_EQ(places.size(), most) << round;
+            ASSERT_EQ(options.size(), option_count) << round;
             ASSERT_EQ(backoff.travel_since_m, 0.0)
-                << round;  // all was tried: a hand at rest is done
+                << round;  // every option failed: a hand at rest is done
         }
     }
 }
 
-// A fast hand tries less than a slow one: when it stops, all is still to be tried.
-TEST(FingerBackoff, TriesOfAFastHandAreNotAllThereIsToTry) {
+// A fast hand's refits have fewer options than a slow hand's, so a slow hand refits again.
+TEST(FingerBackoff, FastHandsAttemptsDoNotCompleteARound) {
     FingerBackoff backoff;
     advance(backoff, 0.01, 0.011);
     record_attempt(backoff, true, true);
@@ -39,8 +39,8 @@ TEST(FingerBackoff, TriesOfAFastHandAreNotAllThereIsToTry) {
     EXPECT_FALSE(backoff.was_fast_hand);
 }
 
-// Samples that come at half the frames' rate let a fast hand stand in every second frame.
-TEST(IsSlow, AHandIsAfterAMoment) {
+// A fast hand sampled at half the frame rate stands still in every second frame.
+TEST(IsSlow, OnlyAfterATenthOfASecond) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const FingerTuning tuning;
     FingerPose pose;
@@ -66,11 +66,11 @@ TEST(IsSlow, AHandIsAfterAMoment) {
     EXPECT_TRUE(is_slow(cold));
 }
 
-// What a standing finger sees from one pose and not from the next it looks for once, or it would
-// swing between the two for ever; when the hand moves it looks again.
-TEST(FingerLookahead, AStandingFingerLooksNoMoreForWhatIsGone) {
+// A finger at rest may see a surface from one pose and not from the next. It must not oscillate
+// between the two, so it waits until the hand moves.
+TEST(FingerLookahead, FingerAtRestDoesNotQueryAgainAfterLosingSurface) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    const auto look = [](bool has_surface_ahead, FingerLookahead& lookahead) {
+    const auto store_query = [](bool has_surface_ahead, FingerLookahead& lookahead) {
         ChainFit fit;
         fit.fallback = ChainFallback::rest_pose;
         fit.has_look_ahead = true;
@@ -79,8 +79,8 @@ TEST(FingerLookahead, AStandingFingerLooksNoMoreForWhatIsGone) {
     };
     for (const bool was_ahead : {false, true}) {
         FingerLookahead lookahead;
-        look(was_ahead, lookahead);
-        look(false, lookahead);
+        store_query(was_ahead, lookahead);
+        store_query(false, lookahead);
         for (int frame = 0; frame < 45; ++frame) {
             advance(lookahead, 0.0, k_dt_s);
         }
@@ -92,7 +92,7 @@ TEST(FingerLookahead, AStandingFingerLooksNoMoreForWhatIsGone) {
     }
 }
 
-TEST(FingerBackoff, WaitsLongerWhileItIsInVain) {
+TEST(FingerBackoff, GrowsWithFailuresUpToALimit) {
     FingerBackoff backoff;
     double last_m = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -109,4 +109,4 @@ TEST(FingerBackoff, WaitsLongerWhileItIsInVain) {
 }
 
 }  // namespace
-}  // namespace handhold::finger_retry_test
+}  // namespace handhold::finger_backoff_test

@@ -2,19 +2,20 @@
 
 #include <limits>
 
-#include "column_scene.hpp"
 #include "engine/geometry/grip_mesh.hpp"
 #include "systems/hand/constrain_palms.hpp"
 #include "systems/hand/pose_thumb.hpp"
 #include "systems/hand/search_grip.hpp"
 #include "systems/hand/sweep_fingers.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::test {
 
-constexpr double k_at_once_s = std::numeric_limits<double>::infinity();
+// Frame length that lifts all rate limits and budgets.
+constexpr double k_unbudgeted_s = std::numeric_limits<double>::infinity();
 
-// A floor in the plane y = 0, cells of 25 mm by 25 mm, a metre wide, its outside up.
+// A floor in the plane y = 0 facing up, one metre wide, with cells of 25 mm.
 inline Mesh make_floor_mesh() {
     constexpr std::uint32_t k_cells = 40;
     Mesh mesh;
@@ -33,7 +34,7 @@ inline Mesh make_floor_mesh() {
     return mesh;
 }
 
-// The columns of one hand that holds on to one mesh, and the four stages that fit it.
+// The columns of one hand that grips one mesh, and the four stages that fit it.
 struct FittedHand {
     const HandRig rig;
     Tuning tuning;
@@ -60,7 +61,7 @@ struct FittedHand {
     FittedHand(const FittedHand&) = delete;
     FittedHand& operator=(const FittedHand&) = delete;
 
-    void search(double dt_s = k_at_once_s) {
+    void search(double dt_s = k_unbudgeted_s) {
         search_grip({dt_s, hands, surface, search_scratch}, tuning, stats);
     }
     void constrain(double dt_s) { constrain_palms({dt_s, hands, surface, offset, palm}, tuning); }
@@ -86,8 +87,8 @@ struct FittedHand {
     const FingerPose& pose() { return fingers.at(k_right); }
 };
 
-// A wrist whose palm's centre is there, its back along `up`, its fingers as near to -Z as that
-// goes.
+// The wrist that puts the palm's centre at `center` with the back of the hand along `up` and the
+// fingers as close to -Z as possible.
 inline Pose wrist_with_palm_at(const HandRig& rig, const Vec3& center, const Vec3& up) {
     const Quat rotation = rotation_between(Vec3::UnitY(), up);
     return {center - rotation * rig.palm_center_hs, rotation};

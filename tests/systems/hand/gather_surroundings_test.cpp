@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/collision/shape_library.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::gather_surroundings_test {
 namespace {
@@ -13,7 +13,7 @@ using test::k_player;
 using test::k_right;
 using test::k_wall;
 
-// A right hand on a box of a metre.
+// A right hand on a box with edges of one metre.
 struct OneHand {
     ShapeLibrary shapes;
     ShapeId box = shapes.add_box(Vec3(0.5, 0.5, 0.5));
@@ -55,7 +55,7 @@ struct OneHand {
     std::uint64_t counted() const { return test::count_of(stats, Fallback::body_no_surface); }
 };
 
-TEST(GatherSurroundings, GivesTheGrippedBodysSurfaceFirst) {
+TEST(GatherSurroundings, ListsGrippedBodysMeshFirst) {
     OneHand scene;
     const GripMeshLibrary meshes(scene.shapes);
     const HandSurroundings& hand = scene.gather(&meshes);
@@ -65,22 +65,22 @@ TEST(GatherSurroundings, GivesTheGrippedBodysSurfaceFirst) {
     EXPECT_EQ(scene.counted(), 0U);
 }
 
-TEST(GatherSurroundings, CountsHandsOnABodyWithoutASurface) {
+TEST(GatherSurroundings, CountsGrippedBodyWithoutGripMesh) {
     OneHand scene;
     const GripMeshLibrary none;
     const HandSurroundings& hand = scene.gather(&none);
     EXPECT_EQ(hand.body, k_no_entity);
-    EXPECT_TRUE(hand.grips);
+    EXPECT_TRUE(hand.is_gripping);
     EXPECT_EQ(scene.counted(), 1U);
 }
 
-TEST(GatherSurroundings, CountsNothingWhereHandsAreNotFitted) {
+TEST(GatherSurroundings, CountsNothingIfHandsAreNotFitted) {
     OneHand scene;
     scene.gather(nullptr);
     EXPECT_EQ(scene.counted(), 0U);
 }
 
-TEST(GatherSurroundings, CountsNothingForEmptyHandsAndBodiesThatAreGone) {
+TEST(GatherSurroundings, CountsNothingForEmptyHandsAndDestroyedBodies) {
     OneHand scene;
     const GripMeshLibrary none;
     scene.grab.at(k_right) = {};

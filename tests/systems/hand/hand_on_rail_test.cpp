@@ -1,5 +1,5 @@
-// Hands on a rail in front of a wall, reached for from the free side: where players' hands end up
-// is never exact, and a hand that is tracked into the bar or through it has come from there too.
+// Hands on a rail in front of a wall, reached from the free side. Tracking is never exact: a hand
+// tracked inside or behind the bar still came from the free side.
 #include <gtest/gtest.h>
 
 #include "fitted_hand.hpp"
@@ -8,17 +8,17 @@ namespace handhold::hand_on_rail_test {
 namespace {
 
 using test::FittedHand;
-using test::k_at_once_s;
 using test::k_right;
+using test::k_unbudgeted_s;
 using test::wrist_with_palm_at;
 
 constexpr double k_bar_radius_m = 0.017;
-constexpr double k_bar_height_m = 0.04;  // of the bar's axis over the wall
+constexpr double k_bar_height_m = 0.04;  // height of the bar's axis above the wall
 
-// In the plane y = 0; looks up.
+// In the plane y = 0, facing up.
 Mesh make_wall() { return test::make_floor_mesh(); }
 
-// Along X over the wall, open at its ends.
+// A tube along X above the wall, open at its ends.
 Mesh make_bar() {
     constexpr std::uint32_t k_around = 12;
     constexpr std::uint32_t k_rings = 20;
@@ -51,27 +51,26 @@ Mesh joined(Mesh a, const Mesh& b) {
     return a;
 }
 
-// Moves and turns everything that the mesh is made of.
-Mesh moved_by(const Pose& pose, Mesh mesh) {
+Mesh transformed_by(const Pose& pose, Mesh mesh) {
     for (Vec3& position : mesh.positions) {
         position = transform_point(pose, position);
     }
     return mesh;
 }
 
-// The wall, the bar, and both, where `rail_bs` puts them.
+// The wall, the bar, and both as one mesh, transformed by `rail_bs`.
 struct RailMeshes {
     GripMesh both;
     GripMesh bar;
     GripMesh wall;
 
     explicit RailMeshes(const Pose& rail_bs)
-        : both(build_grip_mesh(moved_by(rail_bs, joined(make_wall(), make_bar())))),
-          bar(build_grip_mesh(moved_by(rail_bs, make_bar()))),
-          wall(build_grip_mesh(moved_by(rail_bs, make_wall()))) {}
+        : both(build_grip_mesh(transformed_by(rail_bs, joined(make_wall(), make_bar())))),
+          bar(build_grip_mesh(transformed_by(rail_bs, make_bar()))),
+          wall(build_grip_mesh(transformed_by(rail_bs, make_wall()))) {}
 };
 
-// In the rail's frame.
+// Shown palm in the rail's frame.
 struct ShownPalm {
     Vec3 center;
     Vec3 up;
@@ -79,44 +78,44 @@ struct ShownPalm {
 
 ShownPalm shown_in_rail(FittedHand& hand, const Pose& rail_bs) {
     hand.search();
-    hand.constrain(k_at_once_s);
+    hand.constrain(k_unbudgeted_s);
     return {inverse_transform_point(rail_bs, hand.palm_center_bs()),
             rail_bs.rotation.conjugate() * hand.palm_up_bs()};
 }
 
 void expect_on_free_side(const ShownPalm& palm) {
-    // Over the bar's far side, not past its edges, and its back still to the free side.
+    // Above the bar and not beside it, the back of the hand facing the free side.
     EXPECT_GT(palm.center.y(), k_bar_height_m + 0.5 * k_bar_radius_m);
     EXPECT_LT(std::abs(palm.center.z()), 1.5 * k_bar_radius_m);
     EXPECT_GT(palm.up.y(), 0.7);
-    // And on the bar: no farther off than a palm may be shown, with the hollow of the hand.
+    // On the bar: the distance is at most the palm's maximum height plus the hollow of the hand.
     const double off_axis_m = std::hypot(palm.center.y() - k_bar_height_m, palm.center.z());
     EXPECT_LT(off_axis_m, k_bar_radius_m + 0.02);
 }
 
-TEST(HandOnARail, IsShownOnTheSideItReachedFromThoughItWentThrough) {
+TEST(HandOnRail, StaysOnTheSideItReachedFromEvenIfItCrossedTheBar) {
     test::Random random(2301);
-    for (int turn = 0; turn < 6; ++turn) {
-        const Pose rail_bs = turn == 0 ? Pose{} : random.pose();
+    for (int placement = 0; placement < 6; ++placement) {
+        const Pose rail_bs = placement == 0 ? Pose{} : random.pose();
         const RailMeshes meshes(rail_bs);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             const HandRig rig = builtin_hand_rig(side);
-            // While the palm's middle is in the bar: of one behind it nothing tells where it came
-            // from.
-            for (double over_front_m = 0.03; over_front_m > -0.0301; over_front_m -= 0.005) {
+            // Until the palm's centre leaves the back of the bar. Beyond that nothing tells from
+            // which side it came.
+            for (double height_m = 0.03; height_m > -0.0301; height_m -= 0.005) {
                 const Vec3 center = {
                     random.between(-0.1, 0.1),
-                    k_bar_height_m + k_bar_radius_m + over_front_m,
+                    k_bar_height_m + k_bar_radius_m + height_m,
                     random.between(-0.01, 0.01),
                 };
                 const Vec3 up = (Vec3::UnitY() + random.vector(0.2)).normalized();
                 const Pose wrist_bs = rail_bs * wrist_with_palm_at(rig, center, up);
-                SCOPED_TRACE(testing::Message() << "turn " << turn << ", " << over_front_m);
+                SCOPED_TRACE(testing::Message() << "placement " << placement << ", " << height_m);
                 FittedHand on_one_body(meshes.both, wrist_bs, side);
                 expect_on_free_side(shown_in_rail(on_one_body, rail_bs));
-                FittedHand before_another(meshes.bar, wrist_bs, side);
-                before_another.hands.front().meshes.push_back({&meshes.wall, {}});
-                expect_on_free_side(shown_in_rail(before_another, rail_bs));
+                FittedHand before_second_body(meshes.bar, wrist_bs, side);
+                before_second_body.hands.front().meshes.push_back({&meshes.wall, {}});
+                expect_on_free_side(shown_in_rail(before_second_body, rail_bs));
             }
         }
     }

@@ -1,5 +1,5 @@
-// Hands on real meshes, broken ones too: whatever they are, fingers stay finite and within their
-// ranges, and what did not work is counted.
+// Hands on real and on broken meshes: fingers stay finite and within their limits, and every
+// fallback is counted.
 #include <gtest/gtest.h>
 
 #include "fitted_hand.hpp"
@@ -28,27 +28,28 @@ void expect_within_limits(FittedHand& hand) {
     }
 }
 
-// Each finger that fell back is in the counts once, each hand without a surface too.
+// Every finger's fallback and every missing surface is counted exactly once.
 void expect_counted(FittedHand& hand) {
     const bool has_surface = hand.surface.at(k_right).triangle != GripSurface::k_none;
     EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_no_surface), has_surface ? 0U : 1U);
-    std::uint64_t relaxed = 0;
-    std::uint64_t bent = 0;
+    std::uint64_t without_contact = 0;
+    std::uint64_t depenetrated = 0;
     std::uint64_t opened = 0;
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
         const bool is_thumb = hand.rig.fingers[f].name == FingerName::thumb;
         const ChainFallback fallback = hand.traces[0][f].fallback;
-        relaxed += fallback == ChainFallback::rest_pose ? 1 : 0;
-        bent += fallback == ChainFallback::sample_pose && !is_thumb ? 1 : 0;
+        without_contact += fallback == ChainFallback::rest_pose ? 1 : 0;
+        depenetrated += fallback == ChainFallback::sample_pose && !is_thumb ? 1 : 0;
         opened += fallback == ChainFallback::opened && !is_thumb ? 1 : 0;
     }
-    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_no_contact), relaxed);
-    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_depenetrated), bent);
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_no_contact), without_contact);
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_depenetrated), depenetrated);
     EXPECT_EQ(test::count_of(hand.stats, Fallback::finger_opened), opened);
 }
 
-// Palms within a few centimetres of a random triangle, turned any way.
-int hold_everywhere(const GripMesh& mesh, std::uint64_t seed) {
+// Grips with palms at random orientations within a few centimetres of random triangles. Returns how
+// many found a surface.
+int grip_everywhere(const GripMesh& mesh, std::uint64_t seed) {
     constexpr int k_placements = 24;
     Random random(seed);
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -56,11 +57,11 @@ int hold_everywhere(const GripMesh& mesh, std::uint64_t seed) {
     for (int i = 0; i < k_placements; ++i) {
         const auto count = static_cast<double>(mesh.contact.triangles.size());
         const auto triangle = static_cast<std::size_t>(random.between(0.0, count - 0.5));
-        const Vec3 place = mesh.contact.positions[mesh.contact.triangles[triangle][0]];
+        const Vec3 point = mesh.contact.positions[mesh.contact.triangles[triangle][0]];
         const Quat rotation = random.rotation();
         FittedHand hand(mesh,
-                        {place + random.vector(0.03) - rotation * rig.palm_center_hs, rotation});
-        hand.frame(test::k_at_once_s);
+                        {point + random.vector(0.03) - rotation * rig.palm_center_hs, rotation});
+        hand.frame(test::k_unbudgeted_s);
         expect_within_limits(hand);
         expect_counted(hand);
         gripped += hand.surface.at(k_right).triangle != GripSurface::k_none ? 1 : 0;
@@ -68,7 +69,7 @@ int hold_everywhere(const GripMesh& mesh, std::uint64_t seed) {
     return gripped;
 }
 
-void hold_all_of(const char* folder) {
+void grip_all_of(const char* folder) {
     const auto files = test::data_files(folder);
     if (files.empty()) {
         GTEST_SKIP() << "no data";
@@ -78,17 +79,17 @@ void hold_all_of(const char* folder) {
         SCOPED_TRACE(file.filename().string());
         const Mesh mesh = test::load_whole(file);
         if (mesh.triangles.empty()) {
-            continue;  // the loader says why
+            continue;  // the loader reported the reason
         }
         const GripMesh grip = build_grip_mesh(mesh);
         if (!grip.contact.triangles.empty()) {
-            EXPECT_GT(hold_everywhere(grip, ++seed), 20);
+            EXPECT_GT(grip_everywhere(grip, ++seed), 20);
         }
     }
 }
 
-TEST(HandsOnRealMeshes, AreFiniteAndCountedOnObjects) { hold_all_of("objects"); }
-TEST(HandsOnRealMeshes, AreFiniteAndCountedOnBrokenOnes) { hold_all_of("nasty"); }
+TEST(HandsOnRealMeshes, StayFiniteAndCountFallbacksOnObjects) { grip_all_of("objects"); }
+TEST(HandsOnRealMeshes, StayFiniteAndCountFallbacksOnBrokenMeshes) { grip_all_of("nasty"); }
 
 }  // namespace
 }  // namespace handhold::hand_real_data_test

@@ -20,8 +20,8 @@ using test::k_right;
 using test::Random;
 using test::wrist_with_palm_at;
 
-// How deep the palm is that search_grip holds, by find_penetration, which has its own tests.
-double palm_sunk_m(FittedHand& hand) {
+// Penetration of the palm fitted by search_grip. Oracle: find_penetration, which has its own tests.
+double palm_penetration_m(FittedHand& hand) {
     const Pose& wrist_bs = hand.surface.at(k_right).fitted_wrist_bs;
     double deepest_m = 0.0;
     for (const PalmCapsule& palm : hand.rig.palm) {
@@ -34,7 +34,7 @@ double palm_sunk_m(FittedHand& hand) {
     return deepest_m;
 }
 
-// Whether a surface goes through the middle of a finger that is held clear with the palm.
+// True if a surface crosses the axis of a finger that is part of the palm's collision shape.
 bool is_finger_crossed(FittedHand& hand) {
     const GripSurface& surface = hand.surface.at(k_right);
     for (std::size_t f = 0; f < hand.rig.fingers.size(); ++f) {
@@ -55,14 +55,13 @@ bool is_finger_crossed(FittedHand& hand) {
     return false;
 }
 
-// A slab with a top and a bottom, wound outwards: a hand that went into it is no nearer to what
-// there is to grip inside of it.
-TEST(SearchGrip, HoldsNoPalmInsideASolid) {
-    constexpr double k_thick_m = 0.05;
+// A slab with outward winding: a palm tracked inside must not be fitted to the bottom from inside.
+TEST(SearchGrip, NeverHoldsPalmInsideASolid) {
+    constexpr double k_thickness_m = 0.05;
     Mesh slab = test::make_floor_mesh();
     const auto top = static_cast<std::uint32_t>(slab.positions.size());
     for (std::uint32_t i = 0; i < top; ++i) {
-        slab.positions.push_back(slab.positions[i] - k_thick_m * Vec3::UnitY());
+        slab.positions.push_back(slab.positions[i] - k_thickness_m * Vec3::UnitY());
     }
     for (std::size_t i = slab.triangles.size(); i-- > 0;) {
         const auto [a, b, c] = slab.triangles[i];
@@ -73,13 +72,13 @@ TEST(SearchGrip, HoldsNoPalmInsideASolid) {
     for (const double deep_m : {0.01, 0.02, 0.03, 0.04}) {
         FittedHand hand(mesh, wrist_with_palm_at(rig, {0.013, -deep_m, 0.007}, Vec3::UnitY()));
         hand.search();
-        hand.constrain(test::k_at_once_s);
+        hand.constrain(test::k_unbudgeted_s);
         EXPECT_GE(hand.palm_center_bs().y(), hand.tuning.palm.min_height_m - 1e-9) << deep_m;
         EXPECT_GT(hand.palm_up_bs().y(), 0.9) << deep_m;
     }
 }
 
-// Four walls around a hole along y, wound outwards, with a groove around their outside.
+// Four walls around a hole along y, with outward winding and a groove around the outside.
 constexpr double k_hole_x_m = 0.05;
 constexpr double k_hole_z_m = 0.07;
 constexpr double k_wall_m = 0.047;
@@ -96,13 +95,13 @@ bool is_in_frame(const Vec3& point) {
     return !is_beyond && !is_in_hole;
 }
 
-// A ring of walls at a height, so thick there.
+// Thickness of the walls at one height.
 struct Ring {
     double y;
     double wall_m;
 };
 
-// Walls around a rectangular hole along y: the rings down through the hole and up along the
+// Walls around a rectangular hole along y. The rings run down through the hole and up along the
 // outside.
 GripMesh make_frame(double half_x_m, double half_z_m, std::span<const Ring> rings) {
     Mesh mesh;
@@ -137,15 +136,15 @@ GripMesh make_grooved_frame() {
     return make_frame(k_hole_x_m, k_hole_z_m, k_rings);
 }
 
-// A palm before one of the inner walls of a frame, at random.
-Pose random_wrist_before_wall(const HandRig& rig, double half_x_m, double half_z_m, double high_m,
+// A random palm in front of one of the inner walls of a frame.
+Pose random_wrist_before_wall(const HandRig& rig, double half_x_m, double half_z_m, double half_y_m,
                               Random& random) {
     const double side = random.between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
     const bool is_x = random.between(0.0, 1.0) < 0.5;
     const Vec3 inwards = is_x ? Vec3(side * -Vec3::UnitX()) : Vec3(side * -Vec3::UnitZ());
     const double half_m = (is_x ? half_x_m : half_z_m) - random.between(0.002, 0.02);
     const Vec3 along_wall =
-        is_x ? Vec3(0.0, high_m, half_z_m - 0.02) : Vec3(half_x_m - 0.02, high_m, 0.0);
+        is_x ? Vec3(0.0, half_y_m, half_z_m - 0.02) : Vec3(half_x_m - 0.02, half_y_m, 0.0);
     const Vec3 palm = random.vector(1.0).cwiseProduct(along_wall) - half_m * inwards;
     const Vec3 up = (inwards + random.vector(0.3)).normalized();
     Pose wrist = wrist_with_palm_at(rig, Vec3::Zero(), up);
@@ -154,9 +153,9 @@ Pose random_wrist_before_wall(const HandRig& rig, double half_x_m, double half_z
     return wrist;
 }
 
-// A hole too narrow for fingers that are straight: whatever a palm before its walls is held to, it
-// is hardly ever held inside of one.
-TEST(SearchGrip, HoldsHardlyAPalmInTheWallsAroundAHole) {
+// The hole is too narrow for straight fingers, which tempts the search to move palms into the
+// walls.
+TEST(SearchGrip, RarelyHoldsPalmInsideWallsOfNarrowHole) {
     const GripMesh mesh = make_grooved_frame();
     const HandRig rig = builtin_hand_rig(HandSide::right);
     Random random(2215);
@@ -165,39 +164,41 @@ TEST(SearchGrip, HoldsHardlyAPalmInTheWallsAroundAHole) {
         const Pose wrist = random_wrist_before_wall(rig, k_hole_x_m, k_hole_z_m, 0.06, random);
         FittedHand hand(mesh, wrist);
         hand.search();
-        hand.constrain(test::k_at_once_s);
+        hand.constrain(test::k_unbudgeted_s);
         const Vec3 center = hand.palm_center_bs();
         inside += is_in_frame(center) ? 1 : 0;
     }
-    EXPECT_LE(inside, 3);  // 13 where the way is not asked
+    EXPECT_LE(inside, 3);  // 13 without enters_solid
 }
 
-// A box without a floor, its walls so thin that they lie between the spheres that a palm is held
-// by, hands in it: whatever their palms are held to, walls hardly ever go through them, nor through
-// fingers that they are held clear with.
-TEST(SearchGrip, HoldsHardlyAHandThroughAThinWall) {
+// Hands in a box without a floor whose walls are thin enough to lie between the palm's spheres:
+// walls rarely cross the palm, or the fingers in its collision shape.
+TEST(SearchGrip, RarelyHoldsHandThroughThinWall) {
     constexpr double k_half_m = 0.06;
-    constexpr double k_high_m = 0.04;
-    constexpr double k_thin_m = 0.003;
-    constexpr double k_through_m = 0.008;
-    constexpr std::array<Ring, 4> k_rings = {
-        {{k_high_m, 0.0}, {-k_high_m, 0.0}, {-k_high_m, k_thin_m}, {k_high_m, k_thin_m}}};
+    constexpr double k_height_m = 0.04;
+    constexpr double k_thickness_m = 0.003;
+    constexpr double k_max_depth_m = 0.008;
+    constexpr std::array<Ring, 4> k_rings = {{{k_height_m, 0.0},
+                                              {-k_height_m, 0.0},
+                                              {-k_height_m, k_thickness_m},
+                                              {k_height_m, k_thickness_m}}};
     const GripMesh mesh = make_frame(k_half_m, k_half_m, k_rings);
     const HandRig rig = builtin_hand_rig(HandSide::right);
     Random random(2216);
     int palms_through = 0;
     int fingers_through = 0;
     for (int i = 0; i < 300; ++i) {
-        FittedHand hand(mesh, random_wrist_before_wall(rig, k_half_m, k_half_m, k_high_m, random));
+        FittedHand hand(mesh,
+                        random_wrist_before_wall(rig, k_half_m, k_half_m, k_height_m, random));
         hand.search();
-        palms_through += palm_sunk_m(hand) > k_through_m ? 1 : 0;
+        palms_through += palm_penetration_m(hand) > k_max_depth_m ? 1 : 0;
         fingers_through += is_finger_crossed(hand) ? 1 : 0;
     }
-    EXPECT_LE(palms_through, 3);    // 23 where they are not asked
-    EXPECT_LE(fingers_through, 3);  // 86
+    EXPECT_LE(palms_through, 3);    // 23 without the crossing checks
+    EXPECT_LE(fingers_through, 3);  // 86 without the crossing checks
 }
 
-// A floor with a block on it before the fingers, which are sunk in it wherever they bend.
+// A floor with a block in front of the palm: the fingers penetrate it in every sample pose.
 GripMesh make_floor_and_block() {
     constexpr double k_front_m = -0.05;
     constexpr double k_back_m = -0.25;
@@ -221,7 +222,7 @@ GripMesh make_floor_and_block() {
     return build_grip_mesh(mesh);
 }
 
-struct FingerClearance {
+struct FloorAndBlock {
     const GripMesh mesh = make_floor_and_block();
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const Pose before_block = wrist_with_palm_at(rig, {0.0, 0.02, 0.0}, Vec3::UnitY());
@@ -234,74 +235,75 @@ struct FingerClearance {
     }
 };
 
-TEST(SearchGrip, LeavesFingersRoom) {
-    FingerClearance room;
-    FittedHand hand(room.mesh, room.before_block);
-    // Under the palm there is none.
+TEST(SearchGrip, ChoosesSurfaceWithFingerClearance) {
+    FloorAndBlock scene;
+    FittedHand hand(scene.mesh, scene.before_block);
+    // The surface under the palm has none.
     GripSurface under;
     under.normal_bs = Vec3::UnitY();
-    const auto near = room.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
+    const auto near = scene.mesh.search_bvh.closest_point({0.0, 0.0, 0.0}, 0.1);
     ASSERT_TRUE(near);
     under.triangle = near->triangle;
     const Pose fitted_wrist_bs =
         fit_palm(hand.hands.front(), under, 0.0, hand.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, room.patch).penetration_m,
+    ASSERT_GT(find_finger_clearance(hand.hands.front(), fitted_wrist_bs, scene.patch).penetration_m,
               0.005);
     hand.search();
-    EXPECT_LE(room.penetration_m(hand), k_finger_penetration_tolerance_m);
+    EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
 }
 
-// A gripping hand that is thrown farther than its room was known to reach, in the frame after its
-// surface was judged, sees the block that it is thrown into in that frame: only small gaps are
-// looked for where nothing can have come near.
-TEST(SearchGrip, SeesWhatItIsThrownIntoInTheSameFrame) {
+// A gripping hand jumps into a block, farther than its clearance was known to reach. The same frame
+// must depenetrate it: the small query radius of a clear palm applies only within the known
+// clearance.
+TEST(SearchGrip, JumpIntoABlockIsDepenetratedInTheSameFrame) {
     constexpr double k_dt_s = 1.0 / 90.0;
     constexpr double k_beside_x_m = -0.27;
-    FingerClearance room;
-    for (const double thrown_m : {0.03, 0.04, 0.05, 0.06}) {
+    FloorAndBlock scene;
+    for (const double jump_m : {0.03, 0.04, 0.05, 0.06}) {
         const auto beside_block = [&](double x_m) {
-            return wrist_with_palm_at(room.rig, {x_m, 0.02, -0.15}, Vec3::UnitY());
+            return wrist_with_palm_at(scene.rig, {x_m, 0.02, -0.15}, Vec3::UnitY());
         };
-        FittedHand hand(room.mesh, beside_block(k_beside_x_m));
+        FittedHand hand(scene.mesh, beside_block(k_beside_x_m));
         hand.search(k_dt_s);
-        ASSERT_TRUE(hand.surface.at(k_right).evaluated_this_frame) << thrown_m;
-        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << thrown_m;
-        ASSERT_LE(palm_sunk_m(hand), 1e-4) << thrown_m;
-        hand.wrist_bs() = beside_block(k_beside_x_m + thrown_m);
+        ASSERT_TRUE(hand.surface.at(k_right).evaluated_this_frame) << jump_m;
+        ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0) << jump_m;
+        ASSERT_LE(palm_penetration_m(hand), 1e-4) << jump_m;
+        hand.wrist_bs() = beside_block(k_beside_x_m + jump_m);
         hand.search(k_dt_s);
-        EXPECT_LE(palm_sunk_m(hand), 2e-3) << thrown_m;
+        EXPECT_LE(palm_penetration_m(hand), 2e-3) << jump_m;
     }
 }
 
-// So does a hand at rest that something is moved into.
-TEST(SearchGrip, SeesWhatIsMovedIntoIt) {
+// The same for a block that moves into a hand at rest.
+TEST(SearchGrip, HandAtRestIsDepenetratedFromAMovedBody) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const GripMesh block = build_grip_mesh(*test::make_box_mesh({0.1, 0.06, 0.1}));
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    for (const double way_m : {0.03, 0.04, 0.05}) {
+    for (const double shift_m : {0.03, 0.04, 0.05}) {
         FittedHand hand(floor, wrist_with_palm_at(rig, {0.013, 0.02, 0.007}, Vec3::UnitY()));
         HandSurroundings& around = hand.hands.front();
         around.meshes.push_back({&block, {Vec3(-0.16, 0.06, 0.0), Quat::Identity()}});
         hand.search(k_dt_s);
         ASSERT_GT(hand.surface.at(k_right).clearance_recheck_in_m, 0.0);
-        ASSERT_LE(palm_sunk_m(hand), 1e-4);
-        around.meshes.back().pose.position.x() += way_m;
+        ASSERT_LE(palm_penetration_m(hand), 1e-4);
+        around.meshes.back().pose.position.x() += shift_m;
         ++around.signature;
         for (int frame = 0; frame < 4; ++frame) {
             hand.search(k_dt_s);
         }
-        EXPECT_LE(palm_sunk_m(hand), 1e-3) << way_m;
+        EXPECT_LE(palm_penetration_m(hand), 1e-3) << shift_m;
     }
 }
 
-// On a floor without end there is no other surface for fingers that point into it: the palm that
-// would be clear alone is turned and moved until they are too, at once and from frame to frame.
-TEST(SearchGrip, HoldsFingersClearWithThePalm) {
+// The fingers point into an endless floor, so there is no other surface. The palm, which would be
+// clear alone, must turn and move until the fingers are clear too, unbudgeted and spread over
+// frames.
+TEST(SearchGrip, MovesPalmUntilFingersAreClear) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    // The fingers point down into the floor, past what the palm's own capsules need.
+    // Tilted more than depenetrating the palm's own capsules needs.
     const Vec3 up = rotation_about(Vec3::UnitX(), -0.4) * Vec3::UnitY();
     const Pose wrist_bs = wrist_with_palm_at(rig, {0.013, 0.012, 0.007}, up);
     ChainPatch patch;
@@ -310,22 +312,23 @@ TEST(SearchGrip, HoldsFingersClearWithThePalm) {
                                      patch)
             .penetration_m;
     };
-    FittedHand at_once(floor, wrist_bs);
+    FittedHand unbudgeted(floor, wrist_bs);
     GripSurface palm_alone;
     palm_alone.triangle = floor.search_bvh.closest_point({0.013, 0.0, 0.007}, 0.1)->triangle;
     const Pose alone_bs =
-        fit_palm(at_once.hands.front(), palm_alone, 0.0, at_once.tuning.palm).wrist_bs;
-    ASSERT_GT(find_finger_clearance(at_once.hands.front(), alone_bs, patch).penetration_m, 0.003);
-    at_once.search();
-    EXPECT_LE(finger_penetration_m(at_once), k_finger_penetration_tolerance_m);
-    // In frames the palm alone is judged first, then with its fingers.
+        fit_palm(unbudgeted.hands.front(), palm_alone, 0.0, unbudgeted.tuning.palm).wrist_bs;
+    ASSERT_GT(find_finger_clearance(unbudgeted.hands.front(), alone_bs, patch).penetration_m,
+              0.003);
+    unbudgeted.search();
+    EXPECT_LE(finger_penetration_m(unbudgeted), k_finger_penetration_tolerance_m);
+    // With a budget, the palm alone is evaluated first, then with its fingers.
     FittedHand hand(floor, wrist_bs);
     hand.search(k_dt_s);
     EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples != FingerSamplePoses{});
-    constexpr int k_soon = 2;
+    constexpr int k_evaluated_frame = 2;
     for (int frame = 1; frame < 60; ++frame) {
         hand.search(k_dt_s);
-        if (frame >= k_soon) {
+        if (frame >= k_evaluated_frame) {
             EXPECT_LE(finger_penetration_m(hand), k_finger_penetration_tolerance_m) << frame;
             EXPECT_TRUE(hand.surface.at(k_right).pending_finger_samples == FingerSamplePoses{})
                 << frame;
@@ -333,9 +336,8 @@ TEST(SearchGrip, HoldsFingersClearWithThePalm) {
     }
 }
 
-// What is cheap and has room is taken in the first frame: nothing else is looked for, then or
-// later.
-TEST(SearchGrip, IsOverAtOnceOnAPlainFloor) {
+// A cheap surface with clearance is taken in the first frame, without evaluating other candidates.
+TEST(SearchGrip, EndsInFirstFrameOnPlainFloor) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh floor = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -348,48 +350,48 @@ TEST(SearchGrip, IsOverAtOnceOnAPlainFloor) {
     }
 }
 
-// In frames, a surface or two in each, a hand at rest comes to what it finds at once, and rests.
-TEST(SearchGrip, LooksForRoomAFewSurfacesAFrame) {
+// Spread over frames, the search of a hand at rest converges to the unbudgeted result.
+TEST(SearchGrip, BudgetedSearchReachesUnbudgetedResult) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FingerClearance room;
-    FittedHand at_once(room.mesh, room.before_block);
-    at_once.search();
-    // The first surface, it with its fingers, the list of the others, the second.
-    constexpr std::int32_t k_enough = 4;
-    for (const std::int32_t tries : {1, 2, 3, k_enough}) {
-        FittedHand hand(room.mesh, room.before_block);
-        hand.tuning.palm.evaluations_per_frame = tries;
+    FloorAndBlock scene;
+    FittedHand unbudgeted(scene.mesh, scene.before_block);
+    unbudgeted.search();
+    // First candidate, first candidate with its fingers, listing, second candidate.
+    constexpr std::int32_t k_sufficient_budget = 4;
+    for (const std::int32_t budget : {1, 2, 3, k_sufficient_budget}) {
+        FittedHand hand(scene.mesh, scene.before_block);
+        hand.tuning.palm.evaluations_per_frame = budget;
         hand.search(k_dt_s);
-        EXPECT_EQ(room.penetration_m(hand) <= k_finger_penetration_tolerance_m, tries >= k_enough)
-            << tries;
+        EXPECT_EQ(scene.penetration_m(hand) <= k_finger_penetration_tolerance_m,
+                  budget >= k_sufficient_budget)
+            << budget;
         for (int frame = 0; frame < 60; ++frame) {
-            hand.constrain(test::k_at_once_s);
+            hand.constrain(test::k_unbudgeted_s);
             hand.search(k_dt_s);
         }
         const GripSurface found = hand.surface.at(k_right);
-        hand.constrain(test::k_at_once_s);
+        hand.constrain(test::k_unbudgeted_s);
         EXPECT_LT((hand.shown_bs().position - found.fitted_wrist_bs.position).norm(), 1e-9);
         EXPECT_EQ(found.evaluated_count, 0U);
-        EXPECT_LE(room.penetration_m(hand), k_finger_penetration_tolerance_m);
-        EXPECT_LT(
-            (found.fitted_wrist_bs.position - at_once.surface.at(k_right).fitted_wrist_bs.position)
-                .norm(),
-            5e-3);
+        EXPECT_LE(scene.penetration_m(hand), k_finger_penetration_tolerance_m);
+        EXPECT_LT((found.fitted_wrist_bs.position -
+                   unbudgeted.surface.at(k_right).fitted_wrist_bs.position)
+                      .norm(),
+                  5e-3);
         hand.search(k_dt_s);
         EXPECT_EQ(hand.surface.at(k_right).fitted_wrist_bs.position,
                   found.fitted_wrist_bs.position);
     }
 }
 
-// All around is looked at once, and what is to be tried is listed then, also where the hand goes on
-// meanwhile; the list is gone through once.
-TEST(SearchGrip, ListsWhatItIsToTryOnce) {
+// Candidates are listed once, even if the hand moves meanwhile, and the list is evaluated once.
+TEST(SearchGrip, ListsCandidatesOnce) {
     constexpr double k_dt_s = 1.0 / 90.0;
-    FingerClearance room;
-    FittedHand hand(room.mesh, room.before_block);
+    FloorAndBlock scene;
+    FittedHand hand(scene.mesh, scene.before_block);
     const GripSurface& surface = hand.surface.at(k_right);
     std::vector<std::uint32_t> listed;
-    std::uint32_t tried = 0;
+    std::uint32_t evaluated = 0;
     int frames = 0;
     for (int frame = 0; frame < 60 && (frame < 2 || surface.evaluated_count > 0); ++frame) {
         hand.wrist_bs().position.x() += 2e-4;
@@ -399,9 +401,9 @@ TEST(SearchGrip, ListsWhatItIsToTryOnce) {
                 surface.candidates.begin(), surface.candidates.begin() + surface.candidate_count);
             listed = listed.empty() ? now : listed;
             EXPECT_EQ(now, listed) << frame;
-            EXPECT_GE(surface.evaluated_count, tried) << frame;
+            EXPECT_GE(surface.evaluated_count, evaluated) << frame;
             EXPECT_LE(surface.evaluated_count, surface.candidate_count) << frame;
-            tried = surface.evaluated_count;
+            evaluated = surface.evaluated_count;
             ++frames;
         }
     }
@@ -411,9 +413,9 @@ TEST(SearchGrip, ListsWhatItIsToTryOnce) {
     EXPECT_GT(frames, 1);
 }
 
-// Along a ring the surface that is followed, searched for all around every few frames only, takes
-// hardly more to be held to than the one that a search from the beginning finds.
-TEST(SearchGrip, FollowsASurfaceAsWellAsItSearchesForOne) {
+// Along a ring, a followed surface, with a full search only every few frames, needs hardly more
+// palm movement than a search from scratch in every frame.
+TEST(SearchGrip, FollowedSurfaceNeedsHardlyMoreSyncThanSearchedOne) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -431,20 +433,20 @@ TEST(SearchGrip, FollowsASurfaceAsWellAsItSearchesForOne) {
         const GripSurface& surface = hand.surface.at(k_right);
         ASSERT_NE(surface.triangle, GripSurface::k_none) << frame;
         followed += surface.full_search_in_m < full_search_in_m ? 1 : 0;
-        FittedHand afresh(ring, hand.wrist_bs());
-        afresh.search();
+        FittedHand from_scratch(ring, hand.wrist_bs());
+        from_scratch.search();
         const auto sync_m = [&](const GripSurface& found) {
             return grip_sync(hand.wrist_bs(), found.fitted_wrist_bs, rig.palm_center_hs).palm_m;
         };
-        EXPECT_LE(sync_m(surface), sync_m(afresh.surface.at(k_right)) + 3e-3) << frame;
+        EXPECT_LE(sync_m(surface), sync_m(from_scratch.surface.at(k_right)) + 3e-3) << frame;
     }
     EXPECT_GT(followed, 30);
-    EXPECT_LT(followed, 120);  // and all around was searched in between
+    EXPECT_LT(followed, 120);  // with full searches in between
 }
 
-// A palm that goes on from where it was is pushed once a frame; at rest it is pushed on until it is
-// as clear as one that is held afresh, and then it rests. Depths are find_penetration's.
-TEST(SearchGrip, PalmThatComesToRestSettles) {
+// A followed palm gets one iteration per frame. At rest it continues until it is as clear as a fit
+// from scratch, and then stays constant.
+TEST(SearchGrip, PalmAtRestConverges) {
     constexpr double k_dt_s = 1.0 / 90.0;
     const GripMesh ring = build_grip_mesh(test::make_torus(0.12, 0.02, 60, 24));
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -463,14 +465,14 @@ TEST(SearchGrip, PalmThatComesToRestSettles) {
         for (int frame = 0; frame < 60; ++frame) {
             hand.search(k_dt_s);
         }
-        FittedHand afresh(ring, hand.wrist_bs());
-        afresh.search();
+        FittedHand from_scratch(ring, hand.wrist_bs());
+        from_scratch.search();
         if (hand.surface.at(k_right).triangle == GripSurface::k_none ||
-            palm_sunk_m(afresh) > 1e-4) {
+            palm_penetration_m(from_scratch) > 1e-4) {
             continue;
         }
         ++compared;
-        EXPECT_LE(palm_sunk_m(hand), 2e-4) << i;
+        EXPECT_LE(palm_penetration_m(hand), 2e-4) << i;
         const Vec3 held = hand.surface.at(k_right).fitted_wrist_bs.position;
         hand.search(k_dt_s);
         EXPECT_EQ(hand.surface.at(k_right).fitted_wrist_bs.position, held) << i;
@@ -478,9 +480,9 @@ TEST(SearchGrip, PalmThatComesToRestSettles) {
     EXPECT_GT(compared, 30);
 }
 
-TEST(SearchGrip, PrefersTheOuterSideOfAPlate) {
-    // Two sheets 6 mm apart: an upper side that looks up and an under side that looks down. A palm
-    // over the plate is as near to either, but for the plate's thickness.
+TEST(SearchGrip, PrefersOuterSideOfPlate) {
+    // Two sheets 6 mm apart, the upper facing up and the lower facing down. A palm above the plate
+    // is almost equally far from both.
     Mesh plate = test::make_floor_mesh();
     const auto count = static_cast<std::uint32_t>(plate.positions.size());
     const std::size_t triangles = plate.triangles.size();
@@ -502,7 +504,7 @@ TEST(SearchGrip, PrefersTheOuterSideOfAPlate) {
     }
 }
 
-TEST(SearchGrip, LeavesHandsOutOfReachWithoutASurfaceAndCountsThem) {
+TEST(SearchGrip, HandOutOfReachHasNoSurfaceAndIsCounted) {
     const GripMesh mesh = build_grip_mesh(test::make_floor_mesh());
     const HandRig rig = builtin_hand_rig(HandSide::right);
     FittedHand hand(mesh, wrist_with_palm_at(rig, {0.0, 0.4, 0.0}, Vec3::UnitY()));
@@ -512,7 +514,8 @@ TEST(SearchGrip, LeavesHandsOutOfReachWithoutASurfaceAndCountsThem) {
     hand.hands.front().body = k_no_entity;
     hand.hands.front().meshes.clear();
     hand.search();
-    EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_no_surface), 1U);  // empty: not a failure
+    EXPECT_EQ(test::count_of(hand.stats, Fallback::palm_no_surface),
+              1U);  // an empty hand is no fallback
 }
 
 }  // namespace

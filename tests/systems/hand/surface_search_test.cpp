@@ -13,7 +13,7 @@ namespace {
 
 using test::Random;
 
-// Dunes: a floor with hills of up to a centimetre over 12 cm.
+// A floor with hills of up to 1 cm.
 Mesh make_dunes(Random& random) {
     Mesh mesh = test::make_floor_mesh();
     const double phase = random.between(0.0, 6.0);
@@ -23,56 +23,56 @@ Mesh make_dunes(Random& random) {
     return mesh;
 }
 
-// What talk row 17 counts, written anew: the move to the nearest place over the triangle within the
-// range of heights, the turn into the range of angles, and what a turned-away face costs.
+// Oracle: the cost of talk row 17, implemented independently. Movement to the nearest place over
+// the triangle within the height limits, rotation into the tilt limit, and the cost of a backface.
 double sync_cost_m(const SurfaceGraph& graph, std::uint32_t triangle, const Vec3& center,
                    const Vec3& up, const PalmTuning& tuning) {
     const auto& [a, b, c] = graph.triangles[triangle];
     const Corners corners = {graph.positions[a], graph.positions[b], graph.positions[c]};
-    const Vec3 wound = area_vector(corners).normalized();
-    const bool is_backface = wound.dot(up) < 0.0;
-    const Vec3 normal = is_backface ? Vec3(-wound) : wound;
-    // Of all places of the prism over the triangle the nearest: in the plane and along the normal
-    // apart, since they are at right angles.
+    const Vec3 winding_normal = area_vector(corners).normalized();
+    const bool is_backface = winding_normal.dot(up) < 0.0;
+    const Vec3 normal = is_backface ? Vec3(-winding_normal) : winding_normal;
+    // Nearest point of the prism over the triangle: the in-plane and normal parts are independent
+    // because they are perpendicular.
     const double height_m = (center - corners[0]).dot(normal);
-    const Vec3 flat = center - height_m * normal;
-    const double beside_m = (closest_on_triangle(flat, corners) - flat).norm();
-    const double lift_m =
+    const Vec3 in_plane = center - height_m * normal;
+    const double in_plane_m = (closest_on_triangle(in_plane, corners) - in_plane).norm();
+    const double along_normal_m =
         std::max({tuning.min_height_m - height_m, height_m - tuning.max_height_m, 0.0});
     const double angle_rad = std::acos(std::clamp(up.dot(normal), -1.0, 1.0));
-    return std::hypot(beside_m, lift_m) +
+    return std::hypot(in_plane_m, along_normal_m) +
            tuning.tilt_cost_m_per_rad * std::max(0.0, angle_rad - tuning.max_angle_rad) +
            (is_backface ? tuning.backface_cost_m : 0.0);
 }
 
-// From the nearest triangle on.
+// Cheapest triangle of a search seeded at the nearest one.
 PalmCost searched(const GripMesh& mesh, const PalmFrame& palm, const PalmTuning& tuning) {
     GripSearchScratch scratch;
     SurfaceSearch search(mesh.search, palm, tuning, scratch);
-    constexpr std::uint32_t k_patience = 24;
+    constexpr std::uint32_t k_max_idle_pops = 24;
     if (const auto near = mesh.search_bvh.closest_point(palm.center, tuning.reach_m)) {
         search.add_seed(near->triangle);
     }
-    search.run(k_patience);
+    search.run(k_max_idle_pops);
     const auto found = search.cheapest_excluding({});
     return found ? PalmCost{found->cost_m, found->point} : PalmCost{};
 }
 
-TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
+TEST(SurfaceSearch, FindsTriangleOfLeastCost) {
     const PalmTuning tuning;
     int compared = 0;
-    int missed = 0;  // behind a hill that the search's patience does not reach over
+    int missed = 0;  // behind a hill that the idle limit does not reach over
     for (std::uint64_t seed = 2201; seed < 2211; ++seed) {
         Random random(seed);
         const GripMesh mesh = build_grip_mesh(make_dunes(random));
         for (int i = 0; i < 30; ++i) {
             const Vec3 up = (Vec3::UnitY() + random.vector(0.5)).normalized();
             const Vec3 center = Vec3(0.0, random.between(0.0, 0.06), 0.0) + random.vector(0.05);
-            double least_m = 1.0;
+            double min_cost_m = 1.0;
             for (std::uint32_t t = 0; t < mesh.search.triangles.size(); ++t) {
-                least_m = std::min(least_m, sync_cost_m(mesh.search, t, center, up, tuning));
+                min_cost_m = std::min(min_cost_m, sync_cost_m(mesh.search, t, center, up, tuning));
             }
-            const double excess_m = searched(mesh, {center, up}, tuning).cost_m - least_m;
+            const double excess_m = searched(mesh, {center, up}, tuning).cost_m - min_cost_m;
             ++compared;
             missed += excess_m > 1e-9 ? 1 : 0;
             EXPECT_GT(excess_m, -1e-9) << "seed " << seed << " case " << i;
@@ -82,8 +82,7 @@ TEST(SurfaceSearch, FindsTheTriangleThatNeedsTheLeastMovement) {
     EXPECT_LE(missed, compared / 100);
 }
 
-// As cheapest_excluding would, asked again and again.
-TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
+TEST(SurfaceSearch, AppendsSameCandidatesAsRepeatedQueries) {
     const PalmTuning tuning;
     Random random(2211);
     std::size_t listed = 0;
@@ -97,18 +96,18 @@ TEST(SurfaceSearch, ListsWhatIsCheapestBesideWhatItHas) {
         search.add_seed(mesh.search_bvh.closest_point(palm.center, tuning.reach_m)->triangle);
         search.run(SurfaceSearch::k_max_pops);
         std::array<SurfaceSearch::Candidate, 5> excluded = {*search.cheapest_excluding({})};
-        const double most_m = 1e-6 + random.between(1.0, 4.0) * excluded[0].cost_m;
+        const double max_cost_m = 1e-6 + random.between(1.0, 4.0) * excluded[0].cost_m;
         std::vector<SurfaceSearch::Candidate> expected = {excluded[0]};
         while (expected.size() < excluded.size()) {
             const auto next = search.cheapest_excluding(expected);
-            if (!next || next->cost_m >= most_m) {
+            if (!next || next->cost_m >= max_cost_m) {
                 break;
             }
             expected.push_back(*next);
         }
         std::array<SurfaceSearch::Candidate, 5> from_none = {};
-        EXPECT_EQ(search.append_cheapest_excluding(from_none, 0, most_m), expected.size()) << i;
-        const std::size_t count = search.append_cheapest_excluding(excluded, 1, most_m);
+        EXPECT_EQ(search.append_cheapest_excluding(from_none, 0, max_cost_m), expected.size()) << i;
+        const std::size_t count = search.append_cheapest_excluding(excluded, 1, max_cost_m);
         ASSERT_EQ(count, expected.size()) << i;
         for (std::size_t k = 0; k < count; ++k) {
             EXPECT_EQ(excluded[k].triangle, expected[k].triangle) << i;

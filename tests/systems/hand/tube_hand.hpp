@@ -9,9 +9,9 @@
 
 namespace handhold::test {
 
-// A skin of open tubes around a rig's links and palm capsules, posed at `angles`, standing at
-// `hand_ms`: what a fit to it must find is known in closed form. Tubes' ends stand a radius beyond
-// the tips, where a capsule of the link would end.
+// A skinned mesh of open tubes around a rig's links and palm capsules, posed at `angles` with the
+// hand at `hand_ms`. A rig fitted to it has known capsules in closed form. Fingertip tubes end one
+// radius beyond the tip, where the link's capsule ends.
 inline SkinnedMesh make_tube_hand(const HandRig& rig,
                                   const std::array<FingerAngles, k_finger_count>& angles,
                                   const Pose& hand_ms) {

@@ -306,7 +306,7 @@ RC_GTEST_PROP(TrackingErrors, RecentringMovesNeitherViewNorGrip, (std::uint64_t 
     std::uint64_t counted = 0;
     double moved_m = 0.0;
     scenario.run(0.5, [&] {
-        counted += scenario.fallbacks(Fallback::play_space_recentred);
+        counted += scenario.fallbacks(Fallback::space_recentred);
         moved_m = std::max(moved_m, (view(scenario) - before).norm());
     });
     RC_ASSERT(counted == 1U);
@@ -353,7 +353,7 @@ RC_GTEST_PROP(TrackingErrors, OneJumpingDeviceRecentresNothing, (std::uint64_t s
         auto& hand = scenario.script.hands[which];
         hand = [jump, was = hand](double t_s) { return jump.of(t_s, was(t_s)); };
     }
-    scenario.run(1.0, [&] { RC_ASSERT(scenario.fallbacks(Fallback::play_space_recentred) == 0U); });
+    scenario.run(1.0, [&] { RC_ASSERT(scenario.fallbacks(Fallback::space_recentred) == 0U); });
 }
 
 }  // namespace

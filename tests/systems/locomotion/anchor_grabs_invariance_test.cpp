@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "settling.hpp"
+#include "tests/systems/locomotion/anchoring.hpp"
 
 namespace handhold::settle_grabs_test {
 namespace {

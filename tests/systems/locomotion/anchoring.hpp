@@ -2,8 +2,8 @@
 
 #include <initializer_list>
 
-#include "column_scene.hpp"
 #include "systems/locomotion/anchor_grabs.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::settle_grabs_test {
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "column_scene.hpp"
 #include "components/play_space.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::update_grabs_test {
 namespace {

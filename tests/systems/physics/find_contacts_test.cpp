@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::find_contacts_test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "column_scene.hpp"
-#include "scenario.hpp"
+#include "tests/systems/frame/column_scene.hpp"
+#include "tests/systems/frame/scenario.hpp"
 
 // Errors of joints, taken from the poses, not from what the runtime says of itself.
 namespace handhold::test {

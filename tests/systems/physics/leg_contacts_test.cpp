@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/anim/deflect_outward.hpp"
 #include "systems/body/propagate_spine.hpp"
 #include "tests/random.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::leg_contacts_test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "column_scene.hpp"
 #include "engine/collision/shape_library.hpp"
+#include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::solve_phases_test {
 namespace {

@@ -148,7 +148,7 @@ def page(table, recording, truth, clips, runs, scores):
 <h1>Arms and chest, measured</h1>
 <p>Estimated from a head and two hands alone, against motion capture: {len(np.unique(recording.clip))} recordings of {len(clips.people)} people,
 {everybody[first]["minutes"]:.1f} minutes. Some constants of Handhold's estimator were moved part of the distance towards the best fit for these people. docs/decisions/0034-chest-and-elbow-estimate.md
-names them and gives the scores with one person left out of the fit. What each figure means: docs/lab.md.</p>
+names them and gives the scores with one person left out of the fit. What each figure means: docs/reference/lab.md.</p>
 <h2>Goals</h2>{goals_html(table)}
 <h2>Beside the baselines</h2>{figures_html("estimator", everybody.items())}
 <div class="plots">{plots_html(runs, alone, 7.0)}</div>

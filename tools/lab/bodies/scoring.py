@@ -1,4 +1,4 @@
-"""Errors of estimated bodies, frame by frame, and figures of any choice of frames. What each figure means: docs/lab.md."""
+"""Errors of estimated bodies, frame by frame, and figures of any choice of frames. What each figure means: docs/reference/lab.md."""
 import math
 
 import numpy as np

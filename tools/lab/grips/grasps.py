@@ -1,4 +1,4 @@
-"""G.jsonl and P.jsonl as arrays (their fields: docs/lab.md). Lines are checked; numbers that are not finite are kept: they are a result."""
+"""G.jsonl and P.jsonl as arrays (their fields: docs/reference/lab.md). Lines are checked; numbers that are not finite are kept: they are a result."""
 import math
 
 import numpy as np

@@ -97,7 +97,7 @@ def page(table, variant_tables, case_rows, by_variant, pictures, notes):
 <h1>Hands on surfaces, measured</h1>
 <p>Depths and gaps are measured from the posed capsules on the mesh as it is in its file, by code that shares nothing with what posed them; negative
 gaps are depths. Half of the placements are near (palm within 2 cm, 30 degrees), half harsh (3 cm behind to 6 cm before, 60 degrees). Each hand is
-solved cold, alone, on one thread; near ones then slide at 0.3 m/s, and stand, for what is warm. What each figure means: docs/lab.md.</p>
+solved cold, alone, on one thread; near ones then slide at 0.3 m/s, and stand, for what is warm. What each figure means: docs/reference/lab.md.</p>
 <h2>Goals</h2>{goals_html(table)}{f"<ul>{said}</ul>" if said else ""}
 <h2>Beside the baselines</h2>{groups}
 <div class="plots">{plots_html(by_variant, case_rows)}</div>
