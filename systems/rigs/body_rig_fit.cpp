@@ -221,7 +221,7 @@ class BodyFitter {
         }
     }
 
-    // What is no bone goes with the limb or the head above it, else with the trunk.
+    // A joint that is no bone goes with the limb or the head above it, else with the trunk.
     void carry_joints() {
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const SkinJoint& joint = figure_.joints[i];
