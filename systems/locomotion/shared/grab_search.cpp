@@ -88,7 +88,7 @@ std::optional<GrabTarget> find_surface(const GrabSearch& io, Entity player, cons
 std::optional<GrabTarget> find_visible_surface(const GrabSearch& io, Entity player,
                                                const PalmRay& ray, const SightLines& sight,
                                                const HandTuning& tuning, StageStats& stats) {
-    const auto surface = find_surface(io, player, ray, tuning);
+    auto surface = find_surface(io, player, ray, tuning);
     if (!surface || sight.may_grip(ray.palm_ws, surface->point_ws)) {
         return surface;
     }

@@ -45,7 +45,7 @@ struct GrabTarget {
 };
 
 // Advances HandSight to the start of the frame.
-void update_sight(const GrabSearch& io, Entity hand, const Tuning& tuning);
+void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning);
 
 // What a hand at `hand_ws` grips if it closes; none if there is nothing in reach and in sight, and
 // counted why. `only`: authored grips of this body alone; null: of all.
