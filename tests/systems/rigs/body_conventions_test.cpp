@@ -140,7 +140,8 @@ TEST_P(EveryConvention, LimbsAreFoundWithoutNamesOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Figures, EveryConvention,
                          ::testing::Range<std::size_t>(0, test::humanoid_conventions().size()),
                          [](const auto& test) {
-                             return std::string(handhold::test::humanoid_conventions()[test.param].name);
+                             return std::string(
+                                 handhold::test::humanoid_conventions()[test.param].name);
                          });
 
 // A wrong joint in a map shows in the proportions: refused, or the same body within a helper's
