@@ -12,9 +12,9 @@
 #include "engine/collision/collision_world.hpp"
 #include "engine/ecs/join.hpp"
 #include "engine/math/scalar_rotation.hpp"
-#include "systems/body/fold_body.hpp"
-#include "systems/body/pose_spine.hpp"
-#include "systems/body/spine_chain.hpp"
+#include "systems/body/shared/fold_body.hpp"
+#include "systems/body/shared/pose_spine.hpp"
+#include "systems/body/shared/spine_chain.hpp"
 
 namespace handhold {
 namespace {

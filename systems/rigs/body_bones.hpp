@@ -37,7 +37,7 @@ Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map)
 // Changes no bone that is known. Leaves out what it cannot tell.
 void fill_bones_by_shape(const SkinnedMesh& figure, BodyBones& bones);
 
-// What is wrong with the proportions of a figure posed by these bones, with the names of its
+// The implausible proportions of a figure posed by these bones, with the names of its
 // joints; nothing if it is a plausible body. Requires head, upper arms, forearms and hands.
 std::optional<std::string> find_implausible_bone(const SkinnedMesh& figure, const BodyBones& bones);
 

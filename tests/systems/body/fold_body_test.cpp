@@ -1,5 +1,5 @@
 // Crouching: the body folds above the tracked floor.
-#include "systems/body/fold_body.hpp"
+#include "systems/body/shared/fold_body.hpp"
 
 #include <algorithm>
 #include <cmath>

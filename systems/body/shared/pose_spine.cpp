@@ -1,10 +1,10 @@
-#include "systems/body/pose_spine.hpp"
+#include "systems/body/shared/pose_spine.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "engine/anim/deflect_outward.hpp"
-#include "systems/body/spine_chain.hpp"
+#include "systems/body/shared/spine_chain.hpp"
 
 namespace handhold {
 namespace {

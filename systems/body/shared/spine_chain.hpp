@@ -5,7 +5,7 @@
 #include "components/spine.hpp"
 #include "engine/math/math.hpp"
 #include "engine/math/scalar_rotation.hpp"
-#include "systems/body/fold_body.hpp"
+#include "systems/body/shared/fold_body.hpp"
 
 // Geometry of the chain of spine and legs: its links at rest and forward kinematics.
 namespace handhold {

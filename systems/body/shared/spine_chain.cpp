@@ -1,4 +1,4 @@
-#include "systems/body/spine_chain.hpp"
+#include "systems/body/shared/spine_chain.hpp"
 
 #include <cmath>
 

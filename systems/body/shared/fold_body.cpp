@@ -1,4 +1,4 @@
-#include "systems/body/fold_body.hpp"
+#include "systems/body/shared/fold_body.hpp"
 
 #include <algorithm>
 #include <cmath>

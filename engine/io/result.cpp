@@ -1,0 +1,24 @@
+#include "engine/io/result.hpp"
+
+#include "engine/io/printable.hpp"
+
+namespace handhold {
+
+std::string FileError::message() const {
+    // Of a file's own text at most k_max_quoted characters: in the place, and after "found".
+    constexpr std::size_t k_max_place = 80;
+    constexpr std::size_t k_max_expected = 600;
+    constexpr std::string_view k_found = ", found ";
+    const std::size_t found = expected.find(k_found);
+    std::string line = printable(file) + ": ";
+    if (!place.empty()) {
+        line += printable(place, k_max_place) + ": ";
+    }
+    line += printable(std::string_view(expected).substr(0, found), k_max_expected);
+    if (found != std::string::npos) {
+        line += printable(std::string_view(expected).substr(found), k_max_quoted - k_max_place);
+    }
+    return line;
+}
+
+}  // namespace handhold
