@@ -205,7 +205,7 @@ TEST(PropagateSpine, PelvisFollowsATurnOfTheChestWithALag) {
         chest = rotation_about(Vec3::UnitY(), i / 45.0 * 0.8);
         body.step(Vec3::Zero(), 1.0 / 90.0);
     }
-    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s once it has settled.
+    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s in steady state.
     EXPECT_GT(heading(), 0.8 - 1.6 * 3.0 * body.tuning.twist_lag_s - 0.02);
     EXPECT_LT(heading(), 0.8 - 0.25);
     for (int i = 0; i < 270; ++i) {
