@@ -161,21 +161,27 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
 }
 
 // The axis about which a straight finger curls to the palm: level, across its first bone. A thumb
-// has the built-in thumb's axis, turned with its first bone.
+// has the built-in thumb's axis, carried to its first bone by a turn about the opposition axis,
+// then by the shortest rotation.
 Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
     if (name == FingerName::thumb) {
         const HandRig usual = builtin_hand_rig(side);
         const FingerRig& thumb = usual.fingers.front();
-        const Quat rotation = finger_link_frames(thumb, relaxed_angles(thumb))[0].rotation;
-        return rotation_between(rotation * -Vec3::UnitZ(), first_bone) * (rotation * Vec3::UnitX());
+        const Vec3& axis = thumb.opposition_axis_hs;
+        const auto across = [&](const Vec3& v) { return Vec3(v - axis * axis.dot(v)); };
+        const Quat rest = finger_link_frames(thumb, relaxed_angles(thumb))[0].rotation;
+        const Vec3 bone = rest * -Vec3::UnitZ();
+        const Quat opposed =
+            rotation_about(axis, angle_about(axis, across(bone), across(first_bone)));
+        return rotation_between(opposed * bone, first_bone) * (opposed * (rest * Vec3::UnitX()));
     }
     constexpr double k_upright = 0.2;  // a bone normal to the palm determines no axis
     const Vec3 axis = first_bone.cross(Vec3::UnitY());
     return axis.norm() > k_upright ? Vec3(axis.normalized()) : Vec3(Vec3::UnitX());
 }
 
-// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and w =
-// k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
+// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and
+// w = k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
 Vec3 fit_hinge_axis(const std::vector<Vec3>& points_hs, const Vec3& usual_axis) {
     Mat3 system = k_prior_weight * Mat3::Identity();
     for (std::size_t i = 0; i + 1 < points_hs.size(); ++i) {

@@ -143,6 +143,31 @@ INSTANTIATE_TEST_SUITE_P(Figures, EveryConvention,
                                  handhold::test::humanoid_conventions()[test.param].name);
                          });
 
+// A VRM table finds the bones of a figure whose names say nothing, or something else.
+TEST(BodyMapOfVrm, GivesTheBones) {
+    const std::map<std::string, std::string> vrm_names = {
+        {"pelvis", "hips"},       {"neck", "neck"},          {"head", "head"},
+        {"clavicle", "Shoulder"}, {"upper_arm", "UpperArm"}, {"forearm", "LowerArm"},
+        {"hand", "Hand"},         {"thigh", "UpperLeg"},     {"shin", "LowerLeg"},
+        {"foot", "Foot"}};
+    for (const HumanoidConvention& convention : test::humanoid_conventions()) {
+        SCOPED_TRACE(convention.name);
+        Humanoid humanoid = make_humanoid(convention, {.is_named = false});
+        humanoid.figure.joints[humanoid.expected.at("left_hand")].name = "RightUpLeg";
+        std::map<std::string, std::string> table;
+        for (const auto& [bone, joint] : humanoid.expected) {
+            const bool is_left = bone.starts_with("left_");
+            const bool is_limb = is_left || bone.starts_with("right_");
+            const std::string text = is_limb ? bone.substr(is_left ? 5 : 6) : bone;
+            table[(is_left   ? "left"
+                   : is_limb ? "right"
+                             : "") +
+                  vrm_names.at(text)] = humanoid.figure.joints[joint].name;
+        }
+        expect_bones(humanoid, body_map_of_vrm(table));
+    }
+}
+
 // A wrong joint in a map gives implausible proportions.
 TEST(FindBodyBones, MapsWithWrongJointsAreRefused) {
     const HumanoidConvention convention = test::humanoid_conventions()[1];
