@@ -37,7 +37,7 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 std::optional<FileError> write_file_atomically(const fs::path& path, std::string_view text) {
-    // A random suffix: two processes that write the same path do not share a temporary file.
+    // The random suffix keeps two processes that write the same path from sharing a temporary file.
     fs::path temporary = path;
     temporary += ".tmp" + std::to_string(std::random_device()());
     std::error_code error;
