@@ -1,10 +1,31 @@
 #include "components/world.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "engine/core/check.hpp"
 
 namespace handhold {
+
+void sync_index(World& world) {
+    if (world.entity_by_id.size() != world.persistent_id.size()) {
+        world.entity_by_id.clear();
+        for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
+            world.entity_by_id.add(world.persistent_id.rows()[row],
+                                   world.persistent_id.owners()[row]);
+        }
+    }
+    if (world.joints_by_body.size() != world.joint.size()) {
+        world.joints_by_body.clear();
+        for (std::size_t row = 0; row < world.joint.size(); ++row) {
+            const Joint& joint = world.joint.rows()[row];
+            world.joints_by_body.add(world.joint.owners()[row], joint.a, joint.b);
+        }
+    }
+}
+
 namespace {
 
 void check_name_is_unique(const World& world, std::string_view name) {
@@ -12,22 +33,86 @@ void check_name_is_unique(const World& world, std::string_view name) {
     HH_CHECK(is_null(find_by_id(world, id)), "the name is used already", id.value);
 }
 
+// Precondition: the name is free.
 Entity add_named(World& world, std::string_view name) {
-    check_name_is_unique(world, name);
+    sync_index(world);
+    const PersistentId id = persistent_id_from_name(name);
     const Entity entity = world.entities.create();
-    world.persistent_id.add(entity, persistent_id_from_name(name));
+    world.persistent_id.add(entity, id);
+    world.entity_by_id.add(id, entity);
     return entity;
+}
+
+bool is_in(double value, double low, double high) { return value >= low && value <= high; }
+
+// The first coordinate beyond `limit`, or NaN; else 0.
+double beyond(const Vec3& v, double limit) {
+    for (const double x : v) {
+        if (!is_in(x, -limit, limit)) {
+            return x;
+        }
+    }
+    return 0.0;
+}
+
+bool is_within(const Vec3& v, double limit) {
+    return beyond(v, limit) == 0.0;  // false for NaN
+}
+
+bool is_in_world(const Pose& pose) {
+    return is_valid(pose) && is_within(pose.position, world_limits::k_max_coordinate_m);
+}
+
+double wrong_number_of(const Pose& pose) {
+    return is_within(pose.position, world_limits::k_max_coordinate_m)
+               ? pose.rotation.norm()
+               : beyond(pose.position, world_limits::k_max_coordinate_m);
+}
+
+void check_body(const World& world, const BodyDescription& description, const char* caller) {
+    const RigidBody& body = description.body;
+    const auto check = [caller](bool is_good, const char* what, double value) {
+        if (!is_good) {
+            fail_precondition(caller, what, std::to_string(value));
+        }
+    };
+    check(is_in_world(description.pose_ws), "the pose is not valid",
+          wrong_number_of(description.pose_ws));
+    const bool is_free = body.kind == BodyKind::free;
+    check(is_in(body.mass_kg, is_free ? world_limits::k_min_mass_kg : 0.0,
+                world_limits::k_max_mass_kg),
+          "a free body needs a mass within 1e-12 to 1e15 kg", body.mass_kg);
+    for (const double inertia : body.inertia_kgm2) {
+        check(is_in(inertia, is_free ? world_limits::k_min_inertia_kgm2 : 0.0,
+                    world_limits::k_max_inertia_kgm2),
+              "a free body needs moments of inertia within 1e-24 to 1e18 kg m^2", inertia);
+    }
+    check(is_in(body.restitution, 0.0, 1.0), "the restitution must lie in [0, 1]",
+          body.restitution);
+    check(is_in(body.friction, 0.0, world_limits::k_max_friction),
+          "the friction must lie in [0, 1e6]", body.friction);
+    const BodyVelocity& velocity = description.velocity;
+    check(is_within(velocity.linear_mps, world_limits::k_max_speed_mps),
+          "the velocity is beyond 1e6 m/s",
+          beyond(velocity.linear_mps, world_limits::k_max_speed_mps));
+    check(is_within(velocity.angular_radps, world_limits::k_max_spin_radps),
+          "the spin is beyond 1e4 rad/s",
+          beyond(velocity.angular_radps, world_limits::k_max_spin_radps));
+    check_name_is_unique(world, description.name);
+}
+
+const Shape& known_shape(ShapeId shape, const ShapeLibrary& shapes, const char* caller) {
+    if (shape.index >= shapes.size()) {
+        fail_precondition(caller, "no shape with this id", std::to_string(shape.index));
+    }
+    return shapes.at(shape);
 }
 
 }  // namespace
 
 Entity add_body(World& world, const BodyDescription& description) {
+    check_body(world, description, __func__);
     const RigidBody& body = description.body;
-    HH_CHECK(is_valid(description.pose_ws), "the pose is not valid",
-             description.pose_ws.rotation.norm());
-    HH_CHECK(
-        body.kind != BodyKind::free || (body.mass_kg > 0.0 && body.inertia_kgm2.minCoeff() > 0.0),
-        "a free body needs a mass and moments of inertia", body.mass_kg);
     const Entity entity = add_named(world, description.name);
     world.body.add(entity, body);
     world.body_pose.add(entity, {description.pose_ws});
@@ -42,21 +127,44 @@ Entity add_body(World& world, const BodyDescription& description) {
     return entity;
 }
 
+Entity add_body(World& world, const BodyDescription& description, const ShapeLibrary& shapes) {
+    if (description.shape != k_no_shape) {
+        const Shape& shape = known_shape(description.shape, shapes, __func__);
+        HH_CHECK(description.body.kind != BodyKind::free || shape.kind != ShapeKind::mesh,
+                 "a free body cannot have a mesh", description.shape.index);
+    }
+    return add_body(world, description);
+}
+
 Entity add_joint(World& world, const JointDescription& description) {
     const Joint& joint = description.joint;
     HH_CHECK(world.body.contains(joint.b), "a joint's second body does not exist", joint.b.slot);
     HH_CHECK(is_null(joint.a) || world.body.contains(joint.a),
              "a joint's first body must exist, or be null for the world", joint.a.slot);
     HH_CHECK(joint.a != joint.b, "a joint needs two bodies", joint.b.slot);
-    HH_CHECK(is_valid(joint.frame_a_bs) && is_valid(joint.frame_b_bs),
-             "a joint's frame is not valid", joint.frame_a_bs.rotation.norm());
+    HH_CHECK(is_in_world(joint.frame_a_bs), "a joint's frame is not valid",
+             wrong_number_of(joint.frame_a_bs));
+    HH_CHECK(is_in_world(joint.frame_b_bs), "a joint's frame is not valid",
+             wrong_number_of(joint.frame_b_bs));
     HH_CHECK(joint.lower <= joint.upper, "a joint's lower limit is above its upper", joint.lower);
-    HH_CHECK(joint.friction >= 0.0 && joint.detent_spacing >= 0.0 && joint.detent_strength >= 0.0 &&
-                 joint.latch.catch_range >= 0.0 && joint.latch.strength >= 0.0,
-             "friction, detents and latches must not be negative", joint.friction);
+    const JointLatch& latch = joint.latch;
+    for (const double coordinate : {joint.lower, joint.upper, latch.at, latch.handle_at}) {
+        HH_CHECK(is_in(coordinate, -world_limits::k_max_joint_coordinate,
+                       world_limits::k_max_joint_coordinate),
+                 "a joint's coordinates must lie within 1e9", coordinate);
+    }
+    for (const double number : {joint.friction, joint.detent_spacing, joint.detent_strength,
+                                latch.catch_range, latch.strength}) {
+        HH_CHECK(is_in(number, 0.0, world_limits::k_max_joint_strength),
+                 "friction, detents and latches must lie in [0, 1e15]", number);
+    }
+    HH_CHECK(is_null(latch.handle) || world.joint.contains(latch.handle),
+             "a latch's handle must be a joint, or null", latch.handle.slot);
+    check_name_is_unique(world, description.name);
     const Entity entity = add_named(world, description.name);
     world.joint.add(entity, joint);
     world.joint_state.add(entity);
+    world.joints_by_body.add(entity, joint.a, joint.b);
     return entity;
 }
 
@@ -68,9 +176,21 @@ Joint joint_at(const World& world, Joint joint, const Pose& frame_ws) {
 }
 
 PlayerEntities add_player(World& world, const PlayerDescription& description) {
-    HH_CHECK(is_valid(description.origin_ws), "the origin is not valid",
-             description.origin_ws.rotation.norm());
-    HH_CHECK(description.body.mass_kg > 0.0, "a player needs a mass", description.body.mass_kg);
+    HH_CHECK(is_in_world(description.origin_ws), "the origin is not valid",
+             wrong_number_of(description.origin_ws));
+    HH_CHECK(
+        is_in(description.body.mass_kg, world_limits::k_min_mass_kg, world_limits::k_max_mass_kg),
+        "a player needs a mass within 1e-12 to 1e15 kg", description.body.mass_kg);
+    HH_CHECK(is_within(description.velocity_mps, world_limits::k_max_speed_mps),
+             "the velocity is beyond 1e6 m/s",
+             beyond(description.velocity_mps, world_limits::k_max_speed_mps));
+    const BodyMeasures& measures = description.measures;
+    for (const double length_m : {measures.eye_height_m, measures.shoulder_width_m,
+                                  measures.upper_arm_m, measures.forearm_m}) {
+        HH_CHECK(is_in(length_m, BodyMeasures::k_min_m, BodyMeasures::k_max_m),
+                 "the body's measures must lie within 0.05 to 5 m", length_m);
+    }
+    check_name_is_unique(world, description.name);
     const std::string hand_names[k_hand_count] = {std::string(description.name) + "/left_hand",
                                                   std::string(description.name) + "/right_hand"};
     for (const std::string& name : hand_names) {
@@ -86,7 +206,9 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     world.reference_velocity.add(made.player, {world.reference_velocity_mps, k_no_entity});
     world.head_tracking.add(made.player);
     world.head_ignores.add(made.player);
-    world.collider.add(made.player, {description.head_shape});
+    if (description.head_shape != k_no_shape) {
+        world.collider.add(made.player, {description.head_shape});
+    }
     world.last_valid.add(made.player, {description.origin_ws, false});
     world.render_pose.add(made.player);
     world.body_measures.add(made.player, description.measures);
@@ -112,10 +234,21 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
     return made;
 }
 
+PlayerEntities add_player(World& world, const PlayerDescription& description,
+                          const ShapeLibrary& shapes) {
+    if (description.head_shape != k_no_shape) {
+        const Shape& shape = known_shape(description.head_shape, shapes, __func__);
+        HH_CHECK(shape.kind == ShapeKind::sphere, "a head's shape must be a sphere",
+                 description.head_shape.index);
+    }
+    return add_player(world, description);
+}
+
 bool destroy(World& world, Entity entity) {
     if (!world.entities.is_alive(entity)) {
         return false;
     }
+    sync_index(world);
     if (world.player.contains(entity)) {
         for (std::size_t row = world.hand_owner.size(); row-- > 0;) {
             if (world.hand_owner.rows()[row].player == entity) {
@@ -123,19 +256,28 @@ bool destroy(World& world, Entity entity) {
             }
         }
     }
-    if (world.body.contains(entity)) {
-        for (std::size_t row = world.joint.size(); row-- > 0;) {
-            const Joint& joint = world.joint.rows()[row];
-            if (joint.a == entity || joint.b == entity) {
-                destroy(world, world.joint.owners()[row]);
-            }
-        }
+    const std::span<const Entity> listed = world.joints_by_body.of(entity);
+    std::vector<Entity> joints(listed.begin(), listed.end());
+    // From the last row to the first: the slots that become free do not depend on the cache.
+    std::ranges::sort(joints, std::ranges::greater(),
+                      [&world](Entity joint) { return world.joint.find_row(joint); });
+    for (const Entity joint : joints) {
+        destroy(world, joint);
+    }
+    if (const Joint* const joint = world.joint.find(entity)) {
+        world.joints_by_body.remove(entity, joint->a, joint->b);
+    }
+    if (const PersistentId* const id = world.persistent_id.find(entity)) {
+        world.entity_by_id.remove(*id);
     }
     visit_columns(world, [entity](const char*, auto& column) { column.remove(entity); });
     return world.entities.destroy(entity);
 }
 
 Entity find_by_id(const World& world, PersistentId id) {
+    if (world.entity_by_id.size() == world.persistent_id.size()) {
+        return world.entity_by_id.find(id);
+    }
     for (std::size_t row = 0; row < world.persistent_id.size(); ++row) {
         if (world.persistent_id.rows()[row] == id) {
             return world.persistent_id.owners()[row];

@@ -15,6 +15,8 @@
 #include "components/render.hpp"
 #include "components/spine.hpp"
 #include "components/tracking.hpp"
+#include "components/world_index.hpp"
+#include "engine/collision/shape_library.hpp"
 #include "engine/ecs/column.hpp"
 #include "engine/ecs/entity.hpp"
 
@@ -76,6 +78,10 @@ struct World {
         controller_to_hand;  // only hands with their own controller-to-hand joint; else Tuning's
     Column<AuthoredHold> authored_hold;  // only hands in an authored grip
     Column<HandPull> hand_pull;          // only hands that pull a body from a distance
+
+    // Caches over persistent_id and joint, kept by the functions below. Not state.
+    EntityById entity_by_id;
+    JointsByBody joints_by_body;
 };
 
 // Calls visit(name, column) for every column. The only list of columns: hashing, destroying and
@@ -125,6 +131,21 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_pull", world.hand_pull);
 }
 
+// Largest numbers that the add_ functions take. With them no frame computes a number that a
+// snapshot refuses.
+namespace world_limits {
+constexpr double k_max_coordinate_m = 1e9;  // of each axis
+constexpr double k_max_speed_mps = 1e6;
+constexpr double k_max_spin_radps = 1e4;
+constexpr double k_min_mass_kg = 1e-12;
+constexpr double k_max_mass_kg = 1e15;
+constexpr double k_min_inertia_kgm2 = 1e-24;
+constexpr double k_max_inertia_kgm2 = 1e18;
+constexpr double k_max_friction = 1e6;          // of bodies
+constexpr double k_max_joint_coordinate = 1e9;  // rad or m
+constexpr double k_max_joint_strength = 1e15;   // N or N m
+}  // namespace world_limits
+
 struct BodyDescription {
     std::string_view name;  // unique in the world; hashed to the persistent id
     RigidBody body;
@@ -132,17 +153,21 @@ struct BodyDescription {
     BodyVelocity velocity;
     ShapeId shape;
 };
-// Adds a body, with a collider unless its shape is k_no_shape. Throws PreconditionError for a
-// duplicate name, an invalid pose, or a free body without mass or inertia.
+// Adds a body, with a collider unless its shape is k_no_shape. Throws PreconditionError, and adds
+// nothing, for a duplicate name or a number outside world_limits; restitution must lie in [0, 1],
+// and a free body needs mass and inertia.
 Entity add_body(World& world, const BodyDescription& description);
+// Also throws for a shape that the library lacks, and for a free body with a mesh. Without a
+// library the first frame throws.
+Entity add_body(World& world, const BodyDescription& description, const ShapeLibrary& shapes);
 
 struct JointDescription {
     std::string_view name;  // unique in the world
     Joint joint;
 };
-// Adds a joint between two bodies, or the world and a body. Throws PreconditionError for a
-// duplicate name, a missing body, an invalid frame, a lower limit above the upper, or a negative
-// friction, detent or latch.
+// Adds a joint between two bodies, or the world and a body. Its bodies never change. Throws
+// PreconditionError, and adds nothing, for a duplicate name, a missing body, a lower limit above
+// the upper, a negative friction, detent or latch, or a number outside world_limits.
 Entity add_joint(World& world, const JointDescription& description);
 // A copy of `joint` with both frames set so that they coincide at `frame_ws` with the bodies at
 // their current poses.
@@ -153,21 +178,27 @@ struct PlayerDescription {
     PlayerBody body;
     Pose origin_ws;
     Vec3 velocity_mps = Vec3::Zero();
-    ShapeId head_shape;  // a sphere
+    ShapeId head_shape;  // a sphere; k_no_shape: the head touches nothing
     BodyMeasures measures = {};
 };
 struct PlayerEntities {
     Entity player;
     Entity hands[k_hand_count];  // by HandSide
 };
-// Adds a player and two hands. Errors as in add_body.
+// Adds a player and two hands. Throws as add_body, and for body measures outside their range.
 PlayerEntities add_player(World& world, const PlayerDescription& description);
+// Also throws for a head shape that is not a sphere of the library.
+PlayerEntities add_player(World& world, const PlayerDescription& description,
+                          const ShapeLibrary& shapes);
 
 // Removes the entity from every column, together with a player's hands and a body's joints. False
-// for a stale handle.
+// for a stale handle. The cost does not depend on how many other bodies and joints there are.
 bool destroy(World& world, Entity entity);
 
-// k_no_entity if no entity has the id.
+// Rebuilds the caches if columns were filled by other means, such as a restored snapshot.
+void sync_index(World& world);
+
+// k_no_entity if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
 
 }  // namespace handhold

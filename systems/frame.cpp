@@ -1,5 +1,8 @@
 #include "systems/frame.hpp"
 
+#include <cmath>
+
+#include "components/tuning_check.hpp"
 #include "engine/core/check.hpp"
 #include "engine/core/profile.hpp"
 #include "systems/arm/estimate_arms.hpp"
@@ -21,6 +24,7 @@
 #include "systems/locomotion/update_grabs.hpp"
 #include "systems/physics/animate_movers.hpp"
 #include "systems/physics/build_constraints.hpp"
+#include "systems/physics/discard_broken_results.hpp"
 #include "systems/physics/find_contacts.hpp"
 #include "systems/physics/finish_positions.hpp"
 #include "systems/physics/group_joints.hpp"
@@ -99,7 +103,7 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
     World& w = f.w;
     handhold::place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.head_tracking, w.last_valid, f.collision(), f.graph()},
+         w.player_start, w.head_tracking, w.last_valid, f.collision(), f.graph()},
         f.tuning.head);
 }
 
@@ -200,6 +204,15 @@ void update_velocities(const FrameContext& f) {
 void update_joints(const FrameContext& f) {
     const StageTimer timer(Stage::update_joints, f.stats);
     handhold::update_joints({f.dt_s(), f.graph(), f.w.joint, f.w.joint_state});
+}
+
+void discard_broken_results(const FrameContext& f) {
+    const StageTimer timer(Stage::update_joints, f.stats);
+    World& w = f.w;
+    handhold::discard_broken_results(
+        {w.body_start, w.player_start, w.body_pose, w.body_velocity, w.player_origin,
+         w.player_velocity, w.last_valid, w.joint_state, w.grab, f.graph()},
+        f.stats);
 }
 
 // --- Shown hands ---------------------------------------------------------------------------------
@@ -307,6 +320,11 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
                 StageStats& stats) {
     HH_CHECK(input.dt_s >= k_min_dt_s && input.dt_s <= k_max_dt_s,
              "dt_s must lie between 1e-6 and 10", input.dt_s);
+    for (const double axis_mps : world.reference_velocity_mps) {
+        HH_CHECK(std::abs(axis_mps) <= world_limits::k_max_speed_mps,
+                 "reference_velocity_mps is out of range", axis_mps);
+    }
+    check_tuning(tuning);
     stats = {};
     const FrameContext f{world, caches, tuning, input, stats};
 
@@ -332,6 +350,7 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
     finish_positions(f);
     update_velocities(f);
     update_joints(f);
+    discard_broken_results(f);
 
     // Shown hands: palms and fingers on what they hold.
     gather_surroundings(f);

@@ -116,6 +116,7 @@ std::optional<FileError> restore_snapshot(std::span<const std::byte> bytes,
     if (const std::optional<WorldBreach> breach = find_breach(restored, assets.shapes())) {
         return FileError{"snapshot", breach->place, breach->expected};
     }
+    sync_index(restored);
     world = std::move(restored);
     return std::nullopt;
 }

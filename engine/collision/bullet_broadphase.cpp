@@ -1,8 +1,10 @@
 #include "engine/collision/bullet_broadphase.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/collision/bullet_vector.hpp"
+#include "engine/core/hash.hpp"
 
 namespace handhold {
 namespace {
@@ -24,8 +26,19 @@ bool matches(std::span<const BroadphaseBody> bodies, std::span<const ColliderPro
     return next == bodies.size();
 }
 
-// An inverted box: overlaps nothing and enlarges no parent node.
-btDbvtVolume empty_volume() { return to_volume({Vec3::Constant(1e30), Vec3::Constant(-1e30)}); }
+// Overlaps nothing and widens no node above it: each low is above each high. The centres differ,
+// and lie far from every body's: Bullet descends by the distance of centres, so parked leaves form
+// a balanced subtree of their own. With equal centres they form a list, and parking n bodies costs
+// n^2.
+btDbvtVolume empty_volume(std::uint64_t number) {
+    constexpr double k_half = 1e30;
+    Vec3 centre;
+    for (double& x : centre) {
+        number = mix64(number + 0x9e3779b97f4a7c15ULL);
+        x = 0.4 * k_half + 0.2 * k_half * std::ldexp(static_cast<double>(number >> 11U), -53);
+    }
+    return to_volume({centre + Vec3::Constant(k_half), centre - Vec3::Constant(k_half)});
+}
 
 }  // namespace
 
@@ -49,7 +62,7 @@ void Broadphase::place(BroadphaseBody& body, const ShapeExtent& extent) {
 
 void Broadphase::park(BroadphaseBody& body) {
     if (body.leaf != nullptr) {
-        btDbvtVolume volume = empty_volume();
+        btDbvtVolume volume = empty_volume(parked_count_++);
         tree_.update(body.leaf, volume);
         parked_.push_back(body.leaf);
         body.leaf = nullptr;

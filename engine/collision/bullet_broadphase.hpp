@@ -45,6 +45,9 @@ class Broadphase {
     // scratch is used again. Thread-safe if each thread uses its own scratch.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
 
+    // Longest path in the tree: for tests.
+    int depth() const { return btDbvt::maxdepth(tree_.m_root); }
+
   private:
     // Rebuilds bodies_ to match the proxies that have a shape; bodies that stay keep their data.
     void match_bodies(std::span<const ColliderProxy> proxies);
@@ -56,6 +59,7 @@ class Broadphase {
     btDbvt tree_;
     // Unused leaves. They stay in the tree for reuse, because Bullet frees a removed leaf's memory.
     std::vector<btDbvtNode*> parked_;
+    std::uint64_t parked_count_ = 0;  // since the beginning
     std::uint64_t changes_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <new>
 
 #include <LinearMath/btAlignedAllocator.h>
 
@@ -22,7 +23,11 @@ std::atomic<std::uint64_t> g_allocations{0};
 
 void* counted_allocate(std::size_t size) {
     g_allocations.fetch_add(1, std::memory_order_relaxed);
-    return std::malloc(size);
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) {
+        throw std::bad_alloc();  // Bullet writes to it unseen
+    }
+    return memory;
 }
 
 constexpr std::size_t k_usual_contacts = 16;  // initial capacity per body

@@ -178,7 +178,9 @@ void start_trace(std::size_t max_zones) {
 void stop_trace() { trace().is_on = false; }
 bool is_tracing() { return trace().is_on.load(std::memory_order_relaxed); }
 
-bool write_trace(const std::string& path) { return !write_file_atomically(path, trace_json()); }
+std::optional<FileError> write_trace(const std::string& path) {
+    return write_file_atomically(path, trace_json());
+}
 
 Zone::Zone(const char* name) : name_(name), begin_ns_(is_tracing() ? now_ns() : -1) {}
 

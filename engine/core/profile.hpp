@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "engine/io/result.hpp"
 
 // Zones: named time spans on one thread, for traces in Perfetto and chrome://tracing. A zone costs
 // a call and a branch at each end, plus two clock reads (about 60 ns each) while tracing. Any
@@ -24,9 +27,8 @@ void start_trace(std::size_t max_zones = 1U << 20U);
 void stop_trace();
 bool is_tracing();
 // Writes the recorded zones as Chrome trace JSON: complete events, one tid per thread, the number
-// of dropped zones in otherData.dropped_zones. Atomic as write_file_atomically; returns false if
-// the file cannot be written.
-bool write_trace(const std::string& path);
+// of dropped zones in otherData.dropped_zones. Writes and fails as write_file_atomically.
+[[nodiscard]] std::optional<FileError> write_trace(const std::string& path);
 
 class Zone {
   public:

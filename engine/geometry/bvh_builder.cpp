@@ -20,14 +20,12 @@ std::uint32_t fours_of(std::uint32_t triangles) { return (triangles + k_leaf - 1
 
 BvhBuilder::Box BvhBuilder::Box::none() {
     constexpr float k_far = std::numeric_limits<float>::infinity();
-    return {{k_far, k_far, k_far}, {-k_far, -k_far, -k_far}};
+    return {splat4(k_far), splat4(-k_far)};
 }
 
 void BvhBuilder::Box::join(const Box& other) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], other.low[axis]);
-        high[axis] = std::max(high[axis], other.high[axis]);
-    }
+    low = lower(low, other.low);
+    high = higher(high, other.high);
 }
 
 double BvhBuilder::Box::half_area() const {
@@ -67,7 +65,7 @@ void BvhBuilder::gather() {
     padding_ = static_cast<float>(k_padding * (high - low).maxCoeff());
     items_.reserve(finite.size());
     for (const std::uint32_t t : finite) {
-        Item item = {Box::none(), t};
+        Item item = {Box::none()};
         for (const std::uint32_t index : triangles_[t]) {
             const Vec3 local = positions_[index] - bvh_.origin_;
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,27 +74,25 @@ void BvhBuilder::gather() {
                 item.box.high[axis] = std::max(item.box.high[axis], value + padding_);
             }
         }
+        item.set_triangle(t);
         items_.push_back(item);
     }
 }
 
-std::uint32_t BvhBuilder::bin_of(const Item& item, const Box& middles, std::size_t axis) {
-    const float width = middles.high[axis] - middles.low[axis];
-    const float share = (item.box.middle(axis) - middles.low[axis]) / width;
-    return std::min(static_cast<std::uint32_t>(share * static_cast<float>(k_bins)),
-                    static_cast<std::uint32_t>(k_bins - 1));
+// An axis along which all middles are one has bins that mean nothing.
+Int4 BvhBuilder::bins_of(const Item& item, const Box& middles) {
+    const Float4 width = middles.high - middles.low;
+    const Float4 safe = width > splat4(0.0F) ? width : splat4(1.0F);
+    const Float4 share = (item.box.middle() - middles.low) / safe;
+    const Int4 bin = __builtin_convertvector(share * splat4(static_cast<float>(k_bins)), Int4);
+    constexpr auto k_last = static_cast<std::int32_t>(k_bins - 1);
+    const Int4 last = {k_last, k_last, k_last, k_last};
+    return bin < last ? bin : last;
 }
 
-BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& work,
-                                               const Box& middles) const {
-    std::array<Box, k_bins> boxes;
-    std::array<std::uint32_t, k_bins> counts = {};
-    boxes.fill(Box::none());
-    for (std::uint32_t i = work.first; i < work.last; ++i) {
-        const std::uint32_t bin = bin_of(items_[i], middles, axis);
-        boxes[bin].join(items_[i].box);
-        ++counts[bin];
-    }
+BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Bins& bins,
+                                               std::uint32_t all) {
+    const auto& [boxes, counts] = bins;
     std::array<double, k_bins> upper_cost = {};  // of this bin and all above
     Box upper = Box::none();
     std::uint32_t upper_count = 0;
@@ -108,7 +104,6 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
     Split best;
     Box lower = Box::none();
     std::uint32_t lower_count = 0;
-    const std::uint32_t all = work.last - work.first;
     for (std::uint32_t bin = 1; bin < k_bins; ++bin) {
         lower.join(boxes[bin - 1]);
         lower_count += counts[bin - 1];
@@ -124,12 +119,25 @@ BvhBuilder::Split BvhBuilder::best_split_along(std::size_t axis, const Work& wor
 }
 
 BvhBuilder::Split BvhBuilder::best_split(const Work& work, const Box& middles) const {
+    std::array<Bins, 3> by_axis;
+    for (Bins& bins : by_axis) {
+        bins.boxes.fill(Box::none());
+        bins.counts.fill(0);
+    }
+    for (std::uint32_t i = work.first; i < work.last; ++i) {
+        const Int4 bin = bins_of(items_[i], middles);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto at = static_cast<std::size_t>(std::max(bin[axis], 0));
+            by_axis[axis].boxes[at].join(items_[i].box);
+            ++by_axis[axis].counts[at];
+        }
+    }
     Split best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(middles.high[axis] > middles.low[axis])) {
             continue;
         }
-        const Split split = best_split_along(axis, work, middles);
+        const Split split = best_split_along(axis, by_axis[axis], work.last - work.first);
         if (split.found && (!best.found || split.cost < best.cost)) {
             best = split;
         }
@@ -143,7 +151,7 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
     const auto last = items_.begin() + work.last;
     if (split.found && work.depth < k_planned_depth) {
         const auto middle = std::partition(first, last, [&](const Item& item) {
-            return bin_of(item, middles, split.axis) < split.bin;
+            return bins_of(item, middles)[split.axis] < static_cast<std::int32_t>(split.bin);
         });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
@@ -158,16 +166,16 @@ std::uint32_t BvhBuilder::part(const Work& work, const Split& split, const Box& 
     const std::uint32_t count = work.last - work.first;
     const std::uint32_t half = work.first + (count <= 2 * k_leaf ? k_leaf : count / 2);
     std::nth_element(first, items_.begin() + half, last, [&](const Item& a, const Item& b) {
-        const float middle_a = a.box.middle(widest);
-        const float middle_b = b.box.middle(widest);
-        return middle_a < middle_b || (middle_a == middle_b && a.triangle < b.triangle);
+        const float middle_a = a.box.middle()[widest];
+        const float middle_b = b.box.middle()[widest];
+        return middle_a < middle_b || (middle_a == middle_b && a.triangle() < b.triangle());
     });
     return half;
 }
 
 void BvhBuilder::make_leaf(const Work& work) {
     std::sort(items_.begin() + work.first, items_.begin() + work.last,
-              [](const Item& a, const Item& b) { return a.triangle < b.triangle; });
+              [](const Item& a, const Item& b) { return a.triangle() < b.triangle(); });
     pairs_[work.pair].first = work.first;
     pairs_[work.pair].count = work.last - work.first;
 }
@@ -191,8 +199,8 @@ void BvhBuilder::fill_leaves() {
         pair.first = static_cast<std::uint32_t>(bvh_.slots_.size());
         for (std::uint32_t i = 0; i < k_leaf; ++i) {
             const Item& item = items_[first_item + std::min(i, pair.count - 1)];
-            bvh_.slots_.push_back(copy_corners(item.triangle));
-            bvh_.numbers_.push_back(item.triangle);
+            bvh_.slots_.push_back(copy_corners(item.triangle()));
+            bvh_.numbers_.push_back(item.triangle());
         }
         add_four(pair.first);
     }
@@ -250,11 +258,8 @@ void BvhBuilder::divide() {
         Box middles = Box::none();
         for (std::uint32_t i = work.first; i < work.last; ++i) {
             box.join(items_[i].box);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const float middle = items_[i].box.middle(axis);
-                middles.low[axis] = std::min(middles.low[axis], middle);
-                middles.high[axis] = std::max(middles.high[axis], middle);
-            }
+            const Float4 middle = items_[i].box.middle();
+            middles.join({middle, middle});
         }
         pairs_[work.pair].box = box;
         if (count <= k_leaf) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/geometry/triangle_bvh.hpp"
+#include "engine/math/float4.hpp"
 
 namespace handhold {
 
@@ -20,16 +23,20 @@ class BvhBuilder {
 
   private:
     struct Box {
-        std::array<float, 3> low;
-        std::array<float, 3> high;
+        Float4 low;  // x, y, z; the fourth lane means nothing
+        Float4 high;
         static Box none();
         void join(const Box& other);
         double half_area() const;
-        float middle(std::size_t axis) const { return 0.5F * (low[axis] + high[axis]); }
+        Float4 middle() const { return splat4(0.5F) * (low + high); }
     };
+    // The number of the triangle is kept in the fourth lane of `box.low`: 32 bytes in place of 48.
     struct Item {
         Box box;
-        std::uint32_t triangle;
+        std::uint32_t triangle() const {
+            return std::bit_cast<std::array<std::uint32_t, 4>>(box.low)[3];
+        }
+        void set_triangle(std::uint32_t number) { box.low[3] = std::bit_cast<float>(number); }
     };
     // A binary node. The children of an inner node are adjacent.
     struct Pair {
@@ -53,9 +60,13 @@ class BvhBuilder {
 
     void gather();
     void divide();
-    static std::uint32_t bin_of(const Item& item, const Box& middles, std::size_t axis);
+    struct Bins {
+        std::array<Box, k_bins> boxes;
+        std::array<std::uint32_t, k_bins> counts;
+    };
+    static Int4 bins_of(const Item& item, const Box& middles);  // by axis
     Split best_split(const Work& work, const Box& middles) const;
-    Split best_split_along(std::size_t axis, const Work& work, const Box& middles) const;
+    static Split best_split_along(std::size_t axis, const Bins& bins, std::uint32_t all);
     std::uint32_t part(const Work& work, const Split& split, const Box& middles);
     void make_leaf(const Work& work);
     void fill_leaves();

@@ -48,7 +48,7 @@ GripMesh build_grip_mesh(const Mesh& mesh, const GripMeshSettings& settings) {
         }
     }
     grip.contact_bvh = TriangleBvh(grip.contact.positions, grip.contact.triangles);
-    grip.search = simplify_surface(grip.contact, settings.search);
+    grip.search = simplify_surface(grip.contact, settings.search, &grip.contact_bvh);
     grip.search_bvh = TriangleBvh(grip.search.positions, grip.search.triangles);
     return grip;
 }

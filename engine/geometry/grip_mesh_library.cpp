@@ -8,6 +8,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/geometry/grip_mesh_cache.hpp"
 
 namespace handhold {
@@ -87,10 +88,19 @@ void GripMeshLibrary::add(const ShapeLibrary& shapes, std::span<const ShapeId> w
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return work_of(shapes.at(distinct[a])) > work_of(shapes.at(distinct[b]));
     });
+    constexpr std::uint64_t k_passes = 2;  // contact and search detail
+    WorkMeter& meter = work_meter();
+    for (const ShapeId id : distinct) {
+        meter.planned += k_passes * work_of(shapes.at(id));
+    }
     auto build = [&](std::size_t i) {
         const std::size_t place = order[i];
-        meshes_[first + place] =
-            cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
+        GripMesh& made = meshes_[first + place];
+        made = cached_grip_mesh(shapes.at(distinct[place]), settings, cache_directory);
+        // What was not counted on the way: triangles that are dropped, or come from the cache.
+        const std::uint64_t planned = k_passes * work_of(shapes.at(distinct[place]));
+        meter.done += planned - std::min<std::uint64_t>(
+                                    planned, made.full_triangles + made.contact.triangles.size());
     };
     parallel_for(order.size(), build);
 }

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "engine/collision/closest_point.hpp"
 #include "engine/core/check.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/geometry/graph_links.hpp"
 #include "engine/geometry/simplify.hpp"
 #include "engine/geometry/surface_distance.hpp"
@@ -19,11 +25,18 @@ constexpr std::size_t k_smallest_part = 8;  // smaller components are kept as th
 // Each attempt locks what deviated before. Every fourth one also halves the error.
 constexpr int k_max_attempts = 9;
 
-// One connected component with its own vertices.
+// Larger components are divided into tiles of at most k_largest_tile triangles, which are
+// simplified separately: a failed attempt is repeated for its tile only, and a tile fits into a
+// processor's cache. Vertices on the borders of tiles are locked.
+constexpr std::size_t k_divided_from = 100000;
+constexpr std::size_t k_largest_tile = 16384;
+
+// One connected component, or a tile of one, with its own vertices.
 struct Part {
     std::vector<Vec3> positions;
     std::vector<std::uint32_t> vertex;  // vertex index in the graph
     std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> locked;  // vertices that must stay
 };
 
 // Number of target-size equilateral triangles with the component's area; each source triangle
@@ -49,7 +62,11 @@ class Locks {
     explicit Locks(const Part& part)
         : part_(part),
           bvh_(part.positions, part.triangles),
-          is_locked_(part.positions.size(), false) {}
+          is_locked_(part.positions.size(), false) {
+        for (const std::uint32_t vertex : part.locked) {
+            lock_vertex(vertex);
+        }
+    }
 
     const std::vector<std::uint32_t>& points() const { return points_; }
 
@@ -75,10 +92,13 @@ class Locks {
 
     void lock(std::uint32_t triangle) {
         for (const std::uint32_t corner : part_.triangles[triangle]) {
-            if (!is_locked_[corner]) {
-                is_locked_[corner] = true;
-                points_.push_back(corner);
-            }
+            lock_vertex(corner);
+        }
+    }
+    void lock_vertex(std::uint32_t vertex) {
+        if (!is_locked_[vertex]) {
+            is_locked_[vertex] = true;
+            points_.push_back(vertex);
         }
     }
 
@@ -138,26 +158,146 @@ std::vector<Part> take_apart(const SurfaceGraph& graph) {
     return parts;
 }
 
+// Halves a part's triangles by their middles along the widest axis until tiles are small enough.
+class TileDivider {
+  public:
+    explicit TileDivider(const Part& part) : part_(part), order_(part.triangles.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
+    }
+
+    std::vector<Part> divide() {
+        std::vector<std::vector<std::uint32_t>> tiles;
+        std::vector<std::span<std::uint32_t>> open = {order_};
+        while (!open.empty()) {
+            const std::span<std::uint32_t> all = open.back();
+            open.pop_back();
+            if (all.size() <= k_largest_tile) {
+                std::ranges::sort(all);
+                tiles.emplace_back(all.begin(), all.end());
+                continue;
+            }
+            const auto half = static_cast<std::ptrdiff_t>(all.size() / 2);
+            const Eigen::Index axis = widest_axis(all);
+            std::ranges::nth_element(all, all.begin() + half, {}, [&](std::uint32_t triangle) {
+                return std::pair(middle(triangle)[axis], triangle);
+            });
+            open.push_back(all.subspan(all.size() / 2));
+            open.push_back(all.first(all.size() / 2));
+        }
+        return make_parts(tiles);
+    }
+
+  private:
+    Vec3 middle(std::uint32_t triangle) const {
+        const auto& [a, b, c] = part_.triangles[triangle];
+        return part_.positions[a] + part_.positions[b] + part_.positions[c];
+    }
+    Eigen::Index widest_axis(std::span<const std::uint32_t> triangles) const {
+        Vec3 low = middle(triangles[0]);
+        Vec3 high = low;
+        for (const std::uint32_t triangle : triangles) {
+            low = low.cwiseMin(middle(triangle));
+            high = high.cwiseMax(middle(triangle));
+        }
+        Eigen::Index axis = 0;
+        (high - low).maxCoeff(&axis);
+        return axis;
+    }
+    std::vector<Part> make_parts(const std::vector<std::vector<std::uint32_t>>& tiles) const {
+        constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+        constexpr std::uint32_t k_shared = k_none - 1;
+        std::vector<std::uint32_t> tile_of(part_.positions.size(), k_none);
+        for (std::uint32_t tile = 0; tile < tiles.size(); ++tile) {
+            for (const std::uint32_t triangle : tiles[tile]) {
+                for (const std::uint32_t corner : part_.triangles[triangle]) {
+                    std::uint32_t& owner = tile_of[corner];
+                    owner = owner == k_none || owner == tile ? tile : k_shared;
+                }
+            }
+        }
+        std::vector<Part> parts(tiles.size());
+        std::vector<std::uint32_t> place(part_.positions.size(), k_none);
+        for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+            Part& made = parts[tile];
+            std::vector<std::uint32_t> used;
+            for (const std::uint32_t triangle : tiles[tile]) {
+                Triangle corners = part_.triangles[triangle];
+                for (std::uint32_t& corner : corners) {
+                    if (place[corner] == k_none) {
+                        place[corner] = static_cast<std::uint32_t>(used.size());
+                        used.push_back(corner);
+                    }
+                    corner = place[corner];
+                }
+                made.triangles.push_back(corners);
+            }
+            for (std::uint32_t i = 0; i < used.size(); ++i) {
+                made.positions.push_back(part_.positions[used[i]]);
+                made.vertex.push_back(part_.vertex[used[i]]);
+                if (tile_of[used[i]] == k_shared) {
+                    made.locked.push_back(i);
+                }
+                place[used[i]] = k_none;
+            }
+        }
+        return parts;
+    }
+
+    const Part& part_;
+    std::vector<std::uint32_t> order_;
+};
+
+std::vector<Part> with_tiles(std::vector<Part> parts) {
+    std::vector<Part> made;
+    for (Part& part : parts) {
+        if (part.triangles.size() < k_divided_from) {
+            made.push_back(std::move(part));
+            continue;
+        }
+        for (Part& tile : TileDivider(part).divide()) {
+            made.push_back(std::move(tile));
+        }
+        part = {};
+    }
+    return made;
+}
+
 }  // namespace
 
-SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits) {
+SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits,
+                              const TriangleBvh* graph_bvh) {
     HH_CHECK(limits.deviation_m > 0.0, "a deviation must be above 0", limits.deviation_m);
     Mesh mesh;
-    mesh.positions = graph.positions;
-    for (const Part& part : take_apart(graph)) {
-        for (const auto& [a, b, c] : coarser_part(part, limits)) {
-            mesh.triangles.push_back({part.vertex[a], part.vertex[b], part.vertex[c]});
+    {
+        const std::vector<Part> parts = with_tiles(take_apart(graph));
+        std::vector<std::vector<Triangle>> coarse(parts.size());
+        auto simplify_one = [&](std::size_t i) {
+            coarse[i] = coarser_part(parts[i], limits);
+            work_meter().done += parts[i].triangles.size();
+        };
+        parallel_for(parts.size(), simplify_one);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (const auto& [a, b, c] : coarse[i]) {
+                mesh.triangles.push_back(
+                    {parts[i].vertex[a], parts[i].vertex[b], parts[i].vertex[c]});
+            }
         }
     }
+    mesh.positions = graph.positions;
     // No welding here. Triangles that collapsed onto a line or a duplicate are dropped.
     SurfaceGraph result = build_surface_graph(mesh, {0.0, 0.0, 0.0, 0.0});
-    const TriangleBvh bvh(graph.positions, graph.triangles);
-    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+    mesh = {};
+    std::optional<TriangleBvh> own_bvh;
+    if (graph_bvh == nullptr) {
+        graph_bvh = &own_bvh.emplace(graph.positions, graph.triangles);
+    }
+    auto find_source = [&](std::size_t t) {
         const auto& [a, b, c] = result.triangles[t];
         const Vec3 middle = (result.positions[a] + result.positions[b] + result.positions[c]) / 3.0;
-        const auto hit = bvh.closest_point(middle, std::numeric_limits<double>::infinity());
+        const auto hit = graph_bvh->closest_point(middle, std::numeric_limits<double>::infinity());
         result.source_triangle[t] = graph.source_triangle[hit->triangle];
-    }
+    };
+    parallel_for(result.triangles.size(), find_source);
     return result;
 }
 

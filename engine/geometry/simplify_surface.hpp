@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/geometry/surface_graph.hpp"
+#include "engine/geometry/triangle_bvh.hpp"
 
 namespace handhold {
 
@@ -13,7 +14,10 @@ struct DetailLimits {
 
 // Simplifies each connected component. A component that cannot be simplified within the limits is
 // kept. Vertices are vertices of `graph`. source_triangle is the nearest source triangle to each
-// new triangle's centroid.
-SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits);
+// new triangle's centroid. `graph_bvh` is of the graph's triangles; null: it is built. Components
+// of more than 100,000 triangles are divided into tiles whose borders are kept. Tiles and
+// components are distributed over the threads of parallel_for, which does not affect the result.
+SurfaceGraph simplify_surface(const SurfaceGraph& graph, const DetailLimits& limits,
+                              const TriangleBvh* graph_bvh = nullptr);
 
 }  // namespace handhold

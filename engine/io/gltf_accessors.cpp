@@ -100,6 +100,7 @@ void convert(const char* from, std::size_t stride, std::size_t count, std::size_
                 *to++ = is_normalized ? std::max(static_cast<To>(value) / k_largest, To{-1})
                                       : static_cast<To>(value);
             } else {
+                // NOLINTNEXTLINE(bugprone-signed-char-misuse): indices are unsigned
                 *to++ = static_cast<To>(value);
             }
         }

@@ -193,7 +193,10 @@ bool SkinReader::read_joints() {
 
 bool SkinReader::append_joint(const PlacedNode& placed) {
     std::optional<Pose> pose = rigid_part(placed.world);
-    if (!pose && source_ == JointSource::scene && is_finite(placed.world.translation)) {
+    const bool is_mirrored =
+        rigid_part({Mat3(-placed.world.linear), placed.world.translation}).has_value();
+    if (!pose && (source_ == JointSource::scene || is_mirrored) &&
+        is_finite(placed.world.translation)) {
         pose = straightened(placed.world);
     }
     if (!pose || pose->position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {

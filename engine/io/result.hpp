@@ -8,13 +8,9 @@
 #include <variant>
 
 #include "engine/core/check.hpp"
+#include "engine/io/printable.hpp"
 
 namespace handhold {
-
-// `text` made safe to print: control characters become spaces, bytes that are not UTF-8 become
-// '?', and everything after `max_characters` is cut and replaced by "...". Use it for every text
-// that comes from a file.
-std::string printable(std::string_view text, std::size_t max_characters = 200);
 
 // Why a file was refused. A refused file is not loaded in part.
 struct FileError {
@@ -23,7 +19,8 @@ struct FileError {
                            // error concerns the whole file
     std::string expected;  // what the reader expected, and what it found
 
-    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Printable.
+    // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Control
+    // characters are escaped and long texts cut (printable.hpp): any field may quote a file.
     std::string message() const;
 };
 

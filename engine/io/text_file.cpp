@@ -1,5 +1,7 @@
 #include "engine/io/text_file.hpp"
 
+#include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <random>
 #include <system_error>
@@ -7,6 +9,30 @@
 namespace handhold {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Opens with fopen's `mode` and writes all. Returns the reason for a failure; empty: none.
+std::string write_bytes(const fs::path& path, const char* mode, std::string_view bytes) {
+    const auto reason = [] {
+        return "expected a writable place in an existing folder: " +
+               std::generic_category().message(errno);
+    };
+    std::FILE* const file = std::fopen(path.string().c_str(), mode);
+    if (file == nullptr) {
+        return reason();
+    }
+    std::string failure;
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file) < bytes.size() || std::fflush(file) != 0) {
+        failure = reason();
+    }
+    if (std::fclose(file) != 0 && failure.empty()) {
+        failure = reason();
+    }
+    return failure;
+}
+
+}  // namespace
 
 Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
     const auto refuse = [&](std::string reason) {
@@ -36,27 +62,50 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
     return bytes;
 }
 
-std::optional<FileError> write_file_atomically(const fs::path& path, std::string_view text) {
-    // The random suffix keeps two processes that write the same path from sharing a temporary file.
-    fs::path temporary = path;
-    temporary += ".tmp" + std::to_string(std::random_device()());
+Result<fs::path> replaceable_file(const fs::path& path) {
     std::error_code error;
-    {
-        std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-        stream.close();
-        if (!stream) {
-            fs::remove(temporary, error);
-            return FileError{path.string(), "", "expected a writable place in an existing folder"};
-        }
+    const fs::file_status own = fs::symlink_status(path, error);
+    if (own.type() == fs::file_type::not_found || own.type() == fs::file_type::regular) {
+        return path;
     }
-    fs::rename(temporary, path, error);
+    const fs::path target = fs::canonical(path, error);
     if (error) {
-        const std::string reason = error.message();
-        fs::remove(temporary, error);
-        return FileError{path.string(), "", "expected a file that can be replaced: " + reason};
+        return FileError{path.string(), "", "expected a writable file: " + error.message()};
     }
-    return std::nullopt;
+    if (!fs::is_regular_file(target, error)) {
+        return FileError{path.string(), "",
+                         "expected a regular file, found a folder, a pipe or a device"};
+    }
+    return target;
+}
+
+std::optional<FileError> write_file_atomically(const fs::path& path, std::string_view text) {
+    std::error_code error;
+    if (fs::is_character_file(path, error)) {
+        const std::string reason = write_bytes(path, "wb", text);
+        return reason.empty() ? std::nullopt : std::optional(FileError{path.string(), "", reason});
+    }
+    const Result<fs::path> target = replaceable_file(path);
+    if (!target) {
+        return target.error();
+    }
+    // The random suffix keeps two processes that write the same path from sharing a temporary file.
+    fs::path temporary = target.value();
+    temporary += ".tmp" + std::to_string(std::random_device()());
+    std::string reason = write_bytes(temporary, "wbx", text);
+    if (reason.empty()) {
+        const fs::file_status replaced = fs::status(target.value(), error);
+        if (fs::exists(replaced)) {
+            fs::permissions(temporary, replaced.permissions(), error);
+        }
+        fs::rename(temporary, target.value(), error);
+        if (!error) {
+            return std::nullopt;
+        }
+        reason = "expected a file that can be replaced: " + error.message();
+    }
+    fs::remove(temporary, error);
+    return FileError{path.string(), "", reason};
 }
 
 }  // namespace handhold

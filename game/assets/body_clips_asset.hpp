@@ -4,7 +4,7 @@
 
 namespace handhold {
 
-// The clips that the game's players have: game/assets/body_clips.json.
+// The clips of the game's players: game/assets/body_clips.json.
 BodyClips game_body_clips();
 
 }  // namespace handhold

@@ -12,21 +12,21 @@ namespace handhold {
 namespace {
 
 constexpr double k_query_interval_s = 0.1;
-constexpr double k_missed_after_s = 0.02;  // a hand that closed and still holds nothing
-constexpr double k_grip_lost_m = 0.1;      // of a hand that something holds back
-constexpr double k_both_hold_s = 0.15;     // before one of two hands goes on
+constexpr double k_missed_after_s = 0.02;  // a closed hand that still holds nothing by then failed
+constexpr double k_grip_lost_m = 0.1;   // grab error above which a hand is held back by something
+constexpr double k_both_hold_s = 0.15;  // before one of two holding hands moves on
 constexpr double k_near_waypoint_m = 0.3;
-constexpr double k_leap_clearance_m = 1.2;  // free way that is worth a push
+constexpr double k_leap_clearance_m = 1.2;  // free distance that is worth a push-off
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
 constexpr double k_leap_stretch_m = 0.62;
 constexpr std::uint32_t k_failed_queries_before_leap = 3;
-constexpr double k_adrift_s = 1.0;  // before he does something about it
+constexpr double k_adrift_s = 1.0;  // without a hold before the climber acts
 constexpr double k_return_mps = 1.2;
 constexpr double k_detour_s = 2.0;
 constexpr double k_stuck_s = 12.0;  // on the way to one waypoint
 
-// One frame's decision.
+// The inputs and state of one frame's decision.
 struct Mind {
     const ClimberSight& sight;
     const ClimberTask& task;
@@ -52,8 +52,7 @@ std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
         std::ranges::count(state.hands, mode, [](const ClimberHand& hand) { return hand.mode; }));
 }
 
-// --- What the hands found
-// ---------------------------------------------------------------------------------------
+// --- Results of grabs ---
 
 void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
     ClimberHand& hand = mind.hand(side);
@@ -61,7 +60,8 @@ void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
         hand.mode = ClimberHandMode::holding;
         hand.change_s = mind.now.t_s;
         mind.state.home = hand.hold;
-        mind.state.home.body = grab.body;  // what he meant to grip may have had something before it
+        mind.state.home.body =
+            grab.body;  // the grab may have hit something in front of the planned hold
         hand.hold.body = grab.body;
         hand.hold.wrist_bs = grab.anchor_bs;
     } else if (grab.kind == GripKind::held) {
@@ -98,8 +98,7 @@ void feel_hands(const Mind& mind) {
     }
 }
 
-// --- Where to
-// ---------------------------------------------------------------------------------------------------
+// --- Where to go ---
 
 Vec3 waypoint_ws(const Mind& mind) {
     const std::size_t index =
@@ -109,7 +108,7 @@ Vec3 waypoint_ws(const Mind& mind) {
     return body != nullptr ? transform_point(body->pose_ws, waypoint.point_bs) : waypoint.point_bs;
 }
 
-// True where he is to go on; the heading points there.
+// Points the heading to the waypoint. False if the climber stays.
 bool head_for_waypoint(const Mind& mind) {
     ClimberState& state = mind.state;
     Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
@@ -149,8 +148,8 @@ void look_ahead(const Mind& mind) {
     mind.state.shore_ahead = way_m.has_value();
 }
 
-// How fast the head is to move, and where: along the heading, slower before a wall, off whatever is
-// near.
+// The wanted velocity of the head: along the heading, slower in front of a wall, away from nearby
+// surfaces.
 Vec3 steer(const Mind& mind) {
     ClimberState& state = mind.state;
     bool goes_on = true;
@@ -179,8 +178,7 @@ Vec3 steer(const Mind& mind) {
     return wanted_mps;
 }
 
-// --- Hand over hand
-// ---------------------------------------------------------------------------------------------
+// --- Hand over hand ---
 
 bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
     const bool loose_too =
@@ -196,7 +194,7 @@ bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
     return true;
 }
 
-// Of two hands that hold, the one farther behind goes on.
+// Releases the hand that is farther behind, of two that hold.
 void release_trailing(const Mind& mind) {
     const auto ahead_m = [&mind](HandSide side) {
         return (mind.wrist_ws(side) - mind.now.head_ws).dot(mind.state.heading_ws);
@@ -211,7 +209,7 @@ void release_trailing(const Mind& mind) {
     let_go(mind.state, left_m < right_m ? HandSide::left : HandSide::right);
 }
 
-// Between one hold and the next he floats for a moment.
+// With single_hand the climber floats for a moment between two holds.
 void hand_over(const Mind& mind) {
     constexpr double k_float_s = 0.06;
     for (const HandSide side : k_sides) {
@@ -260,7 +258,8 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
     }
 }
 
-// Pushes off with the hand that holds: lets go when he is fast enough, or as far as the arm goes.
+// Pushes off with the holding hand: releases it once the climber is fast enough or the arm is
+// straight.
 void leap(const Mind& mind) {
     ClimberState& state = mind.state;
     const Vec3 heading_ps = mind.now.origin_ws.rotation.conjugate() * state.heading_ws;
@@ -282,10 +281,9 @@ void leap(const Mind& mind) {
     state.leaping = false;
 }
 
-// --- Adrift
-// -----------------------------------------------------------------------------------------------------
+// --- Without a hold ---
 
-// Small jets, as a person gives them by hand: towards what carried him last, or what is near.
+// Uses small jets, as a person would by hand, towards the last support or something near.
 void return_home(const Mind& mind) {
     ClimberState& state = mind.state;
     const double jets_mps2 = mind.sight.scene.tuning.locomotion.thruster_mps2;
@@ -392,9 +390,9 @@ PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double 
         state.first_given = true;
     }
     feel_hands(mind);
-    mind.now = sense(sight.scene, task, state);  // what he holds now is what carries him
+    mind.now = sense(sight.scene, task, state);  // the present hold is the support
     if (mind.now.t_s >= state.next_query_s) {
-        // Not all climbers of a crowd look about in the same frame.
+        // Climbers of a crowd look around in different frames.
         state.next_query_s = mind.now.t_s + state.random.between(0.8, 1.2) * k_query_interval_s;
         decide(mind);
     }

@@ -10,12 +10,12 @@
 namespace handhold {
 namespace {
 
-constexpr int k_glances = 14;  // rays of a search for holds
+constexpr int k_glances = 14;  // rays in a search for holds
 constexpr double k_glance_m = 1.2;
-constexpr double k_nearest_m = 0.22;  // holds from the shoulder
+constexpr double k_nearest_m = 0.22;  // minimum distance of holds from the shoulder
 constexpr double k_farthest_m = 0.62;
-constexpr double k_fastest_mps = 2.2;   // what moves faster past him tears his arm off
-constexpr double k_hold_gap_m = 0.004;  // of the palm over the surface
+constexpr double k_fastest_mps = 2.2;   // faster surfaces are no holds
+constexpr double k_hold_gap_m = 0.004;  // between palm and surface
 constexpr double k_rail_search_m = 0.9;
 constexpr std::size_t k_queried_rails = 3;
 
@@ -29,7 +29,7 @@ std::optional<RayHit> look(const ClimberSight& sight, Entity player, const Vec3&
     return sight.collision.cast_ray(from_ws, to_ws, himself);
 }
 
-// The body of an id; null for a head. Bodies are few, entities are many.
+// The body with this id; null for a head. There are few bodies and many entities.
 Entity body_of_id(const World& world, std::uint64_t id) {
     for (const Entity body : world.body.owners()) {
         if (world.persistent_id.at(body).value == id) {
@@ -44,18 +44,18 @@ struct Seen {
     std::uint64_t id = 0;
     Vec3 point_ws;
     Vec3 normal_ws;
-    Vec3 along_ws = Vec3::Zero();  // of the rail's axis; zero where it is none
+    Vec3 along_ws = Vec3::Zero();  // of the rail's axis; zero: no rail
 };
 
-// What a search knows beside its question.
+// The inputs of a search and what it derives from them.
 struct Search {
     const ClimberSight& sight;
     const HoldSearch& ask;
     const ClimberState& state;
     Vec3 eyes_ws;
     Vec3 shoulder_ws;
-    Vec3 palm_ws;     // where the hand is
-    Vec3 outward_ws;  // to the hand's side
+    Vec3 palm_ws;     // the hand's present place
+    Vec3 outward_ws;  // towards the hand's side
     Vec3 body_mps;    // of the play space in the world
 };
 
@@ -74,7 +74,7 @@ Search begin_search(const ClimberSight& sight, const HoldSearch& ask, const Clim
                             : ask.now.origin_mps};
 }
 
-// A hold as good as possible has a value about 1.
+// A candidate hold. The value of an ideal one is about 1.
 struct HoldCandidate {
     Seen seen;
     Entity body;
@@ -87,7 +87,7 @@ bool is_loose(const Search& search, const RigidBody& body) {
            body.mass_kg < search.sight.scene.tuning.phases.heavy_body_kg;
 }
 
-// Nothing where the hand cannot or should not go there.
+// Empty if the hand cannot or should not go there.
 std::optional<HoldCandidate> evaluate(const Search& search, const Seen& seen, double luck) {
     const World& world = search.sight.scene.world;
     const Entity body = body_of_id(world, seen.id);
@@ -129,7 +129,8 @@ void offer(const Search& search, const Seen& seen, double luck,
 }
 
 void glance_about(const Search& search, Random& random, std::optional<HoldCandidate>& best) {
-    // Who moves looks farther: what is near him when the hand arrives is not yet.
+    // A moving climber looks farther: holds that are out of reach now may be in reach when the hand
+    // arrives.
     const double length_m = k_glance_m + 0.6 * search.ask.now.relative_mps.norm();
     for (int i = 0; i < k_glances; ++i) {
         const Vec3 chance_ws = random.direction();
@@ -147,7 +148,7 @@ void glance_about(const Search& search, Random& random, std::optional<HoldCandid
     }
 }
 
-// The place on a rail's axis that lies best for the hand, and how far from where it should.
+// The best place for the hand on a rail's axis, and its distance from the ideal place.
 struct RailPlace {
     Vec3 axis_ws;
     Vec3 along_ws;
@@ -179,7 +180,7 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
         if (place.off_m > k_rail_search_m) {
             continue;
         }
-        // The nearest few, nearest first.
+        // The nearest few, sorted by distance.
         auto* const at = std::find_if(places.begin(), places.begin() + count,
                                       [&](const RailPlace& p) { return place.off_m < p.off_m; });
         count = std::min(count + 1, places.size());
@@ -190,7 +191,7 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
     }
     for (const RailPlace& place : std::span(places).first(count)) {
         const double luck = random.unit();
-        constexpr double k_bar_m = 0.04;  // radius and some
+        constexpr double k_bar_m = 0.04;  // about a rail's radius
         const Vec3 way = (place.axis_ws - search.eyes_ws).normalized();
         const auto hit = look(search.sight, search.ask.task.player.player, search.eyes_ws,
                               place.axis_ws + 0.01 * way);
@@ -200,7 +201,8 @@ void query_rails(const Search& search, Random& random, std::optional<HoldCandida
     }
 }
 
-// Fingers round the bar, away from the shoulder; on a surface straight on.
+// On a rail the fingers go round the bar, away from the shoulder; on a surface they point straight
+// ahead.
 ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
     const Seen& seen = chosen.seen;
     const Vec3 out = seen.point_ws - search.shoulder_ws;
@@ -239,7 +241,7 @@ Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_w
     for (int i = 0; i < k_directions; ++i) {
         const Vec3 direction = state.random.direction();
         const double luck = state.random.unit();
-        // Open space is no way at all: nothing there stops him again.
+        // Open space does not count: nothing there would stop the climber.
         const double way_m =
             free_distance_m(sight, player, from_ws, direction, k_far_m).value_or(k_open_m);
         const double value = way_m + 1.0 * direction.dot(state.heading_ws) + 2.0 * luck;
@@ -292,7 +294,7 @@ std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, 
     const Entity body = body_of_id(sight.scene.world, id);
     const BodyPose* const pose = sight.scene.world.body_pose.find(body);
     if (pose == nullptr) {
-        return std::nullopt;  // another's head
+        return std::nullopt;  // another player's head
     }
     return ClimberHold{
         body, {inverse_transform_point(pose->pose_ws, point_ws), Quat::Identity()}, Vec3::UnitY()};

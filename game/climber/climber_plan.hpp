@@ -5,36 +5,35 @@
 #include "game/climber/climber.hpp"
 #include "game/climber/climber_body.hpp"
 
-// Where a climber looks, and what he chooses of what he sees.
+// Where a climber looks, and what they choose of what they see.
 namespace handhold {
 
-// How far the way is free for him; nothing where it is for more than length_m.
+// The free distance for the climber's head in a direction; empty if it is more than length_m.
 std::optional<double> free_distance_m(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                                       const Vec3& direction_ws, double length_m);
 
-// A direction for someone who wanders: free for some metres, rather ahead than back.
+// A direction for a wandering climber: free for some metres, preferably forward.
 Vec3 choose_heading(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                     ClimberState& state);
 
-// Who looks for something to hold.
+// A search for a hold.
 struct HoldSearch {
     const ClimberTask& task;
     const ClimberMoment& now;
     HandSide side = HandSide::left;
-    Vec3 toward_ws = Vec3::UnitZ();  // unit: holds in this direction are the better ones
-    bool loose_too = false;          // also what would not carry him
+    Vec3 toward_ws = Vec3::UnitZ();  // unit; holds in this direction are preferred
+    bool loose_too = false;          // also free bodies that support nothing
 };
 struct FoundHold {
     ClimberHold hold;
-    double reach_s = 0.0;  // how long the hand will take
+    double reach_s = 0.0;  // duration of the reach
 };
-// The best place that the hand can reach by the time it gets there: on a rail, or on any surface
-// that the eyes see.
+// The best hold in reach by the time the hand arrives there: on a rail, or on any visible surface.
 std::optional<FoundHold> find_hold(const ClimberSight& sight, const HoldSearch& ask,
                                    ClimberState& state);
 
-// The nearest surface of a dozen directions, else the nearest of all within a hundred metres:
-// where to drift when nothing is in reach. Nothing in an empty world.
+// A place to drift to when nothing is in reach: the nearest surface in a dozen directions, else the
+// nearest within a hundred metres. Empty in an empty world.
 std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                                       Random& random);
 

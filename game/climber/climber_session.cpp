@@ -4,8 +4,11 @@
 #include <cstdio>
 
 #include "engine/core/check.hpp"
+#include "engine/io/printable.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/loading.hpp"
 #include "game/scene/place_scene.hpp"
+#include "game/session/interrupt.hpp"
 #include "systems/frame.hpp"
 
 namespace handhold {
@@ -28,7 +31,7 @@ ClimberTask task_of(const ClimbPlan& plan, const PlayerEntities& player) {
 
 Recording record_climb(Scene& scene, const ClimbPlan& plan) {
     HH_CHECK(scene.world.clock.frame == 0, "the scene has been played", plan.seconds);
-    // A recording has no sticks: what the jets do could not be played again.
+    // A recording has no sticks, so jets could not be replayed.
     scene.tuning.locomotion.thruster_mps2 = 0.0;
     const PlayerEntities player = add_scene_player(scene, {"player0", plan.origin_ws, 80.0});
     const ClimberTask task = task_of(plan, player);
@@ -48,16 +51,19 @@ Recording record_climb(Scene& scene, const ClimbPlan& plan) {
         }
         const PlayerInput input{player.player, samples, {}};
         step_frame(scene.world, caches, scene.tuning, {1.0 / k_hz, {&input, 1}}, stats);
-        if (!is_at_target(task, state)) {
-            continue;
+        if (is_at_target(task, state)) {
+            end_s = std::min(end_s, state.waypoint_since_s + plan.linger_s);
         }
-        end_s = std::min(end_s, state.waypoint_since_s + plan.linger_s);
+        if (is_interrupted()) {
+            break;
+        }
     }
     return recording;
 }
 
 int climb_command(const ClimbOptions& options) {
-    Result<Scene> loaded = load_scene(options.scene);
+    const InterruptGuard interrupts;
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }
@@ -81,9 +87,9 @@ int climb_command(const ClimbOptions& options) {
     if (const auto error = save_recording(options.out, recording)) {
         return refuse(*error);
     }
-    std::printf("%s: %zu samples over %.2f s\n", options.out.c_str(), recording.samples.size(),
-                recording.samples.back().t_s);
-    return 0;
+    std::printf("%s: %zu samples over %.2f s\n", printable(options.out).c_str(),
+                recording.samples.size(), recording.samples.back().t_s);
+    return is_interrupted() ? k_exit_interrupted : 0;
 }
 
 }  // namespace handhold

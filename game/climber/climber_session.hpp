@@ -9,12 +9,11 @@
 
 namespace handhold {
 
-// Who climbs alone in a scene, to be recorded.
+// A single climber whose session is recorded.
 struct ClimbPlan {
     Pose origin_ws;
-    std::vector<ClimberWaypoint> waypoints;  // empty: he wanders
-    double seconds = 20.0;                   // at most; less where he has been at the last waypoint
-                                             // for linger_s
+    std::vector<ClimberWaypoint> waypoints;  // empty: wanders
+    double seconds = 20.0;  // at most; ends linger_s after the last waypoint is reached
     double linger_s = 1.5;
     double cruise_mps = 0.6;
     bool may_leap = true;
@@ -22,12 +21,12 @@ struct ClimbPlan {
     std::uint64_t seed = 1;
 };
 
-// What his headset says: a session like one that a person recorded. The scene must be as it is
-// before its first frame; it is stepped on at 90 Hz to where he ends, with a player named "player0"
-// and without jets, so that playing the recording from the same place at 90 Hz repeats every bit.
+// The climber's session as a headset would record it. The scene must be before its first frame; it
+// is stepped at 90 Hz, with a player "player0" and without jets. Playing the recording from the
+// same place at 90 Hz repeats it bit for bit.
 Recording record_climb(Scene& scene, const ClimbPlan& plan);
 
-// `handhold climb`, as given on the command line.
+// `handhold climb`: its command line.
 struct ClimbOptions {
     std::string scene;
     std::string spawn;  // empty: the scene's first
@@ -35,8 +34,9 @@ struct ClimbOptions {
     double seconds = 20.0;
     std::uint64_t seed = 1;
 };
-// Records a climber who wanders. Returns the exit status: 0, or 2 after one line on standard error
-// where a file is refused or cannot be written.
+// Records a wandering climber. Returns the exit status: 0; k_exit_bad_file after one line on
+// standard error if a file is refused or cannot be written; k_exit_interrupted after a signal, with
+// what was recorded so far.
 int climb_command(const ClimbOptions& options);
 
 }  // namespace handhold

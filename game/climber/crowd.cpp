@@ -9,10 +9,10 @@
 namespace handhold {
 namespace {
 
-constexpr double k_apart_m = 0.8;           // of two heads; less where there is no room
-constexpr double k_closest_m = 0.3;         // but no closer
-constexpr double k_view_m = 8.0;            // what is that far from everything is outside
-constexpr std::size_t k_max_attempts = 60;  // a player, before they stand closer
+constexpr double k_apart_m = 0.8;           // preferred distance of two heads
+constexpr double k_closest_m = 0.3;         // minimum distance
+constexpr double k_view_m = 8.0;            // farther from every surface counts as outside
+constexpr std::size_t k_max_attempts = 60;  // for each player, before the distance is reduced
 
 class Spreader {
   public:
@@ -20,9 +20,10 @@ class Spreader {
         : collision_(collision), random_(mix64(seed)) {}
 
     std::vector<Vec3> heads;  // places taken
-    std::vector<Vec3> seeds;  // places to look from
+    std::vector<Vec3> seeds;  // known free places to search from
 
-    // A free place in sight of one that is known, at least apart_m from every head.
+    // Adds a free place in sight of a known one, at least apart_m from every head. False if none
+    // was found.
     bool add(double apart_m) {
         const std::size_t known = heads.size() + seeds.size();
         const auto pick = static_cast<std::size_t>(random_.unit() * static_cast<double>(known));

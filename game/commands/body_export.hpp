@@ -5,7 +5,7 @@
 namespace handhold {
 
 // `handhold export-body`: the robot's body as a figure in T-pose (make_robot_body_glb). Returns the
-// program's exit status.
+// exit status.
 int export_body_command(const std::string& file);
 
 }  // namespace handhold

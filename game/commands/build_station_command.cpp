@@ -3,14 +3,18 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "engine/io/printable.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/levels/station_description.hpp"
 #include "game/levels/station_scene.hpp"
 #include "game/scene/built_in_scenes.hpp"
+#include "game/session/interrupt.hpp"
 
 namespace handhold {
 
 int build_station_command(const BuildStationOptions& options) {
+    const InterruptGuard interrupts;  // each file is written whole
     StationDescription description;
     if (options.description.empty()) {
         description = own_station_description();
@@ -23,6 +27,10 @@ int build_station_command(const BuildStationOptions& options) {
     }
     StationScene station = make_station_scene(description);
     add_session_spawn(station.scene);
+    const Result<OutputFolder> folder = OutputFolder::open(options.out);
+    if (!folder) {
+        return refuse(folder.error());
+    }
     if (const auto error = write_station(station, options.out)) {
         return refuse(*error);
     }
@@ -31,11 +39,13 @@ int build_station_command(const BuildStationOptions& options) {
     for (const Mesh& part : structure.parts) {
         triangles += part.triangles.size();
     }
-    std::printf("%s: %zu sections, %zu parts, %zu triangles, %zu rails, %zu tools\n",
-                (std::filesystem::path(options.out) / (station.scene.name + ".json")).c_str(),
-                description.sections.size(), structure.parts.size(), triangles,
-                structure.rails.size(), description.tools.size());
-    return 0;
+    std::printf(
+        "%s: %zu sections, %zu parts, %zu triangles, %zu rails, %zu tools\n",
+        printable((std::filesystem::path(options.out) / (station.scene.name + ".json")).string())
+            .c_str(),
+        description.sections.size(), structure.parts.size(), triangles, structure.rails.size(),
+        description.tools.size());
+    return is_interrupted() ? k_exit_interrupted : 0;
 }
 
 }  // namespace handhold

@@ -16,7 +16,7 @@
 namespace handhold {
 namespace {
 
-// What is drawn of the body, in the frame of its grips.
+// The body's visuals in the frame of its grips.
 void add_object(const Scene& scene, Entity body, const Pose& body_in_file, GripScene& out) {
     for (const SceneVisual& visual : scene.visuals) {
         if (visual.body != body) {
@@ -60,7 +60,8 @@ std::optional<Pose> pose_of(const std::vector<double>& numbers) {
     return pose;
 }
 
-// A new grip, as the game would fit a hand that closes there; palm only, unless it is posed later.
+// A new grip as the game would fit a hand that closes there. Only the palm is authored until the
+// fingers are posed.
 std::optional<FileError> pose_new(const Scene& scene, const GripMesh& mesh,
                                   const ExportGripOptions& options, const Pose& body_in_file,
                                   const HandRig& rig, GripScene& out) {
@@ -95,7 +96,7 @@ std::optional<FileError> pose_known(const Scene& scene, const GripMesh& mesh,
     const FittedGrip fitted = fit_grip(mesh, rig, hand.wrist_bs, scene.tuning, &hand);
     out.fingers = fitted.fingers;
     if (fitted.penetrating_fingers > 0) {
-        std::fprintf(stderr, "%d posed fingers would be sunk and are fitted\n",
+        std::fprintf(stderr, "%d posed fingers would penetrate and were fitted instead\n",
                      static_cast<int>(fitted.penetrating_fingers));
     }
     return std::nullopt;

@@ -33,7 +33,7 @@ struct GripName {
     HandSide side = HandSide::right;
 };
 
-// Of "grip/<name>/right", or "...right.001", as packages number what they copy.
+// The parts of "grip/<name>/right", or of "...right.001", as some packages name copies.
 std::optional<GripName> parse_grip_name(const std::string& node) {
     const std::size_t end = node.rfind('/');
     if (!node.starts_with(k_grip_prefix) || end <= k_grip_prefix.size()) {
@@ -47,7 +47,7 @@ std::optional<GripName> parse_grip_name(const std::string& node) {
                     side == "left" ? HandSide::left : HandSide::right};
 }
 
-// Looks nodes up and keeps the first error.
+// Finds nodes and keeps the first error.
 class GripNodes {
   public:
     GripNodes(const std::vector<GltfNode>& nodes, std::string file)

@@ -11,29 +11,30 @@
 #include "engine/io/result.hpp"
 #include "game/scene/scene_grip.hpp"
 
-// Authored grips through an animation package: a .glb of hand, controller and thing together. Talk
-// rows 9 and 10.
+// Authored grips in an animation package: a .glb of hand, controller and object. Talk rows 9 and
+// 10.
 namespace handhold {
 
-// Nodes of the file: "grip/<name>/right" (or "left") with the hand's skeleton, joints by WebXR's
-// names; "object" with what is held; "controller", empty, where the controller is that the hand
-// belongs to. Whoever poses moves and turns joints, or hand and object as a whole.
+// Nodes: "grip/<name>/right" (or "left") with the hand's skeleton, joints by WebXR's names;
+// "object", the held object; "controller", an empty node for the controller of that hand. Authors
+// move and turn joints, or the hand and the object as a whole.
 struct GripScene {
-    SceneGrip grip;  // of the side's hand only the wrist counts, and which fingers are posed
+    SceneGrip grip;  // for this side only the wrist and which fingers are posed count
     HandSide side = HandSide::right;
-    std::array<FingerAngles, k_finger_count> fingers;  // as shown, by place in the rig's fingers
+    std::array<FingerAngles, k_finger_count>
+        fingers;  // as shown, in the order of the rig's fingers
     Pose controller_in_hand;
     std::vector<GltfMaterial> materials;
     std::vector<GltfSurface> object;  // in the frame of the grip
 };
-// The bytes of a .glb; the hand is the robot's over the rig, of the side's.
+// The bytes of a .glb with the robot's hand over the rig.
 std::string write_grip_glb(const GripScene& scene, const HandRig& rig);
 
-// The grip that a file's hand is in, as it stands: the wrist against the node "object", angles of
-// the joints as hinges of the rig of its side, held to its limits. Priority, zone, mirror and which
-// fingers close by themselves are numbers in the extras of the wrist's node; of a file without them
-// the defaults, and all fingers posed. Refused, with the JSON pointer: no node "object", no or two
-// hands, a missing joint, numbers that no grip has.
+// The grip of a file's hand: the wrist relative to the node "object", and the joints' angles as
+// hinges of the rig of that side, clamped to its limits. Priority, zone, mirror and which fingers
+// close by themselves are extras of the wrist's node; without them, the defaults, and all fingers
+// are posed. Refused, with the JSON pointer: no node "object", no hand or two, a missing joint,
+// numbers that no grip has.
 Result<SceneGrip> parse_grip_glb(std::string_view bytes, const std::filesystem::path& path,
                                  const std::array<HandRig, k_hand_count>& rigs);
 

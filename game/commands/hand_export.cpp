@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "engine/core/check.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/render/figure_skin.hpp"
 #include "game/render/robot_hand.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
@@ -25,7 +25,7 @@ std::size_t joint_of(const HandRig& rig, std::int32_t finger, std::uint32_t link
     return static_cast<std::size_t>(found - rig.joints.begin());
 }
 
-// The joint above: the link before, the finger's metacarpal, or the wrist.
+// The parent joint: the previous link, the finger's metacarpal, or the wrist.
 std::int32_t parent_of(const HandRig& rig, std::size_t index) {
     const RigJoint& joint = rig.joints[index];
     const std::size_t wrist = joint_of(rig, RigJoint::k_palm, 0);
@@ -54,7 +54,7 @@ std::int32_t parent_of(const HandRig& rig, std::size_t index) {
 
 std::vector<double> as_numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// What hand_rig_from_skin reads back (systems/rigs/hand_rig_fit.hpp).
+// The numbers that hand_rig_from_skin reads (systems/rigs/hand_rig_fit.hpp).
 void add_numbers(const HandRig& rig, std::vector<SkinJoint>& joints) {
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {
         for (std::uint32_t link = 0; link < rig.fingers[i].link_count; ++link) {
@@ -117,8 +117,10 @@ std::string export_robot_hand(const HandRig& rig) {
 }
 
 int export_hands_command(const std::string& folder) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
+    const Result<OutputFolder> out = OutputFolder::open(folder);
+    if (!out) {
+        return refuse(out.error());
+    }
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const std::filesystem::path file =
             std::filesystem::path(folder) /

@@ -21,7 +21,7 @@ int refuse_headset(const std::string& why_not) {
     return k_exit_no_window;
 }
 
-// No larger than the runtime takes.
+// At most the runtime's limit.
 EyeSize scaled(const EyeSizes& sizes, double scale) {
     const auto along = [scale](int pixels, int most) {
         return std::min(std::max(static_cast<int>(std::lround(scale * pixels)), 16), most);
@@ -30,13 +30,13 @@ EyeSize scaled(const EyeSizes& sizes, double scale) {
             along(sizes.recommended.height_px, sizes.largest.height_px)};
 }
 
-// What a headset with pictures draws with.
+// The views of a headset with pictures.
 struct Eyes {
     std::optional<PlayerView> view;
-    std::unique_ptr<Window> mirror;  // null: not asked for, or not to be had
+    std::unique_ptr<Window> mirror;  // null: off, or unavailable
     EyeSize size;
 };
-// Nothing, and the reason, where nothing can be drawn; a mirror that cannot be opened is only said.
+// Empty, with the reason, if nothing can be drawn. A mirror that cannot be opened is only reported.
 std::optional<Eyes> open_eyes(const PlayOptions& options, const Scene& scene,
                               const PlayerModels& models, const Headset& headset,
                               std::string& why_not) {

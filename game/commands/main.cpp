@@ -1,14 +1,24 @@
 // handhold: the prototype game's command line.
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <map>
+#include <new>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <handhold/version.hpp>
 
+#include "engine/io/printable.hpp"
 #include "game/climber/climber_session.hpp"
 #include "game/commands/body_export.hpp"
 #include "game/commands/build_station_command.hpp"
+#include "game/commands/exit_status.hpp"
+#include "game/commands/flag_checks.hpp"
 #include "game/commands/grip_command.hpp"
 #include "game/commands/hand_export.hpp"
 #include "game/commands/picture_command.hpp"
@@ -18,6 +28,9 @@
 #include "game/scene/scene.hpp"
 
 namespace {
+
+using handhold::number_in;
+using handhold::whole_number;
 
 constexpr int k_exit_usage = 1;
 
@@ -38,6 +51,20 @@ void add_model_options(CLI::App& command, handhold::PlayerModelFiles& files) {
                        "controller-to-hand joint the hands then have");
 }
 
+// An option that may be given several times, with one value each.
+void first_and_more(CLI::App& command, const char* name, std::string& first,
+                    std::vector<std::string>& more, const char* what) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [&first, &more](const std::vector<std::string>& values) {
+                first = values.front();
+                more.assign(values.begin() + 1, values.end());
+            },
+            what)
+        ->allow_extra_args(false);
+}
+
 const std::map<std::string, handhold::PictureQuality> k_qualities = {
     {"plain", handhold::PictureQuality::plain},
     {"quick", handhold::PictureQuality::quick},
@@ -47,21 +74,23 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
     run.add_option("--scene", options.scene,
                    "A built-in scene, a scene file (.json) or a level (.glb, .gltf)")
         ->required();
-    run.add_option("--input", options.input, "A recorded session (.csv); default: the scene's own");
-    run.add_option("--hz", options.hz, "Frames a second")->check(CLI::Range(10.0, 1000.0));
+    first_and_more(run, "--input", options.input, options.more_inputs,
+                   "A recorded session (.csv), once for each player; default: the scene's own");
+    run.add_option("--hz", options.hz, "Frames a second")->check(number_in(10.0, 1000.0));
     run.add_option("--players", options.players,
                    "Players: the first plays the session, the others are scripted climbers")
         ->check(CLI::Range(1, 1000));
     run.add_flag("--climbers", options.climbers, "The first player is a climber too");
-    run.add_option("--seed", options.seed, "Of the climbers and where they begin");
+    run.add_option("--seed", options.seed, "Of the climbers and where they begin")
+        ->check(whole_number());
     run.add_option("--threads", options.threads, "Threads; the result does not depend on them")
         ->check(CLI::Range(1, 256));
     run.add_option("--seconds", options.seconds,
                    "Stop after so many seconds; default: with the session")
-        ->check(CLI::Range(0.01, 1e6));
-    run.add_option(
-        "--spawn", options.spawn,
-        "A spawn of the scene, or auto: where most of the session's grabs begin near a surface");
+        ->check(number_in(0.01, 1e6));
+    first_and_more(run, "--spawn", options.spawn, options.more_spawns,
+                   "A spawn of the scene, or auto: where most of the session's grabs begin near a "
+                   "surface; once for each --input");
     run.add_option("--trace", options.trace,
                    "Write stage zones as a Chrome trace (Perfetto reads it)");
     CLI::Option* const out =
@@ -71,7 +100,7 @@ void add_run_options(CLI::App& run, handhold::RunOptions& options) {
         "--snapshot", options.snapshot, "Save the state to this file, at the time --snapshot-at");
     snapshot->needs(
         run.add_option("--snapshot-at", options.snapshot_at_s, "When to save the state, seconds")
-            ->check(CLI::Range(0.0, 1e6))
+            ->check(number_in(0.0, 1e6))
             ->needs(snapshot));
     run.add_option("--resume", options.resume,
                    "Go on from a saved state of the same scene and players");
@@ -98,8 +127,8 @@ void add_climb_options(CLI::App& climb, handhold::ClimbOptions& options) {
     climb.add_option("--scene", options.scene, "As for run")->required();
     climb.add_option("--spawn", options.spawn, "A spawn of the scene; default: its first");
     climb.add_option("--seconds", options.seconds, "How long he climbs")
-        ->check(CLI::Range(0.1, 1e5));
-    climb.add_option("--seed", options.seed, "What he decides");
+        ->check(number_in(0.1, 1e5));
+    climb.add_option("--seed", options.seed, "Of the climber's decisions")->check(whole_number());
     climb.add_option("--out", options.out, "The recording (.csv)")->required();
 }
 
@@ -107,10 +136,13 @@ void add_picture_options(CLI::App& pictures, handhold::PictureOptions& options) 
     pictures.add_option("--scene", options.scene, "As of run")->required();
     pictures.add_option("--out", options.out, "A folder for <spawn>.png")->required();
     pictures.add_option("--spawn", options.spawn, "Only this one");
-    pictures.add_option("--yaw", options.yaw_deg, "Degrees to the left of where the spawn faces");
-    pictures.add_option("--pitch", options.pitch_deg, "Degrees up");
+    pictures
+        .add_option("--yaw", options.yaw_deg, "Degrees to the left of the direction of the spawn")
+        ->check(number_in(-3600.0, 3600.0));
+    pictures.add_option("--pitch", options.pitch_deg, "Degrees up")
+        ->check(number_in(-3600.0, 3600.0));
     pictures.add_option("--seconds", options.seconds, "After so many seconds without a player")
-        ->check(CLI::Range(0.0, 1e4));
+        ->check(number_in(0.0, 1e4));
     pictures.add_option("--hands", options.hands, "Hold both hands before the eyes")
         ->check(CLI::IsMember({"open", "fist"}));
     pictures.add_option("--grips-of", options.grips_of,
@@ -128,7 +160,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
                   "As --xr, but poses and buttons only: no pictures");
     play.add_option("--eye-scale", options.eye_scale,
                     "With --xr: of the size of picture that the headset recommends")
-        ->check(CLI::Range(0.05, 2.0));
+        ->check(number_in(0.05, 2.0));
     play.add_flag("!--no-mirror", options.mirror, "With --xr: no window of what the left eye sees");
     play.add_option("--record", options.record,
                     "Save the session (.csv): run --input plays it again");
@@ -149,7 +181,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
         ->transform(CLI::CheckedTransformer(turns));
     play.add_option("--vignette", options.settings.vignette,
                     "How much the edges darken at speed, 0 to 1")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(number_in(0.0, 1.0));
     play.add_flag("--inspector", options.panels.inspector, "Open the inspector at once (F2)");
     play.add_option("--page", options.page, "The inspector's page that is open")
         ->check(CLI::IsMember({"Frame", "Hands", "Tuning", "Entities", "Gizmos"}));
@@ -163,7 +195,7 @@ void add_play_options(CLI::App& play, handhold::PlayOptions& options) {
         ->transform(CLI::CheckedTransformer(viewpoints));
     play.add_flag("--menu", options.panels.menu, "Open scenes and settings at once (F3)");
     play.add_option("--seconds", options.seconds, "Stop after so many; default: never")
-        ->check(CLI::Range(0.01, 1e6));
+        ->check(number_in(0.01, 1e6));
     add_model_options(play, options.models);
     play.add_option("--width", options.width_px, "Pixels")->check(CLI::Range(16, 8192));
     play.add_option("--height", options.height_px, "Pixels")->check(CLI::Range(16, 8192));
@@ -180,7 +212,8 @@ void add_export_grip_options(CLI::App& command, handhold::ExportGripOptions& opt
         .add_option("--wrist", options.wrist,
                     "Of a new grip: where the hand closes, x y z and a quaternion x y z w in the "
                     "frame of the body's shape")
-        ->expected(7);
+        ->expected(7)
+        ->check(number_in(-1e6, 1e6));
     command.add_option("--out", options.out, "The .glb")->required();
 }
 
@@ -192,10 +225,8 @@ int list_scenes() {
     return 0;
 }
 
-}  // namespace
-
-// NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message to print either
-int main(int argc, char** argv) {
+// Parses the command line and runs the command. Returns the exit status.
+int run_program(int argc, char** argv) {
     CLI::App app{"Handhold: a prototype game of zero-G hands"};
     app.set_version_flag("--version", "handhold " HANDHOLD_VERSION_TEXT);
     app.require_subcommand(1);
@@ -246,7 +277,8 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == 0) {
             return app.exit(error);  // --help, --version
         }
-        std::fprintf(stderr, "%s\n%s", error.what(), app.help().c_str());
+        std::fprintf(stderr, "%s\n%s", handhold::printable(error.what()).c_str(),
+                     app.help().c_str());
         return k_exit_usage;
     }
     if (scenes->parsed()) {
@@ -277,4 +309,44 @@ int main(int argc, char** argv) {
         return handhold::picture_command(picture_options);
     }
     return handhold::run_command(options);
+}
+
+// Flushes standard output and reports a failure. Returns the exit status.
+int flush_output(int status) {
+    const bool failed_before = std::ferror(stdout) != 0;
+    if (std::fflush(stdout) == 0 && !failed_before) {
+        return status;
+    }
+    std::fprintf(stderr, "standard output: %s\n", std::generic_category().message(errno).c_str());
+    return status != 0 ? status : handhold::k_exit_bad_file;
+}
+
+// For exceptions that no handler can catch, such as one thrown by a destructor.
+[[noreturn]] void end_without_handler() {
+    std::fputs("handhold: out of memory, or an internal error\n", stderr);
+    std::_Exit(handhold::k_exit_internal);
+}
+
+int report_exception(const char* what) {
+    std::fprintf(stderr, "handhold: %s\n", what);
+    return handhold::k_exit_internal;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::set_terminate(end_without_handler);
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the limit on file sizes becomes a write error
+#endif
+#ifdef SIGPIPE
+    std::signal(SIGPIPE, SIG_IGN);  // files are written whole even if nobody reads the summary
+#endif
+    try {
+        return flush_output(run_program(argc, argv));
+    } catch (const std::bad_alloc&) {
+        return report_exception("out of memory");
+    } catch (const std::exception& error) {
+        return report_exception(handhold::printable(error.what()).c_str());
+    }
 }

@@ -4,14 +4,18 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 
+#include "engine/io/file_name.hpp"
+#include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/grip_fit.hpp"
+#include "game/commands/loading.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/render/hand_figures.hpp"
 #include "game/render/primitives.hpp"
 #include "game/scene/player_defaults.hpp"
+#include "game/session/interrupt.hpp"
 #include "game/view/scene_picture.hpp"
 #include "systems/frame.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
@@ -34,8 +38,8 @@ Pose eyes_at(const SceneSpawnPoint& spawn, const PictureOptions& options) {
     return spawn.pose_ws * Pose{Vec3(0.0, k_eye_height_m, 0.0), look};
 }
 
-// Before the eyes, as a player looks at them: fingers up, backs to him; or thumbs up, fists around
-// controllers.
+// In front of the eyes: fingers up, with the backs of the hands to the player; or thumbs up, in
+// fists around controllers.
 Pose wrist_before_eyes(HandSide side, bool holds_controller) {
     const double out = side == HandSide::left ? -1.0 : 1.0;
     if (holds_controller) {
@@ -69,7 +73,7 @@ void add_hands(const std::string& shape, const Pose& eyes_ws, HandFigures& figur
     }
 }
 
-// Draws, saves and says what it took.
+// Draws and saves pictures and prints the cost.
 class PictureSaver {
   public:
     PictureSaver(Renderer& renderer, std::filesystem::path folder)
@@ -80,12 +84,12 @@ class PictureSaver {
         renderer_.draw(frame, image_);
         const std::chrono::duration<double> cost = std::chrono::steady_clock::now() - begin;
         const std::vector<std::uint8_t> png = encode_png(image_);
-        const std::filesystem::path file = folder_ / (name + ".png");
+        const std::filesystem::path file = folder_ / (file_name(name) + ".png");
         if (auto error = write_file_atomically(file, std::string(png.begin(), png.end()))) {
             return error;
         }
-        std::printf("%s: %.2f s, %d triangles in all passes\n", file.string().c_str(), cost.count(),
-                    renderer_.counters().triangles);
+        std::printf("%s: %.2f s, %d triangles in all passes\n", printable(file.string()).c_str(),
+                    cost.count(), renderer_.counters().triangles);
         return std::nullopt;
     }
 
@@ -95,7 +99,7 @@ class PictureSaver {
     Image image_;
 };
 
-// A right hand in the first grip, a left one in the second.
+// A right hand in the first grip, a left hand in the second.
 std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
                                     const RenderFrame& bare, HandFigures& figures,
                                     Renderer& renderer, PictureSaver& saver) {
@@ -141,7 +145,8 @@ std::optional<FileError> draw_grips(const Scene& scene, const std::string& name,
 }  // namespace
 
 int picture_command(const PictureOptions& options) {
-    Result<Scene> loaded = load_scene(options.scene);
+    const InterruptGuard interrupts;
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }
@@ -152,10 +157,9 @@ int picture_command(const PictureOptions& options) {
         return refuse(models.error());
     }
     print_notes(models.value().notes);
-    std::error_code failure;
-    std::filesystem::create_directories(options.out, failure);
-    if (failure) {
-        return refuse({options.out, "", "expected a folder that can be made"});
+    const Result<OutputFolder> folder = OutputFolder::open(options.out);
+    if (!folder) {
+        return refuse(folder.error());
     }
     step_to(scene, options.seconds);
     std::string why_not;
@@ -188,6 +192,9 @@ int picture_command(const PictureOptions& options) {
         }
         if (const auto error = saver.save(frame, spawn.name)) {
             return refuse(*error);
+        }
+        if (is_interrupted()) {
+            return k_exit_interrupted;
         }
     }
     return 0;

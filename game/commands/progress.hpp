@@ -4,15 +4,15 @@
 
 namespace handhold {
 
-// A bar on standard error while long work goes on; nothing where that is no terminal.
+// A progress bar on standard error; nothing unless that is a terminal.
 class Progress {
   public:
     explicit Progress(std::string what);
-    ~Progress();  // takes the bar away
+    ~Progress();  // erases the bar
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(double share);  // [0, 1]; drawn again only where a percent has passed
+    void show(double share);  // [0, 1]; redraws once for each per cent
 
   private:
     std::string what_;

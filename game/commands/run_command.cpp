@@ -5,12 +5,17 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "engine/core/profile.hpp"
+#include "engine/io/file_name.hpp"
+#include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/assets/body_clips_asset.hpp"
 #include "game/climber/crowd.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/commands/loading.hpp"
+#include "game/commands/output_folder.hpp"
 #include "game/commands/progress.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
@@ -18,8 +23,10 @@
 #include "game/report/report_json.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/scene/built_in_scenes.hpp"
+#include "game/scene/overlaps.hpp"
 #include "game/scene/player_defaults.hpp"
 #include "game/scene/spawn.hpp"
+#include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "game/view/film.hpp"
 #include "game/view/run_shots.hpp"
@@ -30,10 +37,11 @@ namespace {
 
 struct Session {
     std::optional<Recording> recording;
-    std::string name;  // file, "built-in <name>", or empty
+    std::vector<Recording> more;  // of the second player, the third...
+    std::string name;             // files, "built-in <name>", or empty
 };
 
-// What drives the players: the given file, else the scene's own session, else nothing.
+// The players' recordings: those of --input, else the scene's session, else none.
 Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     Session session;
     std::filesystem::path file = options.input;
@@ -59,7 +67,27 @@ Result<Session> load_session(const RunOptions& options, const Scene& scene) {
     }
     session.recording = std::move(recording.value());
     session.name = file.filename().string();
+    for (const std::string& input : options.more_inputs) {
+        Result<Recording> another = load_recording(input);
+        if (!another) {
+            return another.error();
+        }
+        session.more.push_back(std::move(another.value()));
+        session.name += ", " + std::filesystem::path(input).filename().string();
+    }
     return session;
+}
+
+// Times in a recording are arbitrary: two samples may be years apart.
+std::optional<FileError> check_length(const RunOptions& options, const std::string& name,
+                                      double length_s) {
+    constexpr double k_longest_s = 1e6;  // as --seconds
+    if (length_s <= k_longest_s) {
+        return std::nullopt;
+    }
+    return FileError{options.input.empty() ? name : options.input, "",
+                     "expected a session of at most 1e6 s, or --seconds, found one of " +
+                         std::to_string(length_s) + " s"};
 }
 
 struct Place {
@@ -67,48 +95,83 @@ struct Place {
     std::string name;
 };
 
-Result<Place> choose_place(const RunOptions& options, const Scene& scene, FrameCaches& caches,
-                           const Session& session) {
-    if (options.spawn == "auto") {
-        if (!session.recording) {
+// `spawn` as in RunOptions.
+Result<Place> choose_place(const RunOptions& options, const std::string& spawn, const Scene& scene,
+                           FrameCaches& caches, const Recording* recording) {
+    if (spawn == "auto") {
+        if (recording == nullptr) {
             return FileError{options.scene, "", "expected a session for --spawn auto, found none"};
         }
-        const FoundSpawn found = find_spawn(scene, caches, *session.recording, options.hz);
+        const FoundSpawn found = find_spawn(scene, caches, *recording, options.hz);
         const Vec3& at = found.origin_ws.position;
         std::printf("spawn auto: %.3f %.3f %.3f, %zu of %zu grabs grip when tried\n", at.x(),
                     at.y(), at.z(), found.gripped, found.onsets);
         return Place{found.origin_ws, "auto"};
     }
-    for (const SceneSpawnPoint& spawn : scene.spawns) {
-        if (options.spawn.empty() || spawn.name == options.spawn) {
-            return Place{spawn.pose_ws, spawn.name};
+    for (const SceneSpawnPoint& known : scene.spawns) {
+        if (spawn.empty() || known.name == spawn) {
+            return Place{known.pose_ws, known.name};
         }
     }
-    if (!options.spawn.empty()) {
+    if (!spawn.empty()) {
+        constexpr std::size_t k_listed = 5;
         std::string names;
-        for (const SceneSpawnPoint& spawn : scene.spawns) {
-            names += spawn.name + ", ";
+        for (std::size_t i = 0; i < std::min(k_listed, scene.spawns.size()); ++i) {
+            names += printable(scene.spawns[i].name, k_max_shown_name / 2) + ", ";
         }
         return FileError{options.scene, "/spawns",
-                         "expected " + names + "or auto, found \"" + options.spawn + "\""};
+                         "expected " + names +
+                             (scene.spawns.size() > k_listed ? "another spawn, " : "") +
+                             "or auto, found \"" + spawn + "\""};
     }
     return Place{{}, "origin"};
 }
 
-// The scene's own players where it has some and neither place nor number was asked for; else the
-// first at the place, the others spread over the scene.
+std::size_t recorded_players(const RunOptions& options) { return 1 + options.more_inputs.size(); }
+
+// Places of players with recordings: the first at `first`, the others at their --spawn, else at the
+// scene's next spawn. May be fewer than the recordings if the scene has no more spawns.
+Result<std::vector<Place>> choose_places(const RunOptions& options, const Place& first,
+                                         const Scene& scene, FrameCaches& caches,
+                                         const Session& session) {
+    std::vector<Place> places = {first};
+    for (std::size_t i = 1; i < recorded_players(options); ++i) {
+        if (i - 1 < options.more_spawns.size()) {
+            Result<Place> place = choose_place(options, options.more_spawns[i - 1], scene, caches,
+                                               &session.more[i - 1]);
+            if (!place) {
+                return place.error();
+            }
+            places.push_back(std::move(place.value()));
+        } else if (options.spawn.empty() && i < scene.spawns.size()) {
+            places.push_back({scene.spawns[i].pose_ws, scene.spawns[i].name});
+        } else {
+            break;
+        }
+    }
+    return places;
+}
+
+// The scene's own players, if they are enough and neither place nor number was given. Else the
+// first players at `places`, the others spread over the scene.
 Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& caches,
-                                                const Place& place, const RunOptions& options) {
+                                                const std::vector<Place>& places,
+                                                const RunOptions& options) {
     std::vector<ScenePlayerStart> starts;
-    if (!scene.players.empty() && options.spawn.empty() && options.players == 0) {
+    if (scene.players.size() >= recorded_players(options) && options.spawn.empty() &&
+        options.players == 0) {
         starts = scene.players;
     } else {
         const auto count =
-            static_cast<std::size_t>(options.players > 0 ? options.players : 1 + scene.climbers);
+            options.players > 0
+                ? static_cast<std::size_t>(options.players)
+                : std::max(recorded_players(options), static_cast<std::size_t>(1 + scene.climbers));
         for (const Pose& origin_ws :
-             spread_players(scene, caches, place.origin_ws, count, options.seed)) {
-            const std::string name = "player" + std::to_string(starts.size());
-            starts.push_back({free_player_name(scene.world, name), origin_ws, 80.0});
+             spread_players(scene, caches, places.front().origin_ws, count, options.seed)) {
+            const std::size_t i = starts.size();
+            const std::string name = "player" + std::to_string(i);
+            starts.push_back({free_player_name(scene.world, name),
+                              i < places.size() ? places[i].origin_ws : origin_ws, 80.0});
         }
         if (starts.size() < count) {
             return FileError{options.scene, "",
@@ -124,7 +187,22 @@ Result<std::vector<PlayerEntities>> add_players(Scene& scene, FrameCaches& cache
     return players;
 }
 
-// Saves the state when its time has come.
+void warn_of_overlaps(const Scene& scene, FrameCaches& caches,
+                      const std::vector<PlayerEntities>& players) {
+    constexpr std::size_t k_told = 5;
+    const std::vector<SpawnOverlap> overlaps = find_overlaps(scene, caches, players);
+    for (std::size_t i = 0; i < std::min(k_told, overlaps.size()); ++i) {
+        std::fprintf(stderr, "warning: %s and %s begin %.0f mm inside each other\n",
+                     printable(overlaps[i].a, k_max_shown_name).c_str(),
+                     printable(overlaps[i].b, k_max_shown_name).c_str(), 1e3 * overlaps[i].depth_m);
+    }
+    if (overlaps.size() > k_told) {
+        std::fprintf(stderr, "warning: %zu more pairs begin inside each other\n",
+                     overlaps.size() - k_told);
+    }
+}
+
+// Saves a snapshot once its time is reached.
 class SnapshotTaker {
   public:
     SnapshotTaker(const RunOptions& options, const SnapshotAssets& assets)
@@ -137,9 +215,9 @@ class SnapshotTaker {
             error_ = save_snapshot_file(options_.snapshot, scene.world, assets_);
         }
     }
-    // After the session.
+    // Call after the session.
     std::optional<FileError> error() const {
-        if (!options_.snapshot.empty() && !taken_) {
+        if (!options_.snapshot.empty() && !taken_ && !is_interrupted()) {
             return FileError{options_.snapshot, "",
                              "expected a time within the session for --snapshot-at, found " +
                                  std::to_string(options_.snapshot_at_s)};
@@ -154,8 +232,8 @@ class SnapshotTaker {
     std::optional<FileError> error_;
 };
 
-// Puts the saved state, if the run is to begin with one, in the place of the scene's first one. The
-// players stay who they are. Climbers remember their plans themselves: with them nothing is saved.
+// Replaces the scene's initial state by the snapshot of --resume, if given. The players keep their
+// identities. Refused with climbers: their plans are not part of a snapshot.
 std::optional<FileError> resume(const RunOptions& options, const RunSettings& settings,
                                 const SnapshotAssets& assets, Scene& scene,
                                 std::vector<PlayerEntities>& players) {
@@ -192,11 +270,16 @@ std::optional<FileError> resume(const RunOptions& options, const RunSettings& se
 
 std::optional<FileError> write_pictures(const std::filesystem::path& folder,
                                         std::vector<FilmShot> shots, ReportMedia& media) {
-    std::error_code ignored;
-    std::filesystem::create_directories(folder / "shots", ignored);
+    std::error_code failure;
+    std::filesystem::create_directories(folder / "shots", failure);
+    if (failure) {
+        return FileError{(folder / "shots").string(), "",
+                         "expected a folder that can be made: " + failure.message()};
+    }
     for (FilmShot& shot : shots) {
         const std::string bytes(shot.png.begin(), shot.png.end());
-        if (auto error = write_file_atomically(folder / "shots" / (shot.name + ".png"), bytes)) {
+        if (auto error =
+                write_file_atomically(folder / "shots" / (file_name(shot.name) + ".png"), bytes)) {
             return error;
         }
         media.pictures.push_back({shot.caption, std::move(shot.png)});
@@ -223,8 +306,8 @@ std::optional<FileError> write_output(const std::filesystem::path& folder, const
 
 void print_summary(const RunLog& log, const RunSummary& summary) {
     std::printf("%s: %llu frames at %g Hz, %.2f s simulated, %.0f frames a second\n",
-                log.scene.c_str(), static_cast<unsigned long long>(summary.frames), log.hz,
-                summary.duration_s, summary.frames_per_s);
+                printable(log.scene).c_str(), static_cast<unsigned long long>(summary.frames),
+                log.hz, summary.duration_s, summary.frames_per_s);
     std::printf("grabs: %llu onsets, %llu gripped; path of the origin %.2f m\n",
                 static_cast<unsigned long long>(summary.totals.grab_onsets),
                 static_cast<unsigned long long>(summary.totals.grabs_gripped),
@@ -242,12 +325,13 @@ void print_summary(const RunLog& log, const RunSummary& summary) {
     }
 }
 
-// Climbers need jets to come back from where nothing is in reach: who has none gets small ones.
+// Climbers need jets to return to something in reach: a scene without jets gets small ones.
 RunSettings choose_settings(const RunOptions& options, Scene& scene, std::size_t players) {
     RunSettings settings{options.hz, options.seconds, options.threads};
-    settings.climbers_from = options.climbers ? 0 : 1;
+    settings.climbers_from = options.climbers ? 0 : recorded_players(options);
     settings.seed = options.seed;
     settings.keep_frames = !options.out.empty();
+    settings.should_stop = is_interrupted;
     if (options.distance_grab) {
         scene.tuning.pull.reach_m = k_pull_reach_m;
     }
@@ -280,7 +364,7 @@ Film open_film(const RunOptions& options, const Scene& scene, PlayerModels model
     return film;
 }
 
-// The shots; the video is on disk then.
+// The pictures. The video is written.
 std::vector<FilmShot> finish_film(Film& film) {
     if (film.camera == nullptr) {
         return {};
@@ -298,7 +382,7 @@ std::vector<FilmShot> finish_film(Film& film) {
 RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
             const Recording* recording, const RunSettings& settings, SessionFilm* camera,
             RunTally& tally, SnapshotTaker& snapshots) {
-    Progress progress("playing " + scene.name);
+    Progress progress("playing " + printable(scene.name, k_max_shown_name));
     const double length_s = session_length_s(recording, settings);
     return run_session(scene, caches, players, recording, settings,
                        [&](const Scene& played, const FrameLog& frame) {
@@ -314,7 +398,14 @@ RunLog play(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>
 }  // namespace
 
 int run_command(const RunOptions& options) {
-    Result<Scene> loaded = load_scene(options.scene);
+    const InterruptGuard interrupts;
+    if (options.players > 0 &&
+        static_cast<std::size_t>(options.players) < recorded_players(options)) {
+        return refuse({options.scene, "",
+                       "expected a player for each --input, found " +
+                           std::to_string(options.players) + " players"});
+    }
+    Result<Scene> loaded = load_scene_with_progress(options.scene);
     if (!loaded) {
         return refuse(loaded.error());
     }
@@ -329,36 +420,49 @@ int run_command(const RunOptions& options) {
     if (!session) {
         return refuse(session.error());
     }
+    std::optional<OutputFolder> out;  // locked until the end
     if (!options.out.empty()) {
-        std::error_code failure;
-        std::filesystem::create_directories(options.out, failure);
-        if (failure) {
-            return refuse(
-                {options.out, "", "expected a folder that can be made: " + failure.message()});
+        Result<OutputFolder> folder = OutputFolder::open(options.out);
+        if (!folder) {
+            return refuse(folder.error());
         }
+        out.emplace(std::move(folder.value()));
     }
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     caches.body_clips = game_body_clips();
-    const Result<Place> place = choose_place(options, scene, caches, session.value());
+    const Recording* const recording =
+        session.value().recording ? &*session.value().recording : nullptr;
+    const Result<Place> place = choose_place(options, options.spawn, scene, caches, recording);
     if (!place) {
         return refuse(place.error());
     }
+    const Result<std::vector<Place>> places =
+        choose_places(options, place.value(), scene, caches, session.value());
+    if (!places) {
+        return refuse(places.error());
+    }
     Result<std::vector<PlayerEntities>> players =
-        add_players(scene, caches, place.value(), options);
+        add_players(scene, caches, places.value(), options);
     if (!players) {
         return refuse(players.error());
     }
+    warn_of_overlaps(scene, caches, players.value());
     if (const auto joints = models.value().controller_joints()) {
         set_controller_joints(*joints, scene.world);
     }
     const SnapshotAssets assets(*scene.shapes, scene.name);
-    const RunSettings settings = choose_settings(options, scene, players.value().size());
+    RunSettings settings = choose_settings(options, scene, players.value().size());
+    for (const Recording& more : session.value().more) {
+        settings.more_recordings.push_back(&more);
+    }
+    if (const auto error =
+            check_length(options, session.value().name, session_length_s(recording, settings))) {
+        return refuse(*error);
+    }
     if (const auto error = resume(options, settings, assets, scene, players.value())) {
         return refuse(*error);
     }
 
-    const Recording* const recording =
-        session.value().recording ? &*session.value().recording : nullptr;
     if (!options.shots.empty()) {
         return draw_shots(options, {scene, caches, players.value(), recording, settings},
                           std::move(models.value()));
@@ -379,8 +483,8 @@ int run_command(const RunOptions& options) {
     log.spawn = place.value().name;
     if (!options.trace.empty()) {
         stop_trace();
-        if (!write_trace(options.trace)) {
-            return refuse({options.trace, "", "expected a file that can be written"});
+        if (const auto error = write_trace(options.trace)) {
+            return refuse(*error);
         }
     }
     if (!options.out.empty()) {
@@ -390,8 +494,11 @@ int run_command(const RunOptions& options) {
         }
     }
     print_summary(log, tally.finish(log));
+    if (is_interrupted()) {
+        std::printf("interrupted: the files are of the frames played so far\n");
+    }
     std::printf("state_hash %s\n", format_hash(log.state_hash).c_str());
-    return 0;
+    return is_interrupted() ? k_exit_interrupted : 0;
 }
 
 }  // namespace handhold

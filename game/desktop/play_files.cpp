@@ -1,9 +1,13 @@
 #include "game/desktop/play_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
+#include "engine/io/printable.hpp"
 #include "engine/io/text_file.hpp"
+#include "game/commands/loading.hpp"
+#include "game/commands/shell_word.hpp"
 #include "game/report/run_summary.hpp"
 #include "game/scene/player_defaults.hpp"
 
@@ -19,28 +23,32 @@ std::optional<FileError> check_folder(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-// Prints the command that replays the session bit for bit.
-void print_replay(const PlayOptions& options, const EndedPlay& play) {
-    constexpr double k_default_hz = 90.0;
-    std::printf("%s: %zu samples%s; to see it again:\n", options.record.c_str(),
-                play.recording.samples.size(),
-                play.used_sticks ? ", without turns, brake and jets" : "");
-    std::printf("handhold run --scene %s%s --players 1 --input %s", options.scene.c_str(),
-                play.spawn.empty() ? "" : (" --spawn " + play.spawn).c_str(),
-                options.record.c_str());
-    if (play.hz != k_default_hz) {
-        std::printf(" --hz %.17g", play.hz);
-    }
-    if (!options.models.controllers.empty()) {  // its joint converts samples to hand poses
-        std::printf(" --controllers %s", options.models.controllers.c_str());
-    }
-    std::printf(options.distance_grab ? " --distance-grab\n" : "\n");
-}
-
 }  // namespace
 
+std::string replay_command(const PlayOptions& options, const std::string& spawn, double hz) {
+    constexpr double k_default_hz = 90.0;
+    const auto option = [](const char* name, const std::string& value) {
+        // "=": a value that begins with a dash is not taken for an option.
+        return std::string(" ") + name + (value.starts_with('-') ? "=" : " ") + shell_word(value);
+    };
+    std::string command = "handhold run" + option("--scene", options.scene);
+    if (!spawn.empty()) {
+        command += option("--spawn", spawn);
+    }
+    command += " --players 1" + option("--input", options.record);
+    if (hz != k_default_hz) {
+        std::array<char, 40> text{};
+        std::snprintf(text.data(), text.size(), " --hz %.17g", hz);
+        command += text.data();
+    }
+    if (!options.models.controllers.empty()) {  // its joint is how samples became hands
+        command += option("--controllers", options.models.controllers);
+    }
+    return command + (options.distance_grab ? " --distance-grab" : "");
+}
+
 Result<PlayedScene> load_played_scene(const PlayOptions& options) {
-    Result<Scene> scene = load_scene(options.scene);
+    Result<Scene> scene = load_scene_with_progress(options.scene);
     if (!scene) {
         return scene.error();
     }
@@ -88,10 +96,15 @@ std::optional<FileError> save_play(const PlayOptions& options, const EndedPlay& 
         if (auto error = save_recording(options.record, play.recording)) {
             return error;
         }
-        print_replay(options, play);
+        std::printf("%s: %zu samples%s; to see it again:\n%s\n", printable(options.record).c_str(),
+                    play.recording.samples.size(),
+                    play.used_sticks ? ", without turns, brake and jets" : "",
+                    replay_command(options, play.spawn, play.hz).c_str());
     }
-    if (!options.picture.empty() && image.width_px > 0 && !save_png(image, options.picture)) {
-        return FileError{options.picture, "", "expected a file that can be written"};
+    if (!options.picture.empty() && image.width_px > 0) {
+        if (auto error = save_png(image, options.picture)) {
+            return error;
+        }
     }
     if (!options.report.empty()) {
         const std::string hash = format_hash(hash_state(play.scene.world));

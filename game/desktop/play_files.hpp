@@ -30,6 +30,9 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 // Null if the options request none.
 Result<OpenFile> open_status(const PlayOptions& options);
 
+// The command line that plays the recording of `options` again bit for bit, quoted for a shell.
+std::string replay_command(const PlayOptions& options, const std::string& spawn, double hz);
+
 struct EndedPlay {
     const Scene& scene;
     const std::string& spawn;

@@ -3,13 +3,13 @@
 #include "game/levels/station.hpp"
 #include "game/scene/scene_file.hpp"
 
-// A gun of the game's own: something that is held in one way. Talk row 10.
+// The game's gun: an object that is held in one way. Talk row 10.
 namespace handhold {
 
-// Its frame: -Z where it points, +Y up, the plane x = 0 its middle, the origin where the handle
-// meets the rest.
+// Frame: -Z is the muzzle's direction, +Y is up, x = 0 is the plane of symmetry, and the origin is
+// where the handle meets the body.
 struct GunModel {
-    SceneShape shape;  // a compound of convex parts; handle and fore-end as they are seen
+    SceneShape shape;  // a compound of convex parts; handle and fore-end match the visual
     double mass_kg = 1.0;
     Structure visual;
     std::vector<SceneGrip> grips;  // "handle" and "fore_end", for either hand

@@ -10,9 +10,9 @@ namespace {
 
 constexpr Color k_accent = {0.55F, 0.22F, 0.02F};
 
-constexpr double k_back_m = 0.25;  // the back's height over the torso's frame
+constexpr double k_back_m = 0.25;  // height of the back above the torso's frame
 
-// Half the length of the way's straight pieces, and the radius of its bends.
+// The robot's path: half the length of its straights, and the radius of its bends.
 constexpr double k_straight_half_m = 4.0;
 constexpr double k_bend_m = 3.6;
 constexpr double k_robot_mps = 0.45;
@@ -32,7 +32,7 @@ void add_shell(StationKit& kit) {
         torso_ring(0.50, -0.25, k_back_m, -1.05), torso_ring(0.50, -0.25, k_back_m, 1.15),
         torso_ring(0.44, -0.22, 0.22, 1.38),      torso_ring(0.34, -0.14, 0.16, 1.46)};
     kit.add(Material::hull, make_loft(shell, LoftEnds::capped), {});
-    // Plates on the back between the rails, on the flanks, and under the belly.
+    // Plates on the back between the rails, on the sides, and under the belly.
     for (int row = 0; row < 5; ++row) {
         const double z = -0.84 + 0.44 * row;
         kit.panel(row == 2 ? Material::accent : Material::panel, {}, Vec3(0.0, k_back_m - 0.006, z),
@@ -105,7 +105,7 @@ void add_back_rails(StationKit& kit) {
     }
 }
 
-// A place on the way, `along_m` from the middle of the straight piece at +X.
+// A pose on the path, `along_m` from the middle of the straight at +X.
 Pose way_at(double along_m) {
     const double bend = 2.0 * k_half_pi * k_bend_m;
     const double lap = 4.0 * k_straight_half_m + 2.0 * bend;
@@ -121,7 +121,7 @@ Pose way_at(double along_m) {
     } else {
         rest += k_straight_half_m + bend;
     }
-    // Now from the beginning of a bend; the first is at -Z and turns left.
+    // From here on measured from the start of a bend. The first bend is at -Z and turns left.
     const Quat lap_turn = rotation_about(Vec3::UnitY(), 2.0 * k_half_pi * (half_turns - 1.0));
     const double angle = rest < bend ? rest / k_bend_m : 2.0 * k_half_pi;
     double sine = 0.0;
@@ -134,9 +134,9 @@ Pose way_at(double along_m) {
     return {lap_turn * place, lap_turn * rotation_about(Vec3::UnitY(), angle)};
 }
 
-// What stands on the hull: never higher than a leg swings where the robot goes.
+// Equipment on the hull inside the path, lower than the legs swing.
 void add_island(StationKit& kit) {
-    // Along the middle: two tanks, a mast with a dish, boxes, and a rail all round.
+    // Along the middle: two tanks, a mast with a dish, boxes, and a rail around them.
     for (const double z : {-2.2, 2.2}) {
         kit.add(Material::foil,
                 make_capsule(Vec3(0.0, 0.38, z - 1.0), Vec3(0.0, 0.38, z + 1.0), 0.42, 28), {});
@@ -163,8 +163,8 @@ void add_island(StationKit& kit) {
     }
 }
 
-// Bolts in a plate's corners and, on some, a stripe or a grille: nothing higher than 6 mm, since
-// feet come down anywhere.
+// Bolts in a plate's corners and, on some plates, a stripe or a grille. All are below 6 mm, because
+// feet may land anywhere.
 void add_plate_marks(StationKit& kit, const Vec3& center, std::size_t salt) {
     const Vec3 top = center + Vec3(0.0, 0.075, 0.0);
     for (int corner = 0; corner < 4; ++corner) {
@@ -213,7 +213,7 @@ void add_plates(StationKit& kit) {
     }
 }
 
-// Beyond the robot's way: boxes and radiators.
+// Boxes and radiators outside the path.
 void add_outskirts(StationKit& kit) {
     for (int i = 0; i < 14; ++i) {
         const auto salt = static_cast<std::size_t>(i);
@@ -279,7 +279,7 @@ Structure make_robot_bone(const CrawlerLeg& leg, LegBone bone) {
     bar(Material::hull, -0.82 * half, 0.78 * half, radius);
     bar(Material::accent, -0.10 * half, 0.10 * half, radius + 0.006);
     bar(Material::metal, 0.72 * half, half, 0.8 * radius);
-    // A piston beside it, and the knee's drum.
+    // A piston beside the bone, and the knee's drum.
     kit.add(Material::metal,
             make_cylinder(Vec3(radius + 0.02, -0.6 * half, 0.0),
                           Vec3(radius + 0.02, 0.6 * half, 0.0), 0.018, 10),

@@ -13,7 +13,7 @@ namespace {
 
 using Sections = std::vector<StationSection>;
 
-// Of each section in the station's frame, by index.
+// The pose of each section in the station's frame, by index.
 std::vector<Pose> place_sections(const Sections& sections) {
     const Pose passage{Vec3(0.0, 0.0, k_vestibule_length_m), Quat::Identity()};
     std::vector<Pose> poses;

@@ -6,8 +6,8 @@
 #include "engine/geometry/mesh.hpp"
 #include "game/render/render_frame.hpp"
 
-// The game's own level, made from a description (docs/reference/station_format.md), and, in code,
-// the platform that flies past. Lengths in metres. The meshes are colliders too, so they are equal
+// The game's level, made from a description (docs/reference/station_format.md), and the platform
+// that flies past, made in code. Lengths in metres. The meshes are colliders too, so they are equal
 // on every machine.
 namespace handhold {
 
@@ -21,15 +21,14 @@ struct HandrailSpan {
 
 struct SpawnPoint {
     std::string name;
-    Pose pose;  // of the head: -Z looks ahead; at least 0.3 m clear of every surface
+    Pose pose;  // of the head, which looks along -Z; at least 0.3 m from every surface
 };
 
-// A thing built of parts, all in one frame. Each part is welded and made of closed solids (one
-// material each, named
-// "<section>/<material>"); solids may touch or sink into each other.
+// Meshes in one frame. Each part is welded and made of closed solids of one material, and is named
+// "<section>/<material>". Solids may touch or intersect each other.
 struct Structure {
     std::vector<Mesh> parts;
-    std::vector<Look> looks;  // one a part
+    std::vector<Look> looks;  // one for each part
     std::vector<HandrailSpan> rails;
     std::vector<SpawnPoint> spawns;
     std::vector<Lamp> lamps;
@@ -37,19 +36,19 @@ struct Structure {
 
 struct StationDescription;  // game/levels/station_description.hpp
 
-// Static; its frame is that of the description. Coordinates are exact floats.
+// Static, in the frame of the description. Coordinates are exactly representable as floats.
 Structure make_station(const StationDescription& description);
-// The game's own: the node's centre is the origin, the habitat lies towards +Z, the laboratory and
-// what is beyond it -X, the airlock +X, the cupola -Z, the truss above.
+// The station of game/assets/station.json. The node's centre is the origin; the habitat is towards
+// +Z, the laboratory towards -X, the airlock towards +X, the cupola towards -Z, the truss above.
 Structure make_station();
-// The station's rails alone, for scripts that plan along them.
+// The rails of that station, for scripts that plan along them.
 std::vector<HandrailSpan> station_rails();
 
 // An open shuttle-like platform of about 8 m (along Z) x 3 m x 4 m: deck, wall, roof over its rear
-// half, rails. In its body's frame: the origin in the middle, -Z ahead.
+// half, rails. In its body's frame: origin in the middle, -Z forward.
 Structure make_ship();
 
-// A rock of about 16 cm across, to be seen; its collider is the caller's choice.
+// The visual of a rock of about 16 cm. The caller chooses its collider.
 Mesh make_held_rock();
 
 }  // namespace handhold

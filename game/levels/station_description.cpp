@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/io/file_name.hpp"
 #include "engine/io/json.hpp"
 #include "engine/io/text_file.hpp"
 #include "game/assets/assets.hpp"
@@ -69,7 +70,7 @@ constexpr std::array<Word<ToolType>, 12> k_tool_types = {{{"wrench", ToolType::w
                                                           {"book", ToolType::book},
                                                           {"helmet", ToolType::helmet}}};
 
-// The value that a text names; the first one, with an error kept, where it names none.
+// The value of a word. For an unknown word, keeps an error and returns the first value.
 template <typename T, std::size_t N>
 T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     const std::string text = value.text();
@@ -84,10 +85,21 @@ T read_word(const JsonValue& value, const std::array<Word<T>, N>& words) {
     return words.front().value;
 }
 
-std::string read_part_name(const JsonValue& value, std::set<std::string>& taken) {
+// Names become file names and parts of paths of names ("hab/rail_0").
+std::string read_file_name(const JsonValue& value) {
     std::string name = value.text();
-    if (name.find('/') != std::string::npos || !taken.insert(name).second) {
-        value.refuse("a name without / that nothing else of its kind has");
+    if (!is_file_name(name)) {
+        value.refuse(
+            "a name that can be a file's: at most 100 bytes of letters, digits, _, - and "
+            "spaces, without a dot at the start");
+    }
+    return name;
+}
+
+std::string read_part_name(const JsonValue& value, std::set<std::string>& taken) {
+    std::string name = read_file_name(value);
+    if (!taken.insert(name).second) {
+        value.refuse("a name that nothing else of its kind has");
     }
     return name;
 }
@@ -187,7 +199,7 @@ void DescriptionReader::read_place(const JsonValue& value, StationSection& secti
         attach.refuse("nothing: a truss is placed by \"position_m\"");
     }
     if (section.type == SectionType::node) {
-        taken_ports_.insert({section.name, 2});  // its -Z is where it came from
+        taken_ports_.insert({section.name, 2});  // its -Z port is the connection
     }
     if (!taken_ports_.insert({section.attached_to, section.port}).second) {
         attach["port"].refuse("a port that nothing else is attached to");
@@ -279,7 +291,7 @@ StationSpawn DescriptionReader::read_spawn(const JsonValue& value) {
 
 StationDescription DescriptionReader::read() {
     root_.allow_only({"name", "description", "session", "sections", "tools", "spawns"});
-    made_.name = root_["name"].text();
+    made_.name = read_file_name(root_["name"]);
     made_.description = root_["description"].text_or({});
     made_.session = root_["session"].text_or({});
     for (const JsonValue& section : root_["sections"].items()) {

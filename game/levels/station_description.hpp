@@ -14,31 +14,31 @@
 #include "game/levels/station_rack.hpp"
 #include "game/render/render_frame.hpp"
 
-// A station as data: docs/reference/station_format.md. Lengths in metres; a section's frame has its
-// origin in the middle of its near end (of a node or a cupola: see there), +Z along it, +Y up.
+// A station as data: docs/reference/station_format.md. Lengths in metres. A section's frame has its
+// origin in the middle of its near end (nodes and cupolas: see there), +Z along the section, +Y up.
 namespace handhold {
 
 enum class SectionType : std::uint8_t { node, module, cupola, truss };
 
-// What closes a module's far end. `open` has a door that stands open outside; `hatch` is for
-// another section to be attached to.
+// How a module's far end is closed. `open`: a door that stands open outside. `hatch`: another
+// section can be attached.
 enum class EndKind : std::uint8_t { hatch, door, window, open };
 
 enum class WallSide : std::uint8_t { floor, right, ceiling, left };
 inline constexpr std::size_t k_wall_count = 4;
 
-// Where a rail stands: a wall, or the strip along the top of a module; the two strips of a truss
-// are `left` and `right`.
+// Where a rail is mounted: on a wall, or on the strip along the top of a module. The two strips of
+// a truss are `left` and `right`.
 struct RailLine {
     std::string name;
     WallSide wall = WallSide::floor;
-    bool outside = false;   // on the strip on top: wall is unused
-    double across_m = 0.0;  // along the wall's X from its middle
+    bool outside = false;   // on the top strip; `wall` is unused
+    double across_m = 0.0;  // along the wall's X, from its middle
     double from_m = 0.0;    // along the section's Z
     double to_m = 1.0;
 };
 
-// A cable or hose: a round bar swept along a smooth curve through its points.
+// A cable or hose: a circle swept along a smooth curve through the points.
 struct HoseLine {
     Material material = Material::cable;
     double radius_m = 0.02;
@@ -48,17 +48,18 @@ struct HoseLine {
 struct StationSection {
     std::string name;
     SectionType type = SectionType::module;
-    std::string attached_to;  // an earlier section; empty: placed by `pose`
-    int port = 0;             // of a node: quarters from its +Z to the left; of a module: unused
+    std::string attached_to;  // name of an earlier section; empty: placed by `pose`
+    int port = 0;             // node: quarter turns from its +Z to the left; module: unused
     Pose pose;
-    std::size_t racks = 5;  // along a module; of a truss: bays
+    std::size_t racks = 5;  // module: length in racks; truss: bays
     EndKind far_end = EndKind::door;
     Color accent = {0.5F, 0.5F, 0.5F};
     std::size_t seed = 1;
-    std::array<std::vector<RackKind>, k_wall_count> walls;  // of a module: one a rack, by WallSide
+    std::array<std::vector<RackKind>, k_wall_count>
+        walls;  // module: one for each rack, by WallSide
     std::vector<RailLine> rails;
     std::vector<HoseLine> hoses;
-    std::vector<Lamp> lamps;  // beside those that the section has by itself; in its frame
+    std::vector<Lamp> lamps;  // beside the section's own lamps; in its frame
 };
 
 enum class ToolType : std::uint8_t {
@@ -76,7 +77,7 @@ enum class ToolType : std::uint8_t {
     helmet
 };
 
-// A thing that floats about.
+// A free body that floats in the station.
 struct StationTool {
     std::string name;
     ToolType type = ToolType::wrench;
@@ -85,7 +86,7 @@ struct StationTool {
     Vec3 angular_velocity_radps = Vec3::Zero();
 };
 
-// Where a player may begin, by his eyes.
+// A spawn, given by the eyes.
 struct StationSpawn {
     std::string name;
     Vec3 eyes = Vec3::Zero();
@@ -95,19 +96,19 @@ struct StationSpawn {
 struct StationDescription {
     std::string name;
     std::string description;
-    std::string session;  // a built-in one that shows it; may be empty
+    std::string session;  // a built-in session that shows the station; may be empty
     std::vector<StationSection> sections;
     std::vector<StationTool> tools;
     std::vector<StationSpawn> spawns;
 };
 
-// Refused, with JSON pointer and value: what is out of range or of the wrong type, an unknown key,
-// a name that is taken, a section attached to one that does not come before it, to no port or to
-// one that is taken.
+// Refused, with JSON pointer and value: values out of range or of the wrong type, unknown keys,
+// names that are taken or cannot be a file's, a section attached to a later section, to no port, or
+// to a port that is taken.
 Result<StationDescription> parse_station_description(std::string_view text,
                                                      const std::filesystem::path& path);
 Result<StationDescription> load_station_description(const std::filesystem::path& path);
-// The game's own: game/assets/station.json, which is part of the program.
+// game/assets/station.json, which is compiled into the program.
 const StationDescription& own_station_description();
 
 }  // namespace handhold

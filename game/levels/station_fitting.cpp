@@ -11,7 +11,7 @@ namespace {
 constexpr double k_bay_depth_m = 0.27;
 constexpr double k_half_z_m = 0.5 * k_rack_pitch_m - 0.03;
 
-// An open bay: back, four sheet sides whose edges show.
+// An open bay: a back and four thin sides with visible edges.
 void add_box_bay(StationKit& kit, const Pose& frame, double z, double half_z, Material material) {
     const double half_x = k_bay_half_m - 0.006;
     kit.block(material, frame, Vec3(0.0, -k_bay_depth_m, z), Vec3(half_x, 0.010, half_z));
@@ -57,7 +57,7 @@ void add_plant(StationKit& kit, const Pose& frame, const Vec3& foot, double heig
     }
 }
 
-// Two trays of plants under strips of light, in a bay.
+// Two trays of plants under light strips, in a bay.
 void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
     for (std::size_t tray = 0; tray < 2; ++tray) {
@@ -70,14 +70,14 @@ void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed)
             for (std::size_t column = 0; column < 5; ++column) {
                 const std::size_t salt = 15 * tray + 5 * row + column;
                 if (chance(seed, 31, salt) < 0.18) {
-                    continue;  // harvested
+                    continue;  // a harvested plant
                 }
                 const Vec3 foot(-0.33 + 0.165 * static_cast<double>(column), -0.202,
                                 z + (static_cast<double>(row) - 1.0) * 0.125);
                 add_plant(kit, frame, foot, 0.11 + 0.08 * chance(seed, 32, salt), 64 * seed + salt);
             }
         }
-        // The lamps look in from the tray's two ends.
+        // The lamps light the tray from both ends.
         for (const double side : {-1.0, 1.0}) {
             kit.block(Material::grow, frame, Vec3(0.0, -0.028, z + side * (half_z - 0.018)),
                       Vec3(0.42, 0.010, 0.006));
@@ -86,7 +86,7 @@ void add_garden(StationKit& kit, const Pose& frame, double z0, std::size_t seed)
     kit.lamp(transform_point(frame, Vec3(0.0, 0.22, middle)), {0.16F, 0.085F, 0.14F}, 2.2);
 }
 
-// A sleeping bag in a bay with a pillow, a reading lamp, a small fan behind a grille.
+// A sleeping bag in a bay with a pillow, a reading lamp, and a fan behind a grille.
 void add_bunk(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
     add_box_bay(kit, frame, middle, k_half_z_m, Material::liner);
@@ -100,7 +100,7 @@ void add_bunk(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
         kit.panel(Material::dark, frame, Vec3(-0.12, -0.155, middle + z),
                   Vec3(0.246, 0.092, 0.018));
     }
-    // Shelf with a book and a small lamp, and the grille of the fan.
+    // A shelf with a book and a small lamp, and the fan's grille.
     kit.block(Material::metal, frame, Vec3(0.30, -0.10, middle - 0.14), Vec3(0.14, 0.004, 0.30));
     for (const double z : {-0.36, 0.08}) {
         kit.bracket(Material::metal, frame, Vec3(0.36, -0.144, middle + z), 0.03);
@@ -116,7 +116,7 @@ void add_bunk(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     kit.lamp(transform_point(frame, Vec3(0.30, 0.02, middle - 0.33)), {0.10F, 0.085F, 0.06F}, 1.2);
 }
 
-// A glove box: a window over a lit chamber with two ports, screens and switches beside.
+// A glove box: a window over a lit chamber with two ports, screens and switches beside it.
 void add_bench(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
     add_box_bay(kit, frame, middle, k_half_z_m, Material::panel);
@@ -129,7 +129,7 @@ void add_bench(StationKit& kit, const Pose& frame, double z0, std::size_t seed) 
                                        rotation_about(Vec3::UnitX(), 1.57079632679489661923)};
         kit.add(Material::accent, make_torus(0.085, 0.014, 16, 6), port);
         kit.add(Material::dark, make_cylinder(Vec3(0, 0, 0.0), Vec3(0, 0, 0.02), 0.082, 16), port);
-        // The glove hangs into the chamber.
+        // The glove inside the chamber.
         const std::array<Vec3, 4> glove = {
             Vec3(side * 0.19, -0.05, chamber + 0.16), Vec3(side * 0.17, -0.10, chamber + 0.11),
             Vec3(side * 0.13, -0.15, chamber + 0.03), Vec3(side * 0.10, -0.17, chamber - 0.03)};
@@ -159,7 +159,7 @@ void add_bench(StationKit& kit, const Pose& frame, double z0, std::size_t seed) 
     }
 }
 
-// Soft bags of different size under a net of straps.
+// Soft bags of different sizes under a net of straps.
 void add_stowage(StationKit& kit, const Pose& frame, double z0, std::size_t seed) {
     const double middle = z0 + 0.5 * k_rack_pitch_m;
     add_box_bay(kit, frame, middle, k_half_z_m, Material::liner);

@@ -4,8 +4,8 @@
 
 namespace handhold {
 
-// The fronts that fill a whole rack: garden, bunk, bench and stowage. Between the tracks, nothing
-// higher over the wall than 2 cm, so that the rails beside it stay free.
+// Fronts that fill a whole rack: garden, bunk, bench and stowage. Between the seat tracks they rise
+// at most 2 cm above the wall, which leaves the rails beside them free.
 void build_fitting(StationKit& kit, const Pose& frame, double z0, RackKind kind, std::size_t seed);
 
 }  // namespace handhold

@@ -17,7 +17,7 @@ struct MaterialLook {
     Look look;
 };
 
-// In the order of Material.
+// By Material.
 constexpr std::array<MaterialLook, k_material_count> k_materials = {{
     {"hull", {0.62F, 0.63F, 0.66F}, {0.0F, 1.0F, 0.35F}},
     {"liner", {0.115F, 0.120F, 0.130F}, {0.0F, 1.0F, 0.10F}},
@@ -40,8 +40,8 @@ constexpr std::array<MaterialLook, k_material_count> k_materials = {{
 
 constexpr double k_post_spacing_m = 0.85;
 
-// Through memory: GCC 12's vectoriser leaves the last rows of a loop over (double)(float)x as they
-// were.
+// Through memory: GCC 12's vectoriser leaves the last elements of a loop over (double)(float)x
+// unchanged.
 double to_nearest_float(double x) {
     const volatile float rounded = static_cast<float>(x);
     return static_cast<double>(rounded);
@@ -117,7 +117,7 @@ void StationKit::handrail(const std::string& name, const Pose& frame, const Vec3
                           const Vec3& b) {
     const double height = k_rail_clearance_m + k_rail_radius_m;
     const Vec3 up(0.0, height, 0.0);
-    const Vec3 low(0.0, -0.012, 0.0);  // the bar's ends and the posts are sunk into the wall
+    const Vec3 low(0.0, -0.012, 0.0);  // ends of bar and posts, inside the wall
     const Vec3 along = (b - a).normalized();
     const double bend = 0.028;
     const std::array<Vec3, 6> path = {a + low,
@@ -160,7 +160,7 @@ void StationKit::hose(Material material, const Pose& frame, std::span<const Vec3
         }
     }
     path.push_back(points.back());
-    // A wide one is turned smooth: twelve sides meet at 30 degrees.
+    // Wide hoses have twelve sides, whose 30 degree edges are shaded smooth.
     add(material, make_tube(path, radius_m, radius_m > 0.046 ? 12 : 6), frame);
 }
 

@@ -7,8 +7,8 @@
 
 #include "game/levels/station.hpp"
 
-// What the station's sources build with: solids sorted by material, handrails, and chance that is
-// the same everywhere.
+// Building blocks of the station: solids sorted by material, handrails, and reproducible random
+// numbers.
 namespace handhold {
 
 enum class Material {
@@ -36,36 +36,36 @@ inline constexpr double k_rail_radius_m = 0.0175;
 inline constexpr double k_rail_clearance_m = 0.045;  // between bar and wall
 
 struct RimShape {
-    double x = 0.0, z = 0.0;            // its middle
-    double half_x = 0.1, half_z = 0.1;  // to its outside
+    double x = 0.0, z = 0.0;            // centre
+    double half_x = 0.1, half_z = 0.1;  // to the outside
     double width = 0.02;                // of the rim
-    double y0 = -0.03, y1 = 0.0;        // its foot and its face
+    double y0 = -0.03, y1 = 0.0;        // height of its foot and of its face
 };
 
-// Collects the solids of one section (a module, the node) into one mesh a material. A frame handed
-// to it has +Y away from the wall and Z along the section.
+// Collects the solids of one section (a module, the node) into one mesh for each material. Frames
+// passed to it have +Y away from the wall and Z along the section.
 class StationKit {
   public:
     StationKit(Structure& out, std::string section, const Color& accent);
-    // Writes what was collected into the structure. Once, last. Coordinates become the nearest
-    // floats: a file of them holds the same station.
+    // Writes the collected solids into the structure. Call once, last. Coordinates are rounded to
+    // floats, so a file holds the same station.
     void finish();
 
     void add(Material material, const Mesh& solid, const Pose& frame);
-    // Boxes: on a wall (the edges of its +Y face cut), seen from all sides (all edges cut), and
-    // small or hidden (plain).
+    // Boxes. panel: on a wall, with the edges of its +Y face bevelled. beam: all edges bevelled.
+    // block: no bevels, for small or hidden parts.
     void panel(Material material, const Pose& frame, const Vec3& center, const Vec3& half_m);
     void beam(Material material, const Pose& frame, const Vec3& center, const Vec3& half_m);
     void block(Material material, const Pose& frame, const Vec3& center, const Vec3& half_m);
-    // The rim of a sunk panel, one piece: an outer box in X and Z with the middle cut out, from y0
-    // up to y1.
+    // The rim of a recessed panel in one piece: an outer box in X and Z with the middle cut out,
+    // from y0 up to y1.
     void rim(Material material, const Pose& frame, const RimShape& shape);
-    // A bar on posts over the wall from `a` to `b` (points on the wall), its ends bent into the
+    // A bar on posts above the wall from `a` to `b` (points on the wall), its ends bent into the
     // wall.
     void handrail(const std::string& name, const Pose& frame, const Vec3& a, const Vec3& b);
-    // A round bar swept along the smooth curve (Catmull and Rom 1974) through at least two points.
+    // A circle swept along a smooth curve (Catmull and Rom 1974) through at least two points.
     void hose(Material material, const Pose& frame, std::span<const Vec3> points, double radius_m);
-    // An angle bracket: two sheets of 3 mm, `width_m` along X, one on the wall and one standing on
+    // An angle bracket of two 3 mm sheets, `width_m` along X: one on the wall, one perpendicular to
     // it.
     void bracket(Material material, const Pose& frame, const Vec3& foot, double width_m);
     void lamp(const Vec3& position, const Color& color, double reach_m);
@@ -77,7 +77,7 @@ class StationKit {
     std::array<Mesh, k_material_count> meshes_;
 };
 
-// Chance from a name: in [0, 1), equal for equal arguments.
+// A hash of the arguments as a number in [0, 1).
 double chance(std::size_t a, std::size_t b, std::size_t c);
 
 }  // namespace handhold

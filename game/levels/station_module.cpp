@@ -12,12 +12,12 @@ namespace {
 constexpr double k_liner_half_m = 1.42;
 constexpr double k_hull_radius_m = 1.90;
 constexpr double k_plate_m = 0.12;           // thickness of an end
-constexpr double k_recess_m = 0.015;         // of an end's outside behind the hull's rim
+constexpr double k_recess_m = 0.015;         // depth of an end's outside behind the hull's rim
 constexpr double k_end_clearance_m = 0.17;   // from an end's outside to the first rack
 constexpr double k_module_corner_m = 1.365;  // from the axis to a stand-off's face
 constexpr double k_hatch_corner_m = 0.22;
 
-// Where the strip with the outer rail runs, over the bands and the shields.
+// The strip of the outer rail, above the bands and shields.
 const Pose k_top{Vec3(0.0, k_hull_radius_m + 0.06, 0.0), Quat::Identity()};
 
 struct Module {
@@ -25,7 +25,7 @@ struct Module {
     Pose pose;
 };
 
-// The frame on an end plate's inside: +Y into the module, X to the right.
+// The frame on the inside of an end plate: +Y into the module, X to the right.
 Pose end_frame(double z, bool is_far) {
     const double turn = is_far ? -k_half_pi : k_half_pi;
     return {Vec3(0.0, 0.0, z), rotation_about(Vec3::UnitX(), turn)};
@@ -35,7 +35,7 @@ Ring hatch_outline(double half_m, double z) {
     return make_outline({half_m, half_m, k_hatch_corner_m * half_m / k_hatch_half_m, 4, 2}, z);
 }
 
-// Skin between an octagon inside and a circle outside, with raised bands around it.
+// The skin, octagonal inside and round outside, with raised bands.
 void add_hull(StationKit& kit, const Pose& pose, double length) {
     const Ring inner = make_outline({k_liner_half_m, k_liner_half_m, 0.45, 1, 4}, 0.0);
     const auto outer = [&](double radius, double z) {
@@ -87,8 +87,8 @@ void add_end(StationKit& kit, const Module& module, EndKind kind, bool is_far) {
     } else if (kind == EndKind::window) {
         add_window(kit, frame);
     } else if (kind == EndKind::open) {
-        // Outside the wall looks the other way: +Y out of the module. The door stands open there,
-        // turned by 100 degrees about the hinge at the hatchway's edge.
+        // Outside, +Y of the wall's frame points out of the module. The open door is turned by 100
+        // degrees about the hinge at the hatchway's edge.
         const Pose outer = module.pose * end_frame(length - k_recess_m, false);
         dress_hatch_plate(kit, outer, "outer", HatchRails::beside);
         const double hinge_m = 0.80;
@@ -103,7 +103,7 @@ void add_end(StationKit& kit, const Module& module, EndKind kind, bool is_far) {
     }
 }
 
-// Cables that sag between their clamps along a lower stand-off.
+// Cables that sag between clamps along a lower stand-off.
 void add_cables(StationKit& kit, const Pose& frame, const Module& module, std::size_t corner) {
     const double from = k_end_clearance_m + 0.02;
     const double to = module_length_m(module.section) - from;
@@ -153,7 +153,7 @@ void add_standoffs(StationKit& kit, const Module& module) {
     }
 }
 
-// For the view from outside: shields between the bands, a rail along the top.
+// Exterior: shields between the bands, and a rail along the top.
 void add_outside(StationKit& kit, const Module& module) {
     const double length = module_length_m(module.section);
     constexpr std::size_t k_around = 10;
@@ -173,7 +173,7 @@ void add_outside(StationKit& kit, const Module& module) {
                       Vec3(0.40, 0.045, 0.125 * length - 0.16));
         }
     }
-    // The rail stands on a strip above the bands and the shields.
+    // The rail is mounted on a strip above the bands and the shields.
     const Pose top = module.pose * k_top;
     kit.panel(Material::metal, top, Vec3(0.0, -0.04, 0.5 * length),
               Vec3(0.045, 0.04, 0.5 * length - 0.3));
@@ -195,8 +195,8 @@ void add_vestibule(StationKit& kit, const Pose& pose) {
 }
 
 void add_door(StationKit& kit, const Pose& frame) {
-    // In the end's frame Y points into the module: the door is lofted along Z, which a quarter turn
-    // lays onto Y.
+    // In the end's frame Y points into the module. The door is lofted along Z, and a quarter turn
+    // moves that to Y.
     const Pose out = frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
     const std::array<Ring, 5> door = {hatch_outline(0.67, -0.09), hatch_outline(0.67, -0.03),
                                       hatch_outline(0.60, -0.005), hatch_outline(0.46, -0.005),
@@ -251,7 +251,7 @@ void dress_hatch_plate(StationKit& kit, const Pose& frame, const std::string& na
         // Y away from the plate, X along this side, +Z outward.
         const Pose turned =
             frame * Pose{Vec3::Zero(), rotation_about(Vec3::UnitY(), side * k_half_pi)};
-        // Two panels a side, a stiffener between them.
+        // Two panels on each side with a stiffener between them.
         for (const double half : {-1.0, 1.0}) {
             kit.panel(Material::panel, turned, Vec3(half * 0.40, -0.008, 0.915),
                       Vec3(0.335, 0.018, 0.155));

@@ -13,7 +13,7 @@ constexpr double k_node_half_m = 1.25;   // from the node's middle to the inside
 constexpr double k_node_plate_m = 0.15;  // thickness of the walls
 constexpr double k_node_outside_m = k_node_half_m + k_node_plate_m;
 
-// +Z away from the node's middle, +Y up; quarters turn from the node's +Z to the left.
+// +Z away from the node's middle, +Y up; quarter turns from the node's +Z to the left.
 Pose node_side(const Pose& node, int quarters, double distance_m) {
     const Quat turn = rotation_about(Vec3::UnitY(), quarters * k_half_pi);
     return node * Pose{turn * Vec3(0.0, 0.0, distance_m), turn};
@@ -24,14 +24,14 @@ void add_node_walls(StationKit& kit, const Pose& node,
     for (int side = 0; side < 4; ++side) {
         kit.add(Material::liner, make_hatch_plate(k_node_outside_m, 0.04, k_node_plate_m),
                 node_side(node, side, k_node_half_m));
-        // Inside, +Y of the dressing points to the middle.
+        // Inside, the frame's +Y points to the middle.
         const Pose inside = node_side(node, side, k_node_half_m) *
                             Pose{Vec3::Zero(), rotation_about(Vec3::UnitX(), -k_half_pi)};
         dress_hatch_plate(kit, inside, std::to_string(side), HatchRails::beside);
         if (ports[static_cast<std::size_t>(side)] == PortUse::closed) {
             add_door(kit, inside);
         }
-        // Corner post between this wall and the next, with a lamp.
+        // The corner post between this wall and the next, with a lamp.
         const Quat turn = rotation_about(Vec3::UnitY(), (side + 0.5) * k_half_pi);
         const Pose post = node * Pose{turn * Vec3(0.0, 0.0, 1.66), turn};
         kit.beam(Material::panel, post, Vec3::Zero(), Vec3(0.13, 1.09, 0.05));
@@ -59,7 +59,7 @@ void add_node_decks(StationKit& kit, const Pose& node, std::size_t seed) {
     }
 }
 
-// A point of the octagon with one flat side down, `radius_m` to its corners.
+// A corner of an octagon with a flat side at the bottom and circumradius `radius_m`.
 Vec3 octagon(int corner, double radius_m, double z) {
     double sine = 0.0;
     double cosine = 1.0;
@@ -76,8 +76,8 @@ Ring octagon_ring(double radius_m, double z) {
 }
 
 void add_cupola(StationKit& kit, const Pose& pose) {
-    constexpr double k_base_m = 0.98;   // corner radius where it meets the node
-    constexpr double k_front_m = 0.58;  // and around the pane ahead
+    constexpr double k_base_m = 0.98;   // circumradius where it meets the node
+    constexpr double k_front_m = 0.58;  // circumradius of the front pane
     constexpr double k_start_m = 0.14;
     constexpr double k_end_m = 0.72;
     const std::array<Ring, 4> base = {octagon_ring(0.88, -0.02), octagon_ring(1.08, -0.02),
@@ -115,7 +115,7 @@ void build_node(Structure& out, const StationSection& section, const Pose& pose,
     add_node_walls(kit, pose, ports);
     add_node_decks(kit, pose, section.seed);
     if (!section.attached_to.empty()) {
-        // A node that hangs on a module brings the passage between them.
+        // A node attached to a module brings the passage between them.
         add_vestibule(kit, pose * Pose{Vec3(0.0, 0.0, -k_node_outside_m), Quat::Identity()});
     }
     add_described_parts(kit, section, pose);

@@ -7,21 +7,21 @@
 
 namespace handhold {
 
-inline constexpr std::size_t k_port_count = 4;  // quarters from +Z to the left
+inline constexpr std::size_t k_port_count = 4;  // by quarter turns from +Z to the left
 
 // From a node's middle to the outside of its walls.
 double node_half_m();
 // The frame on the outside of a node's wall: +Z away from its middle.
 Pose node_port(const Pose& node, int port);
 
-// What is behind each of a node's hatchways: another section, or a closed door.
+// What a node's hatchway leads to: another section, or a closed door.
 enum class PortUse : std::uint8_t { closed, open };
 
-// A cube of four hatchways with racks in floor and ceiling; `pose` of its middle.
+// A cube with four hatchways and with racks in floor and ceiling. `pose` is of its middle.
 void build_node(Structure& out, const StationSection& section, const Pose& pose,
                 const std::array<PortUse, k_port_count>& ports);
 
-// Eight slanted panes and one ahead: a place to look out; `pose` is the node's port.
+// Eight slanted panes and a front pane. `pose` is the node's port.
 void build_cupola(Structure& out, const StationSection& section, const Pose& pose);
 
 }  // namespace handhold

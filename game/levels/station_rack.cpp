@@ -11,7 +11,7 @@ namespace {
 constexpr double k_depth_m = 0.31;  // of a rack, behind its face
 constexpr double k_gap_m = 0.006;   // between two fronts
 
-// A cell of the front: middle and half sizes across (x) and along (z).
+// A rectangle of the front: centre and half sizes, across (x) and along (z).
 struct Cell {
     double x, z, half_x, half_z;
 };
@@ -20,7 +20,7 @@ Vec3 on_face(const Cell& cell, double across, double height, double along) {
     return {cell.x + across * cell.half_x, height, cell.z + along * cell.half_z};
 }
 
-// A solid front whose face stands `proud` over the wall, 40 mm thick.
+// A solid front, 40 mm thick, whose face is `proud` above the wall.
 void add_front(StationKit& kit, Material material, const Pose& frame, const Cell& cell,
                double proud) {
     kit.panel(material, frame, Vec3(cell.x, proud - 0.02, cell.z),
@@ -30,7 +30,7 @@ void add_front(StationKit& kit, Material material, const Pose& frame, const Cell
 void add_drawer(StationKit& kit, const Pose& frame, const Cell& cell, std::size_t seed) {
     const bool is_accent = chance(seed, 1, 0) < 0.22;
     add_front(kit, is_accent ? Material::accent : Material::panel, frame, cell, 0.0);
-    // Sunk handle plate with a bar over it, a latch at its end, a label.
+    // A recessed handle plate with a bar over it, a latch at its end, and a label.
     kit.block(Material::dark, frame, on_face(cell, 0.0, 0.0, 0.0), Vec3(0.075, 0.003, 0.020));
     const std::array<Vec3, 4> bar = {on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.062, -0.004, 0.0),
                                      on_face(cell, 0.0, 0.0, 0.0) + Vec3(-0.056, 0.017, 0.0),
@@ -62,7 +62,7 @@ void add_screen(StationKit& kit, const Pose& frame, const Cell& cell, std::size_
     kit.rim(
         Material::metal, frame,
         {cell.x, cell.z, cell.half_x - k_gap_m, cell.half_z - k_gap_m, 2.0 * rim, -0.03, 0.004});
-    // What the screen shows: bars of different length.
+    // The screen's content: bars of different lengths.
     const int rows = static_cast<int>((2.0 * cell.half_z - 4.0 * rim) / 0.028);
     for (int row = 0; row < rows; ++row) {
         const double half = (0.15 + 0.75 * chance(seed, 7, static_cast<std::size_t>(row))) *
@@ -156,8 +156,7 @@ void add_bones(StationKit& kit, const Pose& frame, double z0) {
 
 void build_rack(StationKit& kit, const Pose& frame, double z0, RackKind kind, std::size_t seed) {
     add_bones(kit, frame, z0);
-    // Outer strips between track and stand-off: two panels, now and then one in the section's
-    // colour.
+    // Outer strips between track and stand-off: two panels, some in the section's colour.
     for (const double side : {-1.0, 1.0}) {
         for (int i = 0; i < 2; ++i) {
             const auto salt = 2 * static_cast<std::size_t>(i) + (side > 0.0 ? 1U : 0U);

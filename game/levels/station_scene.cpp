@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/io/file_name.hpp"
 #include "engine/io/gltf_writer.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
@@ -41,7 +42,7 @@ std::vector<std::uint32_t> indices_of(const Mesh& mesh) {
     return indices;
 }
 
-// Vertices are split where the shading has an edge.
+// Vertices are split at sharp edges.
 void add_vertices(const Mesh& mesh, GltfSurface& surface) {
     const ShadingMesh shading = make_shading_mesh(mesh);
     const std::vector<std::uint32_t> corners = indices_of(mesh);
@@ -72,7 +73,7 @@ StationScene make_station_scene(const StationDescription& description) {
     Structure station = make_station(description);
     scene.lamps = station.lamps;
     for (const SpawnPoint& spawn : station.spawns) {
-        Pose origin = spawn.pose;  // of the head: players are put where their feet are
+        Pose origin = spawn.pose;  // of the head; a scene's spawns are floor points
         origin.position -= origin.rotation * Vec3(0.0, k_eye_height_m, 0.0);
         scene.spawns.push_back({spawn.name, origin});
     }
@@ -136,6 +137,7 @@ std::string write_model_glb(const Structure& structure) {
 
 std::optional<FileError> write_station(const StationScene& station,
                                        const std::filesystem::path& folder) {
+    HH_CHECK(is_file_name(station.scene.name), "the name is no file's", station.scene.name.size());
     for (const StationModel& model : station.models) {
         const std::filesystem::path file = folder / model.file;
         std::error_code failure;
@@ -148,7 +150,7 @@ std::optional<FileError> write_station(const StationScene& station,
             return error;
         }
     }
-    // Last: a scene file is there only where everything that it names is.
+    // The scene file comes last: if it exists, so do all files that it names.
     return write_file_atomically(folder / (station.scene.name + ".json"),
                                  write_scene_file(station.scene));
 }

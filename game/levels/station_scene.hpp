@@ -12,27 +12,26 @@
 
 namespace handhold {
 
-// A mesh file that a scene of a station names, before it is written.
+// A mesh file that a station's scene names, in memory.
 struct StationModel {
-    std::filesystem::path file;  // relative to the scene's
+    std::filesystem::path file;  // relative to the scene file
     Structure structure;
 };
 
-// What a description becomes: a scene file and the models that it names. Built in memory or written
-// and loaded again, it is the same scene: same names, same triangles, same state hashes.
+// A description as a scene file and its models. Built in memory, or written and loaded again, it is
+// the same scene: same names, triangles and state hashes.
 struct StationScene {
     SceneFile scene;
     std::vector<StationModel> models;
 };
 StationScene make_station_scene(const StationDescription& description);
 
-// As load_gltf_level reads it from the file that write_model_glb makes, but for vertices that are
-// shared.
+// As load_gltf_level reads it from the file of write_model_glb, except that vertices are shared.
 GltfLevel level_of(const Structure& structure);
-// A .glb of it: a node a part below one a section, with normals and materials.
+// A .glb with a node for each part below a node for each section, with normals and materials.
 std::string write_model_glb(const Structure& structure);
 
-// Writes `folder`/<scene's name>.json and its models. The reason where that failed.
+// Writes `folder`/<scene's name>.json and its models. Returns the reason for a failure.
 std::optional<FileError> write_station(const StationScene& station,
                                        const std::filesystem::path& folder);
 

@@ -9,7 +9,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_deck_y_m = -1.28;  // the deck's face
-constexpr double k_roof_y_m = 1.22;   // the roof's face, looking down
+constexpr double k_roof_y_m = 1.22;   // the roof's face, which looks down
 constexpr double k_wall_x_m = -1.66;  // the wall's face
 constexpr double k_half_length_m = 4.0;
 constexpr double k_half_width_m = 2.0;
@@ -28,7 +28,7 @@ void add_deck(StationKit& kit) {
                       Vec3(0.612, 0.03, 0.485));
         }
     }
-    // Kerb along the open side and the front.
+    // A kerb along the open side and the front.
     kit.panel(Material::accent, frame, Vec3(1.90, 0.04, 0.0), Vec3(0.09, 0.09, 3.95));
     kit.panel(Material::accent, frame, Vec3(0.0, 0.04, -3.90), Vec3(1.80, 0.09, 0.09));
     kit.handrail("deck", frame, Vec3(0.2, 0.0, -3.0), Vec3(0.2, 0.0, 3.0));
@@ -54,7 +54,7 @@ void add_wall(StationKit& kit) {
     kit.handrail("wall_lower", frame, Vec3(k_track_m, 0.005, -3.4), Vec3(k_track_m, 0.005, 3.4));
 }
 
-// The overhang: a roof over the rear half, held by the wall and two posts.
+// A roof over the rear half, supported by the wall and two posts.
 void add_roof(StationKit& kit) {
     const Pose frame{Vec3(0.0, k_roof_y_m, 0.0), rotation_about(Vec3::UnitZ(), 2.0 * k_half_pi)};
     kit.beam(Material::hull, frame, Vec3(0.0, -0.215, 2.0), Vec3(k_half_width_m, 0.065, 2.0));
@@ -70,7 +70,7 @@ void add_roof(StationKit& kit) {
         kit.lamp(transform_point(frame, Vec3(0.0, 0.45, 0.52 + 0.985 * row)), {0.50F, 0.47F, 0.42F},
                  4.0);
     }
-    // The roof's own X points left: its rail on the open side is at negative X.
+    // The roof's X points left, so the rail on its open side is at negative X.
     kit.handrail("roof", frame, Vec3(-1.2, 0.0, 0.3), Vec3(-1.2, 0.0, 3.7));
     kit.handrail("roof_edge", frame, Vec3(-1.5, 0.0, 0.22), Vec3(-1.5, 0.0, 1.9));
     for (const double z : {0.25, 3.75}) {
@@ -85,7 +85,7 @@ void add_engines(StationKit& kit) {
             {{0.05, -0.02}, {0.07, 0.02}, {0.10, 0.07}, {0.14, 0.14}, {0.12, 0.14}, {0.05, 0.04}}};
         kit.add(Material::dark, make_revolved(bell, 24), pose);
     }
-    // Ribs and tanks on the wall's outside stay within the 4 m.
+    // Ribs and tanks on the outside of the wall stay within the 4 m.
     for (int rib = 0; rib < 5; ++rib) {
         kit.beam(Material::metal, Pose{}, Vec3(-1.985, -0.02, -3.4 + 1.7 * rib),
                  Vec3(0.03, 1.22, 0.07));

@@ -8,7 +8,7 @@
 namespace handhold {
 namespace {
 
-// Colliders are a little inside of what is seen.
+// Colliders are slightly smaller than the visuals.
 SceneShape box(const Vec3& half_m) {
     SceneShape shape;
     shape.kind = ShapeKind::box;
@@ -88,7 +88,7 @@ void draw_bottle(StationKit& kit) {
     kit.add(Material::panel, tube(0.037, -0.055, -0.010), {});
 }
 
-// Body along Z, grip down -Y.
+// The body along Z, the grip along -Y.
 void draw_drill(StationKit& kit) {
     const Vec3 nose(0.0, 0.055, -0.10);
     kit.add(Material::accent, make_capsule(nose, Vec3(0.0, 0.055, 0.055), 0.036, 20), {});

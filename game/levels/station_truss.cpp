@@ -32,7 +32,7 @@ void add_lattice(StationKit& kit, const Pose& pose, std::size_t bays) {
                     make_cylinder(corner_at(corner, z), corner_at(corner + 1, z), k_batten_m, 6),
                     pose);
             if (joint < bays) {
-                // The diagonals of neighbouring bays meet: a zigzag along each side.
+                // The diagonals of neighbouring bays meet, in a zigzag along each side.
                 const std::size_t from = corner + (joint + corner) % 2;
                 const std::size_t to = corner + 1 - (joint + corner) % 2;
                 kit.add(Material::metal,
@@ -44,7 +44,7 @@ void add_lattice(StationKit& kit, const Pose& pose, std::size_t bays) {
     }
 }
 
-// Strips along both upper chords, on which the rails stand.
+// Strips along both upper chords, under the rails.
 void add_strips(StationKit& kit, const Pose& pose, std::size_t bays) {
     const double length = k_truss_bay_m * static_cast<double>(bays);
     for (const double side : {-1.0, 1.0}) {
@@ -54,7 +54,7 @@ void add_strips(StationKit& kit, const Pose& pose, std::size_t bays) {
     }
 }
 
-// Boxes and tanks that hang between the chords, in some of the bays.
+// Boxes and tanks between the chords of some bays.
 void add_loads(StationKit& kit, const Pose& pose, const StationSection& section) {
     for (std::size_t bay = 1; bay + 1 < section.racks; ++bay) {
         const double z = k_truss_bay_m * (static_cast<double>(bay) + 0.5);

@@ -1,11 +1,9 @@
 #include "game/render/image.hpp"
 
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 #include "engine/core/check.hpp"
+#include "engine/io/text_file.hpp"
 
 // Static: the glTF library carries its own copy of both, which would clash at link time.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -62,26 +60,12 @@ std::optional<Image> decode_png(std::span<const std::uint8_t> bytes) {
     return image;
 }
 
-bool save_png(const Image& image, const std::string& path) {
+std::optional<FileError> save_png(const Image& image, const std::string& path) {
     const std::vector<std::uint8_t> png = encode_png(image);
     if (png.empty()) {
-        return false;
+        return FileError{path, "", "expected a picture, found an empty one"};
     }
-    const std::string temporary = path + ".part";
-    std::error_code error;
-    {
-        std::ofstream file(temporary, std::ios::binary);
-        for (const std::uint8_t byte : png) {
-            file.put(static_cast<char>(byte));
-        }
-        if (!file.flush()) {
-            file.close();
-            std::filesystem::remove(temporary, error);
-            return false;
-        }
-    }
-    std::filesystem::rename(temporary, path, error);
-    return !error;
+    return write_file_atomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 std::string encode_base64(std::span<const std::uint8_t> bytes) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/io/result.hpp"
+
 namespace handhold {
 
 // A picture: rows from the top, four bytes per pixel (sRGB red, green, blue, then alpha), no
@@ -23,9 +25,8 @@ struct Image {
 std::vector<std::uint8_t> encode_png(const Image& image);
 // Decodes a PNG file; nullopt if the bytes are not one.
 std::optional<Image> decode_png(std::span<const std::uint8_t> bytes);
-// Writes to a temporary name and renames, so `path` is either whole or untouched. False if the file
-// cannot be written.
-bool save_png(const Image& image, const std::string& path);
+// Writes and fails as write_file_atomically. An empty picture is refused.
+[[nodiscard]] std::optional<FileError> save_png(const Image& image, const std::string& path);
 // RFC 4648 with padding, for pictures inside an HTML page.
 std::string encode_base64(std::span<const std::uint8_t> bytes);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,16 +12,18 @@ namespace {
 
 // Copies a run of triangles. `places` maps the part's vertices to the mesh's.
 void copy_run(const Mesh& from, std::size_t first, std::size_t end, Mesh& to,
-              std::map<std::uint32_t, std::uint32_t>& places) {
+              std::vector<std::uint32_t>& places) {
+    constexpr std::uint32_t k_not_copied = std::numeric_limits<std::uint32_t>::max();
+    places.resize(from.positions.size(), k_not_copied);
     for (std::size_t t = first; t < end; ++t) {
         std::array<std::uint32_t, 3> triangle = from.triangles[t];
         for (std::uint32_t& corner : triangle) {
-            const auto [at, is_new] =
-                places.try_emplace(corner, static_cast<std::uint32_t>(to.positions.size()));
-            if (is_new) {
+            std::uint32_t& place = places[corner];
+            if (place == k_not_copied) {
+                place = static_cast<std::uint32_t>(to.positions.size());
                 to.positions.push_back(from.positions[corner]);
             }
-            corner = at->second;
+            corner = place;
         }
         to.triangles.push_back(triangle);
     }
@@ -32,7 +35,7 @@ std::vector<LevelMesh> make_level_meshes(const GltfLevel& level) {
     std::vector<LevelMesh> meshes;
     for (const LevelPart& part : level.parts) {
         std::map<std::array<float, 6>, std::size_t> mesh_of_color;
-        std::vector<std::map<std::uint32_t, std::uint32_t>> places;
+        std::vector<std::vector<std::uint32_t>> places;
         const std::size_t first_mesh = meshes.size();
         for (std::size_t run = 0; run < part.color_runs.size(); ++run) {
             const ColorRun& colors = part.color_runs[run];

@@ -13,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "engine/io/text_file.hpp"
+
 namespace handhold {
 namespace {
 
@@ -45,7 +47,14 @@ int start_program(const std::vector<std::string>& arguments, const ChildStreams&
     connect(streams.output, STDOUT_FILENO, O_WRONLY);
     connect(-1, STDERR_FILENO, O_WRONLY);
     pid_t process = -1;
-    const int error = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
+    // A process group of its own: Ctrl+C in the terminal ends the session, which then ends the
+    // encoder, and not the encoder itself.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    const int error = posix_spawnp(&process, argv[0], &actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) {
         why_not = arguments[0] + " cannot be started: " + std::system_category().message(error);
@@ -120,6 +129,11 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
         why_not = "a video needs a size and a frame rate above 0";
         return nullptr;
     }
+    const Result<std::filesystem::path> target = replaceable_file(path);
+    if (!target) {
+        why_not = target.error().message();
+        return nullptr;
+    }
     const std::string encoders =
         output_of({settings.program, "-hide_banner", "-encoders"}, why_not);
     if (encoders.empty()) {
@@ -132,7 +146,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
         why_not = std::string("no socket: ") + std::system_category().message(errno);
         return nullptr;
     }
-    const std::string temporary = path + ".part";
+    const std::string temporary = target.value().string() + ".part";
     const bool has_h264 = encoders.find("libx264") != std::string::npos;
     const int process = start_program(encoder_arguments(settings, has_h264, temporary),
                                       {.input = ends[1]}, why_not);
@@ -142,7 +156,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& path,
         return nullptr;
     }
     std::unique_ptr<VideoWriter> writer(new VideoWriter);
-    writer->path_ = path;
+    writer->path_ = target.value().string();
     writer->temporary_ = temporary;
     writer->settings_ = settings;
     writer->socket_ = ends[0];
@@ -202,6 +216,7 @@ bool VideoWriter::finish(std::string& why_not) {
     std::filesystem::rename(temporary_, path_, error);
     if (error) {
         why_not = path_ + ": " + error.message();
+        std::filesystem::remove(temporary_, error);
         return false;
     }
     return true;

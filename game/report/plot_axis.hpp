@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-// One axis of a plot: from values to pixels, and where its ticks stand.
+// One axis of a plot: the map from values to pixels, and its ticks.
 namespace handhold {
 
 struct AxisTick {
@@ -18,22 +18,22 @@ struct PlotAxis {
     double to_px = 1.0;
     bool is_logarithmic = false;
     std::vector<AxisTick> ticks;
-    std::string factor;  // what labels were divided by, "10⁻⁶", or empty: belongs before the unit
+    std::string factor;  // divisor of the labels, "10⁻⁶", or empty; goes before the unit
 
-    // Logarithmic: what is below the axis, zero and negative numbers too, lies on its end.
+    // Logarithmic: values below the axis, including zero and negative ones, map to its end.
     double to_pixel(double value) const;
 };
 
-// Round numbers, 1, 2 or 5 times a power of ten apart, within [low, high]; about `count`. low <
-// high.
+// Round numbers within [low, high], about `count`, with a step of 1, 2 or 5 times a power of ten.
+// low < high.
 std::vector<double> choose_ticks(double low, double high, int count);
 
-// From `low` to `high`, ticks in between. Where high is not above low (by 1e-100), a span of 1; so
-// too below.
+// From `low` to `high`, with ticks in between. If high is not above low by at least 1e-100, the
+// span is 1.
 PlotAxis make_exact_axis(double low, double high, int tick_count);
-// The same, grown to the next ticks outside.
+// The same, extended to the next ticks outside.
 PlotAxis make_rounded_axis(double low, double high, int tick_count);
-// Whole decades around [low, high], six at most: those at the top. 0 < low <= high.
+// Whole decades around [low, high], at most the six highest. 0 < low <= high.
 PlotAxis make_logarithmic_axis(double low, double high);
 
 }  // namespace handhold

@@ -51,8 +51,8 @@ td:last-child,th:last-child{padding-right:0}
 .share span{display:block;height:8px;min-width:1px;border-radius:2px;background:var(--plot-0)}
 )";
 
-// A relative link: whatever is not plain in a path is written as its bytes, so that no name is
-// taken for a scheme or a query.
+// A relative link. Special characters are percent-encoded, so that no name is read as a scheme or a
+// query.
 std::string escape_link(std::string_view path) {
     constexpr char k_digits[] = "0123456789ABCDEF";
     constexpr std::string_view k_plain =

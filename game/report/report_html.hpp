@@ -9,8 +9,8 @@
 #include "engine/io/result.hpp"
 #include "game/session/run_log.hpp"
 
-// report.html: a run for people, on one page that needs no other file (but the video), no network
-// and no scripts.
+// report.html: a run as one page without scripts that needs no other file (except the video) and no
+// network.
 namespace handhold {
 
 struct ReportPicture {
@@ -19,14 +19,14 @@ struct ReportPicture {
 };
 
 struct ReportMedia {
-    std::vector<ReportPicture> pictures;  // in the order of the page; become part of it
+    std::vector<ReportPicture> pictures;  // in the order of the page; embedded
     std::string video;                    // path relative to the page, "run.mp4"; empty: none
 };
 
 // Preconditions: those of summarize_run.
 std::string format_report_html(const RunLog& log, const ReportMedia& media = {});
 
-// The same into a file. Returns the reason where it cannot be written.
+// Writes format_report_html to a file. Returns the reason for a failure.
 [[nodiscard]] std::optional<FileError> write_report_html(const std::filesystem::path& path,
                                                          const RunLog& log,
                                                          const ReportMedia& media = {});

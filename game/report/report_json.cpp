@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// Keys stay in the order in which they are set: a person reads this file too.
+// Keys keep their order of insertion: people read this file too.
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, MomentumLedger::receiver_count> k_receivers = {

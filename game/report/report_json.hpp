@@ -7,15 +7,15 @@
 #include "engine/io/result.hpp"
 #include "game/session/run_log.hpp"
 
-// report.json: the figures of a run (run_summary.hpp) for scripts; keys are added, never renamed or
-// dropped.
+// report.json: the figures of a run (run_summary.hpp) for scripts. Keys may be added, never renamed
+// or dropped.
 namespace handhold {
 
-// Numbers come back bit for bit; one that is not finite is null. Names that are not UTF-8 are
-// written with replacement characters. Preconditions: those of summarize_run.
+// Numbers round-trip exactly; numbers that are not finite become null. Invalid UTF-8 in names is
+// replaced. Preconditions: those of summarize_run.
 std::string format_report_json(const RunLog& log);
 
-// The same into a file. Returns the reason where it cannot be written.
+// Writes format_report_json to a file. Returns the reason for a failure.
 [[nodiscard]] std::optional<FileError> write_report_json(const std::filesystem::path& path,
                                                          const RunLog& log);
 

@@ -35,7 +35,7 @@ std::string wrap_table(const std::string& rows) {
     return "<div class=\"scroll\"><table>\n" + rows + "</tbody></table></div>\n";
 }
 
-// The same decimals in every row: the points stand below each other.
+// A fixed number of decimals, so that decimal points align.
 std::string make_fixed_cell(double value, int decimals, const char* unit = "") {
     std::string text;
     append_fixed(text, value, decimals);
@@ -60,91 +60,93 @@ const char* meaning_of(Fallback reason) {
         case Fallback::sample_out_of_order:
             return "A tracking sample older than the one before it was ignored.";
         case Fallback::sample_not_finite:
-            return "A device's pose that was no number, or no rotation, was ignored.";
+            return "A device's pose that was not finite or not a rotation was ignored.";
         case Fallback::tracking_lost:
-            return "A device fell silent or became invalid; its last pose was kept.";
+            return "A device sent nothing or invalid poses; its last pose was kept.";
         case Fallback::hand_out_of_reach:
-            return "A sample had a hand farther from its head than any arm reaches; it was "
+            return "A hand was farther from its head than any arm reaches; the sample was "
                    "ignored.";
         case Fallback::head_recentred:
-            return "The head's tracking jumped; the player stayed where he was in the world.";
+            return "The head's tracking jumped; the player stayed in place in the world.";
         case Fallback::grab_no_surface:
             return "A hand closed with no surface within reach; it holds nothing.";
         case Fallback::grip_stretched:
             return "A hand was pulled farther from its anchor than the stretch allows and let go.";
         case Fallback::grip_lost:
-            return "A hand came back from lost tracking open; it let go without a throw.";
+            return "A hand was open when its tracking returned; it released without a throw.";
         case Fallback::grip_body_gone:
             return "The gripped body was destroyed; the hand let go.";
         case Fallback::grip_reanchored:
-            return "Tracking came back, or the other hand left: the anchor was taken anew where "
-                   "the hand was.";
+            return "Tracking returned, or the other hand released: the grip took a new anchor "
+                   "at the hand.";
         case Fallback::two_hand_grip_ended:
             return "One of two hands let go; nothing was thrown.";
         case Fallback::hands_too_close:
-            return "Two hands on one thing were too close to turn it by; the first led alone.";
+            return "Two hands on one body were too close to turn it; only the first one moved it.";
         case Fallback::contact_rounds_exhausted:
-            return "New contacts appeared after every allowed round; those left wait for the next "
+            return "New contacts appeared after the last allowed round; they wait for the next "
                    "frame.";
         case Fallback::contacts_contradict:
-            return "Hands asked for what contacts forbid; the hands' rows were set aside.";
+            return "The hands' targets contradicted contacts; the hands' rows were dropped.";
         case Fallback::contacts_unresolved:
             return "Contacts still overlapped at the end of the frame.";
         case Fallback::restored_last_valid_pose:
-            return "Nothing took bodies out of a surface; they went back to where they were "
-                   "clear of it.";
+            return "Bodies stayed inside a surface; they were restored to their last valid "
+                   "pose.";
         case Fallback::active_set_not_converged:
-            return "A solve ended before it was clear which contacts push; some may overlap.";
+            return "A solve ended before the set of pushing contacts converged; some may overlap.";
         case Fallback::hands_load_stepped:
-            return "Hands jumped too far for a solve's steps; it took them there part by part.";
+            return "Hands jumped too far for one solve; it moved them in load steps.";
         case Fallback::load_stepping_failed:
-            return "Hands jumped too far for a solve's steps, and could not be taken there part by "
-                   "part either.";
+            return "Hands jumped too far for one solve, and load stepping failed "
+                   "too.";
         case Fallback::friction_wedged:
-            return "Contacts wedged something in, or would have given it energy; their friction "
-                   "was set aside.";
+            return "Contacts wedged a body in, or would have added energy; their friction "
+                   "was dropped.";
         case Fallback::friction_not_converged:
-            return "What sticks and what slides was not settled; the last answer was taken.";
+            return "Sticking and sliding contacts did not converge; the last iterate was taken.";
         case Fallback::release_speed_clamped:
             return "A release was faster than allowed; its speed was limited.";
         case Fallback::object_speed_clamped:
-            return "A thing that hands moved, or that spins, was faster than allowed; it was "
+            return "A body moved by hands, or spinning, was faster than allowed; its speed was "
                    "limited.";
         case Fallback::head_ignores_full:
             return "The head passed through more bodies than it remembers; the oldest was "
                    "forgotten.";
         case Fallback::finger_full_search:
-            return "A finger looked at every surface within its reach: its searches did not do.";
+            return "A finger's searches failed; it tested every surface within its reach.";
         case Fallback::finger_depenetrated:
-            return "A finger would have reached into something, straight or as it closed; it was "
+            return "A finger would have penetrated something, straight or while closing; it was "
                    "bent until it was clear.";
         case Fallback::finger_opened:
-            return "A finger was still sunk and opened a little.";
+            return "A finger still penetrated something and was opened by a step.";
         case Fallback::finger_no_contact:
             return "A finger or thumb of a gripping hand met nothing; it rests in the air.";
         case Fallback::palm_lifted:
-            return "Fingers did not fit; the hand that is shown was lifted off its surface.";
+            return "Fingers did not fit; the shown hand was lifted off its surface.";
         case Fallback::body_no_surface:
-            return "A gripped body has no surface for hands; the hand is shown as it is tracked.";
+            return "A gripped body has no surface for hands; the hand is shown as tracked.";
         case Fallback::palm_no_surface:
-            return "A gripping hand had nothing under its palm; it is shown as it is tracked.";
+            return "A gripping hand had nothing under its palm; it is shown as tracked.";
         case Fallback::authored_grip_occupied:
-            return "A hand closed where another one sits in the grip; it took the next best.";
+            return "Another hand occupied the authored grip; the hand took the next best.";
         case Fallback::authored_grip_blocked:
             return "Something stood between a hand and a grip; the hand took the next best.";
         case Fallback::authored_grip_abandoned:
             return "A hand turned far away from its grip; it holds on as to any surface.";
         case Fallback::authored_finger_rejected:
-            return "A finger would have been sunk as it was posed; it closed as on any surface.";
+            return "An authored finger pose would have penetrated; the finger closed as on any "
+                   "surface.";
         case Fallback::pull_refused_fixed:
-            return "A distance grab met what cannot move or has joints; nothing was pulled.";
+            return "A distance grab hit a fixed or jointed body; nothing was pulled.";
         case Fallback::pull_refused_heavy:
-            return "A distance grab met a body that is too heavy; nothing was pulled.";
+            return "A distance grab hit a body that is too heavy; nothing was pulled.";
         case Fallback::pull_refused_held:
-            return "A distance grab met what somebody holds or pulls; nothing was pulled.";
+            return "A distance grab hit a body that another hand holds or pulls; nothing was "
+                   "pulled.";
         case Fallback::pull_lost:
-            return "What was pulled was gone, too far or in another hand, or the hand lost; it "
-                   "flies on.";
+            return "The pulled body was destroyed, too far or in another hand, or the hand was "
+                   "lost; the pull ended.";
         case Fallback::count:
             break;
     }
@@ -153,7 +155,7 @@ const char* meaning_of(Fallback reason) {
 
 std::string make_stage_table(const RunSummary& summary) {
     std::string rows = make_head({"stage"}, {"median µs", "p99 µs", "max µs", "of all time"});
-    // The bar's column has no heading of its own.
+    // The column of bars has no heading.
     const std::size_t head_end = rows.find("</tr>");
     rows.insert(head_end, "<th></th>");
     rows += "<tbody>\n";
@@ -181,7 +183,7 @@ std::string make_work_table(const RunSummary& summary, std::size_t frames) {
     add("grab_onsets", "hands that closed", totals.grab_onsets);
     add("grabs_gripped", "of these, hands that found something to hold", totals.grabs_gripped);
     add("contacts", "contact points given to the solver", totals.contacts);
-    add("contact_rounds", "searches for contacts inside of the solve", totals.contact_rounds);
+    add("contact_rounds", "searches for contacts during the solve", totals.contact_rounds);
     add("islands", "groups of bodies solved together", totals.islands);
     add("islands_pushed", "of these, groups that moved the player", totals.islands_pushed);
     add("newton_iterations", "over all groups and phases", totals.newton_iterations);
@@ -212,7 +214,7 @@ std::string make_momentum_table(const MomentumFigures& momentum) {
                 make_vector_cell(momentum.sum.linear_kgmps[i]) +
                 make_vector_cell(momentum.sum.angular_kgm2ps[i]) + "</tr>\n";
     }
-    rows += "<tr class=\"total\"><td>missing to zero, relative to all that was given</td>" +
+    rows += "<tr class=\"total\"><td>residual of the sum, relative to all impulses</td>" +
             make_number_cell(momentum.linear_residual) +
             make_number_cell(momentum.angular_residual) + "</tr>\n";
     return wrap_table(rows);

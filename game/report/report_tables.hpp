@@ -8,14 +8,14 @@
 // The tables of report.html, each a <table> element.
 namespace handhold {
 
-// Median, 99th percentile and maximum of each stage and of the whole frame, and the stage's share
-// of all time.
+// Median, 99th percentile and maximum of each stage and of the whole frame, and each stage's share
+// of the total.
 std::string make_stage_table(const RunSummary& summary);
-// What the solver did: totals, and means over `frames`.
+// Counters of the solver: totals, and means over `frames`.
 std::string make_work_table(const RunSummary& summary, std::size_t frames);
-// Every fallback with its meaning; those that never happened are greyed.
+// All fallbacks with their meanings; those that never occurred are greyed.
 std::string make_fallback_table(const RunSummary& summary);
-// Momentum by who received it, and what is missing to zero.
+// Momentum by receiver, and the residual of the sum.
 std::string make_momentum_table(const MomentumFigures& momentum);
 std::string make_player_table(const RunSummary& summary);
 

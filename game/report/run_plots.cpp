@@ -12,7 +12,7 @@ namespace {
 constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr char k_time_label[] = "time (s)";
 
-// Where a head stands on a path's plot.
+// Projects a head's position onto a plot.
 using PlacePoint = PlotPoint (*)(const Vec3& head_ws);
 
 LinePlot plot_head(const RunLog& log, PlacePoint place) {
@@ -37,7 +37,7 @@ LinePlot plot_head(const RunLog& log, PlacePoint place) {
     return plot;
 }
 
-// One value a frame, against time.
+// One value for each frame, against time.
 template <typename ValueOf>
 std::vector<PlotPoint> list_over_time(const RunLog& log, const ValueOf& value_of) {
     std::vector<PlotPoint> points;

@@ -10,14 +10,14 @@
 namespace handhold {
 namespace {
 
-// std::max would drop a NaN on either side.
+// Unlike std::max, keeps a NaN on either side.
 void keep_worst(double& worst, double value) {
     if (value > worst || std::isnan(value)) {
         worst = value;
     }
 }
 
-// The ceil(percent n / 100)-th smallest, in integers: 0.99 * 100 is not 99 in every rounding.
+// The ceil(percent n / 100)-th smallest. In integers, because 0.99 * 100 may round below 99.
 double nearest_rank(const std::vector<double>& sorted, std::size_t percent) {
     constexpr std::size_t k_hundred = 100;
     return sorted[(sorted.size() * percent + k_hundred - 1) / k_hundred - 1];
@@ -50,8 +50,8 @@ void add_counters(StageStats& totals, const StageStats& frame) {
     totals.newton_iterations += frame.newton_iterations;
 }
 
-// A hand that lets go still holds to the end of that frame: it grips where it did in this frame or
-// in the one before.
+// A hand that releases still holds until the end of that frame, so a hand counts as gripping if it
+// gripped in this frame or the last.
 void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
                      std::array<bool, k_hand_count>& gripped_before, HandErrorFigures& worst) {
     std::size_t gripping = 0;
@@ -71,7 +71,7 @@ void add_hand_errors(const FrameLog& frame, const PlayerLog& player,
     }
 }
 
-// Class i holds times from k_first_us * 1.01^i on; the first also what is shorter.
+// Class i holds times from k_first_us * 1.01^i; the first class also all shorter ones.
 constexpr double k_first_us = 0.01;
 constexpr double k_class_width = 1.01;
 constexpr std::size_t k_classes = 2400;  // up to minutes
@@ -110,7 +110,7 @@ TimeFigures RunTally::Histogram::finish(std::uint64_t total) const {
     bool median_known = false;
     for (std::size_t i = 0; i < counts.size() && seen < total; ++i) {
         seen += counts[i];
-        // The middle of the class: half a per cent from all that is in it.
+        // The middle of the class, within half a per cent of its values.
         const double time_us = k_first_us * std::pow(k_class_width, static_cast<double>(i) + 0.5);
         if (!median_known && k_hundred * seen >= 50 * total) {
             out.median_us = time_us;

@@ -9,11 +9,11 @@
 #include "components/stats.hpp"
 #include "game/session/run_log.hpp"
 
-// The figures of a whole run: report.json and report.html show the same ones.
+// Figures of a whole run, shared by report.json and report.html.
 namespace handhold {
 
-// Of a list of times. Percentiles are by nearest rank: the ceil(p n)-th smallest of n, a value that
-// occurred. All 0 of an empty list.
+// Statistics of a list of times. Percentiles are by nearest rank: the ceil(p n)-th smallest of n, a
+// value that occurred. All 0 for an empty list.
 struct TimeFigures {
     double median_us = 0.0;
     double p99_us = 0.0;
@@ -22,68 +22,68 @@ struct TimeFigures {
 };
 TimeFigures summarize_times(std::vector<double> times_us);
 
-// Worst distance of a gripping hand from its anchor, split by what the other constraints allow. A
-// player alone on one hand can always follow it; two hands keep their distance only as well as they
-// are tracked.
+// Worst distance of a gripping hand from its anchor, by how constrained the hand is. A player on
+// one hand can always follow it; two hands keep their distance only as well as they are tracked.
 struct HandErrorFigures {
-    double one_hand_free_m =
-        0.0;  // exactly one hand grips, to the frame's end; no contacts, no push-back in it
-    double two_hands_m = 0.0;  // both grip
-    double any_m = 0.0;        // a hand grips
+    double one_hand_free_m = 0.0;  // exactly one hand grips at the frame's end; no contacts and no
+                                   // push-back in the frame
+    double two_hands_m = 0.0;      // both hands grip
+    double any_m = 0.0;            // any hand grips
 };
 
 struct PlayerFigures {
     std::string name;
     double mass_kg = 0.0;
     double path_m = 0.0;       // length of the origin's path, from the end of the first frame
-    double push_back_m = 0.0;  // worst of a frame
+    double push_back_m = 0.0;  // worst frame
 };
 
 // Impulses summed over all frames.
 struct MomentumFigures {
     MomentumLedger sum;
-    // How far the receivers are from summing to zero: each frame's total, relative to all that was
-    // given in the run. Frames cannot cancel each other. 0 where nothing was given.
+    // Distance of the receivers' sum from zero: each frame's total, relative to all impulses of the
+    // run. Frames cannot cancel each other. 0 if there were none.
     double linear_residual = 0.0;
     double angular_residual = 0.0;
 };
 
-// What is worst is NaN where one of its values is: a run that broke does not look good.
+// A worst value is NaN if any of its values is, so that a broken run does not look good.
 struct RunSummary {
     std::array<TimeFigures, static_cast<std::size_t>(Stage::count)> stages;
-    TimeFigures frame;  // sum of the stages of a frame
+    TimeFigures frame;  // sum of a frame's stages
     std::uint64_t frames = 0;
     double duration_s = 0.0;       // simulated
-    double frames_per_s = 0.0;     // as fast as it went; 0 where no time was measured
+    double frames_per_s = 0.0;     // stepped per second of wall time; 0 if none was measured
     StageStats totals;             // counters and fallbacks only
     double residual_m = 0.0;       // worst contact overlap
-    double joint_error_m = 0.0;    // worst joint, points and limits of sliders
-    double joint_error_rad = 0.0;  // the same of directions and angles
+    double joint_error_m = 0.0;    // worst joint: points, and limits of sliders
+    double joint_error_rad = 0.0;  // worst joint: directions and angles
     HandErrorFigures hand_error;
-    double push_back_m = 0.0;  // worst of a frame and player
+    double push_back_m = 0.0;  // worst frame and player
     MomentumFigures momentum;
     std::vector<PlayerFigures> players;
 };
 
-// Preconditions: indices of players lie in RunLog::player_names, and player_mass_kg is as long.
+// Preconditions: indices of players are valid in RunLog::player_names, and player_mass_kg is as
+// long.
 RunSummary summarize_run(const RunLog& log);
 
-// Sums up a run frame by frame, where the frames are not kept: memory does not grow with the run.
-// Its figures are those of summarize_run, but for percentiles of times, which are within 1 %.
+// Summarises a run frame by frame without keeping frames, in constant memory. Its figures equal
+// those of summarize_run, except that percentiles of times are within 1 %.
 class RunTally {
   public:
     RunTally();
     void add(const FrameLog& frame);
-    // `log` for all but its frames. Preconditions as summarize_run.
+    // Uses all of `log` but its frames. Preconditions as summarize_run.
     RunSummary finish(const RunLog& log) const;
 
   private:
     friend RunSummary summarize_run(const RunLog& log);
 
-    // Counts of times in classes that are 1 % wide.
+    // Counts of times in classes 1 % wide.
     struct Histogram {
         std::vector<std::uint64_t> counts;
-        TimeFigures figures;  // largest and sum
+        TimeFigures figures;  // maximum and sum
         void add(double time_us);
         TimeFigures finish(std::uint64_t total) const;
     };
@@ -94,8 +94,8 @@ class RunTally {
     };
     // One kind of momentum.
     struct MomentumTally {
-        double error = 0.0;  // of all frames' totals
-        double given = 0.0;  // by all receivers in all frames
+        double error = 0.0;  // sum of all frames' totals
+        double given = 0.0;  // sum over all receivers and frames
         void add(const std::array<Vec3, MomentumLedger::receiver_count>& frame,
                  std::array<Vec3, MomentumLedger::receiver_count>& sum);
         double residual() const { return given == 0.0 ? 0.0 : error / given; }

@@ -14,10 +14,10 @@ namespace {
 constexpr double k_margin_left_px = 58.0;
 constexpr double k_margin_right_px = 14.0;
 constexpr double k_title_px = 20.0;   // height of the title's line
-constexpr double k_legend_px = 20.0;  // of each line of the legend
+constexpr double k_legend_px = 20.0;  // height of each line of the legend
 constexpr double k_margin_bottom_px = 44.0;
-constexpr double k_letter_px = 6.6;   // mean width, for the legend's places
-constexpr double k_swatch_px = 34.0;  // a legend's line and the gaps around it
+constexpr double k_letter_px = 6.6;   // mean width, to lay out the legend
+constexpr double k_swatch_px = 34.0;  // line sample and gaps in the legend
 constexpr std::size_t k_max_name_letters = 28;
 
 struct Range {
@@ -43,7 +43,7 @@ struct PlotFrame {
     PlotAxis y;
 };
 
-// Beyond 1e100 spans would overflow; whatever measured that is broken anyway.
+// Beyond 1e100 a span would overflow; such values are broken anyway.
 bool is_finite_point(const PlotPoint& point) {
     constexpr double k_most = 1e100;
     return std::abs(point.x) <= k_most && std::abs(point.y) <= k_most;
@@ -71,11 +71,11 @@ Range widen_to(const Range& range, double span) {
     return {middle - 0.5 * span, middle + 0.5 * span};
 }
 
-// Both ranges with the same metres a pixel, and a little room around the path.
+// Gives both ranges the same scale, with a margin around the path.
 void make_equal(PlotRanges& ranges, double width_px, double height_px) {
     constexpr double k_room = 1.1;
     constexpr double k_narrowest = 0.1;
-    // Far from zero a span must still be more than the numbers' own steps.
+    // Far from zero a span must exceed the spacing of doubles.
     constexpr double k_min_share = 1e-9;
     const double farthest = std::max({std::abs(ranges.x.low), std::abs(ranges.x.high),
                                       std::abs(ranges.y.low), std::abs(ranges.y.high)});
@@ -190,9 +190,9 @@ struct LegendEntry {
     int color = 0;
 };
 
-// Left to right below the title, in as many lines as it takes.
+// Left to right below the title, in as many lines as needed.
 std::vector<LegendEntry> place_legend(const LinePlot& plot) {
-    constexpr double k_legend_left_px = 2.0;  // room for round ends
+    constexpr double k_legend_left_px = 2.0;  // for round line ends
     std::vector<LegendEntry> entries;
     if (plot.series.size() < 2) {
         return entries;
@@ -222,7 +222,7 @@ void append_legend(std::string& svg, const std::vector<LegendEntry>& entries) {
     }
 }
 
-// One unbroken part of a line. A single point becomes a dot: a line of no length with round ends.
+// An unbroken part of a line. A single point becomes a dot: a line of zero length with round ends.
 void append_run(std::string& path, std::span<const PlotPoint> run) {
     std::string last;
     std::size_t count = 0;
@@ -337,8 +337,8 @@ std::string draw_line_plot(const LinePlot& plot) {
 }
 
 std::string line_plot_css() {
-    // Hues that stay apart for colour-blind readers, in the order in which they are used; darker on
-    // light ground, lighter on dark.
+    // Hues that colour-blind readers can tell apart, in order of use; darker on a light ground,
+    // lighter on a dark one.
     constexpr std::array<const char*, k_plot_colors> k_on_light = {"#1f6fd0", "#d9600a", "#0f8a63",
                                                                    "#8a4fc4", "#c2307a", "#8a6a10"};
     constexpr std::array<const char*, k_plot_colors> k_on_dark = {"#6fb0ff", "#ff9d57", "#4fcf9a",

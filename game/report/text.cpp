@@ -16,12 +16,12 @@ bool append_not_finite(std::string& text, double value) {
     if (std::isfinite(value)) {
         return false;
     }
-    // Never "-nan": which sign a NaN carries differs between compilers.
+    // Never "-nan": the sign of a NaN differs between compilers.
     text += std::isnan(value) ? "nan" : (value > 0.0 ? "inf" : "-inf");
     return true;
 }
 
-// A positive number's thousands apart by thin spaces, from five digits before the point on.
+// Separates thousands of a positive number by thin spaces, from five digits before the point on.
 std::string group_thousands(const std::string& digits) {
     constexpr std::size_t k_group = 3;
     const std::size_t point = std::min(digits.find('.'), digits.size());

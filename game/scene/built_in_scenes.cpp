@@ -24,7 +24,7 @@ Scene empty_scene(std::string name, std::string description) {
     return scene;
 }
 
-// A structure's spawns say where the head is; players are put where their feet are.
+// The spawns of a structure are eye positions; a scene's spawns are floor points.
 void add_spawns(const Structure& structure, Scene& scene) {
     for (const SpawnPoint& spawn : structure.spawns) {
         Pose origin = spawn.pose;
@@ -33,15 +33,14 @@ void add_spawns(const Structure& structure, Scene& scene) {
     }
 }
 
-// The parts lie in one frame: any of their bodies carries the rails.
+// All parts share one frame, so the rails belong to any of their bodies.
 void add_rails(const std::vector<HandrailSpan>& rails, Scene& scene) {
     for (const HandrailSpan& rail : rails) {
         scene.rails.push_back({scene.visuals.front().body, rail.start, rail.end});
     }
 }
 
-// --- station
-// ---------------------------------------------------------------------------------------------------------
+// --- station ---
 
 const Vec3 k_hab_rail(-1.033, 0.560, 0.0);  // hab/left_upper, along z
 
@@ -49,7 +48,7 @@ SessionScript station_script() {
     SessionScript script;
     const Vec3 ahead = -Vec3::UnitZ();
     script.duration_s = 20.5;
-    // Along the habitat's rail, through the hatch from bar to bar, a push, across the node, a catch
+    // Along the habitat's rail, hand over hand through the hatch, a push across the node, a catch
     // at its far hatch, and a look out of the cupola behind it.
     script.body = {{0.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
                    {1.0, Vec3(-0.52, 0.50, 5.60), Vec3::Zero()},
@@ -74,15 +73,15 @@ SessionScript station_script() {
     add_crawl(crawl, script);
     script.holds.push_back(
         {HandSide::left, 7.15, 8.0, Vec3(-1.013, 0.560, 2.58), Vec3::UnitX(), Vec3::UnitY()});
-    // The bar over the habitat's hatch: palms under it, fingers ahead.
+    // On the bar above the habitat's hatch: palms under the bar, fingers forward.
     const Vec3 under = -Vec3::UnitY();
     const auto hold = [&](HandSide side, double from_s, double until_s, const Vec3& on_axis) {
         script.holds.push_back({side, from_s, until_s, on_axis + 0.02 * under, under, ahead});
     };
     hold(HandSide::right, 7.6, 10.1, Vec3(0.16, 0.885, 1.893));
     hold(HandSide::left, 8.7, 9.6, Vec3(-0.18, 0.885, 1.893));
-    // The node's hatches have no bars over them, but collars: palms under the upper edge of the one
-    // behind, fingers round it; then against the face of the one ahead.
+    // The node's hatches have collars instead of bars: first palms under the upper edge of the
+    // collar behind, then against the face of the collar ahead.
     hold(HandSide::left, 10.05, 11.5, Vec3(-0.18, 0.668, 1.235));
     hold(HandSide::right, 10.7, 11.5, Vec3(0.18, 0.668, 1.235));
     const Vec3 back = Vec3::UnitZ();
@@ -91,14 +90,14 @@ SessionScript station_script() {
         {HandSide::right, 12.9, 20.5, collar + Vec3(0.18, 0.0, 0.0), back, Vec3::UnitY()});
     script.holds.push_back(
         {HandSide::left, 13.6, 17.4, collar - Vec3(0.18, 0.0, 0.0), back, Vec3::UnitY()});
-    // Towards the pane: the eyes follow the hands.
+    // The eyes follow the hands towards the pane.
     script.reaches.push_back(
         {HandSide::left, 18.6, Vec3(-0.16, -0.06, -1.74), back, Vec3::UnitY()});
     script.reaches.push_back({HandSide::left, 20.5, Vec3(-0.20, 0.00, -1.76), back, Vec3::UnitY()});
     return script;
 }
 
-// The game's own description, built without a file in between.
+// From the description that is compiled into the game; no file is read.
 Scene make_station_scene() {
     StationScene station = make_station_scene(own_station_description());
     add_session_spawn(station.scene);
@@ -116,23 +115,22 @@ Scene make_station_scene() {
     return std::move(scene.value());
 }
 
-// --- ship
-// ------------------------------------------------------------------------------------------------------------
+// --- ship ---
 
 constexpr double k_ship_speed_mps = 20.0;
 constexpr double k_ship_spin_radps = 0.06;
 constexpr double k_rock_radius_m = 0.08;
 constexpr double k_rock_mass_kg = 5.0;
-constexpr double k_first_grip_s = 0.35;       // when the session's player first holds on
-constexpr double k_pick_s = 8.6;              // and when he takes the rock
-const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // then, in the ship's frame
+constexpr double k_first_grip_s = 0.35;       // the session's first grip
+constexpr double k_pick_s = 8.6;              // the session picks up the rock
+const Vec3 k_rock_place(-1.10, 0.12, -0.95);  // at that time, in the ship's frame
 const Vec3 k_ship_rail(-1.593, 0.530, 0.0);   // ship/wall_upper, along z
-constexpr double k_ship_wall_x = -1.65;       // about: the session shoves well into it
+constexpr double k_ship_wall_x = -1.65;  // approximately; the session pushes well into the wall
 
 SessionScript ship_script() {
     SessionScript script;
     script.play_space = rotation_about(
-        Vec3::UnitY(), k_half_pi);  // facing the wall, -x; the right hand is towards -z
+        Vec3::UnitY(), k_half_pi);  // facing the wall (-x); the right hand is towards -z
     script.duration_s = 20.0;
     const Vec3 along = -Vec3::UnitZ();
     script.body = {{0.0, Vec3(-1.02, 0.72, 2.50), Vec3::Zero()},
@@ -152,7 +150,7 @@ SessionScript ship_script() {
     add_crawl(crawl, script);
     script.holds.push_back({HandSide::left, 7.2, 15.6, k_ship_rail + Vec3(0.02, 0.0, -0.10),
                             Vec3::UnitX(), Vec3::UnitY()});
-    // The rock: taken from above, waved about, then shoved into the wall; the wall shoves back.
+    // The rock is taken from above, waved, then pushed into the wall, which pushes back.
     const Vec3 up = Vec3::UnitY();
     const Vec3 fingers = -Vec3::UnitX();
     const Vec3 on_rock = k_rock_place + (k_rock_radius_m + 0.005) * up;
@@ -191,7 +189,7 @@ Scene make_ship_scene() {
         part.body.kind = BodyKind::kinematic;
         part.shape = scene.shapes->add_mesh(mesh);
         part.velocity = {velocity, spin};
-        const Entity entity = add_body(scene.world, part);
+        const Entity entity = add_body(scene.world, part, *scene.shapes);
         scene.world.mover.add(entity, {{}, velocity, spin, false});
         scene.body_names.push_back(name);
         scene.visuals.push_back({entity, mesh, std::nullopt, ship.looks[i]});
@@ -201,17 +199,18 @@ Scene make_ship_scene() {
     rock.shape = scene.shapes->add_sphere(k_rock_radius_m);
     rock.body = {BodyKind::free, k_rock_mass_kg,
                  solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
-    // It floats straight on while the ship turns: placed so that the turning brings it to the
-    // session's hand in time.
+    // The rock moves in a straight line while the ship turns. It starts where the turning ship
+    // brings it to the session's hand in time.
     rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
     rock.velocity = {velocity, Vec3::Zero()};
-    const Entity entity = add_body(scene.world, rock);
+    const Entity entity = add_body(scene.world, rock, *scene.shapes);
     scene.body_names.emplace_back("rock");
     scene.visuals.push_back(
         {entity, std::make_shared<const Mesh>(make_held_rock()), std::nullopt, {}});
     scene.lamps = ship.lamps;
     scene.lamps_body = scene.world.mover.owners()[0];
-    // Nor does the ship turn him who does not hold it yet: placed so that it turns to him in time.
+    // The ship does not turn a player who holds nothing either: the spawn is where the ship's
+    // turning meets the player in time.
     const Pose turned{Vec3::Zero(), rotation_from_vector(spin * k_first_grip_s)};
     scene.spawns.push_back({"rail", turned * session_origin(ship_script())});
     add_spawns(ship, scene);
@@ -219,14 +218,13 @@ Scene make_ship_scene() {
     return scene;
 }
 
-// --- crowd
-// -----------------------------------------------------------------------------------------------------------
+// --- crowd ---
 
-// Whoever plays goes where the station's session goes.
+// The first player plays the station's session.
 Scene make_crowd_scene() {
     Scene scene = make_station_scene();
     scene.name = "crowd";
-    scene.description = "the station with a dozen scripted climbers and things that float about";
+    scene.description = "the station with a dozen scripted climbers and free bodies";
     scene.session = SceneSession{{}, scene.name};
     fill_with_crowd(scene);
     return scene;

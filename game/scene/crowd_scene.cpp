@@ -16,12 +16,12 @@ namespace {
 constexpr int k_climbers = 12;
 constexpr std::size_t k_body_count = 24;
 constexpr std::uint64_t k_seed = 7;
-constexpr double k_session_clearance_m = 3.0;  // about the first spawn, where the session begins
+constexpr double k_session_clearance_m = 3.0;  // around the first spawn, where the session begins
 
 struct Thing {
     const char* name;
     double mass_kg;
-    Vec3 half_m;  // a box; a ball of x() where y() is zero
+    Vec3 half_m;  // half extents of a box; a ball of radius x() if y() is zero
     Color color;
 };
 constexpr std::size_t k_body_kinds = 4;
@@ -44,7 +44,7 @@ void add_free_body(Scene& scene, const Thing& thing, const std::string& name, co
                  solid_inertia(scene.shapes->at(body.shape), thing.mass_kg), 0.3};
     body.pose_ws = pose_ws;
     body.velocity = velocity;
-    const Entity entity = add_body(scene.world, body);
+    const Entity entity = add_body(scene.world, body, *scene.shapes);
     scene.body_names.push_back(name);
     Mesh mesh = ball ? make_sphere(thing.half_m.x()) : make_box(thing.half_m);
     scene.visuals.push_back(

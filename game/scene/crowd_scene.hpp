@@ -4,8 +4,9 @@
 
 namespace handhold {
 
-// Turns a scene into the crowd: things float about in its free space, small jets for all, and a
-// dozen climbers beside whoever plays. The first spawn's surroundings stay as they are.
+// Turns a scene into the crowd: free bodies float in its open space, all players have small jets,
+// and a dozen climbers accompany the first player. The surroundings of the first spawn stay as they
+// are.
 void fill_with_crowd(Scene& scene);
 
 }  // namespace handhold

@@ -8,7 +8,7 @@ void place_scene(const Scene& scene, FrameCaches& caches) {
     const World& w = scene.world;
     place_colliders(
         {w.persistent_id, w.collider, w.body, w.body_pose, w.body_start, w.player_origin,
-         w.head_tracking, w.last_valid, caches.collision, caches.graph},
+         w.player_start, w.head_tracking, w.last_valid, caches.collision, caches.graph},
         scene.tuning.head);
 }
 

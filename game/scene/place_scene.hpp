@@ -5,9 +5,9 @@
 
 namespace handhold {
 
-// Brings the collision world of `caches` to where everything in the scene is now, for questions
-// between two frames: whoever asks then sees the world alone, not what the caches were last used
-// for. Frames do the same for themselves.
+// Moves the colliders of `caches` to the present poses of everything in the scene. Call it before
+// queries between two frames: the caches may have been used for another world. step_frame does it
+// for itself.
 void place_scene(const Scene& scene, FrameCaches& caches);
 
 }  // namespace handhold

@@ -14,20 +14,20 @@ const Vec3 k_rail(0.0, 0.98, 0.16);  // along x
 constexpr double k_eyes_y_m = 1.48;
 constexpr double k_eyes_z_m = 0.62;
 constexpr double k_crawl_mps = 0.55;
-constexpr const char* k_gun_model = "gun.glb";  // made, not loaded
+constexpr const char* k_gun_model = "gun.glb";  // built in code, not loaded
 
-// Floats to the right of where the session begins, and points across it to the left.
+// To the right of where the session begins, pointing across it to the left.
 Pose gun_place() { return {Vec3(-3.02, 1.31, 0.45), rotation_about(Vec3::UnitY(), 1.05)}; }
 
 Vec3 eyes_before(double x_m, double z_m = k_eyes_z_m) { return {x_m, k_eyes_y_m, z_m}; }
 
-// The left hand keeps to the rail while the right one is at work.
+// The left hand stays on the rail while the right hand works.
 void stay(double from_s, double until_s, double x_m, SessionScript& script) {
     script.holds.push_back({HandSide::left, from_s, until_s, k_rail + Vec3(x_m, 0.0, 0.02),
                             Vec3::UnitZ(), Vec3::UnitY()});
 }
 
-// From one thing to the next, hand over hand along the rail.
+// Hand over hand along the rail to the next contraption.
 void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script) {
     const double until_s = from_s + (to_x_m - from_x_m) / k_crawl_mps;
     const Vec3 along = Vec3::UnitX();
@@ -45,7 +45,7 @@ void crawl(double from_s, double from_x_m, double to_x_m, SessionScript& script)
     add_crawl(hands, script);
 }
 
-// What the right hand takes hold of, and then does with it.
+// A grab by the right hand and the motions that follow.
 struct Work {
     SessionScript& script;
     double from_s;
@@ -59,7 +59,7 @@ struct Work {
     void move(double t_s, const Vec3& by) const {
         script.reaches.push_back({HandSide::right, t_s, palm + by, away, fingers});
     }
-    // As a part of something that turns about `pivot`.
+    // Turns the hand about `pivot`, as a part of a rotating body would move it.
     void turn(double t_s, const Vec3& pivot, const Vec3& axis, double angle_rad) const {
         const Quat turned = rotation_about(axis, angle_rad);
         script.reaches.push_back({HandSide::right, t_s, pivot + turned * (palm - pivot),
@@ -86,14 +86,14 @@ void work_drawer(double t_s, SessionScript& script) {
     drawer.move(t_s + 2.4, Vec3(0.0, 0.0, 0.06));
 }
 
-// The handle is turned down, the door follows it, and the handle comes back.
+// Turns the handle down, pulls the door open, and lets the handle return.
 void work_door(double t_s, SessionScript& script) {
     const Work handle{script, t_s, Vec3(-0.06, 1.5, 0.345), Vec3::UnitZ(), -Vec3::UnitY()};
     const Vec3 pivot(0.02, 1.5, 0.345);
     const Vec3 hinge(-0.485, 1.5, 0.272);
     handle.hold(t_s + 3.4);
     handle.turn(t_s + 0.3, pivot, Vec3::UnitZ(), 0.0);
-    // About +z the handle's free end, on its -x side, goes down.
+    // A positive angle about +z lowers the handle's free end, which is on its -x side.
     handle.turn(t_s + 0.9, pivot, Vec3::UnitZ(), 0.7);
     const Quat down = rotation_about(Vec3::UnitZ(), 0.7);
     const Vec3 palm = pivot + down * (handle.palm - pivot);
@@ -124,7 +124,7 @@ void work_cable(double t_s, SessionScript& script) {
     link.move(t_s + 3.2, Vec3(0.05, 0.05, -0.03));
 }
 
-// The rock is wider than the gap: shoved at it, it pushes whoever shoves.
+// The rock is wider than the gap: pushing it in pushes the player back.
 void work_rock(double t_s, SessionScript& script) {
     const Work rock{script, t_s, Vec3(3.42, 1.62, 0.505), Vec3::UnitZ(), Vec3::UnitY()};
     rock.hold(t_s + 3.6);
@@ -135,7 +135,7 @@ void work_rock(double t_s, SessionScript& script) {
     rock.move(t_s + 3.4, Vec3(0.0, 0.05, 0.20));
 }
 
-// The wrist's place as a script has it.
+// Where a script puts a wrist.
 struct ScriptedWrist {
     Vec3 palm, away, fingers;
 };
@@ -144,8 +144,8 @@ ScriptedWrist scripted_wrist(const Pose& wrist) {
             wrist.rotation * -Vec3::UnitZ()};
 }
 
-// The right hand closes near the handle and has it; it looks along the gun here and there, puts it
-// back, and takes it once more by its back, where no grip is near.
+// The right hand takes the gun by its handle, looks along it, returns it, and takes it again by its
+// back, where no authored grip is near.
 void work_gun(double t_s, SessionScript& script) {
     const GunModel gun = make_gun();
     const Pose wrist_in_gun = gun.grips.front().grip.hands[index_of(HandSide::right)].wrist_bs;
@@ -166,7 +166,7 @@ void work_gun(double t_s, SessionScript& script) {
     aim(t_s + 2.1, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 2.5, Vec3(-3.20, 1.40, 0.46), 0.5, 0.75);
     aim(t_s + 3.4, Vec3(-3.10, 1.38, 0.50), -0.8, 0.2);
-    // Where the hand let go the gun lies as the grip has it in that hand.
+    // After the release, the gun lies where the grip held it.
     const Pose left_at = back * inverse(wrist_in_gun);
     const Pose on_back{transform_point(left_at, Vec3(0.0, 0.076, -0.085)),
                        left_at.rotation * rotation_about(Vec3::UnitY(), 1.2)};
@@ -209,7 +209,7 @@ Scene make_playground_scene() {
 
 SessionScript playground_script() {
     SessionScript script;
-    constexpr double k_gun_s = 8.2;  // before the contraptions
+    constexpr double k_gun_s = 8.2;  // before the other contraptions
     script.body.push_back({0.0, eyes_before(-3.4), Vec3::Zero()});
     stay(0.4, k_gun_s + 4.4, -3.65, script);
     work_gun(1.2, script);

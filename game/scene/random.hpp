@@ -7,8 +7,9 @@
 
 namespace handhold {
 
-// Chance that is the same on every machine: a counter through a mixer (SplitMix64). The
-// distributions of <random> differ between libraries. Copying it copies where it stands.
+// A random number generator with equal results on every machine: a counter through a mixer
+// (SplitMix64). The distributions of <random> differ between libraries. A copy continues with the
+// same numbers.
 class Random {
   public:
     explicit Random(std::uint64_t seed = 0) : state_(seed) {}
@@ -29,7 +30,7 @@ class Random {
         const double z = between(-1.0, 1.0);
         return {x, y, z};
     }
-    // Unit, every direction alike.
+    // A unit vector, uniform over the sphere.
     Vec3 direction() {
         for (;;) {
             const Vec3 v = cube();

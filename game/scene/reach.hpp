@@ -5,13 +5,13 @@
 
 namespace handhold {
 
-// A bay with a rail and things that float far off, with the distance grab on (game/assets/
-// reach.json); its grip meshes are made by whoever asks for it.
+// A bay with a rail and distant free bodies, with distance grab on (game/assets/reach.json). The
+// caller makes its grip meshes.
 Scene make_reach_scene();
 
-// A canister is pulled from two metres off and taken, a safe is too heavy and stays, a ball is let
-// go on its way and flies past; then hands are pulled apart on one rail and pushed into a slab,
-// and ghosts show where they are.
+// A canister is pulled from two metres away and taken. A safe is too heavy and stays. A ball is
+// released on its way and flies past. Then the hands are pulled apart on one rail and pushed into a
+// slab, where ghosts show the tracked hands.
 SessionScript reach_script();
 
 }  // namespace handhold

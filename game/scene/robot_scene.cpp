@@ -12,7 +12,7 @@ namespace {
 const Vec3 k_left_rail(-0.28, 0.3125, 0.0);   // robot/left, along z
 const Vec3 k_first_rung(0.0, 0.3125, -0.62);  // robot/rung_0, along x
 
-// All of a structure as one collider; what is seen keeps its materials.
+// All parts of a structure as one collision mesh; the visuals keep their materials.
 Mesh whole_mesh(const Structure& structure) {
     Mesh whole;
     for (const Mesh& part : structure.parts) {
@@ -45,7 +45,7 @@ Entity add_kinematic(const std::string& name, ShapeId shape, const Pose& pose,
     body.velocity = velocity;
     body.shape = shape;
     scene.body_names.push_back(name);
-    return add_body(scene.world, body);
+    return add_body(scene.world, body, *scene.shapes);
 }
 
 Entity add_torso(const Structure& torso, const PosePath& path, Scene& scene) {
@@ -76,7 +76,7 @@ SessionScript robot_script() {
     const Vec3 ahead = -Vec3::UnitZ();
     const Vec3 up = Vec3::UnitY();
     script.duration_s = 20.0;
-    // From tail to head along the left rail, then two hands on the first rung, into the bend.
+    // From tail to head along the left rail, then both hands on the first rung, into the bend.
     const double height = 0.78;
     script.body = {{0.0, Vec3(-0.10, height, 1.00), Vec3::Zero()},
                    {0.8, Vec3(-0.10, height, 1.00), Vec3::Zero()},

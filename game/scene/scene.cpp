@@ -1,6 +1,7 @@
 #include "game/scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -22,7 +23,7 @@ std::shared_ptr<const Mesh> placed_mesh(Mesh mesh, const SceneLevel& level) {
     return std::make_shared<const Mesh>(std::move(mesh));
 }
 
-// A static body that is not drawn.
+// A static body without a visual.
 Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<const Mesh> mesh,
                        const Pose& pose_ws) {
     BodyDescription description;
@@ -30,10 +31,10 @@ Entity add_static_body(Scene& scene, const std::string& name, std::shared_ptr<co
     description.pose_ws = pose_ws;
     description.shape = scene.shapes->add_mesh(std::move(mesh));
     scene.body_names.push_back(name);
-    return add_body(scene.world, description);
+    return add_body(scene.world, description, *scene.shapes);
 }
 
-// Builds a scene file's bodies one by one; the first error is kept and ends it.
+// Builds a scene file's bodies one by one. Stops at the first error and keeps it.
 class SceneBuilder {
   public:
     SceneBuilder(const SceneFile& file, const std::filesystem::path& path,
@@ -68,8 +69,8 @@ class SceneBuilder {
     }
 
   private:
-    // The file's own names differ, but parts of levels and players' hands get theirs here. False,
-    // with the error kept, where somebody has it already.
+    // Names within the file are unique already; parts of levels and players' hands get their names
+    // here. Returns false, and keeps the error, if the name is taken.
     bool take_name(const std::string& name) {
         if (!error_ && !names_.insert(name).second) {
             error_ =
@@ -81,7 +82,7 @@ class SceneBuilder {
 
     Vec3 turned(const Vec3& vector) const { return file_.world_transform.rotation * vector; }
 
-    // Null, with the error kept, where the file is refused.
+    // Empty, with the error kept, if the file is refused.
     std::optional<GltfLevel> load(const std::filesystem::path& path) {
         if (error_) {
             return std::nullopt;
@@ -121,7 +122,7 @@ class SceneBuilder {
                     add_static_body(scene_, name, placed_mesh(mesh, level), file_.world_transform));
             }
         }
-        if (!bodies.empty()) {  // they stand still together: any of them carries the pictures
+        if (!bodies.empty()) {  // they are static, so any of them carries the visuals
             for (LevelMesh& part : make_level_meshes(*loaded)) {
                 scene_.visuals.push_back({bodies.front(), placed_mesh(std::move(part.mesh), level),
                                           std::nullopt, part.look});
@@ -139,7 +140,7 @@ class SceneBuilder {
         }
     }
 
-    // All of a file's parts as one mesh: one however many bodies name it, so that they share it.
+    // All parts of a file as one mesh, shared by all bodies that name the file.
     std::shared_ptr<const Mesh> load_mesh(const std::filesystem::path& path) {
         std::shared_ptr<const Mesh>& mesh = meshes_[path];
         if (mesh != nullptr) {
@@ -244,18 +245,32 @@ class SceneBuilder {
                                   : solid_inertia(scene_.shapes->at(shape.shape), body.mass_kg);
             description.velocity = {turned(body.velocity_mps), turned(body.angular_velocity_radps)};
         }
-        const Entity entity = add_body(scene_.world, description);
+        const Entity entity = add_body(scene_.world, description, *scene_.shapes);
         scene_.body_names.push_back(body.name);
         add_grips(body, shape.frame, entity);
         if (body.kind == BodyKind::kinematic) {
             set_moving(body, entity);
         }
         if (body.visual.empty()) {
-            scene_.visuals.push_back(
-                {entity, make_shape_mesh(scene_.shapes->at(shape.shape)), body.color, {}});
+            scene_.visuals.push_back({entity, shape_mesh(shape.shape), body.color, {}});
         } else if (const std::optional<GltfLevel> drawn = load(body.visual)) {
             add_visuals(entity, *drawn, inverse(shape.frame));
         }
+    }
+
+    // Equal simple shapes share a mesh: a scene may have 100,000 equal links of chains.
+    std::shared_ptr<const Mesh> shape_mesh(ShapeId id) {
+        const Shape& shape = scene_.shapes->at(id);
+        if (shape.hull != nullptr || shape.parts != nullptr || shape.mesh != nullptr) {
+            return make_shape_mesh(shape);
+        }
+        std::shared_ptr<const Mesh>& mesh =
+            shape_meshes_[{static_cast<double>(shape.kind), shape.half_m.x(), shape.half_m.y(),
+                           shape.half_m.z(), shape.radius_m, shape.half_height_m}];
+        if (mesh == nullptr) {
+            mesh = make_shape_mesh(shape);
+        }
+        return mesh;
     }
 
     void add_grips(const SceneBody& body, const Pose& shape_frame, Entity entity) {
@@ -329,13 +344,14 @@ class SceneBuilder {
     const std::filesystem::path& path_;
     const LevelSource& levels_;
     Scene& scene_;
-    std::string place_;            // of what is being added
-    std::set<std::string> names_;  // taken
+    std::string place_;            // JSON pointer of what is being added
+    std::set<std::string> names_;  // taken names
     std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
+    std::map<std::array<double, 6>, std::shared_ptr<const Mesh>> shape_meshes_;  // by their numbers
     std::optional<FileError> error_;
 };
 
-// Any level by itself: its mesh nodes are static bodies, and nothing else is there.
+// A level by itself: each mesh node is a static body.
 SceneFile level_scene(const std::filesystem::path& path) {
     SceneFile file;
     file.name = path.stem().string();
@@ -424,7 +440,7 @@ PlayerEntities add_scene_player(Scene& scene, const ScenePlayerStart& start) {
     description.origin_ws = start.origin_ws;
     description.velocity_mps = scene.world.reference_velocity_mps;
     description.head_shape = scene.head_shape;
-    return add_player(scene.world, description);
+    return add_player(scene.world, description, *scene.shapes);
 }
 
 }  // namespace handhold

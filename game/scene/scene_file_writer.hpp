@@ -6,9 +6,8 @@
 
 namespace handhold {
 
-// The JSON of a scene, as docs/reference/scene_format.md says; parse_scene_file reads from it what
-// was given, number for number, but for the last digit of joints' angles. Paths are written as they
-// are.
+// The scene as JSON (docs/reference/scene_format.md). parse_scene_file reads the same numbers back,
+// except for the last digit of joints' angles. Paths are written unchanged.
 std::string write_scene_file(const SceneFile& scene);
 
 }  // namespace handhold

@@ -6,30 +6,28 @@
 #include "components/authored_grip.hpp"
 #include "engine/io/json.hpp"
 
-// Authored grips as files give them: one object of a body's "grips"
-// (docs/reference/scene_format.md).
+// Authored grips in files: objects in a body's "grips" (docs/reference/scene_format.md).
 namespace handhold {
 
-// In the frame of the body's shape (as `_bs` until the body is built: a hull's or a compound's
-// centre of mass is elsewhere).
+// In the frame of the body's shape (called `_bs` until the body is built, although the centre of
+// mass of a hull or compound is elsewhere).
 struct SceneGrip {
-    std::string name;  // unique among the body's
+    std::string name;  // unique among the body's grips
     AuthoredGrip grip;
-    int mirror_axis = k_no_mirror;  // 0 to 2: the left hand is the right one's mirror image across
-                                    // the plane through the frame's origin with that normal
+    int mirror_axis = k_no_mirror;  // 0 to 2: normal axis of the mirror plane through the frame's
+                                    // origin; the left hand is the right hand's mirror image
     static constexpr int k_no_mirror = -1;
 };
 
-// Wrists within 1e3 m, curls in [-30, 130] and oppositions in [-180, 180] degrees, priorities in
-// [-100, 100], zones up to 1 m and 180 degrees. Refused, with JSON pointer and value: what is out
-// of range, a grip for no hand, a mirror beside two hands, a finger or a key that is unknown, a
-// name that is in `taken`.
+// Limits: wrists 1e3 m, curls [-30, 130] and oppositions [-180, 180] degrees, priorities [-100,
+// 100], zones 1 m and 180 degrees. Refused, with JSON pointer and value: values out of range, a
+// grip for no hand, a mirror beside two hands, unknown fingers and keys, a name in `taken`.
 SceneGrip read_scene_grip(const JsonValue& value, std::set<std::string>& taken);
 
-// The grip as such an object; read_scene_grip gives the same again, but for rounding of angles.
+// The grip as such an object. read_scene_grip gives it back, except for the rounding of angles.
 std::string write_scene_grip(const SceneGrip& grip);
 
-// The grip of a body whose shape stands at `frame` in the frame that the file gives it in.
+// The grip in the body's frame. `frame` is the body's frame in the frame of the file.
 AuthoredGrip in_body_frame(const AuthoredGrip& grip, const Pose& frame);
 
 }  // namespace handhold

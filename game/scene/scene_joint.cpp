@@ -16,12 +16,12 @@ bool has_coordinate(JointKind kind) {
     return kind == JointKind::hinge || kind == JointKind::slider;
 }
 
-// Names of a joint's numbers carry their unit; inside they are SI.
+// Numbers of joints carry their unit in the file's keys and are SI in memory.
 struct Units {
     double scale;  // of one unit of the file
     NumberRange range;
-    const char* suffix;        // of a coordinate
-    const char* force_suffix;  // of what acts on it
+    const char* suffix;        // of keys of coordinates
+    const char* force_suffix;  // of keys of forces on it
 
     explicit Units(JointKind kind)
         : scale(is_angle(kind) ? std::numbers::pi / 180.0 : 1.0),

@@ -4,7 +4,7 @@
 
 #include "engine/io/json.hpp"
 
-// What numbers of scene files and station descriptions may be.
+// Ranges of numbers in scene files and station descriptions.
 namespace handhold {
 
 inline constexpr NumberRange k_coordinate_m = {-1e6, 1e6, false};

@@ -10,7 +10,7 @@
 namespace handhold {
 namespace {
 
-// Those of ShapeLibrary.
+// The limits of ShapeLibrary.
 constexpr NumberRange k_size_m = {1e-3, 1e4, false};
 constexpr NumberRange k_corner_m = {-1e4, 1e4, false};
 constexpr NumberRange k_scale = {1e-3, 1e3, false};
@@ -88,7 +88,7 @@ std::optional<ShapeKind> kind_named(const std::string& type, ShapePlace place) {
         {"compound", ShapeKind::compound},
         {"mesh", ShapeKind::mesh},
     }};
-    constexpr std::size_t k_convex = 5;  // the first ones
+    constexpr std::size_t k_convex = 5;  // the first ones in the list
     for (std::size_t i = 0; i < (place == ShapePlace::part ? k_convex : k_kinds.size()); ++i) {
         if (type == k_kinds[i].first) {
             return k_kinds[i].second;

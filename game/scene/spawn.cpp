@@ -16,16 +16,16 @@ namespace {
 
 constexpr int k_yaws = 12;
 constexpr std::size_t k_surface_points = 600;  // for each yaw
-constexpr std::size_t k_played = 16;           // best candidates that are played
+constexpr std::size_t k_played = 16;           // number of the best candidates that are played
 constexpr std::size_t k_head_checks = 12;      // along the session
-constexpr double k_head_clearance_m = 0.06;    // beyond the head's own radius
-constexpr double k_palm_gap_m = 0.02;  // of the first grab's palm off the surface it is laid onto
+constexpr double k_head_clearance_m = 0.06;    // beyond the head's radius
+constexpr double k_palm_gap_m = 0.02;          // between the first grab's palm and the surface
 
-// The session as it would go if every grab gripped something fixed: in play space, relative to
-// where the origin begins.
+// The session as it would go if every grab gripped something fixed. In play space, relative to the
+// starting origin.
 struct Rehearsal {
-    std::vector<PalmRay> grabs;  // rays at the onsets
-    std::vector<Vec3> heads;     // centres of the head's collider along the way
+    std::vector<PalmRay> grabs;  // at the onsets
+    std::vector<Vec3> heads;     // centres of the head's collider over time
     std::size_t onsets = 0;
 };
 
@@ -91,8 +91,8 @@ struct Judge {
     const HeadTuning& head;
     const HandTuning& hand;
 
-    // Grabs that would find a surface; below zero where the head starts inside of something. A head
-    // that is in the way later costs a little.
+    // Number of grabs that would find a surface; negative if the head starts inside something. A
+    // head that gets in the way later costs a little.
     double score(const Pose& origin_ws) const {
         double score = 0.0;
         for (std::size_t i = 0; i < rehearsal.heads.size(); ++i) {
@@ -117,7 +117,7 @@ struct Judge {
     }
 };
 
-// A point of a scene's surface with the normal of its triangle, by area.
+// Random points on the scene's surfaces, uniform by area, with their triangle's normal.
 struct SurfaceSampler {
     struct Piece {
         const Mesh* mesh = nullptr;
@@ -180,7 +180,8 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
         const Quat rotation = (upright * rotation_about(Vec3::UnitY(), angle)).normalized();
         for (std::size_t i = 0; i < k_surface_points; ++i) {
             const SurfaceSampler::Sample sample = surface.draw(random);
-            // Either side of the surface; any of the first grabs, or the head, laid next to it.
+            // On a random side of the surface; one of the first grabs, or the head, is placed next
+            // to it.
             const double side = random.unit() < 0.5 ? -1.0 : 1.0;
             const std::size_t grabs = std::min<std::size_t>(evaluate.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
@@ -207,7 +208,7 @@ struct Played {
     double path_m = 0.0;
 };
 
-// From a copy of the world: playing leaves no trace.
+// Plays in a copy of the world, which stays as it is.
 Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Recording& recording,
                  const Pose& origin_ws, double hz) {
     trial.world = world;
@@ -228,7 +229,8 @@ Played play_from(Scene& trial, const World& world, FrameCaches& caches, const Re
 
 FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& recording,
                       double hz) {
-    Scene trial;  // shares nothing but shapes by address: the caches refer to those of `scene`
+    Scene trial;  // the caches' shapes and these have the same numbers
+    *trial.shapes = *scene.shapes;
     trial.name = scene.name;
     trial.world = scene.world;
     trial.tuning = scene.tuning;

@@ -6,14 +6,14 @@
 
 namespace handhold {
 
-// Where a hand's skin lies on something.
+// A palm's contact with a surface.
 struct PalmFrame {
     Vec3 palm = Vec3::Zero();
-    Vec3 away = Vec3::UnitY();      // unit, from what is touched into the palm
-    Vec3 fingers = -Vec3::UnitZ();  // not along `away`; only what is across `away` counts
+    Vec3 away = Vec3::UnitY();      // unit, from the surface into the palm
+    Vec3 fingers = -Vec3::UnitZ();  // not along `away`; only the part across `away` counts
 };
 
-// The wrist of a hand whose palm lies there.
+// The wrist of a hand whose palm is at `place`.
 inline Pose hand_on(const PalmFrame& place, HandSide side, const HandTuning& tuning) {
     Mat3 axes;
     const Vec3 across = (place.fingers - place.away * place.away.dot(place.fingers)).normalized();

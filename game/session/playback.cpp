@@ -27,8 +27,8 @@ std::span<const TrackingSample> Playback::window(double frame_end_s) {
     while (next_ < samples_.size() && samples_[next_].t_s <= frame_end_s) {
         ++next_;
     }
-    // Who made a recording with his frames saw no further either: a hand that comes back in sight
-    // in the next frame was still lost in this one.
+    // A recorder whose samples end with its frames saw no further either: a hand that reappears in
+    // the next frame was still lost in this one.
     const bool ends_with_frame = next_ > begin && samples_[next_ - 1].t_s == frame_end_s;
     const std::size_t end = next_ < samples_.size() && !ends_with_frame ? next_ + 1 : next_;
     return std::span(samples_).subspan(begin, end - begin);

@@ -9,20 +9,19 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// What a run leaves to be reported: frames.csv, bodies.csv, report.json and report.html are written
-// from this.
+// The record of a run, from which frames.csv, bodies.csv, report.json and report.html are written.
 namespace handhold {
 
 struct HandLog {
     Vec3 target_ws = Vec3::Zero();  // tracked hand
-    Vec3 shown_ws = Vec3::Zero();   // on its anchor while it grips
+    Vec3 shown_ws = Vec3::Zero();   // on its anchor while gripping
     int grip = 0;                   // GripKind
-    std::int32_t body = -1;         // into RunLog::body_names; -1: none
+    std::int32_t body = -1;         // index into RunLog::body_names; -1: none
     double error_m = 0.0;
 };
 
 struct PlayerLog {
-    std::uint32_t player = 0;  // into RunLog::player_names
+    std::uint32_t player = 0;  // index into RunLog::player_names
     Vec3 origin_ws = Vec3::Zero();
     Vec3 velocity_mps = Vec3::Zero();  // of the origin
     Vec3 head_ws = Vec3::Zero();
@@ -32,7 +31,7 @@ struct PlayerLog {
 
 // A kinematic or free body at the end of a frame.
 struct BodyLog {
-    std::uint32_t body = 0;  // into RunLog::body_names
+    std::uint32_t body = 0;  // index into RunLog::body_names
     Pose pose_ws;
     Vec3 velocity_mps = Vec3::Zero();
     Vec3 spin_radps = Vec3::Zero();
@@ -52,13 +51,13 @@ struct RunLog {
     std::string spawn;  // name, or "auto: x y z, yaw"
     double hz = 90.0;
     int threads = 1;
-    std::size_t bytes_per_player = 0;  // of state: his and his hands' rows in the world's columns
+    std::size_t bytes_per_player = 0;  // state of the player and both hands in the world's columns
     std::vector<std::string> player_names;
     std::vector<double> player_mass_kg;
     std::vector<std::string> body_names;
     std::vector<double> body_mass_kg;  // 0: not free
-    std::vector<FrameLog> frames;      // or the last one alone (RunSettings::keep_frames)
-    double wall_s = 0.0;               // stepping only: no logging, no pictures
+    std::vector<FrameLog> frames;      // all, or only the last (RunSettings::keep_frames)
+    double wall_s = 0.0;               // stepping only, without logging and pictures
     std::uint64_t state_hash = 0;
 };
 

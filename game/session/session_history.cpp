@@ -68,7 +68,7 @@ std::size_t SessionHistory::rewind(DesktopSession& session, std::size_t frames) 
     return frames - left;
 }
 
-// From the stretch's beginning, with the numbers it had then.
+// Replays from the stretch's start with the tuning it had then.
 void SessionHistory::play_again(DesktopSession& session, const Stretch& stretch) const {
     const Tuning now = std::exchange(session.tuning(), stretch.tuning);
     session.restore(stretch.state, assets_);

@@ -9,29 +9,28 @@
 
 namespace handhold {
 
-// The last seconds of a session, to go back to any of their frames bit for bit: a snapshot every
-// tenth of a second or so, and what was asked for in each frame since. What lies between two
-// snapshots is played again.
+// The last seconds of a session, for rewinding to any frame bit for bit: snapshots about every
+// tenth of a second, and the input of each frame since. Frames between two snapshots are replayed.
 class SessionHistory {
   public:
     static constexpr std::size_t k_frames_a_snapshot = 10;
 
-    // Forgets the oldest where snapshots take more than so many bytes; at least two are kept.
+    // Drops the oldest snapshots beyond this many bytes; keeps at least two.
     explicit SessionHistory(const DesktopSession& session,
                             std::size_t most_bytes = std::size_t{64} << 20U);
 
-    // Plays a frame of the session, and remembers it.
+    // Steps the session by a frame and records it.
     void step(DesktopSession& session, const DesktopInput& input);
-    // Goes back by so many frames, or as far as it remembers, and forgets what came after. The
-    // number it went. Tuning stays as it is; frames that are played again have what was theirs.
+    // Rewinds by so many frames, or as many as are recorded, and forgets the frames after. Returns
+    // the number of frames. The present tuning stays; replayed frames use the tuning they had.
     std::size_t rewind(DesktopSession& session, std::size_t frames);
 
-    std::size_t frames() const;  // that it can go back by
+    std::size_t frames() const;  // frames that it can rewind
     std::size_t bytes() const { return bytes_; }
 
   private:
     struct Stretch {
-        DesktopState state;  // at its beginning
+        DesktopState state;  // at the start of the stretch
         Tuning tuning;
         std::vector<DesktopInput> inputs;
     };

@@ -51,7 +51,7 @@ PlayerLog log_player(const World& world, std::uint32_t index, const PlayerEntiti
     return log;
 }
 
-// Into a log that may have been used before: nothing is allocated then.
+// Into a log that may have been used before: then nothing is allocated.
 void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
                const BodyIndex& bodies, const StageStats& stats, FrameLog& log) {
     const World& world = scene.world;
@@ -74,7 +74,7 @@ void log_frame(const Scene& scene, const std::vector<PlayerEntities>& players,
     }
 }
 
-// Of a player and his hands in the columns of the world, with what it takes to find them there.
+// Bytes of a player's and their hands' rows in all columns, including owners and indices.
 std::size_t state_bytes(const World& world, const PlayerEntities& player) {
     std::size_t bytes = 0;
     visit_columns(world, [&](const char*, const auto& column) {
@@ -111,8 +111,17 @@ double session_length_s(const Recording* recording, const RunSettings& settings)
     if (settings.seconds > 0.0) {
         return settings.seconds;
     }
-    return recording != nullptr ? recording->samples.back().t_s - recording->samples.front().t_s
-                                : k_seconds_without_recording;
+    if (recording == nullptr) {
+        return k_seconds_without_recording;
+    }
+    const auto length_s = [](const Recording& one) {
+        return one.samples.back().t_s - one.samples.front().t_s;
+    };
+    double longest_s = length_s(*recording);
+    for (const Recording* const one : settings.more_recordings) {
+        longest_s = std::max(longest_s, length_s(*one));
+    }
+    return longest_s;
 }
 
 RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
@@ -120,35 +129,46 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
                    const FrameObserver& observe) {
     set_thread_count(settings.threads);
     const double dt_s = 1.0 / settings.hz;
-    std::optional<Playback> playback;
+    std::vector<Playback> playbacks;
     if (recording != nullptr) {
-        playback.emplace(*recording);
+        playbacks.emplace_back(*recording);
+        for (const Recording* const one : settings.more_recordings) {
+            playbacks.emplace_back(*one);
+        }
     }
     const double begin_s = scene.world.clock.t_s;
     const double seconds = session_length_s(recording, settings) - begin_s;
     constexpr double k_rounding = 1e-3;  // of a frame: the clock is a sum
     const auto frames =
         static_cast<std::uint64_t>(std::max(1.0, std::floor(seconds * settings.hz + k_rounding)));
-    if (playback && scene.world.clock.frame > 0) {
-        playback->window(begin_s);  // what was played before the world was saved
+    if (scene.world.clock.frame > 0) {
+        for (Playback& playback : playbacks) {
+            playback.window(begin_s);  // skip what was played before the snapshot
+        }
     }
 
     RunLog log = begin_log(scene, players, settings);
-    // As many as a session of minutes has: what a file claims to last is no reason to take memory.
+    // Enough for minutes. The length that a file claims must not decide how much memory is taken.
     log.frames.reserve(settings.keep_frames ? std::min<std::uint64_t>(frames, k_frames_reserved)
                                             : 1);
     const BodyIndex bodies(scene.world);
     const std::size_t recorded = std::min(players.size(), settings.climbers_from);
     Crowd climbers(scene, std::span(players).subspan(recorded), settings.seed);
     std::vector<PlayerInput> inputs(players.size());
+    std::vector<std::span<const TrackingSample>> windows(playbacks.size());
     StageStats stats;
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
         const double end_s = scene.world.clock.t_s + dt_s;
-        const std::span<const TrackingSample> samples =
-            playback ? playback->window(end_s) : std::span<const TrackingSample>{};
+        for (std::size_t i = 0; i < playbacks.size(); ++i) {
+            windows[i] = playbacks[i].window(end_s);
+        }
         for (std::size_t i = 0; i < recorded; ++i) {
-            inputs[i] = {players[i].player, samples,
-                         playback ? playback->commands() : PlayerCommands{}};
+            inputs[i] = {players[i].player, {}, {}};
+            if (!playbacks.empty()) {
+                const std::size_t own = i < playbacks.size() ? i : 0;
+                inputs[i].samples = windows[own];
+                inputs[i].commands = playbacks[own].commands();
+            }
         }
         climbers.drive(scene, caches, end_s, std::span(inputs).subspan(recorded));
         const std::int64_t begin_ns = now_ns();
@@ -160,6 +180,9 @@ RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEn
         log_frame(scene, players, bodies, stats, log.frames.back());
         if (observe) {
             observe(scene, log.frames.back());
+        }
+        if (settings.should_stop != nullptr && settings.should_stop()) {
+            break;
         }
     }
     log.state_hash = hash_state(scene.world);

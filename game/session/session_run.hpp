@@ -16,23 +16,29 @@ namespace handhold {
 
 struct RunSettings {
     double hz = 90.0;      // (0, 1000]
-    double seconds = 0.0;  // 0: as long as the recording; 10 without one
+    double seconds = 0.0;  // 0: as long as the longest recording; 10 without one
     int threads = 1;
-    // Players from this one on are climbers who wander; those before it play the recording.
+    // Players from this index on are wandering climbers; those before it play recordings.
     std::size_t climbers_from = std::numeric_limits<std::size_t>::max();
     std::uint64_t seed = 1;   // of the climbers
-    bool keep_frames = true;  // false: the log has the last frame only; memory does not grow
+    bool keep_frames = true;  // false: keep the last frame only, so memory does not grow
+    // Recordings of the second player, the third, and so on. Players beyond the last play the first
+    // recording.
+    std::vector<const Recording*> more_recordings = {};
+    // Called after each frame; true ends the run. Null: never.
+    bool (*should_stop)() = nullptr;
 };
 
-// How long run_session will play, seconds. `recording` may be null.
+// The length of run_session, seconds: settings.seconds, or that of the longest recording.
+// `recording` may be null.
 double session_length_s(const Recording* recording, const RunSettings& settings);
 
-// Called after each frame: for pictures.
+// Called after each frame, for pictures.
 using FrameObserver = std::function<void(const Scene&, const FrameLog&)>;
 
-// Plays a recording in a scene without a window, as fast as it can: every player who is no climber
-// is driven by the same recording. Players must be in the world already. Begins at the world's
-// clock: a world that was saved in the middle goes on there. Leaves the world at the last frame.
+// Plays recordings in a scene without a window, as fast as possible. The players are in the world
+// already. Starts at the world's clock, so a restored world continues. The world is left at the
+// last frame.
 RunLog run_session(Scene& scene, FrameCaches& caches, const std::vector<PlayerEntities>& players,
                    const Recording* recording, const RunSettings& settings,
                    const FrameObserver& observe = {});

@@ -10,8 +10,8 @@ namespace handhold {
 namespace {
 
 constexpr double k_sample_hz = 90.0;
-constexpr double k_lift_m = 0.07;       // how far a hand rises off the surface on its way
-constexpr double k_rest_after_s = 0.7;  // to lower a hand that has nothing to do
+constexpr double k_lift_m = 0.07;       // height of a moving hand above the surface
+constexpr double k_rest_after_s = 0.7;  // time to lower an idle hand
 
 Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
     const auto next = std::find_if(body.begin(), body.end(),
@@ -39,7 +39,7 @@ struct HandKey {
     bool holds = false;  // until the next key
 };
 
-// Beside and before the chest, palm down, relative to where the eyes are then.
+// Beside and before the chest, palm down, relative to the eyes at that time.
 HandKey rest_key(const SessionScript& script, HandSide side, double t_s, const HandTuning& tuning) {
     const double outward = side == HandSide::right ? 1.0 : -1.0;
     const Vec3 palm =
@@ -66,7 +66,7 @@ std::vector<HandKey> keys_of(const SessionScript& script, HandSide side, const H
     }
     std::stable_sort(keys.begin(), keys.end(),
                      [](const HandKey& a, const HandKey& b) { return a.t_s < b.t_s; });
-    // A reach inside of a hold moves what is held: the hold goes on until its own end.
+    // A reach during a hold moves the held object; the hold lasts until its own end.
     bool holds = false;
     for (HandKey& key : keys) {
         const bool inside =
@@ -104,7 +104,7 @@ HandNow hand_at(const SessionScript& script, HandSide side, const std::vector<Ha
     return now;
 }
 
-// Eyes ahead, but drawn to what the hands do.
+// The eyes look ahead, and partly at the hands.
 Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hands) {
     Pose pose;
     pose.position = eyes_at(script.body, t_s);
@@ -128,7 +128,7 @@ Pose head_pose(const SessionScript& script, double t_s, const Vec3& between_hand
 
 void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
     constexpr double k_period_s = 1.6;  // of one hand
-    constexpr double k_held = 0.64;     // share of it: the hands' holds overlap
+    constexpr double k_held = 0.64;     // fraction of the period; the hands' holds overlap
     int step = 0;
     for (double t_s = crawl.from_s; t_s < crawl.until_s; t_s += 0.5 * k_period_s, ++step) {
         ScriptedHold hold;
@@ -138,7 +138,7 @@ void add_crawl(const ScriptedCrawl& crawl, SessionScript& script) {
         if (hold.until_s - hold.from_s < 0.2) {
             break;
         }
-        // The body passes the hold when half of its time is over.
+        // The body passes the hold at half its time.
         const Vec3 eyes = eyes_at(script.body, t_s + 0.5 * k_held * k_period_s);
         const Vec3 on_bar = crawl.bar_start + crawl.along * crawl.along.dot(eyes - crawl.bar_start);
         hold.palm = on_bar + crawl.palm_off_axis_m * crawl.away;
@@ -169,8 +169,7 @@ Recording record_session(const SessionScript& script, const HandTuning& tuning) 
     for (int i = 0; i < count; ++i) {
         RecordedSample sample;
         sample.t_s = i / k_sample_hz;
-        // The person stands still in the room but for a sway: it is the hands that move the play
-        // space.
+        // The recorded person stands in the room and only sways; the hands move the play space.
         const Vec3 sway = Vec3(0.02 * sine(0.4 * sample.t_s), 0.01 * sine(0.5 * sample.t_s),
                                0.02 * sine(0.3 * sample.t_s));
         const Vec3 carried =

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "engine/io/printable.hpp"
 #include "game/commands/exit_status.hpp"
+#include "game/session/interrupt.hpp"
 #include "game/view/shot_film.hpp"
 
 namespace handhold {
@@ -70,9 +72,12 @@ int draw_shots(const RunOptions& options, ReadySession session, PlayerModels mod
     run_session(session.scene, session.caches, session.players, session.recording, session.settings,
                 [&](const Scene&, const FrameLog& frame) { film->watch(frame.t_s); });
     const std::size_t saved = film->finish(why_not);
-    std::printf("%s: %zu shots\n", session.scene.name.c_str(), saved);
+    std::printf("%s: %zu shots\n", printable(session.scene.name).c_str(), saved);
+    if (is_interrupted()) {
+        return k_exit_interrupted;
+    }
     if (!why_not.empty()) {
-        std::fprintf(stderr, "%s\n", why_not.c_str());
+        std::fprintf(stderr, "%s\n", printable(why_not, 3 * k_max_quoted).c_str());
     }
     return why_not.empty() ? 0 : k_exit_bad_file;
 }

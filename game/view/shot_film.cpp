@@ -113,10 +113,10 @@ struct ShotFilm::Impl {
 
     void take_picture(const Shot& shot) {
         draw(shot);
-        if (save_png(image, file(shot, ".png"))) {
-            ++saved;
+        if (const auto error = save_png(image, file(shot, ".png"))) {
+            fail(error->message());
         } else {
-            fail(file(shot, ".png") + ": cannot be written");
+            ++saved;
         }
     }
 

@@ -17,7 +17,8 @@ bool is_trackable(const Pose& pose_ps) {
 }
 
 bool is_stale(double t_s, bool has_sample, double last_t_s) {
-    return !std::isfinite(t_s) || (has_sample && t_s <= last_t_s);
+    constexpr double k_latest_s = 1e9;  // beyond it a time is no time: a snapshot refuses it too
+    return !(std::abs(t_s) <= k_latest_s) || (has_sample && t_s <= last_t_s);
 }
 
 // A sample of no time at all is not one after the frame.
@@ -300,13 +301,15 @@ const PlayerInput& input_of(const ReadTrackingIo& io, Entity player, std::size_t
     return found == io.inputs.end() ? k_silence : *found;
 }
 
-// Numbers that are not finite ask for nothing.
+// Commands within their ranges; numbers that are not finite ask for nothing.
 PlayerCommands finite_commands(PlayerCommands commands) {
-    const auto finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
-    commands.smooth_turn = finite(commands.smooth_turn);
-    commands.brake = finite(commands.brake);
+    const auto bounded = [](double value, double low) {
+        return std::isfinite(value) ? std::clamp(value, low, 1.0) : 0.0;
+    };
+    commands.smooth_turn = bounded(commands.smooth_turn, -1.0);
+    commands.brake = bounded(commands.brake, 0.0);
     for (double& axis : commands.thrust_ps) {
-        axis = finite(axis);
+        axis = bounded(axis, -1.0);
     }
     return commands;
 }

@@ -18,7 +18,10 @@ ColliderProxy proxy_of(const PlaceCollidersIo& io, Entity entity, const HeadTuni
         proxy.to_ws =
             origin->pose_ws * Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
         const LastValidPose& valid = io.last_valid.at(entity);
-        proxy.from_ws = valid.known ? valid.pose_ws : proxy.to_ws;
+        // A head that was nowhere yet still moves through its first frame.
+        const Pose start_ws = io.player_start.at(entity).pose_ws *
+                              Pose{head_center_ps(io.head.at(entity), tuning), Quat::Identity()};
+        proxy.from_ws = valid.known ? valid.pose_ws : start_ws;
         proxy.free = true;
         if (io.head.at(entity).state == TrackingState::never) {
             // No pose yet: proxies with an invalid pose take no part in collision.

@@ -22,6 +22,7 @@ struct PlaceCollidersIo {
     const Column<BodyPose>& body_pose;          // in: world, current
     const Column<BodyStart>& body_start;        // in: world, start of the frame
     const Column<PlayerOrigin>& origin;         // in: world, current
+    const Column<PlayerStart>& player_start;    // in: world, start of the frame
     const Column<HeadTracking>& head;           // in: play space, end of the frame
     const Column<LastValidPose>& last_valid;    // in: world
     CollisionWorld& collision;                  // out: proxies, world

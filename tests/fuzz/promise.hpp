@@ -8,7 +8,7 @@
 
 namespace handhold::fuzz {
 
-// Ends the program where something that was promised does not hold.
+// Aborts with a message if the condition does not hold.
 inline void promise(bool holds, const char* what) {
     if (!holds) {
         std::fprintf(stderr, "broken promise: %s\n", what);

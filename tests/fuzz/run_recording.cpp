@@ -5,7 +5,7 @@
 
 namespace handhold::fuzz {
 
-// A recorded session drives a player next to a wall: whatever the devices did, the frame goes on.
+// A recorded session drives a player beside a wall: no input may make a frame fail.
 void run_recording(Bytes bytes) {
     const Result<Recording> recording = parse_recording(text_of(bytes), "fuzz.csv");
     if (!recording) {

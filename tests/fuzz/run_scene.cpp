@@ -5,7 +5,7 @@
 namespace handhold::fuzz {
 
 void run_scene(Bytes bytes) {
-    // In a folder that is not there: meshes are never found.
+    // The folder does not exist, so meshes are never found.
     const std::filesystem::path path = "/nonexistent/fuzz.json";
     const Result<SceneFile> file = parse_scene_file(text_of(bytes), path);
     if (!file) {

@@ -12,7 +12,7 @@ namespace {
 
 using test::SnapshotBytes;
 
-// A player who holds a wall and a rock on a hinge, movers, and somebody who is gone.
+// A player who holds a wall and a rock on a hinge, movers, and a destroyed entity.
 struct Base {
     ShapeLibrary shapes;
     World world;
@@ -54,7 +54,7 @@ struct Base {
     }
 };
 
-// Patches: two bytes of place, a byte of length, and the bytes.
+// Each patch: two bytes of offset, a byte of length, and the bytes.
 SnapshotBytes patched(const Base& base, Bytes patches) {
     SnapshotBytes snapshot(base.bytes);
     const std::size_t begin = SnapshotBytes::payload_begin();

@@ -5,7 +5,7 @@
 namespace handhold::fuzz {
 namespace {
 
-// The same bytes as names of a body's joints.
+// The same bytes as a map of a body's joint names.
 void run_body_map(Bytes bytes) {
     const Result<BodyMap> map = parse_body_map(text_of(bytes), "fuzz.json");
     promise(map.ok() || !map.error().expected.empty(), "a refusal says what was expected");

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-// What fuzzing calls with any bytes, one function a file format. Each gives them to the reader and,
-// where they are accepted, uses what was read as the runtime would; a broken promise calls abort.
-// The corpus is replayed by the ordinary tests too.
+// Fuzz targets, one for each file format. Each passes the bytes to the reader and, if they are
+// accepted, uses the result as the runtime would; a broken promise aborts. The ordinary tests
+// replay the corpus.
 namespace handhold::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -16,8 +16,8 @@ void run_gltf(Bytes bytes);
 void run_recording(Bytes bytes);
 void run_tuning(Bytes bytes);
 void run_shots(Bytes bytes);
-// The first byte says what the others are: 0 patches of a good snapshot, 1 a payload, 2 all of a
-// snapshot. So most inputs come behind the checksum, and seeds outlive changes of the schema.
+// The first byte selects the meaning of the rest: 0 patches of a valid snapshot, 1 a payload, 2 a
+// whole snapshot. Most inputs thus pass the checksum, and seeds survive changes of the schema.
 void run_snapshot(Bytes bytes);
 
 }  // namespace handhold::fuzz

@@ -161,10 +161,8 @@ int hands_picture_command(const HandsPictureOptions& options) {
                     (place + 1) % columns == 0 || i + 1 == hands.size() ? '\n' : ' ');
         progress.show(static_cast<double>(i + 1) / static_cast<double>(hands.size()));
     }
-    if (!save_png(sheet, options.out.string())) {
-        return refuse({options.out.string(), "", "expected a file that can be written"});
-    }
-    return 0;
+    const auto error = save_png(sheet, options.out.string());
+    return error ? refuse(*error) : 0;
 }
 
 }  // namespace handhold::lab

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <handhold/version.hpp>
 
+#include "game/commands/flag_checks.hpp"
 #include "tools/lab/body_command.hpp"
 #include "tools/lab/grip_command.hpp"
 #include "tools/lab/hands_picture.hpp"
@@ -14,6 +15,7 @@
 namespace {
 
 namespace lab = handhold::lab;
+using handhold::number_in;
 
 constexpr int k_exit_usage = 1;
 
@@ -34,7 +36,7 @@ void add_solve_options(CLI::App& solve, lab::SolveOptions& options) {
     solve.add_option("--solver", options.solver, "The runtime's solver or a baseline")
         ->check(CLI::IsMember(lab::solver_names()));
     solve.add_option("--frames", options.frames, "Number of frames")->check(CLI::Range(1, 1000000));
-    solve.add_option("--hz", options.hz, "Frames per second")->check(CLI::Range(10.0, 1000.0));
+    solve.add_option("--hz", options.hz, "Frames per second")->check(number_in(10.0, 1000.0));
     solve
         .add_option("--residuals", options.residual_frame,
                     "Also write the residual after each iteration of this frame")
@@ -64,7 +66,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
                     "its palm; or spheres on the bones in 50 steps")
         ->check(one_of({"sweep", "talk", "spheres"}));
     grip.add_option("--grip-edge-mm", options.grip_edge_mm, "Edge length of the search detail")
-        ->check(CLI::Range(1.0, 1000.0));
+        ->check(number_in(1.0, 1000.0));
     grip.add_option("--rig-json", options.rig_json, "Also write the rig");
     grip.add_option(
             "--warm-frames", options.warm_frames,
@@ -73,7 +75,7 @@ void add_grip_options(CLI::App& grip, lab::GripOptions& options) {
     grip.add_option("--slid-out", options.slid_out, "Hands at the end of their slide, JSON lines");
     grip.add_option("--warm-json", options.warm_json, "Every warm frame's figures, JSON");
     grip.add_option("--speed-mps", options.speed_mps, "Speed of sliding hands")
-        ->check(CLI::Range(0.0, 10.0));
+        ->check(number_in(0.0, 10.0));
 }
 
 void add_hands_picture_options(CLI::App& picture, lab::HandsPictureOptions& options) {

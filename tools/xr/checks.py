@@ -1,4 +1,4 @@
-"""What tools/xr_e2e asks of the game in a headset. Each check gives the figures that it found; what it expects stands in it."""
+"""The checks of tools/xr_e2e: the game in a headset. Each check returns the figures it measured and holds its own expectations."""
 import csv
 import math
 import re
@@ -37,7 +37,7 @@ def end(play: Play) -> str:
 
 
 def brake(play: Play) -> None:
-    """Until the head stays where it is for two lines; without a brake it drifts on for ever."""
+    """Waits until the head stays in place for two lines; without the brake it would drift for ever."""
     for _ in range(100):
         before = play.next()["head_m"]
         if apart_mm(play.next()["head_m"], before) < 0.1:
@@ -46,7 +46,7 @@ def brake(play: Play) -> None:
 
 
 def check_poses(room: Room) -> str:
-    """Head, grips, stick and triggers are what was fed; the brake stops; a hand out of sight freezes where it was; fingers are tracked."""
+    """Head, grips, stick and triggers equal the input; the brake stops; a hand out of sight freezes in place; fingers are tracked."""
     service = Service(room, "poses")
     play = Play(room, "poses", "--xr-headless", "--scene", "/scenes/xr_eyes.json", "--jets")
     play.wait("focus", lambda now: now["headset"]["focus"])
@@ -86,7 +86,7 @@ def on_rail(side: str, z: float) -> tuple:
 
 
 def check_crawl(room: Room) -> str:
-    """Ten metres along a rail, hand over hand: every frame the head is where the hand that holds on puts it. The recording replays."""
+    """Ten metres along a rail, hand over hand: in every frame the head is where the gripping hand puts it. The recording replays."""
     service = Service(room, "crawl")
     hub = service.hub
     play = Play(room, "crawl", "--xr-headless", "--scene", "/scenes/rails.json", "--record", "/out/crawl.csv", "--report",
@@ -124,7 +124,7 @@ def check_crawl(room: Room) -> str:
 
 
 def replayed(room: Room, words: list[str], name: str) -> tuple[float, int, str]:
-    """Plays the recording again; the worst distance of the head from where the gripping hand put it, frame by frame."""
+    """Replays the recording. Returns the largest distance, over all frames, of the head from where the gripping hand put it."""
     log = room.out / f"{name}.replay.log"
     status = room.start([room.game, *words, "--no-pictures", "--out", f"/out/{name}"], log).wait(300.0)
     text = log.read_text(errors="replace")
@@ -153,7 +153,7 @@ def replayed(room: Room, words: list[str], name: str) -> tuple[float, int, str]:
 
 
 def check_touch(room: Room) -> str:
-    """A palm that comes near the rail shakes its controller a little, a grip more: as OpenXR's own layer saw the calls."""
+    """A palm near the rail causes weak haptics, a grip stronger ones, according to the calls that OpenXR's own layer recorded."""
     service = Service(room, "touch")
     dump = room.out / "touch.calls.txt"
     dump.unlink(missing_ok=True)  # the layer appends
@@ -183,7 +183,7 @@ def check_touch(room: Room) -> str:
 
 
 def read_png(path: Path) -> tuple[int, int, list[bytes]]:
-    """Width, height and rows of RGBA: the game writes eight bits a channel, not interlaced."""
+    """Returns width, height and rows of RGBA. The game writes eight bits a channel, not interlaced."""
     data = path.read_bytes()
     at, packed, width, height = 8, b"", 0, 0
     while at < len(data):
@@ -208,7 +208,7 @@ def read_png(path: Path) -> tuple[int, int, list[bytes]]:
 
 
 def middle_of(rows: list[bytes], begin_px: int, end_px: int, channel: int) -> tuple[float, float] | None:
-    """Of what is much more of that colour than of the others."""
+    """Of pixels whose colour is dominated by this channel."""
     found = []
     for y, row in enumerate(rows):
         for x in range(begin_px, end_px):
@@ -222,7 +222,7 @@ BOXES = {"red": (0, (0.1, 1.65, -1.2)), "green": (1, (-0.5, 1.3, -2.5))}  # of t
 
 
 def check_eyes(room: Room) -> str:
-    """Both eyes' pictures as the runtime gets them: boxes lie where a pinhole with each eye's place and lopsided field of view has them."""
+    """Both eyes' pictures as submitted: boxes lie where a pinhole camera with each eye's pose and asymmetric field of view projects them."""
     service = Service(room, "eyes")
     eyes = [Eye((-0.85, 0.65, 0.7, -0.8), (-0.034, 0.0, 0.0)), Eye((-0.65, 0.85, 0.7, -0.8), (0.034, 0.0, 0.0))]
     head, turn = (0.05, 1.5, 0.1), about((0.0, 1.0, 0.0), 0.12)
@@ -249,7 +249,7 @@ def check_eyes(room: Room) -> str:
 
 
 def check_panel(room: Room) -> str:
-    """The left calibrate button by itself shows the help before both eyes and puts it away; both together do not."""
+    """The left calibrate button alone toggles the help before both eyes; both buttons together do not."""
     service = Service(room, "panel")
     eyes = [Eye((-0.75, 0.75, 0.7, -0.7), (-0.032, 0.0, 0.0)), Eye((-0.75, 0.75, 0.7, -0.7), (0.032, 0.0, 0.0))]
     service.hub.change(eyes=eyes, left={"position": (-0.3, 0.9, 0.3)}, right={"position": (0.3, 0.9, 0.3)})
@@ -274,7 +274,7 @@ def check_panel(room: Room) -> str:
 
 
 def lose(room: Room, name: str, *words: str) -> tuple[float, float]:
-    """How many seconds the game takes to find the runtime that is there again, and by how many millimetres the player moved."""
+    """Returns the seconds until the game finds the restarted runtime, and the player's displacement in millimetres."""
     service = Service(room, name)
     play = Play(room, name, "--scene", "/scenes/xr_eyes.json", "--quality", "plain", *words)
     play.wait("focus", lambda now: now["headset"]["focus"], 40.0)
@@ -296,7 +296,7 @@ def lose(room: Room, name: str, *words: str) -> tuple[float, float]:
 
 
 def check_loss(room: Room) -> str:
-    """The runtime is killed in the middle and started again: the game finds it, with the player where he was, with and without pictures."""
+    """The runtime is killed and restarted: the game reconnects with the player in place, with and without pictures."""
     blind_s, blind_mm = lose(room, "loss", "--xr-headless")
     seen_s, seen_mm = lose(room, "loss_seen", "--xr")
     return (f"found again {blind_s:.1f} s after it was back, with pictures {seen_s:.1f} s; the player moved by "
@@ -304,7 +304,7 @@ def check_loss(room: Room) -> str:
 
 
 def check_absent(room: Room) -> str:
-    """Without a service: one line that says so, and status 3."""
+    """Without a service: one line on standard error and status 3."""
     log = room.out / "absent.log"
     status = room.start([room.game, "play", "--xr-headless", "--scene", "/scenes/rails.json"], log).wait(60.0)
     said = [line for line in log.read_text(errors="replace").splitlines() if line.startswith("play --xr: ")]
@@ -316,7 +316,7 @@ CHECKS = {"absent": check_absent, "poses": check_poses, "crawl": check_crawl, "t
 
 
 def run(room: Room, names: list[str]) -> int:
-    """How many failed. Feeds are real time, and a machine that stalls is no fault of the game: what fails is tried once more, and counted."""
+    """Returns the number of failures. Feeds are in real time and a machine may stall, so a failed check is repeated once and counted."""
     failed = second_tries = 0
     for name in names:
         for is_last in (False, True):

@@ -1,4 +1,5 @@
-"""The game's own convention of a hand on a grip, written again from OpenXR's words: what tools/xr_e2e feeds must lie on things."""
+"""The game's convention of a hand on a grip pose, implemented a second time from the OpenXR specification, so that tools/xr_e2e can place
+hands on surfaces."""
 import math
 
 SLANT_RAD = 0.55   # of the handle's thumb end towards the fingers
@@ -27,13 +28,13 @@ def rotate(q: tuple, v: tuple) -> tuple:
 
 
 def grip_of_flat_hand(side: str) -> tuple:
-    """The grip's rotation where the hand points ahead with its palm down: the handle's axis lies across it, to the thumb."""
+    """The grip's rotation if the hand points ahead with its palm down: the handle's axis lies across the palm, towards the thumb."""
     outward = 1.0 if side == "right" else -1.0
     hand_in_grip = multiply(about((1.0, 0.0, 0.0), SLANT_RAD - 0.5 * math.pi), about((0.0, 0.0, 1.0), -0.5 * math.pi * outward))
     return conjugate(hand_in_grip)
 
 
 def grip_below_palm(side: str, palm: tuple) -> tuple:
-    """Where the grip is of such a hand whose palm's centre is there."""
+    """The grip's position of such a hand, given its palm's centre."""
     to_thumb = -1.0 if side == "right" else 1.0
     return (palm[0] + to_thumb * ALONG_M * math.cos(SLANT_RAD), palm[1] - RADIUS_M, palm[2] - ALONG_M * math.sin(SLANT_RAD))

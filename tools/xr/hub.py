@@ -62,7 +62,7 @@ class State:
 
 
 class Hub:
-    """Keeps telling the service where head and hands are, until it is closed. Real time: whoever asks waits for what came of it."""
+    """Sends the poses of head and hands to the service until it is closed. In real time: callers wait for the effect."""
 
     def __init__(self, patience_s: float = 20.0):
         self.state = State()
@@ -108,7 +108,7 @@ class Hub:
             self.state = state
 
     def move(self, side: str, to: tuple, seconds: float) -> None:
-        """A hand on a straight line, beginning and ending at rest."""
+        """Moves a hand along a straight line, at rest at both ends."""
         begin_s = time.monotonic()
         start = getattr(self.state, side).position
         while True:

@@ -1,4 +1,4 @@
-"""Monado's service, and the game beside it, inside the folder: no network but this machine's own, no headset, no display."""
+"""Monado's service and the game inside the folder, with a loopback network only, without a headset or display."""
 import fcntl
 import json
 import os
@@ -29,7 +29,7 @@ def mount(*words: str) -> None:
 
 
 class Room:
-    """The folder with what it shares with this machine. Only inside a mount namespace of its own: nothing is unmounted."""
+    """The folder with the mounts it shares with this machine. For a mount namespace of its own only: nothing is unmounted."""
 
     def __init__(self, folder: Path, game: Path, scenes: Path, out: Path):
         self.folder = folder
@@ -55,7 +55,7 @@ class Room:
         return started
 
     def end_all(self) -> None:
-        """What still runs after a check that failed would be in the next one's way."""
+        """Ends processes that a failed check left running."""
         for process in self.started:
             if process.poll() is None:
                 process.kill()
@@ -66,11 +66,11 @@ class Room:
 
 
 class Failed(Exception):
-    """What was expected and what came, in one line."""
+    """The expectation and the result, in one line."""
 
 
 class Service:
-    """Monado with the remote hub for a headset, and without a window. The hub is connected once it answers."""
+    """Monado with the remote hub as its headset and without a window. Connected once the constructor returns."""
 
     def __init__(self, room: Room, name: str):
         self.room = room
@@ -106,7 +106,7 @@ class Service:
 
 
 class Play:
-    """`handhold play` in a headset. What it sees and does is read from the lines of its --status."""
+    """`handhold play` in a headset, observed through the lines of its --status."""
 
     def __init__(self, room: Room, name: str, *words: str, **env: str):
         self.room = room
@@ -141,7 +141,7 @@ class Play:
             time.sleep(0.01)
 
     def next(self) -> dict:
-        """A line that was written after now: hands have held still for a tenth of a second."""
+        """Waits for two further lines: hands have been still for at least a tenth of a second."""
         for _ in range(2):
             seen = self.look()
             before = seen["t_s"] if seen else -1.0
@@ -149,7 +149,7 @@ class Play:
         return self.last
 
     def interrupt_free_end(self, patience_s: float = 60.0) -> str:
-        """Waits for the game's own end and gives what it printed."""
+        """Waits for the game to end by itself and returns its output."""
         try:
             status = self.process.wait(patience_s)
         except subprocess.TimeoutExpired:
@@ -169,5 +169,5 @@ def may_enter() -> bool:
 
 
 def enter(script: list[str]) -> int:
-    """Runs the script again in namespaces of its own: when it ends, all that it started ends."""
+    """Runs the script again in namespaces of its own; its children end with it."""
     return subprocess.run([*UNSHARE, *script], env=dict(os.environ, HANDHOLD_XR_INSIDE="1"), check=False).returncode

@@ -40,7 +40,7 @@ class TraceFolder {
 Json written_trace() {
     const TraceFolder folder;
     const fs::path path = folder.path() / "trace.json";
-    EXPECT_TRUE(write_trace(path.string()));
+    EXPECT_FALSE(write_trace(path.string()));
     std::ifstream in(path);
     return Json::parse(in);
 }
@@ -168,7 +168,7 @@ TEST(Profile, WritingReplacesFileAtomically) {
     std::ofstream(path) << "an old file";
     start_trace();
     stop_trace();
-    ASSERT_TRUE(write_trace(path.string()));
+    ASSERT_FALSE(write_trace(path.string()));
     std::ifstream in(path);
     EXPECT_TRUE(Json::accept(in));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
@@ -176,9 +176,9 @@ TEST(Profile, WritingReplacesFileAtomically) {
 
 TEST(Profile, ReportsUnwritablePathAndLeavesNoFile) {
     const TraceFolder folder;
-    EXPECT_FALSE(write_trace((folder.path() / "absent" / "trace.json").string()));
+    EXPECT_TRUE(write_trace((folder.path() / "absent" / "trace.json").string()));
     fs::create_directories(folder.path() / "occupied" / "inside");
-    EXPECT_FALSE(write_trace((folder.path() / "occupied").string()));
+    EXPECT_TRUE(write_trace((folder.path() / "occupied").string()));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 

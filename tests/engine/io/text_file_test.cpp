@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace handhold::io_text_file_test {
 namespace {
@@ -60,6 +61,49 @@ TEST_F(TextFile, RefusesAbsentFolderDeviceAndTooLarge) {
     EXPECT_FALSE(read_file(folder_).ok());
     EXPECT_FALSE(read_file("/dev/zero").ok());
     EXPECT_EQ(read_file(folder_ / "absent").error().file, (folder_ / "absent").string());
+}
+
+TEST_F(TextFile, LinksAreFollowedAndStay) {
+    ASSERT_FALSE(write_file_atomically(folder_ / "target", "old"));
+    fs::create_symlink("target", folder_ / "link");
+    ASSERT_FALSE(write_file_atomically(folder_ / "link", "new"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+    EXPECT_EQ(read_file(folder_ / "target").value(), "new");
+    fs::create_symlink("nowhere", folder_ / "dangling");
+    EXPECT_TRUE(write_file_atomically(folder_ / "dangling", "new").has_value());
+    EXPECT_TRUE(fs::is_symlink(folder_ / "dangling"));
+    EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
+TEST_F(TextFile, PipesAreRefusedAndStay) {
+    ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    EXPECT_TRUE(write_file_atomically(folder_ / "pipe", "text").has_value());
+    EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+    fs::create_symlink("pipe", folder_ / "link");
+    EXPECT_TRUE(write_file_atomically(folder_ / "link", "text").has_value());
+    EXPECT_EQ(count_entries(), 2);
+}
+
+TEST_F(TextFile, DevicesAreWrittenToAndStay) {
+    EXPECT_FALSE(write_file_atomically("/dev/null", "text"));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    fs::create_symlink("/dev/null", folder_ / "link");
+    EXPECT_FALSE(write_file_atomically(folder_ / "link", "text"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+}
+
+TEST_F(TextFile, FullDiskIsNamed) {
+    const std::optional<FileError> error = write_file_atomically("/dev/full", "text");
+    ASSERT_TRUE(error.has_value());
+    EXPECT_NE(error->message().find("No space left on device"), std::string::npos);
+}
+
+TEST_F(TextFile, ReplacedFileKeepsItsPermissions) {
+    ASSERT_FALSE(write_file_atomically(folder_ / "a", "secret"));
+    fs::permissions(folder_ / "a", fs::perms::owner_read | fs::perms::owner_write);
+    ASSERT_FALSE(write_file_atomically(folder_ / "a", "new secret"));
+    EXPECT_EQ(fs::status(folder_ / "a").permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
 }
 
 }  // namespace

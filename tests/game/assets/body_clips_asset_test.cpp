@@ -1,4 +1,4 @@
-// The clips that ship, and sessions that play them.
+// The game's clips, and sessions that play them.
 #include "game/assets/body_clips_asset.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ TEST(BodyClipsAsset, HasEveryClip) {
     EXPECT_FALSE(clips.reach.empty());
 }
 
-// Idle comes round and a push-off ends where nothing is added.
+// Idle loops, and a push-off ends with a zero offset.
 TEST(BodyClipsAsset, BeginsAndEndsWithTheBodyAsItIs) {
     const BodyClips clips = game_body_clips();
     for (const BodyClipName name : {BodyClipName::idle, BodyClipName::push_off}) {
@@ -30,8 +30,8 @@ TEST(BodyClipsAsset, BeginsAndEndsWithTheBodyAsItIs) {
     }
 }
 
-// Somebody drifts; his spine is not where it would be without clips, and a state that is saved and
-// restored goes on with them.
+// A drifting player's spine differs from the one without clips, and a restored state continues with
+// the clips.
 TEST(BodyClipsAsset, SnapshotsGoOnWithThem) {
     const auto drift = [](World& world, FrameCaches& caches, const Tuning& tuning, Entity player,
                           int frames) {

@@ -20,7 +20,7 @@ inline Entity add_block(Scene& scene, const std::string& name, const Vec3& half_
     return add_body(scene.world, block);
 }
 
-// An empty scene: nothing but room.
+// An empty scene.
 inline Scene make_void() {
     Scene scene;
     scene.name = "void";
@@ -43,7 +43,7 @@ inline Scene make_tunnel(double half_length_m) {
     return scene;
 }
 
-// One climber, alone.
+// A single climber.
 struct Solo {
     Scene& scene;
     FrameCaches caches;

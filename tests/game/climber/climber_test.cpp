@@ -1,4 +1,4 @@
-// The scripted climber: that he moves as a person can, gets where he is sent, and finds back.
+// The scripted climber moves as a person can, reaches its targets, and returns from open space.
 #include "game/climber/climber.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 Vec3 spawn_head(const Scene& scene) { return head_over(scene.spawns.front().pose_ws); }
 
-// The limits are those that climber.hpp promises.
+// The limits stated in climber.hpp.
 TEST(Climber, MovesHeadAndHandsAsAPersonCan) {
     for (const std::uint64_t seed : {1ULL, 2ULL, 3ULL}) {
         Scene scene = *make_built_in_scene("station");
@@ -126,7 +126,7 @@ TEST(Climber, ComesBackFromFarOutside) {
     EXPECT_TRUE(solo.grips(0) || solo.grips(1)) << solo.head_ws().transpose();
 }
 
-TEST(Climber, WaitsWhereThereIsNothingAtAll) {
+TEST(Climber, WaitsInAnEmptyWorld) {
     Scene scene = make_void();
     Solo solo(scene, Vec3(0.0, 1.6, 0.0), 1);
     for (int frame = 0; frame < 900; ++frame) {
@@ -137,7 +137,7 @@ TEST(Climber, WaitsWhereThereIsNothingAtAll) {
     EXPECT_LE((solo.head_ws() - Vec3(0.0, 1.6, 0.0)).norm(), 0.2);
 }
 
-// A block that flies past the tunnel's place at 20 m/s and turns: he climbs on it as on a wall.
+// A block that moves past at 20 m/s and turns is climbed like a wall.
 TEST(Climber, ClimbsWhatMovesAndTurns) {
     Scene scene = make_void();
     const Entity block = add_block(scene, "block", Vec3(0.5, 0.5, 3.0), Vec3(-1.0, 1.6, 0.0));

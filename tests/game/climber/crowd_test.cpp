@@ -1,6 +1,5 @@
-// Many climbers in one world: where they begin, that none is lost, and that they are the same for
-// every number of threads. A long run: HANDHOLD_CROWD_PLAYERS, HANDHOLD_CROWD_SECONDS,
-// HANDHOLD_CROWD_SEED.
+// Many climbers in one world: starting places, that none is lost, and equal results for any number
+// of threads. Long run: HANDHOLD_CROWD_PLAYERS, HANDHOLD_CROWD_SECONDS, HANDHOLD_CROWD_SEED.
 #include "game/climber/crowd.hpp"
 
 #include <cstdlib>
@@ -60,7 +59,7 @@ TEST(SpreadPlayers, LeavesEveryHeadClearOfSurfacesAndOfEachOther) {
     }
 }
 
-TEST(SpreadPlayers, GivesFewerWhereThereIsNoRoom) {
+TEST(SpreadPlayers, GivesFewerIfThereIsNoSpace) {
     Scene scene;
     scene.name = "cell";
     scene.head_shape = scene.shapes->add_sphere(scene.tuning.head.radius_m);
@@ -89,8 +88,8 @@ TEST(CrowdThreaded, HashIsEqualForOneAndTwoThreadsAndTwiceInARow) {
     set_thread_count(1);
 }
 
-// The collision world is a cache: climbers see the same through a new one.
-TEST(Crowd, CarriesOnAlikeAfterACopyOfWorldAndMinds) {
+// The collision world is a cache: climbers act the same with a new one.
+TEST(Crowd, ContinuesEquallyFromACopyOfWorldAndStates) {
     Scene scene = *make_built_in_scene("crowd");
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
     const std::vector<PlayerEntities> players = add_climbers(scene, caches, 8, 2);
@@ -137,7 +136,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     settings.climbers_from = 0;
     settings.keep_frames = false;
     RunTally tally;
-    std::uint64_t jams = 0;  // frames in which something stayed sunk into something by a millimetre
+    std::uint64_t jams = 0;  // frames with a contact deeper than a millimetre
     FrameCaches eyes(*scene.shapes, scene.grip_meshes.get());
     const RunLog log = run_session(
         scene, caches, players, nullptr, settings, [&](const Scene& now, const FrameLog& frame) {
@@ -163,7 +162,7 @@ TEST(Crowd, StaysFiniteAndNearTheStation) {
     const RunSummary summary = tally.finish(log);
     // One in a hundred may meet another hand's holder or a head on the way.
     EXPECT_GE(summary.totals.grabs_gripped * 100, summary.totals.grab_onsets * 99);
-    // A tool between two heads and a rack has nowhere to go.
+    // A tool between two heads and a rack cannot be freed.
     EXPECT_LE(jams * 1000, summary.frames);
     for (const PlayerFigures& player : summary.players) {
         EXPECT_GE(player.path_m, 0.05 * seconds) << player.name;

@@ -1,5 +1,5 @@
-// A number in a small file is no reason to take a gigabyte. glTF levels and snapshots have their
-// tests of this beside their others.
+// A number in a small file must not make the game allocate gigabytes. glTF levels and snapshots are
+// tested beside their other tests.
 #include <stdexcept>
 #include <string>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t k_megabyte = std::size_t{1} << 20U;
 
-// What `use` asks for in all.
+// Bytes that `use` allocates.
 template <typename Use>
 std::size_t bytes_taken(Use&& use) {
     const std::size_t before = allocated_bytes();
@@ -58,7 +58,7 @@ TEST_F(FileClaims, TuningOfHugeNumbersTakesNoMemory) {
               k_megabyte);
 }
 
-// Two samples that are thirty years apart: played as far as somebody wants to wait.
+// Two samples thirty years apart: memory grows only as they are played.
 TEST_F(FileClaims, RecordingsOfManyYearsTakeMemoryAsTheyArePlayed) {
     const std::string columns =
         "t,hx,hy,hz,hqx,hqy,hqz,hqw,lx,ly,lz,lqx,lqy,lqz,lqw,lbtn,ltrig,"

@@ -1,4 +1,4 @@
-// The fuzzers' seeds and finds, replayed in every build: what was mended stays so.
+// The fuzzers' seeds and findings, replayed in every build.
 #include <filesystem>
 #include <string>
 

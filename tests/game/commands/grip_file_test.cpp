@@ -1,4 +1,4 @@
-// Talk row 10: authored grips in scene files, and through an animation package and back.
+// Talk row 10: authored grips in scene files, and through an animation package.
 #include "game/commands/grip_file.hpp"
 
 #include <string>
@@ -43,7 +43,7 @@ std::string grip_with(const std::string& more) {
 
 // --- Scene files ---------------------------------------------------------------------------------
 
-TEST(SceneGripFile, SaysWhatItSays) {
+TEST(SceneGripFile, ReadsEveryField) {
     const Result<SceneFile> scene =
         parse_scene_file(scene_with(R"([{"name": "handle", "right": {"position_m": [0.1, 0.2, 0.3],
             "rotation_xyzw": [0, 0.6, 0, 0.8], "fingers": {
@@ -79,7 +79,7 @@ TEST(SceneGripFile, WithoutAMirrorTheOtherHandHasNoGrip) {
               (std::array<bool, k_finger_count>{}));
 }
 
-TEST(SceneGripFile, RefusesWhatIsNoGripWithPointerAndValue) {
+TEST(SceneGripFile, RefusesInvalidGripsWithPointerAndValue) {
     const struct {
         std::string grips, expected;
     } cases[] = {
@@ -198,7 +198,7 @@ class GunGrips : public testing::Test {
     }
 };
 
-// Expected: the points of all links and the wrist where they were, within a micrometre.
+// Expected: the points of all links and the wrist unchanged, within a micrometre.
 TEST_F(GunGrips, RoundTripThroughGltfKeepsEveryLinkWithinAMicrometre) {
     for (std::size_t i = 0; i < gun.grips.size(); ++i) {
         for (const HandSide side : {HandSide::left, HandSide::right}) {
@@ -238,7 +238,7 @@ TEST_F(GunGrips, RoundTripThroughGltfKeepsEveryLinkWithinAMicrometre) {
     }
 }
 
-TEST_F(GunGrips, FileHasHandControllerAndThingAndOpensAsASkin) {
+TEST_F(GunGrips, FileHasHandControllerAndObjectAndOpensAsASkin) {
     GripScene out = grip_scene(0, HandSide::right);
     out.materials.push_back({"steel"});
     GltfSurface surface;
@@ -271,8 +271,8 @@ TEST_F(GunGrips, FileHasHandControllerAndThingAndOpensAsASkin) {
     EXPECT_EQ(known, 4);
 }
 
-// As somebody who moves the thing instead of the hand leaves it.
-TEST_F(GunGrips, WhatCountsIsTheHandAgainstTheObject) {
+// An author may move the object instead of the hand.
+TEST_F(GunGrips, OnlyTheHandRelativeToTheObjectCounts) {
     const GripScene out = grip_scene(0, HandSide::right);
     std::string glb = write_grip_glb(out, rigs()[1]);
     const std::string before = R"("name":"object","translation":[0.0,0.0,0.0])";
@@ -286,7 +286,7 @@ TEST_F(GunGrips, WhatCountsIsTheHandAgainstTheObject) {
     EXPECT_LT((read.value().grip.hands[1].wrist_bs.position - expected).norm(), 1e-9);
 }
 
-TEST_F(GunGrips, FilesThatAreNoGripAreRefused) {
+TEST_F(GunGrips, FilesWithoutAGripAreRefused) {
     const Result<SceneGrip> hand = parse_grip_glb(export_robot_hand(rigs()[1]), "hand.glb", rigs());
     ASSERT_FALSE(hand.ok());
     EXPECT_NE(hand.error().message().find("expected a \"grip/<name>/<right or left>\" node"),
@@ -305,7 +305,7 @@ TEST_F(GunGrips, FilesThatAreNoGripAreRefused) {
 
 // --- The gun -------------------------------------------------------------------------------------
 
-TEST_F(GunGrips, PosedFingersOfEitherHandAreNotSunkInTheGun) {
+TEST_F(GunGrips, PosedFingersOfEitherHandDoNotPenetrateTheGun) {
     for (std::size_t i = 0; i < gun.grips.size(); ++i) {
         for (const HandSide side : {HandSide::left, HandSide::right}) {
             ASSERT_TRUE(in_body().grips[i].hands[index_of(side)].is_there);

@@ -1,6 +1,7 @@
 #include "game/commands/run_command.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -19,7 +20,7 @@ namespace {
 
 class RunCommand : public testing::Test {
   protected:
-    // A folder of its own: tests run side by side.
+    // A folder of its own: tests run in parallel.
     RunCommand()
         : folder_(std::filesystem::path(testing::TempDir()) /
                   ("handhold_run_command_" + std::to_string(getpid()))) {
@@ -33,7 +34,7 @@ class RunCommand : public testing::Test {
         std::ofstream(path) << text;
         return path.string();
     }
-    // Exit status; what was printed is in out_ and err_.
+    // Returns the exit status. The output is in out_ and err_.
     int run(const RunOptions& options) {
         testing::internal::CaptureStdout();
         testing::internal::CaptureStderr();
@@ -100,11 +101,11 @@ TEST_F(RunCommand, SeveralPlayersAreAllInTheFilesAndTheFirstPlaysTheSession) {
         EXPECT_GT(report["bytes_per_player"], 1000);
         return report["players"][0]["path_m"].get<double>();
     };
-    // The others climb elsewhere: what the first does is his session, as when he is alone.
+    // The others climb elsewhere, so the first player's session is the same as alone.
     EXPECT_EQ(first_rows(3), first_rows(1));
 }
 
-TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
+TEST_F(RunCommand, KeepsNoFramesIfNoFilesAreWritten) {
     RunOptions options;
     options.scene = "ship";
     options.seconds = 1.0;
@@ -115,7 +116,7 @@ TEST_F(RunCommand, KeepsNoFramesWhereNoFilesAreWritten) {
     EXPECT_NE(out_.find("2 players, "), std::string::npos) << out_;
 }
 
-TEST_F(RunCommand, RefusesMorePlayersThanThereIsRoomFor) {
+TEST_F(RunCommand, RefusesMorePlayersThanTheSceneHasSpaceFor) {
     RunOptions options;
     options.scene = write("void.json", R"({"name": "void"})");
     options.players = 2;
@@ -143,7 +144,61 @@ TEST_F(RunCommand, PlaysWhatTheClimbCommandRecorded) {
     EXPECT_EQ(lines_of(testing::internal::GetCapturedStderr()), 1U);
 }
 
-// A name gives the persistent id: two of one name were a broken precondition, not a refused file.
+TEST_F(RunCommand, EveryInputHasAPlayerOfItsOwn) {
+    RunOptions options;
+    options.scene = "station";
+    options.pictures = false;
+    options.out = (folder_ / "two").string();
+    for (const std::uint64_t seed : {1U, 2U}) {
+        ClimbOptions climb;
+        climb.scene = "station";
+        climb.seconds = seed == 1 ? 2.0 : 3.0;
+        climb.seed = seed;
+        climb.out = (folder_ / ("climb" + std::to_string(seed) + ".csv")).string();
+        testing::internal::CaptureStdout();
+        ASSERT_EQ(climb_command(climb), 0);
+        testing::internal::GetCapturedStdout();
+        if (seed == 1) {
+            options.input = climb.out;
+        } else {
+            options.more_inputs = {climb.out};
+        }
+    }
+    ASSERT_EQ(run(options), 0) << err_;
+    const auto report = nlohmann::json::parse(read_file(folder_ / "two" / "report.json").value());
+    EXPECT_EQ(report["frames"], 270);  // the longer one
+    EXPECT_EQ(report["input"], "climb1.csv, climb2.csv");
+    std::ifstream rows(folder_ / "two" / "frames.csv");
+    std::string line;
+    std::array<std::size_t, 3> rows_of_player = {};
+    while (std::getline(rows, line)) {
+        const std::size_t player = line.find(',', line.find(',') + 1) + 1;
+        if (line[player] >= '0' && line[player] <= '2') {
+            ++rows_of_player[static_cast<std::size_t>(line[player] - '0')];
+        }
+    }
+    EXPECT_EQ(rows_of_player, (std::array<std::size_t, 3>{270, 270, 0}));
+    options.players = 1;
+    EXPECT_EQ(run(options), 2);
+    EXPECT_NE(err_.find("a player for each --input"), std::string::npos) << err_;
+}
+
+TEST_F(RunCommand, SamplesYearsApartAreRefusedUnlessTheLengthIsGiven) {
+    const std::string header =
+        "t,hx,hy,hz,hqx,hqy,hqz,hqw,lx,ly,lz,lqx,lqy,lqz,lqw,lbtn,ltrig,rx,ry,rz,rqx,rqy,rqz,rqw,"
+        "rbtn,rtrig\n";
+    const std::string pose =
+        ",0,1.6,0,0,0,0,1,-0.2,1.2,-0.3,0,0,0,1,0,0,0.2,1.2,-0.3,0,0,0,1,0,0\n";
+    RunOptions options;
+    options.scene = "reach";
+    options.input = write("years.csv", header + "0" + pose + "2e9" + pose);
+    EXPECT_EQ(run(options), 2);
+    EXPECT_EQ(lines_of(err_), 1U) << err_;
+    options.seconds = 0.2;
+    EXPECT_EQ(run(options), 0) << err_;
+}
+
+// Equal names give equal persistent ids: they must be a refused file, not a broken precondition.
 TEST_F(RunCommand, NamesThatPlayersHandsWouldTakeAreRefusedAndInventedOnesMakeWay) {
     const std::string ball =
         R"("kind": "static", "shape": {"type": "sphere", "radius_m": 0.1}, "position_m": [0, 9, 0]})";
@@ -189,11 +244,11 @@ TEST_F(RunCommand, TuningOfASceneIsCheckedWithItsPlace) {
     EXPECT_NE(err_.find("/hand/reach_m"), std::string::npos) << err_;
 }
 
-// --- Saved and taken up again --------------------------------------------------------------------
+// --- Snapshots in the middle of a run ---
 
 class ResumedRun : public RunCommand {
   protected:
-    // The ship's session next to a wall.
+    // The ship's session beside a wall.
     ResumedRun() {
         options_.scene = write("wall.json", R"({"name": "wall", "session": "ship", "bodies": [
             {"name": "wall", "kind": "static", "shape": {"type": "box", "half_m": [0.1, 2, 4]},
@@ -227,7 +282,7 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     ASSERT_EQ(run(options_), 0) << err_;
     options_.snapshot.clear();
     options_.resume = snapshot_;
-    options_.players = 1;  // somebody else
+    options_.players = 1;  // another player
     EXPECT_EQ(run(options_), 2);
     EXPECT_NE(err_.find("half.snapshot: expected a snapshot with the players"), std::string::npos)
         << err_;
@@ -239,7 +294,7 @@ TEST_F(ResumedRun, OtherScenesAndPlayersAreRefused) {
     EXPECT_EQ(lines_of(err_), 1U) << err_;
 }
 
-// What climbers plan is not in the world.
+// The plans of climbers are not part of the world.
 TEST_F(ResumedRun, ClimbersAreRefused) {
     options_.scene = "station";
     options_.seconds = 0.2;

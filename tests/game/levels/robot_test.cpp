@@ -36,7 +36,7 @@ TEST(RobotLegs, ReachTheirFootholdsAllTheWayRound) {
     }
 }
 
-// Never fewer than three feet stand, on both sides of the middle.
+// At least three feet stand, on both sides of the middle.
 TEST(RobotLegs, AtLeastThreeStandAtAnyTime) {
     const PosePath path = make_robot_path();
     for (double t_s = 0.0; t_s < 20.0; t_s += 0.013) {
@@ -69,7 +69,7 @@ TEST(RobotTorso, IsAboutThreeMetresLongWithRailsOnItsBack) {
     }
 }
 
-// The robot's bodies are where its path and legs are, after any number of frames of any length.
+// The robot's bodies are where its path and legs are, for any frame rate.
 TEST(RobotScene, BodiesFollowTheClosedFormWhateverTheFrameRate) {
     const auto pose_after = [](int frames, const char* body) {
         Scene scene = *make_built_in_scene("robot");

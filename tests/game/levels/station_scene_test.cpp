@@ -1,4 +1,4 @@
-// A station's description, and the files that are made from it.
+// A station's description and the files made from it.
 #include "game/levels/station_scene.hpp"
 
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A folder of its own that goes with the test.
+// A folder that is removed at the end of the test.
 class Folder {
   public:
     Folder()
@@ -133,7 +133,7 @@ TEST(StationTools, FloatClearOfEverythingAtFirst) {
     EXPECT_TRUE(contacts.empty());
 }
 
-// Handles, lenses and the bit of the drill stand out.
+// Handles, lenses and the drill's bit protrude.
 TEST(StationTools, CollidersHoldWhatIsSeenToNineCentimetres) {
     for (int type = 0; type <= static_cast<int>(ToolType::helmet); ++type) {
         const ToolModel model = make_tool(static_cast<ToolType>(type));
@@ -182,7 +182,7 @@ TEST_P(MalformedStation, IsRefusedAtItsPlace) {
     EXPECT_NE(result.error().expected.find("found "), std::string::npos);
 }
 
-// Sections of the game's own: 0 node, 1 hab, 2 airlock, 3 lab, 4 cupola, 5 junction.
+// Sections of game/assets/station.json: 0 node, 1 hab, 2 airlock, 3 lab, 4 cupola, 5 junction.
 const BadStation k_bad_stations[] = {
     {"no sections", "/sections", [](Json& s) { s.erase("sections"); }},
     {"unknown key", "/gravity", [](Json& s) { s["gravity"] = 1; }},

@@ -1,4 +1,4 @@
-// The station as a level: sound meshes, room for a player, rails that a hand can close around.
+// The station as a level: valid meshes, space for a player, rails that a hand can close around.
 #include "game/levels/station.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool is_rail(const Mesh& mesh) { return mesh.name.ends_with("/rails"); }
 
 enum class Count { everything, all_but_rails };
 
-// A structure's surfaces, to be asked for the nearest one.
+// A structure's surfaces, for queries of the nearest one.
 class Surfaces {
   public:
     explicit Surfaces(const Structure& structure) {
@@ -74,7 +74,7 @@ const Surfaces& ship_surfaces() {
     return made;
 }
 
-// Least distance between two straight pieces, to a centimetre.
+// Smallest distance between two straight pieces, to a centimetre.
 double distance_between(const HandrailSpan& a, const HandrailSpan& b) {
     double nearest = HUGE_VAL;
     const int steps = static_cast<int>((a.end - a.start).norm() / 0.02) + 1;
@@ -92,8 +92,7 @@ double area_m2(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return 0.5 * (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm();
 }
 
-// How often each edge is walked one way minus the other; 0 everywhere for closed, consistently
-// wound solids.
+// Sums each edge's directed uses: 0 everywhere for closed, consistently wound solids.
 bool is_closed(const Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> walks;
     for (const auto& t : mesh.triangles) {
@@ -215,8 +214,8 @@ TEST(Station, SpawnsAreThirtyCentimetresClear) {
     }
 }
 
-// Along the axes of all modules, through every hatchway, to half a metre from what closes their
-// ends; tools float elsewhere.
+// Along the axes of all modules, through every hatchway, to half a metre from their ends. Tools
+// float elsewhere.
 TEST(Station, WayFromModuleToModuleIsHalfAMetreClear) {
     const auto expect_clear = [](const Vec3& from, const Vec3& to) {
         const int steps = static_cast<int>((to - from).norm() / 0.1);
@@ -231,7 +230,7 @@ TEST(Station, WayFromModuleToModuleIsHalfAMetreClear) {
     expect_clear(Vec3(-7.94, 0.0, -4.3), Vec3(-7.94, 0.0, 4.3));
 }
 
-// But for the posts and ends of the rail itself.
+// Except the posts and ends of the rail itself.
 TEST(Station, RailsAreFourCentimetresClearOfEverythingElse) {
     ASSERT_GE(station().rails.size(), 60U);
     for (const HandrailSpan& rail : station().rails) {
@@ -254,8 +253,8 @@ TEST(Station, RailsAreFourCentimetresClearOfEverythingElse) {
 TEST(Station, RailSpansLieOnTheirBars) {
     for (const HandrailSpan& rail : station().rails) {
         const Vec3 middle = 0.37 * rail.start + 0.63 * rail.end;
-        // The bar is a prism of ten sides: its surface lies between both radii off the axis,
-        // unless a post is near.
+        // The bar is a ten-sided prism: its surface lies between both radii from the axis, unless a
+        // post is near.
         EXPECT_LE(station_surfaces().clearance(middle, 0.1, Count::everything),
                   rail.radius_m + 1e-9)
             << rail.name;

@@ -52,7 +52,7 @@ double to_number(const std::string& text) {
     return value;
 }
 
-// The cell of a row below the first row's name for it.
+// The cell of a row in the named column.
 std::string cell(const std::vector<Row>& rows, std::size_t row, const std::string& column) {
     for (std::size_t i = 0; i < rows[0].size(); ++i) {
         if (rows[0][i] == column) {

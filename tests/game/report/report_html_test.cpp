@@ -16,9 +16,8 @@
 namespace handhold::report_html_test {
 namespace {
 
-// The first thing that is not well-formed: a tag that closes another one, or is never closed; a
-// stray < or &; an attribute without quotes. Empty where all is well. Style is skipped: it is not
-// markup.
+// The first fault in the markup: a tag that closes another one, or is never closed; a stray < or &;
+// an attribute without quotes. Empty if there is none. Style is skipped, because it is not markup.
 std::string find_fault(const std::string& html) {
     const std::set<std::string> void_elements = {"meta", "img"};
     std::vector<std::string> open;

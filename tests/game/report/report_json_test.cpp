@@ -23,7 +23,7 @@ constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
 Json report_of(const RunLog& log) { return Json::parse(format_report_json(log)); }
 
-TEST(ReportJson, SaysWhatWasRun) {
+TEST(ReportJson, NamesSceneAndInput) {
     const Json report = report_of(make_small_run());
     EXPECT_EQ(report["scene"], "shaft <7>");
     EXPECT_EQ(report["input"], "climb & drift.csv");
@@ -42,7 +42,7 @@ TEST(ReportJson, StageTimesAreByNearestRank) {
     ASSERT_EQ(report["stage_us"].size(), k_stages);
     double all = 0.0;
     for (std::size_t s = 0; s < k_stages; ++s) {
-        // Of 1, 2, 3, 4 times `unit`: the second smallest, the fourth, the fourth.
+        // Of 1, 2, 3 and 4 times `unit`: the second smallest, the fourth, the fourth.
         const double unit = static_cast<double>(s + 1);
         const Json& stage = report["stage_us"][name_of(static_cast<Stage>(s))];
         EXPECT_EQ(stage["median"], 2.0 * unit);
@@ -100,7 +100,7 @@ TEST(ReportJson, SplitsHandErrorByWhatElseHolds) {
     const Json& error = report["hand_error_mm"];
     EXPECT_EQ(error["one_hand_free"],
               1000.0 / 1024);  // not the larger ones with contacts, or pushed
-    // Of the frame in which the right hand lets go: it held to that frame's end.
+    // From the frame in which the right hand releases: it held until that frame's end.
     EXPECT_EQ(error["two_hands"], 1000.0 / 32);
     EXPECT_EQ(error["any"], 1000.0 / 32);
 }
@@ -157,7 +157,7 @@ TEST(ReportJson, MomentumThatIsMissingInOneFrameIsNotCancelledByAnother) {
     EXPECT_EQ(ledger["relative_residual"]["angular"], 0.0);
 }
 
-TEST(ReportJson, RunThatBrokeIsNullNotGood) {
+TEST(ReportJson, BrokenRunIsNull) {
     RunLog log = make_gripping_run();
     log.frames[1].stats.residual_m = k_nan;
     log.frames[2].players[0].hands[1].error_m = k_nan;
@@ -206,7 +206,8 @@ TEST(SummarizeTimes, PercentilesOfOneToHundredAreThemselves) {
     EXPECT_EQ(figures.total_us, 5050.0);
 }
 
-// The definition of the nearest rank: the smallest value that at least p of all do not exceed.
+// Definition of the nearest rank: the smallest value that at least a fraction p of all do not
+// exceed.
 RC_GTEST_PROP(SummarizeTimes, AtLeastTheGivenShareIsNotAbove, ()) {
     const auto counts =
         *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 50)));

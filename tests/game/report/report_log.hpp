@@ -8,8 +8,8 @@
 // A run made by hand: every figure of its report follows from the numbers here.
 namespace handhold {
 
-// Four frames at 2 Hz of two players and three bodies, the second player idle. Lengths are sums of
-// powers of two: exact.
+// Four frames at 2 Hz of two players and three bodies; the second player is idle. Lengths are sums
+// of powers of two, hence exact.
 inline RunLog make_small_run() {
     RunLog log;
     log.scene = "shaft <7>";
@@ -51,7 +51,7 @@ inline RunLog make_small_run() {
     return log;
 }
 
-// Lets a hand of the first player grip a body.
+// A hand of the first player grips a body.
 inline void grip(FrameLog& frame, HandSide side, std::int32_t body, double error_m) {
     HandLog& hand = frame.players[0].hands[index_of(side)];
     hand.grip = 1;
@@ -59,8 +59,8 @@ inline void grip(FrameLog& frame, HandSide side, std::int32_t body, double error
     hand.error_m = error_m;
 }
 
-// make_small_run with a grip of each sort: one hand free; one hand with contacts; two hands; one
-// hand while pushed back.
+// make_small_run with each kind of grip: one hand free; one hand with contacts; two hands; one hand
+// while pushed back.
 inline RunLog make_gripping_run() {
     RunLog log = make_small_run();
     grip(log.frames[0], HandSide::left, 0, 1.0 / 1024);

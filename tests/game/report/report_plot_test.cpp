@@ -158,7 +158,7 @@ TEST(DrawLinePlot, SmallValuesShareAPowerOfTenInTheUnit) {
     EXPECT_NE(svg.find(">200<"), std::string::npos);
 }
 
-// Any finite numbers, however large, small or far apart: pixels stay inside of the drawing.
+// Finite numbers of any size and spacing: pixels stay inside the drawing.
 RC_GTEST_PROP(DrawLinePlot, EveryPixelIsInside, ()) {
     const auto points = *rc::gen::container<std::vector<std::pair<double, double>>>(
         rc::gen::pair(rc::gen::arbitrary<double>(), rc::gen::arbitrary<double>()));

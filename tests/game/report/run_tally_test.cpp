@@ -1,4 +1,4 @@
-// Frames summed up as they come, against the whole log at once.
+// Figures accumulated frame by frame equal those of the whole log.
 #include <gtest/gtest.h>
 
 #include "game/report/run_summary.hpp"

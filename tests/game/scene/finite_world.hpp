@@ -8,7 +8,7 @@
 
 namespace handhold {
 
-// Looks into every number of every column.
+// Visits every number of every column.
 class FiniteFields {
   public:
     template <typename T>

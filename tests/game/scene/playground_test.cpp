@@ -1,4 +1,4 @@
-// The playground's session does with every contraption what it is there for.
+// The playground's session works every contraption.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -38,9 +38,9 @@ class Playground : public ::testing::Test {
     double worst_joint_m = 0.0;
     double worst_joint_rad = 0.0;
     double pushed_off_mps = 0.0;
-    // The right hand on the gun: frames by what it reports, and how far the view went in them.
+    // The right hand on the gun: frames by reported grip, and the view's travel in them.
     std::map<GripKind, int> on_gun;
-    double gun_in_hand_m = 0.0;  // how far it last was from where the grip has it
+    double gun_in_hand_m = 0.0;  // last distance of the gun from its place in the grip
 
   private:
     void watch(const FrameLog& frame) {
@@ -88,14 +88,14 @@ TEST_F(Playground, SessionWorksEveryContraptionAndJointsHold) {
     EXPECT_LT(span_of("door_hinge").low, -0.8);
     EXPECT_GT(span_of("valve_hinge").high, 1.5);
     EXPECT_GT(span_of("cable/joint/20").high, 0.02);
-    // The shove, a smooth 0.24 m in 0.8 s, comes at up to 0.45 m/s.
+    // The push, a smooth 0.24 m in 0.8 s, reaches 0.45 m/s.
     EXPECT_GT(pushed_off_mps, 0.4) << "the rock did not push";
     EXPECT_LE(worst_joint_m, 1e-6);
     EXPECT_LE(worst_joint_rad, 1e-5);
     EXPECT_EQ(scene->world.joint.size(), 48U);
 }
 
-// Talk row 10: 5 s by the handle, then 1.2 s by its back, where no grip is near.
+// Talk row 10: 5 s by the handle, then 1.2 s by its back, where no authored grip is near.
 TEST_F(Playground, GunIsTakenByItsHandleAndFartherOffByItsSurface) {
     EXPECT_NEAR(on_gun[GripKind::authored], 450, 3);
     EXPECT_NEAR(on_gun[GripKind::held], 108, 3);

@@ -1,5 +1,5 @@
-// The bay's session shows what it is there for: a distance grab that ends in the hand, one that is
-// refused, one that is let go, and hands that are not where they are shown.
+// The bay's session shows a distance grab that ends in the hand, one that is refused, one that is
+// released, and hands whose tracked and shown poses differ.
 #include <algorithm>
 #include <array>
 
@@ -34,8 +34,8 @@ class Reach : public ::testing::Test {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> counted{};
     double canister_held_s = 0.0;
     double ball_fastest_mps = 0.0;
-    double rail_ghost = 0.0;   // the most that was shown of a ghost beside the rail,
-    double other_ghost = 0.0;  // and before that, where hands just grip
+    double rail_ghost = 0.0;   // most visible ghost beside the rail,
+    double other_ghost = 0.0;  // and before that, where hands only grip
 
   private:
     void watch(const PlayerEntities& player, const FrameLog& frame) {
@@ -71,7 +71,7 @@ TEST_F(Reach, GhostsAppearWhereHandsArePulledApartAndNotInOrdinaryGrips) {
     EXPECT_GT(rail_ghost, 0.5);
 }
 
-// In sessions in which hands just hold on.
+// Sessions in which hands only hold on.
 class OrdinaryGrips : public ::testing::TestWithParam<const char*> {};
 TEST_P(OrdinaryGrips, HaveNoGhosts) {
     Scene scene = *make_built_in_scene(GetParam());

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The text between ```json and ``` of the scene format's document.
+// The text between ```json and ``` in the scene format's document.
 std::string document_example() {
     const std::string text = read_file(source_dir() / "docs/reference/scene_format.md").value();
     const std::string opening = "```json\n";
@@ -29,7 +29,7 @@ SceneFile parse(const std::string& text) {
     return scene.ok() ? scene.value() : SceneFile();
 }
 
-TEST(SceneFile, ExampleOfItsDocumentLoadsAsItSays) {
+TEST(SceneFile, ExampleOfItsDocumentLoads) {
     const SceneFile scene = parse(document_example());
     EXPECT_EQ(scene.name, "airlock");
     EXPECT_EQ(scene.reference_velocity_mps, Vec3(0.0, 0.0, -20.0));
@@ -113,7 +113,7 @@ TEST(SceneFile, AbsolutePathsStayAbsolute) {
 
 struct BadScene {
     const char* what;
-    const char* place;  // that the error must name
+    const char* place;  // JSON pointer that the error must name
     std::function<void(Json&)> spoil;
 };
 void PrintTo(const BadScene& scene, std::ostream* stream) { *stream << scene.what; }

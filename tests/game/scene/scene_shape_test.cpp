@@ -123,7 +123,7 @@ const BadShape k_bad_shapes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, MalformedShape, ::testing::ValuesIn(k_bad_shapes));
 
-// Scenes are built without a file of their own; shapes with a file are those of the real data.
+// Scenes are built without a file; shapes from files are tested with the real data.
 Result<Scene> build(const Json& scene) {
     const Result<SceneFile> file = parse(scene);
     return file.ok() ? build_scene(file.value(), "a.json") : Result<Scene>(file.error());
@@ -137,7 +137,7 @@ TEST(SceneShape, FreeCompoundMovesToItsCentreOfMassAndStaysWhereItIs) {
     const Entity body = scene.value().world.body_pose.owners()[0];
     const Pose& pose = scene.value().world.body_pose.at(body).pose_ws;
     EXPECT_LT((pose.position - cylinder_m3 / (1.0 + cylinder_m3) * Vec3::UnitX()).norm(), 1e-12);
-    // The picture is that of the solid: its bounds in the world are the parts'.
+    // The visual's bounds in the world are those of the parts.
     const auto& visual = scene.value().visuals.front();
     Vec3 low = Vec3::Constant(1e9);
     Vec3 high = -low;
@@ -203,7 +203,7 @@ TEST(SceneShape, PicturesOfSolidsAreClosed) {
         for (const auto& [a, b, c] : mesh->triangles) {
             volume_m3 += mesh->positions[a].dot(mesh->positions[b].cross(mesh->positions[c])) / 6.0;
         }
-        // A cylinder's picture is a prism of 24 sides: sin(x) / x of 2 pi / 24 less.
+        // A cylinder's visual is a prism of 24 sides, smaller by sin(x) / x at x = 2 pi / 24.
         const double share = shape.kind == ShapeKind::cylinder ? 0.98862 : 1.0;
         EXPECT_NEAR(volume_m3, share * mass_properties(shape).volume_m3, 1e-5);
     }

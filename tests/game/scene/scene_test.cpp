@@ -1,4 +1,4 @@
-// Scene files as worlds.
+// Worlds built from scene files.
 #include "game/scene/scene.hpp"
 
 #include <gtest/gtest.h>

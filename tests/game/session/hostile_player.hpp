@@ -8,14 +8,14 @@
 
 namespace handhold {
 
-// A player who means harm: poses that jump and vanish, numbers that are none, samples out of order
-// and of times that make no sense, buttons mashed, sticks that say anything. Seeded.
+// A hostile player: poses that jump and vanish, numbers that are not finite, samples out of order
+// and with impossible times, random buttons and sticks. Seeded.
 class HostilePlayer {
   public:
-    // far_jump_m: how far devices jump now and then; 0: never farther than a metre or two.
+    // far_jump_m: how far devices jump rarely; 0: at most a metre or two.
     HostilePlayer(std::uint64_t seed, double far_jump_m);
 
-    // Input of the frame from start_s to end_s; the samples stay good until the next call.
+    // Input of the frame from start_s to end_s. The samples stay valid until the next call.
     PlayerInput play(Entity player, double start_s, double end_s);
 
   private:

@@ -1,4 +1,4 @@
-// A recording is handed out frame by frame, with what its buttons ask for.
+// A recording is played back frame by frame, with its buttons' commands.
 #include "game/session/playback.hpp"
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace handhold::playback_test {
 namespace {
 
-// Somebody who stands in T-pose, eyes at 1.75 m, 1.6 m from controller to controller, and holds
-// menu buttons from 0.5 s on.
+// A player in T-pose, eyes at 1.75 m and controllers 1.6 m apart, who holds menu buttons from 0.5 s
+// on.
 Recording t_pose(bool with_left, bool with_right) {
     Recording recording;
     for (int i = 0; i < 180; ++i) {
@@ -50,7 +50,7 @@ TEST(Playback, OneMenuButtonDoesNot) {
     }
 }
 
-TEST(Playback, AsksFromTheFirstSampleInTheFrameThatDoes) {
+TEST(Playback, CalibrationStartsWithTheFirstSampleInTheFrameThatAsks) {
     Playback playback(t_pose(true, true));
     for (int frame = 1; frame < 120; ++frame) {
         const double end_s = frame / 90.0;

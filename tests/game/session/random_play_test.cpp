@@ -1,5 +1,5 @@
-// Players who mean harm among climbers who do not, in whole scenes, at frames of 1 to 100 ms.
-// A long run: HANDHOLD_RANDOM_PLAY_FRAMES (of each scene), HANDHOLD_RANDOM_PLAY_SEED.
+// Hostile players among climbers in whole scenes, with frames of 1 to 100 ms. Long run:
+// HANDHOLD_RANDOM_PLAY_FRAMES (of each scene), HANDHOLD_RANDOM_PLAY_SEED.
 #include <algorithm>
 #include <cstdlib>
 #include <string>
@@ -27,18 +27,19 @@ struct PlayCase {
     std::size_t hostile;
     std::size_t climbers;
     std::uint64_t frames;
-    bool pulls = false;                 // the distance grab is on
-    std::uint64_t frames_a_grip = 100;  // at most, or the scene was not played in
+    bool pulls = false;  // distance grab is on
+    std::uint64_t frames_a_grip =
+        100;  // at most this many frames for each grip, or the scene was not played in
 };
 
 constexpr double k_far_jump_m = 5000.0;
 constexpr double k_pull_reach_m = 6.0;  // across a module: hands point anywhere
-// Of a head in a frame, by three samples of two metres each and what its hands and a ship do.
+// Of a head in a frame: three jumps of two metres, and the motion of its hands and a ship.
 constexpr double k_farthest_step_m = 15.0;
 
 class HostilePlay : public testing::TestWithParam<PlayCase> {};
 
-// What moves at all, at most, against the scene's own velocity.
+// Largest speed of any player relative to the scene's own velocity.
 double fastest_player_mps(const World& world) {
     double fastest = 0.0;
     for (const PlayerVelocity& velocity : world.player_velocity.rows()) {
@@ -46,7 +47,7 @@ double fastest_player_mps(const World& world) {
     }
     return fastest;
 }
-// A thing in a hand is as fast as the hand that jumps with it: only what flies by itself counts.
+// A body in a hand is as fast as a hand that jumps; only bodies that fly freely count.
 double fastest_loose_mps(const World& world) {
     double fastest = 0.0;
     for (std::size_t row = 0; row < world.body.size(); ++row) {
@@ -61,7 +62,7 @@ double fastest_loose_mps(const World& world) {
     return fastest;
 }
 
-// The scene, those in it, and what was seen.
+// A scene, its players, and what was observed.
 struct Playground {
     const PlayCase& play;
     Scene scene;
@@ -72,7 +73,7 @@ struct Playground {
     double farthest_step_m = 0.0;     // of a head
     std::vector<Vec3> last_heads_ws;  // by player
     std::uint64_t grabs = 0;
-    std::uint64_t pulled_frames = 0;  // of hands
+    std::uint64_t pulled_frames = 0;  // frames times hands that pull
 
     Playground(const PlayCase& in, std::uint64_t seed)
         : play(in),
@@ -116,7 +117,8 @@ struct Playground {
             return;
         }
         place_scene(scene, caches);
-        // Who means harm may leave by the station's open end, where there is nothing to hold.
+        // A hostile player may leave through the station's open end, where there is nothing to
+        // hold.
         for (std::size_t i = play.hostile; i < players.size(); ++i) {
             ASSERT_FALSE(is_lost(i)) << "player " << i << ", frame " << scene.world.clock.frame;
         }
@@ -139,7 +141,7 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     Random random(seed);
     StageStats stats;
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
-        // Mostly frames as they are, now and then anything between 1 and 100 ms.
+        // Mostly regular frames, rarely any length from 1 to 100 ms.
         const double long_s = k_shortest_frame_s + 0.099 * random.unit() * random.unit();
         const double dt_s = random.chance(0.2) ? long_s : 1.0 / 90.0;
         const double start_s = world.clock.t_s;
@@ -153,16 +155,16 @@ TEST_P(HostilePlay, StaysFiniteBoundedAndLosesNobody) {
     }
     std::printf(
         "%s: %llu frames, %zu hostile, %zu climbers, %llu grips; fastest player %.2f m/s, "
-        "loose thing %.2f m/s, farthest step %.2f m\n",
+        "loose body %.2f m/s, farthest step %.2f m\n",
         play.scene, static_cast<unsigned long long>(frames), play.hostile, play.climbers,
         static_cast<unsigned long long>(stage.grabs), stage.fastest_player, stage.fastest_loose,
         stage.farthest_step_m);
     EXPECT_LE(stage.farthest_step_m, k_farthest_step_m);
-    // In open space all drift out of reach in time: what is longer than usual grips no more.
+    // In open space all drift out of reach in time: later parts of long runs grip nothing.
     const bool is_open = play.climbers == 0;
     EXPECT_GT(stage.grabs, (is_open ? std::min(frames, play.frames) : frames) / play.frames_a_grip);
     EXPECT_EQ(stage.pulled_frames > 0, play.pulls);
-    // Twice what letting go allows: what two of them may give each other on top.
+    // Twice the release speed: two players may push each other further.
     EXPECT_LE(stage.fastest_player, 2.0 * stage.scene.tuning.locomotion.release_speed_max_mps);
     EXPECT_LE(stage.fastest_loose, 2.0 * stage.scene.tuning.locomotion.object_speed_max_mps);
 }

@@ -1,6 +1,6 @@
-// One session, looked at more or less often: paths on a single support and without contacts do not
-// depend on the frame rate, nor on frames that were dropped. Expected values are those of a much
-// higher rate; the limits are the design's: 5 mm and 1 % of the distance drifted.
+// One session at several frame rates: paths on a single support without contacts depend neither on
+// the frame rate nor on dropped frames. Expected values come from a much higher rate; the limits
+// are the design's: 5 mm and 1 % of the distance drifted.
 #include <algorithm>
 #include <functional>
 #include <optional>
@@ -23,12 +23,12 @@ const Pose k_start{Vec3(-0.3, -1.4, 4.0), Quat::Identity()};
 
 struct Path {
     std::vector<std::optional<Vec3>>
-        origins_ws;  // by k_compare_hz; none where its frame was dropped
+        origins_ws;  // by k_compare_hz; empty where the frame was dropped
     std::vector<double> drifted_m;
     bool collided = false;
 };
 
-// drop(frame): that frame is left out, the next is as much longer.
+// drop(frame) leaves that frame out; the next one is longer.
 Path play(const Recording& recording, double hz, const std::function<bool(int)>& drop) {
     Scene scene = make_tunnel(6.0);
     FrameCaches caches(*scene.shapes, scene.grip_meshes.get());
@@ -72,7 +72,7 @@ Recording record(std::uint64_t seed) {
     return record_climb(scene, plan);
 }
 
-// Fails where a path leaves the expected one; the farthest that it is off, in metres.
+// Fails if a path leaves the expected one. Returns the largest distance, metres.
 double compare(const Path& path, const Path& expected, const std::string& what) {
     EXPECT_FALSE(path.collided) << what;
     double worst_m = 0.0;
@@ -95,7 +95,7 @@ TEST(SessionRates, SingleSupportPathsAgree) {
         const Recording recording = record(seed);
         const Path expected = play(recording, 720.0, keep_all);
         if (expected.collided) {
-            continue;  // a head that touches something is another matter
+            continue;  // contacts of the head are excluded
         }
         ++sessions;
         double worst_m = 0.0;

@@ -1,4 +1,4 @@
-// Pause and rewind: what is gone back to is what was, bit for bit.
+// Pause and rewind restore past frames bit for bit.
 #include "game/session/session_history.hpp"
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 
 const Pose k_origin_ws{Vec3(-0.45, 0.35 - 1.6, 2.0), Quat::Identity()};
 
-// Somebody who looks about, grips the rail and pulls; other things in every frame.
+// A player who looks around, grips the rail and pulls; the input differs in every frame.
 DesktopInput input_of(int frame) {
     DesktopInput input;
     input.turn_left_rad = frame < 30 ? 0.03 : 0.002 * (frame % 7 - 3);
@@ -25,7 +25,7 @@ DesktopInput input_of(int frame) {
 
 std::uint64_t hash_of(const DesktopSession& session) { return hash_state(session.scene().world); }
 
-TEST(SessionHistory, GoesBackToAnyFrameBitForBitAndOnAsBefore) {
+TEST(SessionHistory, RewindsToAnyFrameBitForBitAndContinuesEqually) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     session.record();
     SessionHistory history(session);
@@ -49,7 +49,7 @@ TEST(SessionHistory, GoesBackToAnyFrameBitForBitAndOnAsBefore) {
     }
 }
 
-TEST(SessionHistory, GoesBackNoFartherThanItRemembers) {
+TEST(SessionHistory, RewindsNoFartherThanItsRecords) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     const std::uint64_t start = hash_of(session);
     SessionHistory history(session);
@@ -62,7 +62,7 @@ TEST(SessionHistory, GoesBackNoFartherThanItRemembers) {
     EXPECT_EQ(history.rewind(session, 1), 0U);
 }
 
-TEST(SessionHistory, KeepsToItsMemoryAndForgetsTheOldest) {
+TEST(SessionHistory, StaysWithinItsMemoryAndDropsTheOldest) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     SessionHistory probe(session);
     probe.step(session, input_of(0));
@@ -74,7 +74,7 @@ TEST(SessionHistory, KeepsToItsMemoryAndForgetsTheOldest) {
     for (int frame = 0; frame < 200; ++frame) {
         hashes.push_back(hash_of(session));
         history.step(session, input_of(frame));
-        ASSERT_LE(history.bytes(), most + one / 4);  // hands hold more or less
+        ASSERT_LE(history.bytes(), most + one / 4);  // state of hands varies in size
     }
     const std::size_t frames = history.frames();
     EXPECT_GE(frames, 4 * SessionHistory::k_frames_a_snapshot);
@@ -83,7 +83,7 @@ TEST(SessionHistory, KeepsToItsMemoryAndForgetsTheOldest) {
     EXPECT_EQ(hash_of(session), hashes[200 - frames]);
 }
 
-TEST(SessionHistory, FramesPlayedAgainHaveTheTuningThatWasTheirs) {
+TEST(SessionHistory, ReplayedFramesUseTheTuningTheyHad) {
     DesktopSession session(make_tunnel(6.0), k_origin_ws);
     SessionHistory history(session);
     std::vector<std::uint64_t> hashes = {hash_of(session)};
@@ -97,7 +97,7 @@ TEST(SessionHistory, FramesPlayedAgainHaveTheTuningThatWasTheirs) {
     for (int frame = 115; frame > 45; frame -= 5) {
         ASSERT_EQ(history.rewind(session, 5), 5U);
         EXPECT_EQ(hash_of(session), hashes[static_cast<std::size_t>(frame)]) << frame;
-        EXPECT_EQ(session.tuning().locomotion.drift_drag_per_s, 2.0);  // what is set stays set
+        EXPECT_EQ(session.tuning().locomotion.drift_drag_per_s, 2.0);  // the present setting stays
     }
 }
 

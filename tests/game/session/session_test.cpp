@@ -1,5 +1,4 @@
-// Sessions played from beginning to end: the ones that ship, and real recordings in a real level
-// where the data is there.
+// Whole sessions: those of the game, and real recordings in a real level if the data is present.
 #include <algorithm>
 #include <filesystem>
 #include <vector>
@@ -40,7 +39,7 @@ bool is_finite_run(const RunLog& log) {
     });
 }
 
-// Whose every closing hand grips at once: in "reach" some are meant not to.
+// Scenes whose closing hands all grip; in "reach" some are meant to miss.
 std::vector<std::string_view> climbed_scenes() {
     std::vector<std::string_view> names = built_in_scenes();
     std::erase(names, "reach");
@@ -103,8 +102,8 @@ TEST(ShipScene, WavedAndShovedRockPushesThePlayerOffTheWall) {
     EXPECT_GE(pushed, 1U);
 }
 
-// The session is planned with palms on the free side of the wall's rail, wrists beside it: tracked
-// there, since the ship turns to where he first grips, and shown there.
+// The session plans palms on the free side of the wall's rail with the wrists beside it. The hands
+// are tracked there, because the ship turns to the first grip, and shown there.
 TEST(ShipScene, HandsHoldTheRailFromThePlayersSide) {
     const Mover ship = make_built_in_scene("ship")->world.mover.rows()[0];
     constexpr double k_rail_axis_x_m = -1.593;

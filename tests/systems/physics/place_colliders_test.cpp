@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "components/play_space.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
 namespace handhold::place_colliders_test {
@@ -33,6 +34,7 @@ struct Placing {
     Column<BodyPose> body_pose;
     Column<BodyStart> body_start;
     Column<PlayerOrigin> origin;
+    Column<PlayerStart> player_start;
     Column<HeadTracking> head;
     Column<LastValidPose> last_valid;
     CollisionWorld collision{shapes};
@@ -50,13 +52,14 @@ struct Placing {
         persistent_id.add(k_player, id_of(k_player));
         collider.add(k_player, {ball});
         origin.add(k_player, {random.pose(10.0)});
+        player_start.add(k_player, {random.pose(10.0)});
         head.add(k_player);
         head.at(k_player).pose_ps = random.pose(1.0);
         last_valid.add(k_player, {random.pose(10.0), true});
     }
     void run(const HeadTuning& tuning = {}) {
-        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, head,
-                         last_valid, collision, frame},
+        place_colliders({persistent_id, collider, body, body_pose, body_start, origin, player_start,
+                         head, last_valid, collision, frame},
                         tuning);
     }
     const ColliderProxy& proxy(Entity entity) const {
@@ -122,14 +125,17 @@ TEST(PlaceColliders, HeadThatWasNeverTrackedHasAnInvalidPose) {
     EXPECT_FALSE(is_valid(scene.proxy(k_player).to_ws));  // invalid poses take no part in collision
 }
 
-TEST(PlaceColliders, HeadWithoutALastValidPoseIsNotSwept) {
+TEST(PlaceColliders, HeadWithoutALastValidPoseIsSweptFromTheStartOfTheFrame) {
     Random random(3);
     Placing scene;
     scene.add_player(random);
     scene.last_valid.at(k_player).known = false;
     scene.head.at(k_player).state = TrackingState::lost;  // frozen, but present
     scene.run();
-    EXPECT_EQ(distance(scene.proxy(k_player).from_ws, scene.proxy(k_player).to_ws), 0.0);
+    const Pose head_ps{head_center_ps(scene.head.at(k_player), {}), Quat::Identity()};
+    EXPECT_EQ(
+        distance(scene.proxy(k_player).from_ws, scene.player_start.at(k_player).pose_ws * head_ps),
+        0.0);
 }
 
 TEST(PlaceColliders, ResultDoesNotDependOnInsertionOrderAndIsIdempotent) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+// Checks of command line values that CLI11 lacks.
+namespace handhold {
+
+// A finite number in [low, high]. CLI::Range lets NaN through.
+inline CLI::Validator number_in(double low, double high) {
+    const std::string range =
+        "[" + CLI::detail::to_string(low) + ", " + CLI::detail::to_string(high) + "]";
+    return {[=](std::string& text) {
+                double value = 0.0;
+                const bool is_in =
+                    CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+                return is_in ? std::string() : "expected a number in " + range + ", found " + text;
+            },
+            "FLOAT in " + range};
+}
+
+// Digits only: strtoull takes "-1" for 2^64 - 1.
+inline CLI::Validator whole_number() {
+    return {[](std::string& text) {
+                const bool is_whole =
+                    !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+                return is_whole ? std::string() : "expected a whole number from 0, found " + text;
+            },
+            "UINT"};
+}
+
+}  // namespace handhold

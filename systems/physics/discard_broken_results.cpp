@@ -1,0 +1,66 @@
+#include "systems/physics/discard_broken_results.hpp"
+
+#include <cmath>
+
+namespace handhold {
+namespace {
+
+constexpr double k_farthest_m = 1e12;
+constexpr double k_fastest = 1e9;  // m/s or rad/s
+
+// False for NaN.
+bool is_within(const Vec3& v, double limit) {
+    return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit && std::abs(v.z()) <= limit;
+}
+
+bool is_good(const Pose& pose) { return is_within(pose.position, k_farthest_m) && is_valid(pose); }
+
+void bound(double& number) { number = std::abs(number) <= k_farthest_m ? number : 0.0; }
+
+}  // namespace
+
+void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats) {
+    for (std::size_t row = 0; row < io.body_pose.size(); ++row) {
+        const Entity body = io.body_pose.owners()[row];
+        Pose& pose_ws = io.body_pose.rows()[row].pose_ws;
+        BodyVelocity& velocity = io.body_velocity.at(body);
+        if (is_good(pose_ws) && is_within(velocity.linear_mps, k_fastest) &&
+            is_within(velocity.angular_radps, k_fastest)) {
+            continue;
+        }
+        pose_ws = io.body_start.at(body).pose_ws;
+        velocity = {};
+        stats.count(Fallback::restored_last_valid_pose);
+    }
+    for (std::size_t row = 0; row < io.player_origin.size(); ++row) {
+        const Entity player = io.player_origin.owners()[row];
+        Pose& pose_ws = io.player_origin.rows()[row].pose_ws;
+        Vec3& velocity_mps = io.player_velocity.at(player).linear_mps;
+        if (is_good(pose_ws) && is_within(velocity_mps, k_fastest)) {
+            continue;
+        }
+        pose_ws = io.player_start.at(player).pose_ws;
+        velocity_mps.setZero();
+        stats.count(Fallback::restored_last_valid_pose);
+    }
+    for (std::size_t row = 0; row < io.last_valid.size(); ++row) {
+        LastValidPose& valid = io.last_valid.rows()[row];
+        if (!is_good(valid.pose_ws)) {
+            const BodyPose* const body = io.body_pose.find(io.last_valid.owners()[row]);
+            valid = body != nullptr ? LastValidPose{body->pose_ws, true}
+                                    : LastValidPose{{}, false};  // a head is nowhere again
+        }
+    }
+    for (JointState& state : io.joint_state.rows()) {
+        bound(state.coordinate);
+        bound(state.speed);
+    }
+    for (Grab& grab : io.grab.rows()) {
+        bound(grab.error_m);
+    }
+    for (FrameGraph::PhaseBody& body : io.frame.phase) {
+        bound(body.push_back_m);
+    }
+}
+
+}  // namespace handhold

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "components/body.hpp"
+#include "components/frame_graph.hpp"
+#include "components/grab.hpp"
+#include "components/joint.hpp"
+#include "components/player.hpp"
+#include "components/stats.hpp"
+#include "engine/ecs/column.hpp"
+
+namespace handhold {
+
+struct DiscardBrokenResultsIo {
+    const Column<BodyStart>& body_start;      // in
+    const Column<PlayerStart>& player_start;  // in
+    Column<BodyPose>& body_pose;              // in, out
+    Column<BodyVelocity>& body_velocity;      // in, out
+    Column<PlayerOrigin>& player_origin;      // in, out
+    Column<PlayerVelocity>& player_velocity;  // in, out
+    Column<LastValidPose>& last_valid;        // in, out
+    Column<JointState>& joint_state;          // in, out
+    Column<Grab>& grab;                       // in, out
+    FrameGraph& frame;                        // in, out: push_back_m
+};
+
+// Extreme masses, moments and distances (1e-12 to 1e15 kg in one chain) may overflow a solve. A
+// body or player whose pose or velocity is then not finite or beyond 1e12 m or 1e9 m/s returns to
+// the start of the frame, at rest, and is counted as restored_last_valid_pose. So no frame begins
+// with such a number, and no snapshot holds one.
+void discard_broken_results(const DiscardBrokenResultsIo& io, StageStats& stats);
+
+}  // namespace handhold
