@@ -13,8 +13,8 @@ namespace handhold {
 // Limit of a file that is read into memory. A larger file is not one of ours.
 constexpr std::uint64_t k_max_file_bytes = 1ULL << 30;
 
-// The unchanged bytes of a file. Refuses a file that is absent, unreadable, not regular (a folder, a
-// pipe, a device) or larger than `max_bytes`.
+// The unchanged bytes of a file. Refuses a file that is absent, unreadable, not regular (a folder,
+// a pipe, a device) or larger than `max_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uint64_t max_bytes = k_max_file_bytes);
 
