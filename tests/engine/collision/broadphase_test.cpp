@@ -1,9 +1,10 @@
-// The tree over moving bounds stays shallow whatever comes and goes.
+// The broadphase's tree stays shallow however many colliders leave and return.
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "engine/collision/bullet_broadphase.hpp"
+#include "engine/collision/collision_world.hpp"
 #include "tests/random.hpp"
 
 namespace handhold::collision_broadphase_test {
@@ -22,24 +23,26 @@ std::vector<ColliderProxy> scattered(std::size_t count, Random& random) {
     return proxies;
 }
 
-// One cost is a path in the tree: n bodies that leave at once cost n paths. Parked leaves used to
-// form a list, as deep as there are leaves.
-TEST(Broadphase, TreeStaysShallowWhenManyBodiesLeaveAndReturn) {
-    constexpr std::size_t k_bodies = 4000;
-    constexpr int k_deepest = 120;
+// Removing a collider costs a path of the tree. Unused leaves once formed a list, so that removing
+// n colliders cost n^2.
+TEST(Broadphase, TreeStaysShallowWhenManyCollidersLeaveAndReturn) {
+    constexpr std::size_t k_colliders = 4000;
+    constexpr int k_max_depth = 120;
     Random random(3);
     ShapeLibrary shapes;
-    const std::vector<ShapeExtent> extents = {shape_extent(shapes.at(shapes.add_sphere(0.1)))};
-    Broadphase broadphase;
+    shapes.add_sphere(0.1);
+    CollisionWorld world(shapes);
     for (int round = 0; round < 3; ++round) {
-        const std::vector<ColliderProxy> proxies = scattered(k_bodies, random);
-        broadphase.set_proxies(proxies, extents);
-        EXPECT_LT(broadphase.depth(), k_deepest);
-        broadphase.set_proxies(std::span(proxies).first(3), extents);
-        EXPECT_LT(broadphase.depth(), k_deepest);
-        BroadphaseScratch scratch;
-        const Bounds everywhere{Vec3::Constant(-1e6), Vec3::Constant(1e6)};
-        EXPECT_EQ(broadphase.find(everywhere, scratch).size(), 3U);
+        const std::vector<ColliderProxy> proxies = scattered(k_colliders, random);
+        world.set_proxies(proxies);
+        EXPECT_LT(world.broadphase_depth(), k_max_depth);
+        world.set_proxies(std::span(proxies).first(3));
+        EXPECT_LT(world.broadphase_depth(), k_max_depth);
+        const Vec3& centre_ws = proxies[1].to_ws.position;
+        const auto hit = world.closest_point(centre_ws, 0.05);
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_EQ(hit->id, 2U);
+        EXPECT_FALSE(world.closest_point(proxies[100].to_ws.position, 0.05).has_value());
     }
 }
 
