@@ -5,62 +5,63 @@
 #include "components/tracking.hpp"
 #include "engine/math/math.hpp"
 
-// Arms and chest, which nothing tracks: estimated from the head and the two hands as they are
-// shown. They are shown only: nothing here ever moves the player. Torso axes (_ts): -Z where the
-// chest faces, +Y the play space's up, whether the chest leans or not.
+// Arms and chest. No device tracks them: they are estimated from the head and the shown hands, for
+// display only, and never move the player. Torso axes (_ts): -Z where the chest faces, +Y the play
+// space's up, even if the chest leans.
 namespace handhold {
 
-// What a player can be asked. Written by calibrate_players, or by whoever makes the player.
+// A player's size. Written by calibrate_players, or by the host that adds the player.
 struct BodyMeasures {
     static constexpr double k_min_m = 0.05;
     static constexpr double k_max_m = 5.0;
 
-    double eye_height_m = 1.62;  // standing; all [k_min_m, k_max_m]
+    double eye_height_m = 1.62;  // standing; all lengths in [k_min_m, k_max_m]
     double shoulder_width_m = 0.38;
     double upper_arm_m = 0.30;
     double forearm_m = 0.28;  // to the wrist
 };
 
-// What estimate_arms remembers from frame to frame.
+// State of estimate_arms between frames.
 struct ArmMemory {
     struct Arm {
         Vec3 axis_ts = -Vec3::UnitY();  // unit: from the shoulder to the hand
-        Vec3 bend_ts = Vec3::UnitZ();   // unit, square to it: to the elbow
-        Vec3 hand_ts = Vec3::Zero();    // from the shoulder at rest
+        Vec3 bend_ts = Vec3::UnitZ();   // unit, perpendicular to axis_ts: towards the elbow
+        Vec3 hand_ts = Vec3::Zero();    // from the shoulder's rest position
         Vec3 elbow_ts = Vec3::Zero();   // from the shoulder
-        Pose hand_ps;                   // as it was shown at the last frame's end
+        Pose hand_ps;                   // shown hand at the end of the last frame
     };
-    bool known = false;                  // false: the next frame starts afresh
-    Vec3 look_ps = -Vec3::UnitZ();       // unit, level: where the head looks, low-passed
+    bool known = false;                  // false: the next frame re-initialises this state
+    Vec3 look_ps = -Vec3::UnitZ();       // unit, level: where the head looks, low-pass filtered
     Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
-    Pose head_ps;                        // at the last frame's end
+    Pose head_ps;                        // at the end of the last frame
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };
 
-// The clavicles begin at the base of the neck: this share of the way out to the shoulders.
+// Start of the clavicles at the base of the neck, as a share of the distance from the chest's
+// middle to the shoulder.
 inline constexpr double k_clavicle_from = 0.12;
 
-// Where chest, shoulders and elbows ought to be. Written by estimate_arms.
+// Estimated chest, shoulders and elbow directions. Written by estimate_arms.
 struct ArmEstimate {
     struct Arm {
-        Pose hand_ps;  // as it is shown
+        Pose hand_ps;  // shown hand
         Vec3 shoulder_ps = Vec3::Zero();
-        Vec3 bend_ps = Vec3::UnitZ();  // unit, square to the line from the shoulder to the hand
-        double stretch = 1.0;          // [1, ...): of both bones, so that the hand is reached
+        Vec3 bend_ps = Vec3::UnitZ();  // unit, perpendicular to the line from shoulder to hand
+        double stretch = 1.0;          // >= 1: scale of both bones that lets them reach the hand
     };
-    Pose chest_ps;                       // between the shoulders at rest; -Z ahead, +Y its own up
+    Pose chest_ps;                       // midway between the resting shoulders; -Z ahead, +Y up
     Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };
 
-// The arms' joints. Bones lie along their frame's -Z, with +Y towards the side the elbow points
-// to. Written by pose_arms.
+// The arms' joints. Bones lie along their frame's -Z; +Y is the side to which the elbow points.
+// Written by pose_arms.
 struct ArmPose {
     struct Arm {
         Pose clavicle_ws;  // from the base of the neck
         Pose upper_ws;     // from the shoulder
         Pose forearm_ws;   // from the elbow
-        Pose hand_ws;      // PalmPose, bit for bit
+        Pose hand_ws;      // equals PalmPose exactly
     };
     Pose chest_ws;
     std::array<Arm, k_hand_count> arms;  // by HandSide

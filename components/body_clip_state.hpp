@@ -2,14 +2,15 @@
 
 namespace handhold {
 
-// Where a player's clips are. Written by layer_additives.
+// Playback state of a player's clips. Written by layer_additives.
 struct BodyClipState {
-    bool gripping = false;      // anything that he could push himself off
-    bool was_gripping = false;  // a frame before
+    bool gripping = false;      // a hand grips something that the player can push off from
+    bool was_gripping = false;  // `gripping` of the last frame
     double idle_s = 0.0;        // [0, the clip's length]
-    // Since he let go, up to the clip's length: until it is over none begins anew.
+    // Time since the last hand let go, at most the clip's length. A new push-off starts only after
+    // the clip has ended.
     double push_off_s = 0.0;
-    double push_off_weight = 0.0;  // [0, 1], by the speed he left with; 0: never did
+    double push_off_weight = 0.0;  // [0, 1], from the speed at release; 0: no push-off yet
 };
 
 }  // namespace handhold

@@ -4,7 +4,8 @@
 
 namespace handhold {
 
-// What a T-pose may be, metres: eyes above the floor, from wrist to wrist.
+// Range of an accepted T-pose or A-pose: height of the eyes above the floor, and distance from
+// wrist to wrist with level arms.
 struct TPoseRange {
     static constexpr double k_min_eyes_m = 0.3;
     static constexpr double k_max_eyes_m = 2.6;
@@ -12,13 +13,13 @@ struct TPoseRange {
     static constexpr double k_max_span_m = 2.4;
 };
 
-// A T-pose that is being held. Written by calibrate_players.
+// Progress of a held T-pose or A-pose. Written by calibrate_players.
 struct Calibration {
-    bool done = false;      // measured since it was last asked for
+    bool done = false;      // true: measured since the last request
     double held_s = 0.0;    // [0, CalibrationTuning::hold_s]
-    double eyes_s_m = 0.0;  // sums over that time: of the eyes' height
-    double span_s_m = 0.0;  // and from wrist to wrist
-    // Where the hands were when it began.
+    double eyes_s_m = 0.0;  // time integral of the eyes' height over held_s
+    double span_s_m = 0.0;  // time integral of the arm span over held_s
+    // Hands at the beginning of the pose.
     Vec3 left_ps = Vec3::Zero();
     Vec3 right_ps = Vec3::Zero();
 };

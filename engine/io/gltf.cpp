@@ -1,15 +1,15 @@
 #include "engine/io/gltf.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <span>
 #include <utility>
 
-#include "engine/io/gltf_document.hpp"
+#include "engine/io/gltf_accessors.hpp"
+#include "engine/io/gltf_buffers.hpp"
 #include "engine/io/gltf_model.hpp"
-#include "engine/io/node_tree.hpp"
+#include "engine/io/gltf_primitive.hpp"
+#include "engine/io/gltf_scene.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
 #include "engine/math/math.hpp"
@@ -18,87 +18,76 @@ namespace handhold {
 
 namespace {
 
-bool read_synthetic(const tinygltf::Value& extras) {
-    return extras.IsObject() && extras.Has("synthetic") && extras.Get("synthetic").IsBool() &&
-           extras.Get("synthetic").Get<bool>();
-}
-
-std::optional<TriangleMode> triangle_mode(int gltf_mode) {
-    switch (gltf_mode) {
-        case TINYGLTF_MODE_TRIANGLES:
-            return TriangleMode::list;
-        case TINYGLTF_MODE_TRIANGLE_STRIP:
-            return TriangleMode::strip;
-        case TINYGLTF_MODE_TRIANGLE_FAN:
-            return TriangleMode::fan;
-        default:
-            return std::nullopt;
-    }
-}
-
 // Reads a model's scene into parts. The first error stops it.
 class LevelReader {
   public:
-    LevelReader(const tinygltf::Model& model, std::string file)
-        : model_(model), reader_(model, std::move(file)) {}
+    LevelReader(const gltf::Model& model, std::span<const std::string_view> buffers,
+                gltf::Refusal& refusal)
+        : model_(model), refusal_(refusal), reader_(model, buffers, refusal) {}
 
-    Result<GltfLevel> read() {
+    bool read() {
         std::vector<PlacedNode> placed;
-        if (!reader_.place_scene(placed)) {
-            return reader_.error();
+        if (!gltf::place_scene(model_, refusal_, placed)) {
+            return false;
         }
         for (const PlacedNode& node : placed) {
-            if (model_.nodes[static_cast<std::size_t>(node.node)].mesh != -1 &&
-                !read_part(node.node, node.world)) {
-                return reader_.error();
+            if (gltf::element(model_.nodes, node.node).mesh != gltf::k_none && !read_part(node)) {
+                return false;
             }
         }
-        return std::move(level_);
+        add_notes();
+        return true;
     }
+    GltfLevel take_level() { return std::move(level_); }
 
   private:
-    bool refuse(std::string place, std::string expected) {
-        return reader_.refuse(std::move(place), std::move(expected));
-    }
+    bool read_part(const PlacedNode& placed);
+    bool read_primitive(const gltf::Primitive& primitive, const std::string& place,
+                        LevelPart& part);
+    bool append_positions(const Affine& frame, const std::string& place, Mesh& mesh);
+    void begin_color(const gltf::Material* material, LevelPart& part);
+    void add_notes();
 
-    bool read_part(int index, const Affine& transform);
-    bool read_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                        const Affine& transform, LevelPart& part);
-    bool append_positions(const AccessorView& view, const std::string& place,
-                          const Affine& transform, Mesh& mesh);
-    bool begin_color(int material, const std::string& place, LevelPart& part);
-
-    const tinygltf::Model& model_;
-    GltfModelReader reader_;
+    const gltf::Model& model_;
+    gltf::Refusal& refusal_;
+    gltf::AccessorReader reader_;
     GltfLevel level_;
-    std::vector<std::uint32_t> indices_;  // scratch of one primitive
-    // Of the part being read: where the vertices of a POSITION accessor begin.
-    std::map<int, std::uint32_t> first_vertex_;
+    gltf::PrimitiveData primitive_;  // scratch
+    std::vector<Affine> frames_;     // of the part that is being read, by instance
+    // Of the part that is being read: by POSITION accessor and instance, the first vertex.
+    std::map<std::pair<int, std::size_t>, std::uint32_t> first_vertex_;
     std::size_t vertex_count_ = 0;
     std::size_t triangle_count_ = 0;
 };
 
-bool LevelReader::read_part(int index, const Affine& transform) {
-    const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-    const std::string place = gltf_pointer("nodes", index);
-    if (node.skin != -1) {
-        return refuse(place + "/skin", "expected rigid geometry, found a mesh that follows a skin");
+bool LevelReader::read_part(const PlacedNode& placed) {
+    const gltf::Node& node = gltf::element(model_.nodes, placed.node);
+    const std::string place = gltf::pointer("nodes", placed.node);
+    if (node.skin != gltf::k_none) {
+        return refusal_.refuse(place + "/skin",
+                               "expected rigid geometry, found a mesh with a skin");
     }
-    if (!is_gltf_index(node.mesh, model_.meshes.size())) {
-        return reader_.refuse_index(place + "/mesh", "mesh", model_.meshes.size(), node.mesh);
+    if (!gltf::has_element(model_.meshes, node.mesh)) {
+        return refusal_.refuse_index(place + "/mesh", "mesh", model_.meshes.size(), node.mesh);
     }
-    const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+    if (!gltf::place_instances(placed, model_, reader_, refusal_, frames_)) {
+        return false;
+    }
+    const gltf::Mesh& mesh = gltf::element(model_.meshes, node.mesh);
     LevelPart part;
     part.pointer = place;
     part.mesh.name = !node.name.empty()   ? node.name
                      : !mesh.name.empty() ? mesh.name
-                                          : "node " + std::to_string(index);
-    part.synthetic = read_synthetic(node.extras) || read_synthetic(mesh.extras);
+                                          : "node " + std::to_string(placed.node);
+    part.synthetic = node.is_synthetic || mesh.is_synthetic;
     first_vertex_.clear();
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        const std::string primitive_place =
-            gltf_pointer("meshes", node.mesh) + "/primitives/" + std::to_string(i);
-        if (!read_primitive(mesh.primitives[i], primitive_place, transform, part)) {
+        if (gltf::is_skipped(mesh.primitives[i])) {
+            ++level_.skipped_primitives;
+        } else if (!read_primitive(
+                       mesh.primitives[i],
+                       gltf::pointer("meshes", node.mesh) + "/primitives/" + std::to_string(i),
+                       part)) {
             return false;
         }
     }
@@ -109,90 +98,96 @@ bool LevelReader::read_part(int index, const Affine& transform) {
     return true;
 }
 
-bool LevelReader::read_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                                 const Affine& transform, LevelPart& part) {
-    const std::optional<TriangleMode> mode = triangle_mode(primitive.mode);
-    if (!mode) {
-        ++level_.skipped_primitives;
-        return true;
-    }
-    const int position = primitive.attributes.at("POSITION");  // the document check saw it
-    const std::string position_place = place + "/attributes/POSITION";
-    AccessorView positions;
-    if (!reader_.view_accessor(position, GltfElements::vectors, position_place, positions) ||
-        !reader_.read_indices(primitive.indices, place + "/indices", positions.count, indices_)) {
+bool LevelReader::read_primitive(const gltf::Primitive& primitive, const std::string& place,
+                                 LevelPart& part) {
+    const int positions = primitive.attributes.at("POSITION");
+    const bool may_share = !primitive.draco;  // then the accessor holds no vertices of its own
+    const bool is_known = may_share && first_vertex_.contains({positions, 0});
+    const gltf::Material* material = nullptr;
+    if (!gltf::read_primitive(primitive, place, {.positions = !is_known}, reader_, model_, refusal_,
+                              primitive_) ||
+        !gltf::find_material(primitive, place, model_, refusal_, material)) {
         return false;
     }
-    const std::size_t triangles = count_triangles(*mode, indices_.size());
-    if (triangles == 0) {
-        return refuse(place, "expected 3 corners a triangle, found " +
-                                 std::to_string(indices_.size()) + " corners");
+    triangle_count_ += count_triangles(primitive_.mode, primitive_.indices.size()) * frames_.size();
+    vertex_count_ += is_known ? 0 : primitive_.vertices * frames_.size();
+    if (triangle_count_ > k_max_level_size || vertex_count_ > k_max_level_size) {
+        return refusal_.refuse(place, "expected at most " + std::to_string(k_max_level_size) +
+                                          " vertices and triangles in a level");
     }
-    triangle_count_ += triangles;
-    if (triangle_count_ > k_max_level_size) {
-        return refuse(place, "expected at most " + std::to_string(k_max_level_size) +
-                                 " triangles in a level");
+    begin_color(material, part);
+    for (std::size_t instance = 0; instance < frames_.size(); ++instance) {
+        auto first = static_cast<std::uint32_t>(part.mesh.positions.size());
+        if (is_known) {
+            first = first_vertex_.at({positions, instance});
+        } else if (!append_positions(frames_[instance], place + "/attributes/POSITION",
+                                     part.mesh)) {
+            return false;
+        } else if (may_share) {
+            first_vertex_.emplace(std::pair(positions, instance), first);
+        }
+        const bool is_mirrored = frames_[instance].linear.determinant() < 0.0;
+        level_.dropped_triangles +=
+            append_triangles(primitive_.mode, is_mirrored ? Winding::reversed : Winding::kept,
+                             primitive_.indices, first, part.mesh);
     }
-    // Primitives that share their positions keep sharing them.
-    const auto known =
-        first_vertex_.emplace(position, static_cast<std::uint32_t>(part.mesh.positions.size()));
-    const std::uint32_t first = known.first->second;
-    if ((known.second && !append_positions(positions, position_place, transform, part.mesh)) ||
-        !begin_color(primitive.material, place + "/material", part)) {
-        return false;
-    }
-    const bool is_mirrored = transform.linear.determinant() < 0.0;
-    level_.dropped_triangles += append_triangles(
-        *mode, is_mirrored ? Winding::reversed : Winding::kept, indices_, first, part.mesh);
     return true;
 }
 
-bool LevelReader::append_positions(const AccessorView& view, const std::string& place,
-                                   const Affine& transform, Mesh& mesh) {
-    vertex_count_ += view.count;
-    if (vertex_count_ > k_max_level_size) {
-        return refuse(
-            place, "expected at most " + std::to_string(k_max_level_size) + " vertices in a level");
-    }
-    mesh.positions.reserve(mesh.positions.size() + view.count);
-    for (std::size_t i = 0; i < view.count; ++i) {
-        Eigen::Vector3f xyz;
-        std::memcpy(xyz.data(), view.data + i * view.stride, 3 * sizeof(float));
-        const Vec3 position = transform.linear * xyz.cast<double>() + transform.translation;
+bool LevelReader::append_positions(const Affine& frame, const std::string& place, Mesh& mesh) {
+    const std::vector<float>& xyz = primitive_.positions;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+        const Vec3 position =
+            transform_point(frame, Eigen::Vector3f(xyz[i], xyz[i + 1], xyz[i + 2]).cast<double>());
         if (!is_finite(position) || position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
-            return refuse(place,
-                          "expected finite positions within 1e7 m, found another at vertex " +
-                              std::to_string(i));
+            return refusal_.refuse(
+                place, "expected finite positions within 1e7 m, found another at vertex " +
+                           std::to_string(i / 3));
         }
         mesh.positions.push_back(position);
     }
     return true;
 }
 
-bool LevelReader::begin_color(int material, const std::string& place, LevelPart& part) {
+void LevelReader::begin_color(const gltf::Material* material, LevelPart& part) {
     ColorRun run = {static_cast<std::uint32_t>(part.mesh.triangles.size()), part.mesh.color};
-    if (material != -1) {
-        if (!is_gltf_index(material, model_.materials.size())) {
-            return reader_.refuse_index(place, "material", model_.materials.size(), material);
-        }
-        read_gltf_material(model_.materials[static_cast<std::size_t>(material)], run);
+    if (material != nullptr) {
+        run.color = material->color;
+        run.emissive = material->emissive;
+        run.opacity = material->opacity;
+        run.gloss = material->gloss;
     }
     part.color_runs.push_back(run);
-    return true;
+}
+
+void LevelReader::add_notes() {
+    std::vector<std::string> notes = model_.notes;
+    if (level_.skipped_primitives > 0) {
+        notes.push_back("skipped primitives that are points, lines or without positions: " +
+                        std::to_string(level_.skipped_primitives));
+    }
+    for (const std::string& note : notes) {
+        level_.notes.push_back(gltf::note_line(refusal_.file(), note));
+    }
 }
 
 }  // namespace
 
 Result<GltfLevel> parse_gltf_level(std::string_view bytes, const std::filesystem::path& path) {
-    const Result<std::string> glb = extract_geometry_glb(bytes, path.string());
-    if (!glb) {
-        return glb.error();
-    }
-    const Result<tinygltf::Model> model = parse_gltf_model(glb.value(), path);
+    const Result<gltf::Model> model = gltf::parse_model(bytes, path.string());
     if (!model) {
         return model.error();
     }
-    return LevelReader(model.value(), path.string()).read();
+    gltf::Refusal refusal(path.string());
+    gltf::Buffers buffers;
+    if (!buffers.load(model.value(), path, refusal)) {
+        return refusal.error();
+    }
+    LevelReader reader(model.value(), buffers.bytes(), refusal);
+    if (!reader.read()) {
+        return refusal.error();
+    }
+    return reader.take_level();
 }
 
 Result<GltfLevel> load_gltf_level(const std::filesystem::path& path) {

@@ -11,54 +11,60 @@
 #include "engine/geometry/mesh.hpp"
 #include "engine/io/result.hpp"
 
-// Geometry out of glTF 2.0 (.gltf and .glb). Sources: Khronos glTF 2.0 specification, sections 3.5
-// to 3.7 and 4.
+// Reads rigid geometry from glTF 2.0 (.gltf and .glb). Source: Khronos glTF 2.0 specification,
+// sections 3.5 to 3.7 and 4.
 namespace handhold {
 
-// Triangles from `first_triangle` to the next run's look like this.
+// The material of the triangles from `first_triangle` to the next run's `first_triangle`.
 struct ColorRun {
     std::uint32_t first_triangle = 0;
     std::array<float, 3> color = {};  // linear RGB in [0, 1]
-    float emissive = 0.0F;            // times the colour, added: its emissive factor and strength
-    float opacity = 1.0F;             // [0, 1]; below 1 only where alphaMode is BLEND
-    float gloss = 0.25F;              // [0, 1]: 1 - roughness; 0.25 where there is no material
+    float emissive = 0.0F;  // emitted light in multiples of `color`, >= 0: the brightest channel of
+                            // the emissive factor, times the emissive strength
+    float opacity = 1.0F;   // [0, 1]; below 1 only if alphaMode is BLEND
+    float gloss = 0.25F;    // [0, 1]: 1 - roughness; 0.25 without a material
 };
 
-// One mesh node of the file's scene.
+// One mesh node of the file's scene, with all of its instances (EXT_mesh_gpu_instancing).
 struct LevelPart {
-    Mesh mesh;  // in the frame of the scene: every node's transform is applied; named after the
-                // node; its colour is that of the first run
-    std::string pointer;     // of the node: "/nodes/3"
-    bool synthetic = false;  // extras.synthetic of the node or its mesh: filled in by us, not by
-                             // the model's author
-    std::vector<ColorRun>
-        color_runs;  // by base colour of the materials, ascending; not empty where triangles are
+    Mesh mesh;            // in the scene's frame, metres; its name is the node's, its colour
+                          // that of the first run
+    std::string pointer;  // JSON pointer of the node: "/nodes/3"
+    bool synthetic =
+        false;  // extras.synthetic of the node or its mesh: not from the model's author
+    std::vector<ColorRun> color_runs;  // ascending by triangle; empty if there are no triangles
 };
 
 struct GltfLevel {
     std::vector<LevelPart> parts;  // parents before children, siblings in the file's order
-    std::size_t dropped_triangles =
-        0;  // without an area: a corner twice, or three corners on a line
-    std::size_t skipped_primitives = 0;  // points and lines: they have no surface
+    // Triangles without area, which are left out: a corner twice, or three corners on a line.
+    std::size_t dropped_triangles = 0;
+    std::size_t skipped_primitives = 0;  // points, lines, and primitives without positions
+    // What was ignored, skipped or clamped: a line each, "chair.glb: ignored morph targets: 2".
+    std::vector<std::string> notes = {};
 };
 
-// No coordinate of a loaded mesh is larger: there a double still resolves 2 nm.
+// Limit of every coordinate of a loaded mesh. At this distance a double resolves 2 nm.
 constexpr double k_max_level_coordinate_m = 1e7;
-// Vertices and triangles of a level, each: a small file can name one buffer from very many nodes.
+// Limit of a file's vertices, and of its triangles, with every use of a mesh counted: a small file
+// can reference one mesh from many nodes.
 constexpr std::size_t k_max_level_size = std::size_t{1} << 24;
 
-// Loads the default scene (else the first one, else all root nodes). Triangles, strips and fans,
-// with or without indices; a mirrored node keeps its triangles' outsides outside. Vertices that
-// primitives of one node share stay shared. Images, skins, morph targets, cameras and animations
-// are not read; a node with a skin is refused, since its shape depends on its joints.
+// Loads the default scene; without one, the first scene; without scenes, all root nodes.
 //
-// Refused, with the JSON pointer of the culprit and nothing loaded: any accessor, view or buffer
-// that does not lie in the file, indices out of range, positions that are not finite or beyond
-// k_max_level_coordinate_m, a node with two parents or in a cycle, sparse accessors, compressed or
-// quantised geometry and other required extensions, external buffers outside the file's folder.
-// Memory is only taken for bytes that are there.
+// Read: triangle lists, strips and fans, indexed or not; sparse accessors; the extensions
+// KHR_mesh_quantization, EXT_meshopt_compression, EXT_mesh_gpu_instancing, and, if the build found
+// Draco, KHR_draco_mesh_compression. Triangles of a mirrored node are reversed so that their front
+// stays in front. Primitives of a node that share their positions share vertices.
+// Ignored: images, morph targets, cameras, lights, animations, unknown extensions.
+//
+// Refused, with the JSON pointer of the cause: an accessor, view or buffer that is not within the
+// file; indices out of range; positions that are not finite or beyond k_max_level_coordinate_m; a
+// node with two parents or in a cycle; a mesh with a skin; a required extension that is not
+// supported; a buffer outside the file's folder. Memory is allocated in proportion to the bytes
+// that are there, not to the counts that the file claims.
 Result<GltfLevel> load_gltf_level(const std::filesystem::path& path);
-// The same for bytes in memory; `path` is for messages and for external buffers.
+// Reads from memory. `path` is for messages and for the folder of external buffers.
 Result<GltfLevel> parse_gltf_level(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace handhold

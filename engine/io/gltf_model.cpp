@@ -1,398 +1,484 @@
 #include "engine/io/gltf_model.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
+#include <limits>
+#include <set>
+#include <string_view>
 #include <utility>
 
-#include "engine/io/text_file.hpp"
-#include "engine/math/math.hpp"
+#include "engine/io/glb.hpp"
+#include "engine/io/gltf_draco.hpp"
+#include "engine/io/json.hpp"
 
-namespace handhold {
-
+namespace handhold::gltf {
 namespace {
 
-// What accessors of each use may hold (specification, 3.7.2.1 and 3.7.3).
-struct ElementRule {
-    int type;
-    std::size_t components;
-    bool is_float, is_byte, is_short, is_int;  // which are allowed, the integers unsigned
-    const char* expected;
-};
+// With these limits no sum or product of a count, a stride and an offset overflows 64 bits.
+constexpr std::int64_t k_max_index = INT32_MAX;
+constexpr std::int64_t k_max_size = UINT32_MAX;
+constexpr std::size_t k_shown_name = 60;
 
-ElementRule rule_of(GltfElements elements) {
-    switch (elements) {
-        case GltfElements::vectors:
-            return {TINYGLTF_TYPE_VEC3, 3, true, false, false, false, "expected VEC3 of float"};
-        case GltfElements::indices:
-            return {TINYGLTF_TYPE_SCALAR,
-                    1,
-                    false,
-                    true,
-                    true,
-                    true,
-                    "expected SCALAR of unsigned integer for indices"};
-        case GltfElements::joints:
-            return {TINYGLTF_TYPE_VEC4,
-                    4,
-                    false,
-                    true,
-                    true,
-                    false,
-                    "expected VEC4 of unsigned byte or short for joints"};
-        case GltfElements::weights:
-            return {TINYGLTF_TYPE_VEC4,
-                    4,
-                    true,
-                    true,
-                    true,
-                    false,
-                    "expected VEC4 of float, unsigned byte or short for weights"};
-        case GltfElements::matrices:
-            break;
-    }
-    return {TINYGLTF_TYPE_MAT4, 16, true, false, false, false, "expected MAT4 of float"};
+constexpr const char* k_meshopt = "EXT_meshopt_compression";
+constexpr const char* k_draco = "KHR_draco_mesh_compression";
+constexpr const char* k_instancing = "EXT_mesh_gpu_instancing";
+
+int read_index(const JsonValue& value) {
+    return value.exists() ? static_cast<int>(value.integer(0, k_max_index)) : k_none;
 }
 
-// 0 where the accessor's elements are not such.
-std::size_t bytes_of_element(const ElementRule& rule, const tinygltf::Accessor& accessor) {
-    if (accessor.type != rule.type) {
-        return 0;
-    }
-    switch (accessor.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return rule.is_float ? 4 * rule.components : 0;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return rule.is_byte ? rule.components : 0;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return rule.is_short ? 2 * rule.components : 0;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return rule.is_int ? 4 * rule.components : 0;
-        default:
-            return 0;
-    }
+std::uint64_t read_size(const JsonValue& value, std::int64_t low = 0) {
+    return static_cast<std::uint64_t>(value.integer(low, k_max_size));
 }
 
-// Our own file access for external buffers: the library would also look in the working directory
-// and hand the name to the shell's expansion.
-bool is_below_folder(const std::string& name, void* folder) {
-    const std::filesystem::path relative = std::filesystem::path(name).lexically_relative(
-        *static_cast<std::filesystem::path*>(folder));
-    return !relative.empty() && relative.begin()->string() != ".." &&
-           std::filesystem::is_regular_file(name);
-}
+std::uint64_t read_offset(const JsonValue& value) { return value.exists() ? read_size(value) : 0; }
 
-std::string keep_name(const std::string& name, void* /*folder*/) { return name; }
-
-bool read_buffer_file(std::vector<unsigned char>* out, std::string* error, const std::string& name,
-                      void* /*folder*/) {
-    const Result<std::string> bytes = read_file(name);
-    if (!bytes) {
-        *error += bytes.error().expected;
-        return false;
-    }
-    out->assign(bytes.value().begin(), bytes.value().end());
-    return true;
-}
-
-bool write_nothing(std::string* /*error*/, const std::string& /*name*/,
-                   const std::vector<unsigned char>& /*bytes*/, void* /*folder*/) {
-    return false;
-}
-
-bool decode_nothing(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/,
-                    std::string* /*warning*/, int /*width*/, int /*height*/,
-                    const unsigned char* /*bytes*/, int /*size*/, void* /*user*/) {
-    return true;
-}
-
-}  // namespace
-
-std::string gltf_pointer(const char* section, int index) {
-    return std::string("/") + section + "/" + std::to_string(index);
-}
-
-bool is_gltf_index(int index, std::size_t size) {
-    return index >= 0 && static_cast<std::size_t>(index) < size;
-}
-
-Result<tinygltf::Model> parse_gltf_model(const std::string& glb,
-                                         const std::filesystem::path& path) {
-    std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(decode_nothing, nullptr);
-    loader.SetFsCallbacks({is_below_folder, keep_name, read_buffer_file, write_nothing, &folder});
-    tinygltf::Model model;
-    std::string error;
-    std::string warning;
-    bool loaded = false;
-    try {
-        loaded = loader.LoadBinaryFromMemory(
-            &model, &error, &warning, reinterpret_cast<const unsigned char*>(glb.data()),
-            static_cast<unsigned int>(glb.size()), folder.string());
-    } catch (const std::exception& exception) {
-        error = exception.what();
-    }
-    if (!loaded) {
-        constexpr std::size_t k_shown_characters = 200;  // it quotes whole data URIs
-        std::replace(error.begin(), error.end(), '\n', ' ');
-        return FileError{path.string(), "",
-                         "expected glTF 2.0: " + error.substr(0, k_shown_characters)};
-    }
-    return model;
-}
-
-void read_gltf_material(const tinygltf::Material& material, ColorRun& run) {
-    const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
-    float brightest = 0.0F;
-    for (std::size_t i = 0; i < run.color.size(); ++i) {
-        run.color[i] = static_cast<float>(pbr.baseColorFactor[i]);
-        brightest = std::max(brightest, run.color[i]);
-    }
-    run.gloss = 1.0F - static_cast<float>(pbr.roughnessFactor);
-    if (material.alphaMode == "BLEND") {
-        run.opacity = static_cast<float>(pbr.baseColorFactor[3]);
-    }
-    // Ours glows in its own colour: of another one only the brightness is taken.
-    const double glow =
-        *std::max_element(material.emissiveFactor.begin(), material.emissiveFactor.end());
-    double strength = 1.0;
-    const auto extension = material.extensions.find("KHR_materials_emissive_strength");
-    if (extension != material.extensions.end() && extension->second.Has("emissiveStrength")) {
-        strength = extension->second.Get("emissiveStrength").GetNumberAsDouble();
-    }
-    if (brightest > 0.0F) {
-        run.emissive = static_cast<float>(glow / static_cast<double>(brightest) * strength);
-    }
-}
-
-float read_gltf_float(const AccessorView& view, std::size_t element, std::size_t component) {
-    float value = 0.0F;
-    std::memcpy(&value, view.data + element * view.stride + component * sizeof(float),
-                sizeof(float));
-    return value;
-}
-
-Vec3 read_gltf_vector(const AccessorView& view, std::size_t element) {
-    return {static_cast<double>(read_gltf_float(view, element, 0)),
-            static_cast<double>(read_gltf_float(view, element, 1)),
-            static_cast<double>(read_gltf_float(view, element, 2))};
-}
-
-std::uint32_t read_gltf_unsigned(const AccessorView& view, std::size_t element,
-                                 std::size_t component) {
-    const std::size_t bytes = view.element_bytes / 4;  // of four components
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < bytes; ++i) {
-        value |= std::uint32_t{view.data[element * view.stride + component * bytes + i]} << (8 * i);
-    }
-    return value;
-}
-
-// Integers are shares of their greatest value (specification, 3.6.2.2).
-float read_gltf_share(const AccessorView& view, std::size_t element, std::size_t component) {
-    switch (view.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return static_cast<float>(read_gltf_unsigned(view, element, component)) / 255.0F;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return static_cast<float>(read_gltf_unsigned(view, element, component)) / 65535.0F;
-        default:
-            return read_gltf_float(view, element, component);
-    }
-}
-
-// What is neither a number nor an array of numbers is somebody else's.
-std::map<std::string, std::vector<double>> read_gltf_numbers(const tinygltf::Value& extras) {
-    std::map<std::string, std::vector<double>> numbers;
-    if (!extras.IsObject()) {
+// `count` numbers; empty if the array is absent.
+std::vector<double> read_numbers(const JsonValue& array, std::size_t count) {
+    std::vector<double> numbers;
+    if (!array.exists()) {
         return numbers;
     }
-    for (const std::string& key : extras.Keys()) {
-        const tinygltf::Value& value = extras.Get(key);
-        std::vector<double> list;
-        bool is_numbers = value.IsNumber() || value.IsArray();
-        if (value.IsNumber()) {
-            list.push_back(value.GetNumberAsDouble());
+    for (const JsonValue& number : array.items()) {
+        numbers.push_back(number.number());
+    }
+    if (numbers.size() != count) {
+        array.refuse("an array of " + std::to_string(count) + " numbers");
+        numbers.resize(count);
+    }
+    return numbers;
+}
+
+std::vector<int> read_indices(const JsonValue& array) {
+    std::vector<int> indices;
+    for (const JsonValue& index : array.optional_items()) {
+        indices.push_back(read_index(index));
+    }
+    return indices;
+}
+
+std::map<std::string, int> read_attributes(const JsonValue& object) {
+    std::map<std::string, int> attributes;
+    for (const auto& [name, value] : object.optional_members()) {
+        attributes.emplace(name, read_index(value));
+    }
+    return attributes;
+}
+
+// A member of the object's extensions; it does not exist if the object has no such extension.
+JsonValue extension_of(const JsonValue& object, const char* name) {
+    const JsonValue extensions = object["extensions"];
+    return extensions.exists() ? extensions[name] : extensions;
+}
+
+bool read_synthetic(const JsonValue& object) {
+    const JsonValue extras = object["extras"];
+    return extras.is_object() && extras["synthetic"].flag_or(false);
+}
+
+// Fills a Model and keeps the first error in the JSON document.
+class ModelParser {
+  public:
+    explicit ModelParser(const JsonValue& root) : root_(root) {}
+
+    Model parse(std::string_view binary) {
+        model_.binary = binary;
+        if (const JsonValue version = root_["asset"]["version"];
+            version.text().rfind("2.", 0) != 0) {
+            version.refuse("version 2.x of glTF");
         }
-        for (std::size_t i = 0; value.IsArray() && i < value.ArrayLen(); ++i) {
-            const tinygltf::Value& item = value.Get(static_cast<int>(i));
-            is_numbers = is_numbers && item.IsNumber();
-            list.push_back(item.IsNumber() ? item.GetNumberAsDouble() : 0.0);
+        parse_extensions();
+        parse_buffers();
+        parse_views();
+        parse_accessors();
+        parse_meshes();
+        parse_materials();
+        parse_nodes();
+        parse_skins();
+        parse_scenes();
+        return std::move(model_);
+    }
+
+  private:
+    void parse_extensions();
+    void parse_buffers();
+    void parse_views();
+    void parse_accessors();
+    void parse_meshes();
+    void parse_materials();
+    void parse_nodes();
+    void parse_skins();
+    void parse_scenes();
+    float clamped(const JsonValue& value, double fallback);
+    Material parse_material(const JsonValue& value);
+
+    JsonValue root_;
+    Model model_;
+    std::size_t clamped_ = 0;
+};
+
+bool changes_geometry(std::string_view extension) {
+    return extension == "KHR_mesh_quantization" || extension == k_meshopt ||
+           extension == k_instancing || (extension == k_draco && has_draco());
+}
+
+// Whether geometry is right without the extension: these change looks, lights or metadata only.
+bool may_be_ignored(std::string_view extension) {
+    constexpr std::array<std::string_view, 13> k_families = {"KHR_materials_",
+                                                             "KHR_texture_",
+                                                             "EXT_texture_",
+                                                             "MSFT_texture_",
+                                                             "KHR_lights_",
+                                                             "EXT_lights_",
+                                                             "KHR_xmp",
+                                                             "KHR_animation_pointer",
+                                                             "EXT_mesh_features",
+                                                             "EXT_materials_",
+                                                             "EXT_structural_metadata",
+                                                             "VRM",
+                                                             "ADOBE_materials_"};
+    return std::any_of(k_families.begin(), k_families.end(),
+                       [&](std::string_view family) { return extension.rfind(family, 0) == 0; });
+}
+
+void ModelParser::parse_extensions() {
+    std::set<std::string> required;
+    for (const JsonValue& extension : root_["extensionsRequired"].optional_items()) {
+        const std::string name = extension.text();
+        if (!changes_geometry(name) && !may_be_ignored(name)) {
+            extension.refuse("a supported extension");
         }
-        if (is_numbers) {
-            numbers.emplace(key, std::move(list));
+        required.insert(name);
+    }
+    std::string ignored;
+    for (const JsonValue& extension : root_["extensionsUsed"].optional_items()) {
+        const std::string name = extension.text();
+        if (!changes_geometry(name) && !may_be_ignored(name) && !required.contains(name)) {
+            ignored += (ignored.empty() ? "" : ", ") + printable(name, k_shown_name);
+        }
+    }
+    if (!ignored.empty()) {
+        model_.notes.push_back("ignored extensions: " + printable(ignored));
+    }
+}
+
+void ModelParser::parse_buffers() {
+    for (const JsonValue& value : root_["buffers"].optional_items()) {
+        Buffer buffer;
+        buffer.bytes = read_size(value["byteLength"], 1);
+        if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
+            buffer.is_fallback = meshopt["fallback"].flag_or(false);
+        }
+        const std::size_t available = model_.buffers.empty() ? model_.binary.size() : 0;
+        if (const JsonValue uri = value["uri"]; uri.exists()) {
+            buffer.uri = uri.text();
+        } else if (!buffer.is_fallback && available == 0) {
+            uri.refuse("a URI: the file has no binary chunk for this buffer");
+        } else if (!buffer.is_fallback && buffer.bytes > available) {
+            value["byteLength"].refuse("at most the " + std::to_string(available) +
+                                       " bytes of the binary chunk");
+        }
+        model_.buffers.push_back(std::move(buffer));
+    }
+}
+
+Meshopt parse_meshopt(const JsonValue& value) {
+    Meshopt meshopt;
+    meshopt.buffer = read_index(value["buffer"]);
+    meshopt.offset = read_offset(value["byteOffset"]);
+    meshopt.bytes = read_size(value["byteLength"], 1);
+    meshopt.stride = static_cast<std::uint64_t>(value["byteStride"].integer(2, 256));
+    meshopt.count = read_size(value["count"], 1);
+    const std::string mode = value["mode"].text();
+    if (mode == "TRIANGLES") {
+        meshopt.mode = Meshopt::Mode::triangles;
+    } else if (mode == "INDICES") {
+        meshopt.mode = Meshopt::Mode::indices;
+    } else if (mode != "ATTRIBUTES") {
+        value["mode"].refuse("ATTRIBUTES, TRIANGLES or INDICES");
+    }
+    const std::string filter = value["filter"].text_or("NONE");
+    if (filter == "OCTAHEDRAL") {
+        meshopt.filter = Meshopt::Filter::octahedral;
+    } else if (filter == "QUATERNION") {
+        meshopt.filter = Meshopt::Filter::quaternion;
+    } else if (filter == "EXPONENTIAL") {
+        meshopt.filter = Meshopt::Filter::exponential;
+    } else if (filter != "NONE") {
+        value["filter"].refuse("NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+    }
+    return meshopt;
+}
+
+void ModelParser::parse_views() {
+    for (const JsonValue& value : root_["bufferViews"].optional_items()) {
+        BufferView view;
+        view.buffer = static_cast<int>(value["buffer"].integer(0, k_max_index));
+        view.offset = read_offset(value["byteOffset"]);
+        view.bytes = read_size(value["byteLength"], 1);
+        if (const JsonValue stride = value["byteStride"]; stride.exists()) {
+            view.stride = static_cast<std::uint64_t>(stride.integer(4, 252));
+            if (view.stride % 4 != 0) {
+                stride.refuse("a multiple of 4");
+            }
+        }
+        if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
+            view.meshopt = parse_meshopt(meshopt);
+        }
+        model_.views.push_back(std::move(view));
+    }
+}
+
+ComponentType parse_component_type(const JsonValue& value) {
+    const std::int64_t type = value.integer(5120, 5126);
+    if (type == 5124) {
+        value.refuse("5120 to 5123, 5125 or 5126");
+        return ComponentType::float32;
+    }
+    return static_cast<ComponentType>(type);
+}
+
+SparseElements parse_sparse(const JsonValue& value) {
+    SparseElements sparse;
+    sparse.count = read_size(value["count"], 1);
+    const JsonValue indices = value["indices"];
+    sparse.indices_view = static_cast<int>(indices["bufferView"].integer(0, k_max_index));
+    sparse.indices_offset = read_offset(indices["byteOffset"]);
+    sparse.indices_type = parse_component_type(indices["componentType"]);
+    const JsonValue values = value["values"];
+    sparse.values_view = static_cast<int>(values["bufferView"].integer(0, k_max_index));
+    sparse.values_offset = read_offset(values["byteOffset"]);
+    return sparse;
+}
+
+void ModelParser::parse_accessors() {
+    struct ElementType {
+        std::string_view name;
+        std::size_t components;
+    };
+    constexpr std::array<ElementType, 7> k_types = {{{"SCALAR", 1},
+                                                     {"VEC2", 2},
+                                                     {"VEC3", 3},
+                                                     {"VEC4", 4},
+                                                     {"MAT2", 4},
+                                                     {"MAT3", 9},
+                                                     {"MAT4", 16}}};
+    for (const JsonValue& value : root_["accessors"].optional_items()) {
+        Accessor accessor;
+        accessor.view = read_index(value["bufferView"]);
+        accessor.offset = read_offset(value["byteOffset"]);
+        accessor.count = read_size(value["count"], 1);
+        accessor.component_type = parse_component_type(value["componentType"]);
+        accessor.is_normalized = value["normalized"].flag_or(false);
+        const std::string type = value["type"].text();
+        const auto* const found = std::find_if(
+            k_types.begin(), k_types.end(), [&](const ElementType& t) { return t.name == type; });
+        if (found == k_types.end()) {
+            value["type"].refuse("SCALAR, VEC2 to VEC4 or MAT2 to MAT4");
+        } else {
+            accessor.components = found->components;
+            accessor.is_matrix = type.front() == 'M';
+        }
+        if (const JsonValue sparse = value["sparse"]; sparse.exists()) {
+            accessor.sparse = parse_sparse(sparse);
+        }
+        model_.accessors.push_back(std::move(accessor));
+    }
+}
+
+void ModelParser::parse_meshes() {
+    std::size_t morph_targets = 0;
+    for (const JsonValue& value : root_["meshes"].optional_items()) {
+        Mesh mesh;
+        mesh.name = value["name"].label();
+        mesh.is_synthetic = read_synthetic(value);
+        std::size_t targets_of_mesh = 0;  // every primitive has the same
+        for (const JsonValue& item : value["primitives"].items()) {
+            Primitive primitive;
+            primitive.attributes = read_attributes(item["attributes"]);
+            primitive.indices = read_index(item["indices"]);
+            primitive.material = read_index(item["material"]);
+            primitive.mode =
+                item["mode"].exists() ? static_cast<int>(item["mode"].integer(0, 6)) : 4;
+            if (const JsonValue draco = extension_of(item, k_draco); draco.exists()) {
+                primitive.draco =
+                    Draco{static_cast<int>(draco["bufferView"].integer(0, k_max_index)),
+                          read_attributes(draco["attributes"])};
+            }
+            targets_of_mesh = std::max(targets_of_mesh, item["targets"].optional_items().size());
+            mesh.primitives.push_back(std::move(primitive));
+        }
+        morph_targets += targets_of_mesh;
+        model_.meshes.push_back(std::move(mesh));
+    }
+    if (morph_targets > 0) {
+        model_.notes.push_back("ignored morph targets: " + std::to_string(morph_targets));
+    }
+}
+
+// A factor that the specification limits to [0, 1].
+float ModelParser::clamped(const JsonValue& value, double fallback) {
+    const double found = value.number_or(fallback);
+    clamped_ += found < 0.0 || found > 1.0 ? 1U : 0U;
+    return static_cast<float>(std::clamp(found, 0.0, 1.0));
+}
+
+Material ModelParser::parse_material(const JsonValue& value) {
+    const auto clamp_all = [this](const JsonValue& array, std::size_t count, float* out) {
+        const std::vector<double> checked = read_numbers(array, count);
+        const std::vector<JsonValue> items =
+            checked.empty() ? std::vector<JsonValue>() : array.items();
+        for (std::size_t i = 0; i < std::min(count, items.size()); ++i) {
+            out[i] = clamped(items[i], 0.0);
+        }
+    };
+    Material material;
+    std::array<float, 4> base = {1.0F, 1.0F, 1.0F, 1.0F};
+    if (const JsonValue pbr = value["pbrMetallicRoughness"]; pbr.exists()) {
+        clamp_all(pbr["baseColorFactor"], 4, base.data());
+        material.gloss = 1.0F - clamped(pbr["roughnessFactor"], 1.0);
+    }
+    material.color = {base[0], base[1], base[2]};
+    if (value["alphaMode"].text_or("OPAQUE") == "BLEND") {
+        material.opacity = base[3];
+    }
+    std::array<float, 3> emissive = {};
+    clamp_all(value["emissiveFactor"], 3, emissive.data());
+    double strength = 1.0;
+    if (const JsonValue glow = extension_of(value, "KHR_materials_emissive_strength");
+        glow.exists()) {
+        strength = glow["emissiveStrength"].number_or(1.0);
+        clamped_ += strength < 0.0 ? 1U : 0U;
+        strength = std::max(strength, 0.0);
+    }
+    // A surface here emits light of its own colour. From another emissive colour only the
+    // brightness is kept.
+    const float brightest = *std::max_element(material.color.begin(), material.color.end());
+    if (brightest > 0.0F) {
+        const double factor =
+            static_cast<double>(*std::max_element(emissive.begin(), emissive.end()));
+        material.emissive = static_cast<float>(factor / static_cast<double>(brightest) * strength);
+    }
+    return material;
+}
+
+void ModelParser::parse_materials() {
+    for (const JsonValue& value : root_["materials"].optional_items()) {
+        model_.materials.push_back(parse_material(value));
+    }
+    if (clamped_ > 0) {
+        model_.notes.push_back("material factors clamped to [0, 1]: " + std::to_string(clamped_));
+    }
+}
+
+Affine parse_transform(const JsonValue& node) {
+    Affine transform;
+    const JsonValue matrix = node["matrix"];
+    for (const char* part : {"translation", "rotation", "scale"}) {
+        if (matrix.exists() && node[part].exists()) {
+            node[part].refuse("either a matrix or translation, rotation and scale");
+        }
+    }
+    if (const std::vector<double> m = read_numbers(matrix, 16); !m.empty()) {  // column-major
+        if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+            matrix.refuse("a last row of 0, 0, 0, 1");
+        }
+        transform.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
+        transform.translation = Vec3(m[12], m[13], m[14]);
+        return transform;
+    }
+    const Quat rotation = node["rotation"].rotation_or(Quat::Identity());
+    const Vec3 scale = node["scale"].vector_or(Vec3::Ones());
+    transform.linear = rotation.toRotationMatrix() * scale.asDiagonal();
+    transform.translation = node["translation"].vector_or(Vec3::Zero());
+    return transform;
+}
+
+// Members of other types are for other programs.
+std::map<std::string, std::vector<double>> parse_extras(const JsonValue& extras) {
+    constexpr NumberRange k_any = {-std::numeric_limits<double>::max(),
+                                   std::numeric_limits<double>::max()};
+    std::map<std::string, std::vector<double>> numbers;
+    if (!extras.is_object()) {
+        return numbers;
+    }
+    for (const auto& [name, value] : extras.optional_members()) {
+        const std::vector<JsonValue> items =
+            value.is_array() ? value.items() : std::vector<JsonValue>{value};
+        if (std::all_of(items.begin(), items.end(),
+                        [](const JsonValue& item) { return item.is_number(); })) {
+            std::vector<double>& list = numbers[name];
+            for (const JsonValue& item : items) {
+                list.push_back(item.number(k_any));
+            }
         }
     }
     return numbers;
 }
 
-bool GltfModelReader::refuse(std::string place, std::string expected) {
-    error_ = FileError{file_, std::move(place), std::move(expected)};
+void ModelParser::parse_nodes() {
+    for (const JsonValue& value : root_["nodes"].optional_items()) {
+        Node node;
+        node.name = value["name"].label();
+        node.is_synthetic = read_synthetic(value);
+        node.mesh = read_index(value["mesh"]);
+        node.skin = read_index(value["skin"]);
+        node.children = read_indices(value["children"]);
+        node.local = parse_transform(value);
+        node.numbers = parse_extras(value["extras"]);
+        if (const JsonValue instancing = extension_of(value, k_instancing); instancing.exists()) {
+            node.instances = read_attributes(instancing["attributes"]);
+        }
+        model_.nodes.push_back(std::move(node));
+    }
+}
+
+void ModelParser::parse_skins() {
+    for (const JsonValue& value : root_["skins"].optional_items()) {
+        value["joints"].items();  // required
+        model_.skins.push_back(
+            {read_indices(value["joints"]), read_index(value["inverseBindMatrices"])});
+    }
+}
+
+void ModelParser::parse_scenes() {
+    model_.scene = read_index(root_["scene"]);
+    for (const JsonValue& value : root_["scenes"].optional_items()) {
+        model_.scenes.push_back(read_indices(value["nodes"]));
+    }
+}
+
+}  // namespace
+
+Result<Model> parse_model(std::string_view bytes, const std::string& file) {
+    const Result<GlbChunks> chunks = split_glb(bytes, file);
+    if (!chunks) {
+        return chunks.error();
+    }
+    const Result<JsonDocument> document = JsonDocument::parse(chunks.value().json, file);
+    if (!document) {
+        return document.error();
+    }
+    Model model = ModelParser(document.value().root()).parse(chunks.value().binary);
+    if (document.value().failed()) {
+        return document.value().error();
+    }
+    return model;
+}
+
+std::string pointer(const char* section, int index) {
+    return std::string("/") + section + "/" + std::to_string(index);
+}
+
+bool Refusal::refuse(std::string place, std::string expected) {
+    if (!error_) {
+        error_ = FileError{file_, std::move(place), std::move(expected)};
+    }
     return false;
 }
 
-bool GltfModelReader::refuse_index(const std::string& place, const char* what, std::size_t size,
-                                   int found) {
-    return refuse(place, std::string("expected a ") + what + " below " + std::to_string(size) +
-                             ", found " + std::to_string(found));
+bool Refusal::refuse_index(std::string place, const char* what, std::size_t size, int found) {
+    return refuse(std::move(place), std::string("expected a ") + what + " below " +
+                                        std::to_string(size) + ", found " + std::to_string(found));
 }
 
-bool GltfModelReader::place_scene(std::vector<PlacedNode>& placed) {
-    std::optional<std::vector<int>> roots;
-    std::string roots_place;
-    std::vector<FileNode> nodes(model_.nodes.size());
-    if (!choose_roots(roots, roots_place) || !read_nodes(nodes)) {
-        return false;
-    }
-    Result<std::vector<PlacedNode>> found = place_nodes(nodes, roots, roots_place, file_);
-    if (!found) {
-        error_ = found.error();
-        return false;
-    }
-    placed = std::move(found.value());
-    return true;
-}
-
-bool GltfModelReader::choose_roots(std::optional<std::vector<int>>& roots, std::string& place) {
-    if (model_.scenes.empty() && model_.defaultScene == -1) {
-        return true;
-    }
-    const int scene = std::max(model_.defaultScene, 0);
-    if (!is_gltf_index(scene, model_.scenes.size())) {
-        return refuse_index("/scene", "scene", model_.scenes.size(), scene);
-    }
-    roots = model_.scenes[static_cast<std::size_t>(scene)].nodes;
-    place = gltf_pointer("scenes", scene) + "/nodes";
-    return true;
-}
-
-bool GltfModelReader::read_nodes(std::vector<FileNode>& nodes) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        nodes[i].children = model_.nodes[i].children;
-        if (!read_transform(static_cast<int>(i), nodes[i].local)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool GltfModelReader::read_transform(int index, Affine& transform) {
-    const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
-    if (node.matrix.size() == 16) {
-        const std::vector<double>& m = node.matrix;  // column by column
-        if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
-            return refuse(gltf_pointer("nodes", index) + "/matrix",
-                          "expected a last row of 0, 0, 0, 1");
-        }
-        transform.linear << m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10];
-        transform.translation = Vec3(m[12], m[13], m[14]);
-        return true;
-    }
-    if (node.rotation.size() == 4) {
-        const Quat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        transform.linear = rotation.normalized().toRotationMatrix();
-    }
-    if (node.scale.size() == 3) {
-        const Vec3 scale(node.scale[0], node.scale[1], node.scale[2]);
-        transform.linear = (transform.linear * scale.asDiagonal()).eval();
-    }
-    if (node.translation.size() == 3) {
-        transform.translation = Vec3(node.translation[0], node.translation[1], node.translation[2]);
-    }
-    return true;
-}
-
-bool GltfModelReader::read_indices(int accessor, const std::string& place, std::size_t vertices,
-                                   std::vector<std::uint32_t>& out) {
-    out.clear();
-    if (vertices > k_max_level_size) {
-        return refuse(place, "expected at most " + std::to_string(k_max_level_size) + " vertices");
-    }
-    if (accessor == -1) {
-        for (std::uint32_t i = 0; i < vertices; ++i) {
-            out.push_back(i);
-        }
-        return true;
-    }
-    AccessorView view;
-    if (!view_accessor(accessor, GltfElements::indices, place, view)) {
-        return false;
-    }
-    if (view.count > 3 * k_max_level_size) {
-        return refuse(place,
-                      "expected at most " + std::to_string(3 * k_max_level_size) + " indices");
-    }
-    out.reserve(view.count);
-    for (std::size_t i = 0; i < view.count; ++i) {
-        std::uint32_t index = 0;
-        for (std::size_t byte = 0; byte < view.element_bytes; ++byte) {
-            index |= std::uint32_t{view.data[i * view.stride + byte]} << (8 * byte);
-        }
-        if (index >= vertices) {
-            return refuse(place, "expected indices below " + std::to_string(vertices) + ", found " +
-                                     std::to_string(index) + " at " + std::to_string(i));
-        }
-        out.push_back(index);
-    }
-    return true;
-}
-
-// What the specification (3.6.2.4) asks of an accessor and its view before a single byte is read
-// through them. The document check keeps every number here below 2^32: no sum or product overflows.
-bool GltfModelReader::view_accessor(int index, GltfElements elements, const std::string& place,
-                                    AccessorView& view) {
-    if (!is_gltf_index(index, model_.accessors.size())) {
-        return refuse_index(place, "accessor", model_.accessors.size(), index);
-    }
-    const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-    const std::string accessor_place = gltf_pointer("accessors", index);
-    const ElementRule rule = rule_of(elements);
-    const std::size_t element_bytes = bytes_of_element(rule, accessor);
-    if (element_bytes == 0) {
-        return refuse(accessor_place, rule.expected);
-    }
-    std::span<const unsigned char> bytes;
-    if (!view_bytes(accessor.bufferView, accessor_place + "/bufferView", bytes)) {
-        return false;
-    }
-    const std::size_t file_stride =
-        model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-    const std::size_t stride = file_stride == 0 ? element_bytes : file_stride;
-    if (stride < element_bytes) {
-        return refuse(gltf_pointer("bufferViews", accessor.bufferView) + "/byteStride",
-                      "expected at least the " + std::to_string(element_bytes) +
-                          " bytes of an element, found " + std::to_string(stride));
-    }
-    const std::size_t end = accessor.byteOffset + stride * (accessor.count - 1) + element_bytes;
-    if (end > bytes.size()) {
-        return refuse(accessor_place,
-                      "expected elements within the " + std::to_string(bytes.size()) +
-                          " bytes of the view, found an end at " + std::to_string(end));
-    }
-    view = {bytes.data() + accessor.byteOffset, accessor.count, stride, element_bytes,
-            accessor.componentType};
-    return true;
-}
-
-bool GltfModelReader::view_bytes(int index, const std::string& place,
-                                 std::span<const unsigned char>& bytes) {
-    if (!is_gltf_index(index, model_.bufferViews.size())) {
-        return refuse_index(place, "buffer view", model_.bufferViews.size(), index);
-    }
-    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
-    const std::string view_place = gltf_pointer("bufferViews", index);
-    if (!is_gltf_index(view.buffer, model_.buffers.size())) {
-        return refuse_index(view_place + "/buffer", "buffer", model_.buffers.size(), view.buffer);
-    }
-    const std::vector<unsigned char>& all =
-        model_.buffers[static_cast<std::size_t>(view.buffer)].data;
-    if (view.byteOffset + view.byteLength > all.size()) {
-        return refuse(view_place, "expected a view within the " + std::to_string(all.size()) +
-                                      " bytes of its buffer, found an end at " +
-                                      std::to_string(view.byteOffset + view.byteLength));
-    }
-    bytes = std::span(all).subspan(view.byteOffset, view.byteLength);
-    return true;
-}
-
-}  // namespace handhold
+}  // namespace handhold::gltf

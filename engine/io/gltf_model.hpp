@@ -1,90 +1,171 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-// Only the types and the loader: the library is linked, images are never given to it.
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
-
-#include "engine/io/gltf.hpp"
-#include "engine/io/gltf_document.hpp"
-#include "engine/io/node_tree.hpp"
 #include "engine/io/result.hpp"
+#include "engine/math/math.hpp"
 
-// What the readers of glTF share. Included by engine/io/gltf*.cpp only: it names the library.
-namespace handhold {
+// The part of a glTF 2.0 document that geometry needs, as plain structs. Field names and meanings
+// follow the Khronos specification, section 5. Private to engine/io/gltf*.
+namespace handhold::gltf {
 
-// Of bytes that extract_geometry_glb has passed. `path` is for messages and for external buffers.
-Result<tinygltf::Model> parse_gltf_model(const std::string& glb, const std::filesystem::path& path);
+constexpr int k_none = -1;  // an absent index
 
-std::string gltf_pointer(const char* section, int index);  // "/nodes/3"
-bool is_gltf_index(int index, std::size_t size);
-// Colour, gloss and what glows of a material.
-void read_gltf_material(const tinygltf::Material& material, ColorRun& run);
-
-// The elements of one accessor; every one of them lies in its buffer.
-struct AccessorView {
-    const unsigned char* data = nullptr;
-    std::size_t count = 0;
-    std::size_t stride = 0;
-    std::size_t element_bytes = 0;
-    int component_type = 0;
+enum class ComponentType {
+    int8 = 5120,
+    uint8 = 5121,
+    int16 = 5122,
+    uint16 = 5123,
+    uint32 = 5125,
+    float32 = 5126
 };
 
-// One component of an element of floats, and three of them.
-float read_gltf_float(const AccessorView& view, std::size_t element, std::size_t component);
-Vec3 read_gltf_vector(const AccessorView& view, std::size_t element);
-// One of four unsigned integers.
-std::uint32_t read_gltf_unsigned(const AccessorView& view, std::size_t element,
-                                 std::size_t component);
-// One of four weights: a float, or an integer that is a share of its greatest value.
-float read_gltf_share(const AccessorView& view, std::size_t element, std::size_t component);
+struct Buffer {
+    std::uint64_t bytes = 0;
+    std::string uri;           // empty: the binary chunk of the .glb
+    bool is_fallback = false;  // holds no data (EXT_meshopt_compression)
+};
 
-// Of an object's extras, those that are a number or an array of numbers.
-std::map<std::string, std::vector<double>> read_gltf_numbers(const tinygltf::Value& extras);
+// EXT_meshopt_compression: the compressed bytes of a view.
+struct Meshopt {
+    enum class Mode { attributes, triangles, indices };
+    enum class Filter { none, octahedral, quaternion, exponential };
+    int buffer = k_none;
+    std::uint64_t offset = 0, bytes = 0;
+    std::uint64_t stride = 0;  // bytes of a decoded element
+    std::uint64_t count = 0;   // decoded elements
+    Mode mode = Mode::attributes;
+    Filter filter = Filter::none;
+};
 
-// What an accessor is asked to hold.
-enum class GltfElements { vectors, indices, joints, weights, matrices };
+struct BufferView {
+    int buffer = k_none;
+    std::uint64_t offset = 0, bytes = 0;
+    std::uint64_t stride = 0;  // 0: elements are tightly packed
+    std::optional<Meshopt> meshopt;
+};
 
-// Reads parts of a model. The first error stops it: what returns a bool is false from then on.
-class GltfModelReader {
+struct SparseElements {
+    std::uint64_t count = 0;
+    int indices_view = k_none;
+    std::uint64_t indices_offset = 0;
+    ComponentType indices_type = ComponentType::uint16;
+    int values_view = k_none;
+    std::uint64_t values_offset = 0;
+};
+
+struct Accessor {
+    int view = k_none;  // k_none: all elements are zero
+    std::uint64_t offset = 0;
+    std::uint64_t count = 0;
+    std::size_t components = 1;  // 1 to 4 for SCALAR and VECn, 4, 9 or 16 for MATn
+    bool is_matrix = false;
+    ComponentType component_type = ComponentType::float32;
+    bool is_normalized = false;
+    std::optional<SparseElements> sparse;
+};
+
+// KHR_draco_mesh_compression: a view with compressed geometry and, by attribute name, the
+// attribute's unique id in it.
+struct Draco {
+    int view = k_none;
+    std::map<std::string, int> attributes;
+};
+
+struct Primitive {
+    std::map<std::string, int> attributes;  // accessors by name, such as "POSITION"
+    int indices = k_none;
+    int material = k_none;
+    int mode = 4;
+    std::optional<Draco> draco;
+};
+
+struct Mesh {
+    std::string name;
+    bool is_synthetic = false;  // extras.synthetic
+    std::vector<Primitive> primitives;
+};
+
+// All factors are clamped to [0, 1].
+struct Material {
+    std::array<float, 3> color = {1.0F, 1.0F, 1.0F};
+    float opacity = 1.0F;   // below 1 only if alphaMode is BLEND
+    float gloss = 0.0F;     // 1 - roughness
+    float emissive = 0.0F;  // times `color`, >= 0; the brightest channel of the emissive factor
+};
+
+struct Node {
+    std::string name;
+    bool is_synthetic = false;  // extras.synthetic
+    int mesh = k_none;
+    int skin = k_none;
+    std::vector<int> children;
+    Affine local;  // into the parent's frame
+    // Of its extras, members that are a number or an array of numbers.
+    std::map<std::string, std::vector<double>> numbers;
+    // EXT_mesh_gpu_instancing: accessors by name ("TRANSLATION", "ROTATION", "SCALE").
+    std::optional<std::map<std::string, int>> instances;
+};
+
+struct Skin {
+    std::vector<int> joints;  // nodes
+    int inverse_binds = k_none;
+};
+
+struct Model {
+    std::vector<Buffer> buffers;
+    std::vector<BufferView> views;
+    std::vector<Accessor> accessors;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Node> nodes;
+    std::vector<Skin> skins;
+    std::vector<std::vector<int>> scenes;  // root nodes
+    int scene = k_none;
+    std::string_view binary;         // the binary chunk; points into the parsed bytes
+    std::vector<std::string> notes;  // about parts that are ignored or clamped
+};
+
+// Parses the bytes of a .gltf or .glb, which must outlive the model. Refuses a field of the wrong
+// type or out of the specification's range, a required extension that is not supported, and a
+// buffer that claims more bytes than the binary chunk has. Indices are not checked against the
+// sections they point into: whoever follows one checks it. Reads no other file. `file` is for
+// messages.
+Result<Model> parse_model(std::string_view bytes, const std::string& file);
+
+std::string pointer(const char* section, int index);  // "/nodes/3"
+
+// Whether `index` is an element of `section`.
+template <typename T>
+bool has_element(const std::vector<T>& section, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < section.size();
+}
+// Precondition: has_element(section, index).
+template <typename T>
+const T& element(const std::vector<T>& section, int index) {
+    return section[static_cast<std::size_t>(index)];
+}
+
+// Keeps the first refusal of a file.
+class Refusal {
   public:
-    GltfModelReader(const tinygltf::Model& model, std::string file)
-        : model_(model), file_(std::move(file)) {}
-
-    // False, always.
+    explicit Refusal(std::string file) : file_(std::move(file)) {}
+    // Both return false.
     bool refuse(std::string place, std::string expected);
-    bool refuse_index(const std::string& place, const char* what, std::size_t size, int found);
+    bool refuse_index(std::string place, const char* what, std::size_t size, int found);
     // Precondition: something was refused.
-    FileError error() const { return error_.value(); }
-
-    // The nodes of the default scene (else of the first one, else all), parents before children.
-    bool place_scene(std::vector<PlacedNode>& placed);
-    // Precondition: `index` is an accessor's number or not; the document check saw an integer.
-    bool view_accessor(int index, GltfElements elements, const std::string& place,
-                       AccessorView& view);
-    // The indices of an accessor, or 0, 1, 2, ... below `vertices` where there is none (-1).
-    bool read_indices(int accessor, const std::string& place, std::size_t vertices,
-                      std::vector<std::uint32_t>& out);
+    const FileError& error() const { return error_.value(); }
+    const std::string& file() const { return file_; }
 
   private:
-    // Leaves `roots` without a value where the file has no scene: then all of it is one.
-    bool choose_roots(std::optional<std::vector<int>>& roots, std::string& place);
-    bool read_nodes(std::vector<FileNode>& nodes);
-    bool read_transform(int index, Affine& transform);
-    bool view_bytes(int index, const std::string& place, std::span<const unsigned char>& bytes);
-
-    const tinygltf::Model& model_;
     std::string file_;
     std::optional<FileError> error_;
 };
 
-}  // namespace handhold
+}  // namespace handhold::gltf

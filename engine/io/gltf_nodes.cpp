@@ -1,35 +1,32 @@
 #include "engine/io/gltf_nodes.hpp"
 
 #include "engine/io/gltf_model.hpp"
+#include "engine/io/gltf_scene.hpp"
 #include "engine/io/text_file.hpp"
 
 namespace handhold {
 
 Result<std::vector<GltfNode>> parse_gltf_nodes(std::string_view bytes,
                                                const std::filesystem::path& path) {
-    const Result<std::string> glb = extract_geometry_glb(bytes, path.string(), GltfUse::skinned);
-    if (!glb) {
-        return glb.error();
-    }
-    const Result<tinygltf::Model> model = parse_gltf_model(glb.value(), path);
+    const Result<gltf::Model> model = gltf::parse_model(bytes, path.string());
     if (!model) {
         return model.error();
     }
-    GltfModelReader reader(model.value(), path.string());
+    gltf::Refusal refusal(path.string());
     std::vector<PlacedNode> placed;
-    if (!reader.place_scene(placed)) {
-        return reader.error();
+    if (!gltf::place_scene(model.value(), refusal, placed)) {
+        return refusal.error();
     }
     std::vector<GltfNode> nodes;
-    std::map<int, std::size_t> parent_of;  // by the node's number
+    std::map<int, std::size_t> parent_of;  // by node of the file: the parent, into `nodes`
     for (const PlacedNode& node : placed) {
-        const tinygltf::Node& from = model.value().nodes[static_cast<std::size_t>(node.node)];
+        const gltf::Node& from = gltf::element(model.value().nodes, node.node);
         const auto parent = parent_of.find(node.node);
         for (const int child : from.children) {
             parent_of.emplace(child, nodes.size());
         }
-        nodes.push_back({from.name, rigid_part(node.world), read_gltf_numbers(from.extras),
-                         gltf_pointer("nodes", node.node),
+        nodes.push_back({from.name, rigid_part(node.world), from.numbers,
+                         gltf::pointer("nodes", node.node),
                          parent != parent_of.end() ? std::optional(parent->second) : std::nullopt});
     }
     return nodes;

@@ -11,23 +11,23 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
-// How the nodes of a glTF 2.0 file stand, without their meshes: what an animation package has
-// posed.
+// Reads the node hierarchy of a glTF 2.0 file without its meshes.
 namespace handhold {
 
 struct GltfNode {
     std::string name;             // may be empty
-    std::optional<Pose> pose_ms;  // in the frame of the file's scene, without its scale; none of
-                                  // one that is squashed or mirrored
-    std::map<std::string, std::vector<double>> numbers;  // of its extras
-    std::string pointer;                                 // "/nodes/3"
-    std::optional<std::size_t> parent;                   // its place in the list; none of a root
+    std::optional<Pose> pose_ms;  // in the scene's frame, without scale; absent if the node is
+                                  // scaled unevenly, sheared or mirrored
+    std::map<std::string, std::vector<double>> numbers;  // extras that are numbers, or arrays of
+                                                         // numbers
+    std::string pointer;                                 // JSON pointer: "/nodes/3"
+    std::optional<std::size_t> parent;                   // index in the list; absent for a root
 };
 
-// The nodes of the default scene (else of the first one, else all), parents before children.
-// Refused: what load_gltf_skin refuses, but for skins.
+// The nodes of the default scene; without one, of the first scene; without scenes, all. Parents
+// come before children. Refuses what load_gltf_level refuses about nodes; skins are not read.
 Result<std::vector<GltfNode>> load_gltf_nodes(const std::filesystem::path& path);
-// The same for bytes in memory; `path` is for messages and for external buffers.
+// Reads from memory. `path` is for messages.
 Result<std::vector<GltfNode>> parse_gltf_nodes(std::string_view bytes,
                                                const std::filesystem::path& path);
 

@@ -2,20 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "engine/io/gltf_accessors.hpp"
+#include "engine/io/gltf_buffers.hpp"
 #include "engine/io/gltf_model.hpp"
+#include "engine/io/gltf_primitive.hpp"
+#include "engine/io/gltf_scene.hpp"
 #include "engine/io/text_file.hpp"
 #include "engine/io/triangle_list.hpp"
 
 namespace handhold {
 namespace {
 
-// What a frame's Y is turned to stays, then Z as near as that allows.
+// A rotation with the direction of the frame's Y axis, and with its Z axis as close to the frame's
+// as that allows.
 Pose straightened(const Affine& frame) {
     Vec3 y = frame.linear.col(1);
     Vec3 z = frame.linear.col(2);
@@ -35,44 +40,49 @@ Pose straightened(const Affine& frame) {
     return {frame.translation, Quat(axes).normalized()};
 }
 
-// Which nodes are joints: those that the one skin names, or all of the scene.
+// Which nodes become joints: those of the only skin, or all of the scene.
 enum class JointSource { skin, scene };
 
-// The first error stops it.
+// Reads a model's scene into one skinned mesh. The first error stops it.
 class SkinReader {
   public:
-    SkinReader(const tinygltf::Model& model, std::string file, JointSource source)
-        : model_(model), reader_(model, file), source_(source) {
-        skin_.file = std::move(file);
+    SkinReader(const gltf::Model& model, std::span<const std::string_view> buffers,
+               gltf::Refusal& refusal, JointSource source)
+        : model_(model), refusal_(refusal), reader_(model, buffers, refusal), source_(source) {
+        skin_.file = refusal.file();
     }
 
-    Result<SkinnedMesh> read() {
-        if (!reader_.place_scene(placed_) || !choose_skin() || !read_joints() || !read_meshes()) {
-            return reader_.error();
+    bool read() {
+        if (!gltf::place_scene(model_, refusal_, placed_) || !choose_skin() || !read_joints() ||
+            !read_meshes()) {
+            return false;
         }
         finish_normals();
-        return std::move(skin_);
+        add_notes();
+        return true;
     }
+    SkinnedMesh take_skin() { return std::move(skin_); }
 
   private:
-    struct VertexViews {
-        AccessorView positions, normals, joints, weights;
-        bool has_normals = false;
-    };
-    // What the vertices of a mesh name as joints: the joint, and the way from the mesh's bind
-    // space.
+    // One entry of a skin's joint list: the joint, and the map from the mesh's bind space to the
+    // scene.
     struct Slot {
         std::uint16_t joint = 0;
         Affine to_scene;
     };
-    // Of one mesh: the slots of its skin, or its node alone.
+    // What a mesh follows: the slots of its skin, or only its node.
     struct Binding {
         std::vector<Slot> slots;
         bool is_skinned = false;
     };
+    // A vertex's influence by one slot.
+    struct Influence {
+        std::size_t slot = 0;
+        float weight = 0.0F;
+    };
 
     bool refuse(std::string place, std::string expected) {
-        return reader_.refuse(std::move(place), std::move(expected));
+        return refusal_.refuse(std::move(place), std::move(expected));
     }
     bool choose_skin();
     bool read_joints();
@@ -82,29 +92,34 @@ class SkinReader {
     void find_parents();
     const Binding* bind(const PlacedNode& placed);
     bool bind_skin(int skin, Binding& binding);
-    bool undo_binds(int skin, Binding& binding);
+    bool apply_inverse_binds(int skin, Binding& binding);
     bool read_meshes();
-    bool read_primitive(const tinygltf::Primitive& primitive, const Binding& binding,
+    bool read_primitive(const gltf::Primitive& primitive, const Binding& binding,
                         const std::string& place);
-    bool view_vertices(const tinygltf::Primitive& primitive, bool is_skinned,
-                       const std::string& place, VertexViews& views);
-    bool append_vertex(const VertexViews& views, std::size_t i, const Affine& to_scene,
-                       const std::string& place);
-    bool append_weights(const VertexViews& views, std::size_t i, const Binding& binding,
-                        const std::string& place, Affine& to_scene);
+    bool append_skinned(const Binding& binding, const std::string& place, std::size_t& mirrored);
+    bool collect_influences(std::size_t vertex, const Binding& binding, const std::string& place);
+    void append_weights(const Binding& binding, Affine& to_scene);
+    bool append_vertex(std::size_t vertex, const Affine& to_scene, const std::string& place);
+    void append_surface(const gltf::Material* material, std::size_t first, bool is_mirrored);
     void finish_normals();
+    void add_notes();
 
-    const tinygltf::Model& model_;
-    GltfModelReader reader_;
+    const gltf::Model& model_;
+    gltf::Refusal& refusal_;
+    gltf::AccessorReader reader_;
     JointSource source_;
     SkinnedMesh skin_;
-    int skin_index_ = -1;  // of JointSource::skin
+    int skin_index_ = gltf::k_none;  // of JointSource::skin
     std::vector<PlacedNode> placed_;
     std::map<int, const PlacedNode*> by_node_;
     std::map<int, std::uint16_t> joint_of_node_;
-    std::map<int, Binding> skins_;  // by skin, those that were needed
-    Binding rigid_;                 // of the node that is being read
-    std::vector<std::uint32_t> indices_;
+    std::map<int, Binding> skins_;       // by skin, those that a mesh uses
+    Binding rigid_;                      // of the mesh that is being read, if it has no skin
+    gltf::PrimitiveData primitive_;      // scratch
+    std::vector<Influence> influences_;  // scratch: of one vertex, heaviest first
+    std::size_t skipped_primitives_ = 0;
+    std::size_t reduced_vertices_ = 0;     // had more than four joints
+    std::size_t unweighted_vertices_ = 0;  // had no weight above 0
 };
 
 bool SkinReader::choose_skin() {
@@ -112,33 +127,33 @@ bool SkinReader::choose_skin() {
         return true;
     }
     for (const PlacedNode& placed : placed_) {
-        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-        if (node.mesh == -1 || node.skin == -1) {
+        const gltf::Node& node = gltf::element(model_.nodes, placed.node);
+        if (node.mesh == gltf::k_none || node.skin == gltf::k_none) {
             continue;
         }
-        const std::string place = gltf_pointer("nodes", placed.node) + "/skin";
-        if (!is_gltf_index(node.skin, model_.skins.size())) {
-            return reader_.refuse_index(place, "skin", model_.skins.size(), node.skin);
+        const std::string place = gltf::pointer("nodes", placed.node) + "/skin";
+        if (!gltf::has_element(model_.skins, node.skin)) {
+            return refusal_.refuse_index(place, "skin", model_.skins.size(), node.skin);
         }
-        if (skin_index_ != -1 && skin_index_ != node.skin) {
+        if (skin_index_ != gltf::k_none && skin_index_ != node.skin) {
             return refuse(place, "expected one skin, found a second one");
         }
         skin_index_ = node.skin;
     }
-    return skin_index_ != -1 || refuse("/nodes", "expected a mesh with a skin");
+    return skin_index_ != gltf::k_none || refuse("/nodes", "expected a mesh with a skin");
 }
 
-// The nodes that are joints, in order.
+// The nodes that become joints, in order.
 bool SkinReader::list_joints(std::vector<int>& nodes) {
     if (source_ == JointSource::skin) {
-        nodes = model_.skins[static_cast<std::size_t>(skin_index_)].joints;
+        nodes = gltf::element(model_.skins, skin_index_).joints;
     } else {
         for (const PlacedNode& placed : placed_) {
             nodes.push_back(placed.node);
         }
     }
     const std::string place =
-        source_ == JointSource::skin ? gltf_pointer("skins", skin_index_) + "/joints" : "/nodes";
+        source_ == JointSource::skin ? gltf::pointer("skins", skin_index_) + "/joints" : "/nodes";
     return check_joint_count(nodes.size(), place);
 }
 
@@ -159,7 +174,7 @@ bool SkinReader::read_joints() {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto node = by_node_.find(nodes[i]);
         const auto place = [&] {
-            return gltf_pointer("skins", skin_index_) + "/joints/" + std::to_string(i);
+            return gltf::pointer("skins", skin_index_) + "/joints/" + std::to_string(i);
         };
         if (node == by_node_.end()) {
             return refuse(place(),
@@ -178,15 +193,18 @@ bool SkinReader::read_joints() {
 
 bool SkinReader::append_joint(const PlacedNode& placed) {
     std::optional<Pose> pose = rigid_part(placed.world);
-    if (!pose && source_ == JointSource::scene && is_finite(placed.world.translation)) {
+    const bool is_mirrored =
+        rigid_part({Mat3(-placed.world.linear), placed.world.translation}).has_value();
+    if (!pose && (source_ == JointSource::scene || is_mirrored) &&
+        is_finite(placed.world.translation)) {
         pose = straightened(placed.world);
     }
     if (!pose || pose->position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
-        return refuse(gltf_pointer("nodes", placed.node),
-                      "expected a joint that is turned, moved and evenly scaled at most");
+        return refuse(gltf::pointer("nodes", placed.node),
+                      "expected a joint without uneven scale, shear or mirroring");
     }
-    const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-    skin_.joints.push_back({node.name, -1, *pose, read_gltf_numbers(node.extras)});
+    const gltf::Node& node = gltf::element(model_.nodes, placed.node);
+    skin_.joints.push_back({node.name, -1, *pose, node.numbers});
     return true;
 }
 
@@ -200,22 +218,30 @@ void SkinReader::find_parents() {
             skin_.joints[static_cast<std::size_t>(self->second)].parent = joint;
             joint = self->second;
         }
-        for (const int child : model_.nodes[static_cast<std::size_t>(placed.node)].children) {
+        for (const int child : gltf::element(model_.nodes, placed.node).children) {
             joint_above[child] = joint;
         }
     }
 }
 
-// Null where it is refused.
+// Null after a refusal.
 const SkinReader::Binding* SkinReader::bind(const PlacedNode& placed) {
-    const int skin = model_.nodes[static_cast<std::size_t>(placed.node)].skin;
-    if (skin == -1) {
-        rigid_.slots = {{joint_of_node_[placed.node], placed.world}};
+    const int skin = gltf::element(model_.nodes, placed.node).skin;
+    if (skin == gltf::k_none) {
+        // One slot per instance: all follow the node's joint.
+        std::vector<Affine> frames;
+        if (!gltf::place_instances(placed, model_, reader_, refusal_, frames)) {
+            return nullptr;
+        }
+        rigid_.slots.clear();
+        for (const Affine& frame : frames) {
+            rigid_.slots.push_back({joint_of_node_[placed.node], frame});
+        }
         return &rigid_;
     }
-    if (!is_gltf_index(skin, model_.skins.size())) {
-        reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/skin", "skin",
-                             model_.skins.size(), skin);
+    if (!gltf::has_element(model_.skins, skin)) {
+        refusal_.refuse_index(gltf::pointer("nodes", placed.node) + "/skin", "skin",
+                              model_.skins.size(), skin);
         return nullptr;
     }
     const auto [entry, is_new] = skins_.try_emplace(skin);
@@ -223,8 +249,8 @@ const SkinReader::Binding* SkinReader::bind(const PlacedNode& placed) {
 }
 
 bool SkinReader::bind_skin(int skin, Binding& binding) {
-    const std::vector<int>& nodes = model_.skins[static_cast<std::size_t>(skin)].joints;
-    const std::string place = gltf_pointer("skins", skin) + "/joints";
+    const std::vector<int>& nodes = gltf::element(model_.skins, skin).joints;
+    const std::string place = gltf::pointer("skins", skin) + "/joints";
     if (!check_joint_count(nodes.size(), place)) {
         return false;
     }
@@ -241,37 +267,29 @@ bool SkinReader::bind_skin(int skin, Binding& binding) {
         binding.slots.push_back({joint->second, by_node_[nodes[i]]->world});
     }
     binding.is_skinned = true;
-    return undo_binds(skin, binding);
+    return apply_inverse_binds(skin, binding);
 }
 
-bool SkinReader::undo_binds(int skin, Binding& binding) {
-    const int accessor = model_.skins[static_cast<std::size_t>(skin)].inverseBindMatrices;
-    if (accessor == -1) {  // then they are identities (specification, 3.7.3.1)
+// Prepends the inverse bind matrices to the slots' maps.
+bool SkinReader::apply_inverse_binds(int skin, Binding& binding) {
+    const int accessor = gltf::element(model_.skins, skin).inverse_binds;
+    if (accessor == gltf::k_none) {  // then they are identities (specification, 3.7.3.1)
         return true;
     }
-    const std::string place = gltf_pointer("skins", skin) + "/inverseBindMatrices";
-    AccessorView view;
-    if (!reader_.view_accessor(accessor, GltfElements::matrices, place, view)) {
+    const std::string place = gltf::pointer("skins", skin) + "/inverseBindMatrices";
+    std::vector<float> matrices;
+    if (!reader_.read_floats(accessor, gltf::Elements::matrices, place, matrices)) {
         return false;
     }
-    if (view.count < binding.slots.size()) {
+    if (matrices.size() / 16 < binding.slots.size()) {
         return refuse(place, "expected a matrix for each of the " +
                                  std::to_string(binding.slots.size()) + " joints, found " +
-                                 std::to_string(view.count));
+                                 std::to_string(matrices.size() / 16));
     }
     for (std::size_t i = 0; i < binding.slots.size(); ++i) {
-        Affine inverse_bind;
-        for (std::size_t column = 0; column < 3; ++column) {
-            for (std::size_t row = 0; row < 3; ++row) {
-                inverse_bind.linear(static_cast<Eigen::Index>(row),
-                                    static_cast<Eigen::Index>(column)) =
-                    static_cast<double>(read_gltf_float(view, i, 4 * column + row));
-            }
-        }
-        for (std::size_t row = 0; row < 3; ++row) {
-            inverse_bind.translation[static_cast<Eigen::Index>(row)] =
-                static_cast<double>(read_gltf_float(view, i, 12 + row));
-        }
+        const Eigen::Map<const Eigen::Matrix4f> matrix(matrices.data() + 16 * i);
+        const Affine inverse_bind{matrix.topLeftCorner<3, 3>().cast<double>(),
+                                  matrix.topRightCorner<3, 1>().cast<double>()};
         if (!inverse_bind.linear.allFinite() || !is_finite(inverse_bind.translation)) {
             return refuse(place,
                           "expected finite matrices, found another at joint " + std::to_string(i));
@@ -283,23 +301,26 @@ bool SkinReader::undo_binds(int skin, Binding& binding) {
 
 bool SkinReader::read_meshes() {
     for (const PlacedNode& placed : placed_) {
-        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
-        if (node.mesh == -1 || (node.skin == -1 && source_ == JointSource::skin)) {
+        const gltf::Node& node = gltf::element(model_.nodes, placed.node);
+        if (node.mesh == gltf::k_none ||
+            (node.skin == gltf::k_none && source_ == JointSource::skin)) {
             continue;
         }
-        if (!is_gltf_index(node.mesh, model_.meshes.size())) {
-            return reader_.refuse_index(gltf_pointer("nodes", placed.node) + "/mesh", "mesh",
-                                        model_.meshes.size(), node.mesh);
+        if (!gltf::has_element(model_.meshes, node.mesh)) {
+            return refusal_.refuse_index(gltf::pointer("nodes", placed.node) + "/mesh", "mesh",
+                                         model_.meshes.size(), node.mesh);
         }
         const Binding* const binding = bind(placed);
         if (binding == nullptr) {
             return false;
         }
-        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+        const gltf::Mesh& mesh = gltf::element(model_.meshes, node.mesh);
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-            const std::string place =
-                gltf_pointer("meshes", node.mesh) + "/primitives/" + std::to_string(i);
-            if (!read_primitive(mesh.primitives[i], *binding, place)) {
+            if (gltf::is_skipped(mesh.primitives[i])) {
+                ++skipped_primitives_;
+            } else if (!read_primitive(mesh.primitives[i], *binding,
+                                       gltf::pointer("meshes", node.mesh) + "/primitives/" +
+                                           std::to_string(i))) {
                 return false;
             }
         }
@@ -309,151 +330,174 @@ bool SkinReader::read_meshes() {
                                                           : "expected triangles");
 }
 
-bool SkinReader::view_vertices(const tinygltf::Primitive& primitive, bool is_skinned,
-                               const std::string& place, VertexViews& views) {
-    const auto view = [&](const char* name, GltfElements elements, AccessorView& out) {
-        const auto found = primitive.attributes.find(name);
-        const std::string attribute_place = place + "/attributes/" + name;
-        if (found == primitive.attributes.end()) {
-            return refuse(attribute_place, "expected this attribute on a skinned mesh");
-        }
-        if (!reader_.view_accessor(found->second, elements, attribute_place, out)) {
-            return false;
-        }
-        if (out.count != views.positions.count && &out != &views.positions) {
-            return refuse(attribute_place, "expected as many elements as positions, " +
-                                               std::to_string(views.positions.count) + ", found " +
-                                               std::to_string(out.count));
-        }
-        return true;
-    };
-    if (primitive.attributes.contains("JOINTS_1")) {
-        return refuse(place + "/attributes/JOINTS_1", "expected at most four joints a vertex");
-    }
-    views.has_normals = primitive.attributes.contains("NORMAL");
-    return view("POSITION", GltfElements::vectors, views.positions) &&
-           (!is_skinned || (view("JOINTS_0", GltfElements::joints, views.joints) &&
-                            view("WEIGHTS_0", GltfElements::weights, views.weights))) &&
-           (!views.has_normals || view("NORMAL", GltfElements::vectors, views.normals));
-}
-
-bool SkinReader::read_primitive(const tinygltf::Primitive& primitive, const Binding& binding,
+bool SkinReader::read_primitive(const gltf::Primitive& primitive, const Binding& binding,
                                 const std::string& place) {
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-        return refuse(place + "/mode", "expected triangles");
-    }
-    VertexViews views;
-    if (!view_vertices(primitive, binding.is_skinned, place, views) ||
-        !reader_.read_indices(primitive.indices, place + "/indices", views.positions.count,
-                              indices_)) {
+    const gltf::Material* material = nullptr;
+    if (!gltf::read_primitive(primitive, place, {.normals = true, .weights = binding.is_skinned},
+                              reader_, model_, refusal_, primitive_) ||
+        !gltf::find_material(primitive, place, model_, refusal_, material)) {
         return false;
     }
-    const std::size_t first = skin_.positions.size();
-    if (first + views.positions.count > k_max_level_size ||
-        skin_.triangles.size() + indices_.size() / 3 > k_max_level_size) {
+    const std::size_t copies = binding.is_skinned ? 1 : binding.slots.size();
+    const std::size_t triangles = count_triangles(primitive_.mode, primitive_.indices.size());
+    if (skin_.positions.size() + primitive_.vertices * copies > k_max_level_size ||
+        skin_.triangles.size() + triangles * copies > k_max_level_size) {
         return refuse(place, "expected at most " + std::to_string(k_max_level_size) +
                                  " vertices and triangles");
     }
-    if (indices_.size() % 3 != 0) {
-        return refuse(place, "expected 3 corners a triangle, found " +
-                                 std::to_string(indices_.size()) + " corners");
+    const std::size_t first = skin_.positions.size();
+    if (binding.is_skinned) {
+        std::size_t mirrored = 0;
+        if (!append_skinned(binding, place, mirrored)) {
+            return false;
+        }
+        append_surface(material, first, 2 * mirrored > primitive_.vertices);
+        return true;
     }
-    std::size_t mirrored = 0;
-    for (std::size_t i = 0; i < views.positions.count; ++i) {
+    for (const Slot& slot : binding.slots) {
+        const std::size_t first_of_copy = skin_.positions.size();
+        for (std::size_t i = 0; i < primitive_.vertices; ++i) {
+            skin_.weights.push_back({{slot.joint, 0, 0, 0}, {1.0F, 0.0F, 0.0F, 0.0F}});
+            if (!append_vertex(i, slot.to_scene, place)) {
+                return false;
+            }
+        }
+        append_surface(material, first_of_copy, slot.to_scene.linear.determinant() < 0.0);
+    }
+    return true;
+}
+
+// `mirrored` becomes the number of vertices whose joints mirror them.
+bool SkinReader::append_skinned(const Binding& binding, const std::string& place,
+                                std::size_t& mirrored) {
+    for (std::size_t i = 0; i < primitive_.vertices; ++i) {
         Affine to_scene;
-        if (!append_weights(views, i, binding, place, to_scene) ||
-            !append_vertex(views, i, to_scene, place)) {
+        if (!collect_influences(i, binding, place)) {
+            return false;
+        }
+        append_weights(binding, to_scene);
+        if (!append_vertex(i, to_scene, place)) {
             return false;
         }
         mirrored += to_scene.linear.determinant() < 0.0 ? 1U : 0U;
     }
-    ColorRun run = {static_cast<std::uint32_t>(skin_.triangles.size()), {0.6F, 0.6F, 0.62F}};
-    if (primitive.material != -1) {
-        if (!is_gltf_index(primitive.material, model_.materials.size())) {
-            return reader_.refuse_index(place + "/material", "material", model_.materials.size(),
-                                        primitive.material);
-        }
-        read_gltf_material(model_.materials[static_cast<std::size_t>(primitive.material)], run);
-    }
-    skin_.color_runs.push_back(run);
-    Mesh mesh;  // for its triangles without those that have no area
-    mesh.positions.swap(skin_.positions);
-    mesh.triangles.swap(skin_.triangles);
-    const bool is_mirrored = 2 * mirrored > views.positions.count;
-    append_triangles(TriangleMode::list, is_mirrored ? Winding::reversed : Winding::kept, indices_,
-                     static_cast<std::uint32_t>(first), mesh);
-    mesh.positions.swap(skin_.positions);
-    mesh.triangles.swap(skin_.triangles);
     return true;
 }
 
-// Also where these joints take the vertex as the file stands.
-bool SkinReader::append_weights(const VertexViews& views, std::size_t i, const Binding& binding,
-                                const std::string& place, Affine& to_scene) {
-    if (!binding.is_skinned) {
-        const Slot& slot = binding.slots.front();
-        skin_.weights.push_back({{slot.joint, 0, 0, 0}, {1.0F, 0.0F, 0.0F, 0.0F}});
-        to_scene = slot.to_scene;
-        return true;
+// Fills influences_ with the vertex's weights above 0, each joint once. A joint of weight 0 may be
+// out of range: some exporters fill unused entries with any number.
+bool SkinReader::collect_influences(std::size_t vertex, const Binding& binding,
+                                    const std::string& place) {
+    influences_.clear();
+    for (std::size_t set = 0; set < primitive_.joints.size(); ++set) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const float weight = primitive_.weights[set][4 * vertex + k];
+            const auto slot = static_cast<std::size_t>(primitive_.joints[set][4 * vertex + k]);
+            if (!(weight >= 0.0F) || weight > 1e6F) {
+                return refuse(place + "/attributes/WEIGHTS_" + std::to_string(set),
+                              "expected weights in [0, 1e6], found another at vertex " +
+                                  std::to_string(vertex));
+            }
+            if (weight == 0.0F) {
+                continue;
+            }
+            if (slot >= binding.slots.size()) {
+                return refuse(place + "/attributes/JOINTS_" + std::to_string(set),
+                              "expected joints below " + std::to_string(binding.slots.size()) +
+                                  ", found " + std::to_string(slot) + " at vertex " +
+                                  std::to_string(vertex));
+            }
+            const auto known =
+                std::find_if(influences_.begin(), influences_.end(),
+                             [&](const Influence& other) { return other.slot == slot; });
+            if (known != influences_.end()) {
+                known->weight += weight;
+            } else {
+                influences_.push_back({slot, weight});
+            }
+        }
     }
+    return true;
+}
+
+// The four heaviest influences, with a sum of weights of 1, and where they map the vertex.
+void SkinReader::append_weights(const Binding& binding, Affine& to_scene) {
+    constexpr float k_min_sum = 1e-12F;
     SkinWeights weights;
-    std::array<std::size_t, 4> slots{};
-    float sum = 0.0F;
-    for (std::size_t k = 0; k < 4; ++k) {
-        slots[k] = read_gltf_unsigned(views.joints, i, k);
-        if (slots[k] >= binding.slots.size()) {
-            return refuse(place + "/attributes/JOINTS_0",
-                          "expected joints below " + std::to_string(binding.slots.size()) +
-                              ", found " + std::to_string(slots[k]) + " at vertex " +
-                              std::to_string(i));
-        }
-        weights.joint[k] = binding.slots[slots[k]].joint;
-        weights.weight[k] = read_gltf_share(views.weights, i, k);
-        if (!(weights.weight[k] >= 0.0F) || weights.weight[k] > 1e6F) {
-            return refuse(
-                place + "/attributes/WEIGHTS_0",
-                "expected weights from 0 on, found another at vertex " + std::to_string(i));
-        }
-        sum += weights.weight[k];
+    if (influences_.size() > weights.joint.size()) {
+        std::stable_sort(
+            influences_.begin(), influences_.end(),
+            [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+        influences_.resize(weights.joint.size());
+        ++reduced_vertices_;
     }
-    if (!(sum > 1e-3F)) {
-        return refuse(
-            place + "/attributes/WEIGHTS_0",
-            "expected a sum of weights above 0, found none at vertex " + std::to_string(i));
+    float sum = 0.0F;
+    for (const Influence& influence : influences_) {
+        sum += influence.weight;
+    }
+    if (!(sum > k_min_sum)) {
+        influences_.assign(1, {0, 1.0F});
+        sum = 1.0F;
+        ++unweighted_vertices_;
     }
     to_scene = {Mat3::Zero(), Vec3::Zero()};
-    for (std::size_t k = 0; k < 4; ++k) {
-        weights.weight[k] /= sum;
-        const double weight = static_cast<double>(weights.weight[k]);
-        to_scene.linear += weight * binding.slots[slots[k]].to_scene.linear;
-        to_scene.translation += weight * binding.slots[slots[k]].to_scene.translation;
+    for (std::size_t k = 0; k < influences_.size(); ++k) {
+        const Slot& slot = binding.slots[influences_[k].slot];
+        weights.joint[k] = slot.joint;
+        weights.weight[k] = influences_[k].weight / sum;
+        const auto weight = static_cast<double>(weights.weight[k]);
+        to_scene.linear += weight * slot.to_scene.linear;
+        to_scene.translation += weight * slot.to_scene.translation;
     }
     skin_.weights.push_back(weights);
-    return true;
 }
 
-bool SkinReader::append_vertex(const VertexViews& views, std::size_t i, const Affine& to_scene,
+bool SkinReader::append_vertex(std::size_t vertex, const Affine& to_scene,
                                const std::string& place) {
-    const Vec3 position = transform_point(to_scene, read_gltf_vector(views.positions, i));
+    const auto vector_of = [vertex](const std::vector<float>& values) {
+        return Vec3(Eigen::Map<const Eigen::Vector3f>(values.data() + 3 * vertex).cast<double>());
+    };
+    const Vec3 position = transform_point(to_scene, vector_of(primitive_.positions));
     if (!is_finite(position) || position.cwiseAbs().maxCoeff() > k_max_level_coordinate_m) {
-        return refuse(
-            place + "/attributes/POSITION",
-            "expected finite positions within 1e7 m, found another at vertex " + std::to_string(i));
+        return refuse(place + "/attributes/POSITION",
+                      "expected finite positions within 1e7 m, found another at vertex " +
+                          std::to_string(vertex));
     }
     Vec3 normal = Vec3::Zero();
-    if (views.has_normals) {
-        const Vec3 in_file = read_gltf_vector(views.normals, i);
+    if (!primitive_.normals.empty()) {
+        const Vec3 in_file = vector_of(primitive_.normals);
         if (in_file.norm() > 1e-9) {
             normal = transform_normal(to_scene.linear, in_file).stableNormalized();
         }
         if (!is_finite(in_file) || !is_finite(normal)) {
-            return refuse(place + "/attributes/NORMAL",
-                          "expected finite normals, found another at vertex " + std::to_string(i));
+            return refuse(
+                place + "/attributes/NORMAL",
+                "expected finite normals, found another at vertex " + std::to_string(vertex));
         }
     }
     skin_.positions.push_back(position);
     skin_.normals.push_back(normal);
     return true;
+}
+
+// Appends the primitive's triangles with its vertices from `first` on.
+void SkinReader::append_surface(const gltf::Material* material, std::size_t first,
+                                bool is_mirrored) {
+    ColorRun run = {static_cast<std::uint32_t>(skin_.triangles.size()), {0.6F, 0.6F, 0.62F}};
+    if (material != nullptr) {
+        run.color = material->color;
+        run.emissive = material->emissive;
+        run.opacity = material->opacity;
+        run.gloss = material->gloss;
+    }
+    skin_.color_runs.push_back(run);
+    Mesh mesh;  // append_triangles needs one
+    mesh.positions.swap(skin_.positions);
+    mesh.triangles.swap(skin_.triangles);
+    append_triangles(primitive_.mode, is_mirrored ? Winding::reversed : Winding::kept,
+                     primitive_.indices, static_cast<std::uint32_t>(first), mesh);
+    mesh.positions.swap(skin_.positions);
+    mesh.triangles.swap(skin_.triangles);
 }
 
 void SkinReader::finish_normals() {
@@ -474,17 +518,37 @@ void SkinReader::finish_normals() {
     }
 }
 
+void SkinReader::add_notes() {
+    std::vector<std::string> notes = model_.notes;
+    const auto add = [&](const char* what, std::size_t count) {
+        if (count > 0) {
+            notes.push_back(what + std::to_string(count));
+        }
+    };
+    add("skipped primitives that are points, lines or without positions: ", skipped_primitives_);
+    add("vertices with more than 4 joints, reduced to the 4 heaviest: ", reduced_vertices_);
+    add("vertices without weights, which follow the skin's first joint: ", unweighted_vertices_);
+    for (const std::string& note : notes) {
+        skin_.notes.push_back(gltf::note_line(skin_.file, note));
+    }
+}
+
 Result<SkinnedMesh> parse_joints(std::string_view bytes, const std::filesystem::path& path,
                                  JointSource source) {
-    const Result<std::string> glb = extract_geometry_glb(bytes, path.string(), GltfUse::skinned);
-    if (!glb) {
-        return glb.error();
-    }
-    const Result<tinygltf::Model> model = parse_gltf_model(glb.value(), path);
+    const Result<gltf::Model> model = gltf::parse_model(bytes, path.string());
     if (!model) {
         return model.error();
     }
-    return SkinReader(model.value(), path.string(), source).read();
+    gltf::Refusal refusal(path.string());
+    gltf::Buffers buffers;
+    if (!buffers.load(model.value(), path, refusal)) {
+        return refusal.error();
+    }
+    SkinReader reader(model.value(), buffers.bytes(), refusal, source);
+    if (!reader.read()) {
+        return refusal.error();
+    }
+    return reader.take_skin();
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/core/check.hpp"
-#include "engine/io/gltf_buffer.hpp"
-#include "engine/io/gltf_document.hpp"
+#include "engine/io/glb.hpp"
+#include "engine/io/gltf_buffer_writer.hpp"
 
 namespace handhold {
 namespace {

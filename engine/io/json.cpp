@@ -209,6 +209,7 @@ JsonValue::JsonValue(Document* document, const Json* node, std::string pointer)
 bool JsonValue::is_object() const { return exists() && node_->is_object(); }
 bool JsonValue::is_array() const { return exists() && node_->is_array(); }
 bool JsonValue::is_text() const { return exists() && node_->is_string(); }
+bool JsonValue::is_number() const { return exists() && node_->is_number(); }
 
 void JsonValue::refuse(const std::string& expected) const {
     if (!document_->error) {
@@ -366,6 +367,10 @@ Vec3 JsonValue::vector_or(const Vec3& fallback, const NumberRange& range) const 
     return exists() ? vector(range) : fallback;
 }
 Quat JsonValue::rotation_or(const Quat& fallback) const { return exists() ? rotation() : fallback; }
+
+std::string JsonValue::label() const {
+    return is_text() ? node_->get<std::string>() : std::string();
+}
 
 std::string JsonValue::dump_without(std::initializer_list<std::string_view> keys) const {
     Json copy = exists() ? *node_ : Json();

@@ -41,6 +41,7 @@ class JsonValue {
     bool is_object() const;
     bool is_array() const;
     bool is_text() const;
+    bool is_number() const;
 
     // The member of an object; a value that does not exist where there is none.
     JsonValue operator[](std::string_view key) const;
@@ -67,8 +68,10 @@ class JsonValue {
     std::string text_or(std::string fallback) const;
     Vec3 vector_or(const Vec3& fallback, const NumberRange& range = {}) const;
     Quat rotation_or(const Quat& fallback) const;
+    // A label that may be anything: empty if the value is absent or is not a text.
+    std::string label() const;
 
-    // This value as JSON text, for a parser elsewhere; of an object without these members.
+    // This value as JSON text, for another parser; an object without these members.
     std::string dump_without(std::initializer_list<std::string_view> keys) const;
 
     const std::string& pointer() const { return pointer_; }

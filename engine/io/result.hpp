@@ -1,27 +1,30 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "engine/core/check.hpp"
+#include "engine/io/printable.hpp"
 
 namespace handhold {
 
-// Why a file was refused. Nothing of a refused file is loaded.
+// Why a file was refused. A refused file is not loaded in part.
 struct FileError {
     std::string file;
-    std::string place;  // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty for the
-                        // whole file
-    std::string expected;  // what should have been there, and what was
+    std::string place;     // "line 12", a JSON pointer such as "/bodies/3/mass_kg", or empty if the
+                           // error concerns the whole file
+    std::string expected;  // what the reader expected, and what it found
 
     // One line: "ship.json: /bodies/3/mass_kg: expected a number above 0, found -2". Control
     // characters are escaped and long texts cut (printable.hpp): any field may quote a file.
     std::string message() const;
 };
 
-// A value or the reason why there is none.
+// A value, or the reason why there is none.
 template <typename T>
 class Result {
   public:

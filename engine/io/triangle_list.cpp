@@ -8,18 +8,18 @@ namespace handhold {
 
 namespace {
 
-// A height below 1e-10 of the longest edge is what rounding leaves of three points on a line; the
-// needles of real levels are thicker by orders of magnitude.
+// Rounding leaves three collinear points a height below 1e-10 of the longest edge. The thinnest
+// triangles of real levels are orders of magnitude higher.
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
-    constexpr double k_least_height_ratio = 1e-10;
+    constexpr double k_min_height_ratio = 1e-10;
     const double longest2 =
         std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (c - b).squaredNorm()});
-    return (b - a).cross(c - a).norm() > k_least_height_ratio * longest2;
+    return (b - a).cross(c - a).norm() > k_min_height_ratio * longest2;
 }
 
-// Places of triangle i's corners in the list of indices. Every second one of a strip is turned so
-// that all face the same way; a fan's hub comes last.
-std::array<std::size_t, 3> corner_places(TriangleMode mode, std::size_t i) {
+// Where the corners of triangle i are in the list of indices. Every second triangle of a strip is
+// reversed so that all face the same way. The hub of a fan comes last.
+std::array<std::size_t, 3> corner_offsets(TriangleMode mode, std::size_t i) {
     switch (mode) {
         case TriangleMode::strip:
             return {i, i + 1 + i % 2, i + 2 - i % 2};
@@ -44,12 +44,11 @@ std::size_t append_triangles(TriangleMode mode, Winding winding,
                              std::span<const std::uint32_t> indices, std::uint32_t first,
                              Mesh& mesh) {
     const std::size_t count = count_triangles(mode, indices.size());
-    mesh.triangles.reserve(mesh.triangles.size() + count);
     std::size_t dropped = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::array<std::size_t, 3> place = corner_places(mode, i);
+        const std::array<std::size_t, 3> offset = corner_offsets(mode, i);
         std::array<std::uint32_t, 3> triangle = {
-            first + indices[place[0]], first + indices[place[1]], first + indices[place[2]]};
+            first + indices[offset[0]], first + indices[offset[1]], first + indices[offset[2]]};
         if (!has_area(mesh.positions[triangle[0]], mesh.positions[triangle[1]],
                       mesh.positions[triangle[2]])) {
             ++dropped;

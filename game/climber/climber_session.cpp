@@ -68,6 +68,7 @@ int climb_command(const ClimbOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
+    print_notes(scene.notes);
     ClimbPlan plan;
     plan.seconds = options.seconds;
     plan.seed = options.seed;

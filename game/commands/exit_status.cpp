@@ -9,4 +9,10 @@ int refuse(const FileError& error) {
     return k_exit_bad_file;
 }
 
+void print_notes(std::span<const std::string> notes) {
+    for (const std::string& note : notes) {
+        std::fprintf(stderr, "%s\n", note.c_str());
+    }
+}
+
 }  // namespace handhold

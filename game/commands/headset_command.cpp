@@ -74,10 +74,12 @@ int headset_command(const PlayOptions& options) {
     if (!models) {
         return refuse(models.error());
     }
+    print_notes(models.value().notes);
     Result<PlayedScene> loaded = load_played_scene(options);
     if (!loaded) {
         return refuse(loaded.error());
     }
+    print_notes(loaded.value().scene.notes);
     const Result<OpenFile> status = open_status(options);
     if (!status) {
         return refuse(status.error());

@@ -151,10 +151,12 @@ int picture_command(const PictureOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
+    print_notes(scene.notes);
     Result<PlayerModels> models = choose_player_models(options.models);
     if (!models) {
         return refuse(models.error());
     }
+    print_notes(models.value().notes);
     const Result<OutputFolder> folder = OutputFolder::open(options.out);
     if (!folder) {
         return refuse(folder.error());

@@ -31,6 +31,7 @@ int play_command(PlayOptions options) {
     if (!models) {
         return refuse(models.error());
     }
+    print_notes(models.value().notes);
     const Result<OpenFile> status = open_status(options);
     if (!status) {
         return refuse(status.error());
@@ -43,6 +44,7 @@ int play_command(PlayOptions options) {
         if (!loaded) {
             return refuse(loaded.error());
         }
+        print_notes(loaded.value().scene.notes);
         const std::string place = loaded.value().place.name;
         DesktopSession session(std::move(loaded.value().scene), loaded.value().place.pose_ws);
         if (const auto joints = models.value().controller_joints()) {

@@ -410,10 +410,12 @@ int run_command(const RunOptions& options) {
         return refuse(loaded.error());
     }
     Scene& scene = loaded.value();
+    print_notes(scene.notes);
     Result<PlayerModels> models = choose_player_models(options.models);
     if (!models) {
         return refuse(models.error());
     }
+    print_notes(models.value().notes);
     const Result<Session> session = load_session(options, scene);
     if (!session) {
         return refuse(session.error());

@@ -21,7 +21,7 @@ Pose hand_in_palm(HandSide side, const HandTuning& tuning);
 // 0 for a finger in line with the hand, 1 for one whose tip has come back to point at the wrist.
 double finger_curl(const Vec3& wrist, const Vec3& knuckle, const Vec3& tip);
 
-// What is remembered from one reading to the next.
+// State kept from one reading to the next.
 struct HeadsetMemory {
     std::array<bool, k_hand_count> grabs{};
     bool turned = false;  // one snap turn a push of the stick

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "engine/core/check.hpp"
+#include "engine/io/text_file.hpp"
+#include "engine/io/vrm_humanoid.hpp"
 #include "game/render/robot_body.hpp"
 #include "systems/rigs/forearm_twist.hpp"
 
@@ -30,6 +32,25 @@ Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights&
     }
 }
 
+// A VRM figure brings its own map; the user's goes before it.
+Result<BodyMap> read_body_map(std::string_view figure, const std::string& figure_file,
+                              const std::string& map_file) {
+    BodyMap map;
+    if (!map_file.empty()) {
+        Result<BodyMap> loaded = load_body_map(map_file);
+        if (!loaded) {
+            return loaded.error();
+        }
+        map = std::move(loaded.value());
+    }
+    const auto humanoid = parse_vrm_humanoid(figure, figure_file);
+    if (!humanoid) {
+        return humanoid.error();
+    }
+    map.merge(body_map_of_vrm(humanoid.value()));
+    return map;
+}
+
 }  // namespace
 
 BodyModel builtin_body_model() {
@@ -46,19 +67,19 @@ Result<BodyModel> choose_body_model(const std::string& figure_file, const std::s
     if (figure_file.empty()) {
         return builtin_body_model();
     }
-    BodyMap map;
-    if (!map_file.empty()) {
-        Result<BodyMap> loaded = load_body_map(map_file);
-        if (!loaded) {
-            return loaded.error();
-        }
-        map = std::move(loaded.value());
+    const Result<std::string> bytes = read_file(figure_file);
+    if (!bytes) {
+        return bytes.error();
     }
-    Result<SkinnedMesh> figure = load_gltf_figure(figure_file);
+    Result<SkinnedMesh> figure = parse_gltf_figure(bytes.value(), figure_file);
     if (!figure) {
         return figure.error();
     }
-    Result<BodyRig> rig = fit_body_rig(figure.value(), map);
+    const Result<BodyMap> map = read_body_map(bytes.value(), figure_file, map_file);
+    if (!map) {
+        return map.error();
+    }
+    Result<BodyRig> rig = fit_body_rig(figure.value(), map.value());
     if (!rig) {
         return rig.error();
     }

@@ -22,8 +22,9 @@ BodyModel builtin_body_model();
 // and names tell.
 Result<BodyModel> choose_body_model(const std::string& figure_file, const std::string& map_file);
 
-// The meshes of one body in one renderer. Every player of a picture is added anew for each picture.
-// What hangs on the figure's hands is never drawn: hands have rigs of their own (HandFigures).
+// The meshes of one body in one renderer. Every player of a picture is added again for each
+// picture. What hangs on the figure's hands is never drawn: hands have rigs of their own
+// (HandFigures).
 class BodyFigures {
   public:
     // Whose eyes the picture is from has no head, neck and collar.

@@ -18,7 +18,8 @@ constexpr HandleGrip k_wand_grip = {HandleGrip{}.radius_m, HandleGrip{}.slant_ra
 constexpr Color k_textured_color = {0.045F, 0.048F, 0.055F};
 constexpr Color k_white = {1.0F, 1.0F, 1.0F};
 
-Result<ControllerModel> load_controller(const ControllerSide& side) {
+Result<ControllerModel> load_controller(const ControllerSide& side,
+                                        std::vector<std::string>& notes) {
     const Result<GltfLevel> level = load_gltf_level(side.model);
     if (!level) {
         return level.error();
@@ -27,6 +28,7 @@ Result<ControllerModel> load_controller(const ControllerSide& side) {
     if (!nodes) {
         return nodes.error();
     }
+    notes.insert(notes.end(), level.value().notes.begin(), level.value().notes.end());
     ControllerModel model;
     model.fit = side.fit;
     for (const LevelPart& part : level.value().parts) {
@@ -130,7 +132,7 @@ Result<ControllerModels> choose_controllers(const std::string& name_or_file) {
     models.name = profile.value().name;
     models.has_own_joint = true;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
-        Result<ControllerModel> model = load_controller(profile.value().sides[side]);
+        Result<ControllerModel> model = load_controller(profile.value().sides[side], models.notes);
         if (!model) {
             return model.error();
         }

@@ -21,6 +21,7 @@ struct ControllerModels {
     std::string name;
     std::array<ControllerModel, k_hand_count> sides;  // by HandSide
     bool has_own_joint = false;                       // else Tuning's joint applies
+    std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
 
     std::array<Pose, k_hand_count> joints() const;
 };

@@ -18,6 +18,7 @@ struct PlayerModels {
     BodyModel body = builtin_body_model();
     std::optional<ControllerModels> controllers;  // in empty hands; none: not drawn
     GhostSettings ghosts;
+    std::vector<std::string> notes = {};  // about the loaded files; see GltfLevel::notes
 
     // Controller poses in the hand, by HandSide, if a profile defines them; else Tuning does.
     std::optional<std::array<Pose, k_hand_count>> controller_joints() const {

@@ -92,6 +92,11 @@ class SceneBuilder {
             error_ = level.error();
             return std::nullopt;
         }
+        for (const std::string& note : level.value().notes) {  // once for a file of many bodies
+            if (std::find(scene_.notes.begin(), scene_.notes.end(), note) == scene_.notes.end()) {
+                scene_.notes.push_back(note);
+            }
+        }
         return std::move(level.value());
     }
 

@@ -73,6 +73,7 @@ struct Scene {
     std::map<std::string, std::vector<SceneGrip>> grips;
     std::map<std::string, Pose> body_in_file;
     std::optional<SceneSession> session;  // the session that shows the scene
+    std::vector<std::string> notes;       // about the loaded files; see GltfLevel::notes
     int climbers = 0;  // scripted climbers beside the first player, unless --players says otherwise
 };
 

@@ -1,6 +1,6 @@
-// Form and constants: regressions on motion capture of head, hands, chest and elbows
-// (docs/decisions/, 34 and 43). The shape is that of the talk's rows 19 to 22, with the line
-// between the hands added to the chest's facing.
+// Model and constants are regressions on motion capture of head, hands, chest and elbows
+// (docs/decisions/, 34 and 43). The model follows the talk's rows 19 to 22 and adds the line
+// between the hands to the chest's facing.
 #include "systems/arm/estimate_arms.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Vec3 turn_level(const Vec3& v, double cosine, double sine) {
     return {cosine * v.x() + sine * v.z(), 0.0, cosine * v.z() - sine * v.x()};
 }
 
-// A vector of play space as one sees it who faces that way, level: -Z ahead. And back.
+// Turns a play-space vector into axes whose -Z is the level direction `facing`, and back.
 Vec3 to_facing(const Vec3& facing, const Vec3& v) {
     return {facing.x() * v.z() - facing.z() * v.x(), v.y(),
             -(facing.x() * v.x() + facing.z() * v.z())};
@@ -30,13 +30,13 @@ Vec3 from_facing(const Vec3& facing, const Vec3& v) {
             facing.x() * v.x() - facing.z() * v.z()};
 }
 
-// Of a level vector that is nearly unit.
+// Normalises a level vector.
 Vec3 level_unit(const Vec3& v) {
     const double by = 1.0 / std::sqrt(v.x() * v.x() + v.z() * v.z());
     return {v.x() * by, 0.0, v.z() * by};
 }
 
-// The rotation about +Y that carries -Z onto the level direction. Half angle without trigonometry.
+// Rotation about +Y that turns -Z to the level direction; half-angle formulas, no trigonometry.
 Quat level_rotation(const Vec3& facing) {
     const double cosine = -facing.z();
     const double sine = -facing.x();
@@ -46,10 +46,10 @@ Quat level_rotation(const Vec3& facing) {
     return unit_quat(std::abs(sine), 0.0, std::copysign(1.0 - cosine, sine), 0.0);
 }
 
-// How far the clavicle reaches out, by distance of the hand in arm lengths.
+// Reach of the clavicle by the hand's distance in arm lengths; piecewise linear.
 double clavicle_reach_m(double distance) {
     struct Knot {
-        double distance, reach_m, rise_m;  // to the next knot, by arm length
+        double distance, reach_m, rise_m;  // rise_m: slope to the next knot, per arm length
     };
     constexpr std::array<Knot, 4> k_curve = {{{1.05, 0.032, (0.070 - 0.032) / (1.2 - 1.05)},
                                               {0.85, 0.018, (0.032 - 0.018) / (1.05 - 0.85)},
@@ -63,7 +63,7 @@ double clavicle_reach_m(double distance) {
     return k_curve.back().reach_m;
 }
 
-constexpr double k_near_cosine = 0.95;  // nearer directions need no trigonometry: share_of_line
+constexpr double k_near_cosine = 0.95;  // above it share_of_line replaces trigonometry
 
 bool has_jumped(const Vec3& before, const Vec3& now, double dt_s) {
     return is_jump((now - before).norm(), dt_s);
@@ -76,10 +76,10 @@ struct Player {
     const BodyMeasures& measures;
 };
 
-// What does not depend on the player.
+// Values of a time step that all players share.
 struct Step {
     double dt_s = 0.0;
-    double look_share = 0.0;  // of the way that a low-pass filter goes in dt_s
+    double look_share = 0.0;  // filter gain for the head's direction
     double limit_sine = 0.0;  // of ArmTuning::chest_limit_rad
     double limit_cosine = 1.0;
     const ArmTuning& tuning;
@@ -90,10 +90,10 @@ Step step_of(double dt_s, const ArmTuning& tuning) {
     return step;
 }
 
-// What one arm's estimate needs beside its memory.
+// Inputs of one arm's estimate.
 struct ArmStep {
     HandSide side = HandSide::left;
-    bool afresh = false;
+    bool reset = false;  // ignore the memory
     double upper_m = 0.0;
     double arm_m = 0.0;
     const Vec3& facing_ps;  // torso space: level
@@ -120,14 +120,14 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
         elbow_circle(distance, axis_ts, stretch * arm.upper_m, stretch * (arm_m - arm.upper_m));
     const Vec3 aside = pole_ts - axis_ts * axis_ts.dot(pole_ts);
     const double length = aside.norm();
-    const bool fresh = arm.afresh || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
+    const bool fresh = arm.reset || has_jumped(memory.hand_ts, hand_rest_ts, dt_s);
     const Vec3 before_ts = fresh ? any_perpendicular(axis_ts) : carry_bend(memory, axis_ts, tuning);
     const Vec3 wanted_ts = reachable_bend(
         circle, length > 1e-6 ? Vec3(aside * (1.0 / length)) : before_ts, arm.side, tuning);
     if (fresh) {
         memory.bend_ts = wanted_ts;
     } else {
-        // How clearly the pole points to a side: near the axis it says nothing.
+        // A pole near the axis determines no direction: the filter slows down there.
         const double clear = smooth_step(length / std::max(pole_ts.norm(), 1e-9), 0.0, 0.5);
         memory.bend_ts = turn_bend(
             axis_ts, before_ts, wanted_ts,
@@ -141,7 +141,7 @@ void estimate_arm(const Step& step, const ArmStep& arm, ArmMemory::Arm& memory,
     out.stretch = stretch;
 }
 
-void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemory& memory,
+void estimate_once(const Player& player, const Step& step, bool reset, ArmMemory& memory,
                    ArmEstimate& out) {
     const ArmTuning& tuning = step.tuning;
     const double dt_s = step.dt_s;
@@ -150,7 +150,7 @@ void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemor
     const Mat3 head_axes = player.head_ps.rotation.toRotationMatrix();
     const Vec3 up_ps = head_axes.col(1);
     const Vec3 look_ps = level_look(-head_axes.col(2), up_ps);
-    memory.look_ps = afresh ? look_ps : follow_look(memory.look_ps, look_ps, step.look_share);
+    memory.look_ps = reset ? look_ps : follow_look(memory.look_ps, look_ps, step.look_share);
     std::array<Mat3, k_hand_count> hand_axes;
     std::array<HandReach, k_hand_count> reach;
     const double arms = 1.0 / arm_m;
@@ -163,8 +163,8 @@ void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemor
     const Vec3 facing_ps =
         chest_facing(memory.look_ps, lean, reach, {step.limit_sine, step.limit_cosine}, tuning);
     memory.facing_ps =
-        afresh ? facing_ps
-               : turn_at_most(memory.facing_ps, facing_ps, dt_s * tuning.chest_speed_radps);
+        reset ? facing_ps
+              : turn_at_most(memory.facing_ps, facing_ps, dt_s * tuning.chest_speed_radps);
     out.facing_ps = memory.facing_ps;
     out.chest_ps.rotation = product(lean, level_rotation(out.facing_ps));
     const Mat3 chest_axes = out.chest_ps.rotation.toRotationMatrix();
@@ -177,7 +177,7 @@ void estimate_once(const Player& player, const Step& step, bool afresh, ArmMemor
         const double outward = side == HandSide::left ? -1.0 : 1.0;
         estimate_arm(
             step,
-            {side, afresh, player.measures.upper_arm_m, arm_m, out.facing_ps,
+            {side, reset, player.measures.upper_arm_m, arm_m, out.facing_ps,
              out.chest_ps.position + outward * right_ps, player.hands_ps[i].position, hand_axes[i]},
             memory.arms[i], out.arms[i]);
     }
@@ -191,18 +191,18 @@ Pose between(const Pose& a, const Pose& b, double share) {
             unit_quat(mixed[3], mixed[0], mixed[1], mixed[2])};
 }
 
-// Frames much longer than k_step_s are walked in steps of about that, straight from the last
-// frame's head and hands to this one's: what is remembered goes nearly the same way at any frame
-// rate down to 10 Hz. The bounds between numbers of steps lie between usual rates.
+// Subdivides frames much longer than k_step_s and interpolates head and hands linearly between the
+// frames. The state then evolves nearly equally at any frame rate down to 10 Hz. k_round_up places
+// the thresholds between step counts away from usual frame rates.
 void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, ArmEstimate& out) {
     constexpr double k_step_s = 1.0 / 90.0;
     constexpr double k_max_steps = 9.0;
     constexpr double k_round_up = 0.3;
     const double dt_s = frame.dt_s;
-    const bool afresh =
+    const bool reset =
         !memory.known || has_jumped(memory.head_ps.position, now.head_ps.position, dt_s);
     const int steps =
-        afresh ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
+        reset ? 1 : static_cast<int>(std::clamp(dt_s / k_step_s + k_round_up, 1.0, k_max_steps));
     if (steps > 1) {
         Player before{
             memory.head_ps, {memory.arms[0].hand_ps, memory.arms[1].hand_ps}, now.measures};
@@ -222,7 +222,7 @@ void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, Ar
         }
         estimate_once(now, step, false, memory, out);
     } else {
-        estimate_once(now, frame, afresh, memory, out);
+        estimate_once(now, frame, reset, memory, out);
     }
     memory.known = true;
     memory.head_ps = now.head_ps;
@@ -231,14 +231,14 @@ void estimate_player(const Player& now, const Step& frame, ArmMemory& memory, Ar
     }
 }
 
-// Where the palms are in their players' play spaces.
+// Writes the palms' poses in play space.
 void take_hands(const EstimateArmsIo& io) {
     Entity player = k_no_entity;
     const Pose* origin_ws = nullptr;
     ArmEstimate* estimate = nullptr;
     for (std::size_t row = 0; row < io.owner.size(); ++row) {
         const HandOwner& owner = io.owner.rows()[row];
-        if (owner.player != player) {  // hands of one player follow each other, mostly
+        if (owner.player != player) {  // a player's hands are usually neighbours
             player = owner.player;
             origin_ws = &io.origin.at(player).pose_ws;
             estimate = &io.estimate.at(player);
@@ -254,7 +254,7 @@ void take_hands(const EstimateArmsIo& io) {
 }  // namespace
 
 Vec3 level_look(const Vec3& ahead, const Vec3& up) {
-    // From 45 degrees of pitch on, fully at 90: sine of the pitch.
+    // Blends from 45 degrees of pitch to 90; ahead.y() is the sine of the pitch.
     const double pitch = ahead.y();
     const double blend = smooth_step(std::abs(pitch), 0.70710678118654752, 1.0);
     const Vec3 look = (1.0 - blend) * ahead + (pitch > 0.0 ? -blend : blend) * up;
@@ -277,7 +277,7 @@ Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share) {
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad) {
     const double sine_now = cross_y(facing_ps, now_ps);
     const double cosine_now = facing_ps.dot(now_ps);
-    // Most frames turn by less, and need no trigonometry to see it: sin x > 0.9 x below 0.7.
+    // Most frames turn by less; sin x > 0.9 x for x < 0.7 shows it without trigonometry.
     if (cosine_now > 0.75 && std::abs(sine_now) <= 0.9 * most_rad) {
         return now_ps;
     }
@@ -297,7 +297,7 @@ Quat chest_lean(const Vec3& head_up_ps, double share) {
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
                   const std::array<HandReach, k_hand_count>& hands_ps, const TurnLimit& limit,
                   const ArmTuning& tuning) {
-    // In the frame of the look, leaning: x to its right, z back.
+    // Hands in the leaning frame of the look direction: x right, z back.
     const Mat3 lean = lean_ps.toRotationMatrix();
     std::array<Vec3, k_hand_count> hand;
     for (std::size_t side = 0; side < k_hand_count; ++side) {
@@ -352,11 +352,11 @@ ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m,
 
 Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
                     const ArmTuning& tuning) {
-    // Of any length: all of it goes by the cone's axis.
+    // The cone's axis may have any length: the inequality scales with it.
     Vec3 cone_ts = tuning.elbow_cone;
     cone_ts.x() *= side == HandSide::right ? 1.0 : -1.0;
     const double upper2 = circle.middle_ts.squaredNorm() + circle.radius_m * circle.radius_m;
-    // How far along the cone's axis the elbow must lie from the circle's middle.
+    // Required displacement of the elbow along the cone's axis, from the circle's middle.
     const double needs = std::sqrt(upper2 * cone_ts.squaredNorm()) * tuning.elbow_cone_cosine -
                          circle.middle_ts.dot(cone_ts);
     if (circle.radius_m * bend_ts.dot(cone_ts) >= needs) {
@@ -367,7 +367,7 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
     if (length < 1e-6) {
         return bend_ts;
     }
-    // From the best side as little as is needed towards where it was to be.
+    // Turns from the cone's direction towards `bend_ts` until the cone is reached.
     const Vec3 best = aside / length;
     const double cosine = std::clamp(needs / std::max(circle.radius_m * length, 1e-9), -1.0, 1.0);
     const Vec3 square = circle.axis_ts.cross(best);
@@ -377,13 +377,13 @@ Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide sid
 
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning) {
     const double cosine = arm.axis_ts.dot(axis_ts);
-    // The shortest rotation between the axes; of a vector that is square to the first, in short.
+    // Shortest rotation between the axes, simplified for a vector perpendicular to the first.
     const Vec3 carried = cosine > -0.5
                              ? Vec3(arm.bend_ts - (arm.axis_ts + axis_ts) *
                                                       (axis_ts.dot(arm.bend_ts) / (1.0 + cosine)))
                              : Vec3(rotation_between(arm.axis_ts, axis_ts) * arm.bend_ts);
-    // How bent the arm was: the elbow's way off the line, by the upper arm. Where it is little,
-    // where the elbow was says nothing about its side.
+    // Distance of the elbow from the line, divided by the upper arm. If it is small, the elbow's
+    // position does not determine its direction.
     const double by_upper = 1.0 / std::max(arm.elbow_ts.norm(), 1e-9);
     const double bent = arm.elbow_ts.dot(arm.bend_ts) * by_upper;
     const double stays = tuning.elbow_inertia * smooth_step(bent, 0.3, 0.8);

@@ -23,79 +23,81 @@ struct EstimateArmsIo {
     Column<ArmEstimate>& estimate;         // out
 };
 
-// Stage 12. Chest, shoulders and the side of each elbow of every player, from his head and hands:
-// rows 19 to 22 of the talk. In play space throughout, so that a player may hang upside down or
-// turn with a ship. Where the head or a hand jumps, the memory starts afresh.
+// Stage 12. Estimates every player's chest, shoulders and elbow directions from head and hands
+// (talk rows 19 to 22). Works in play space, so that a player may hang upside down or turn with a
+// ship. Re-initialises the state if the head or a hand jumps.
 void estimate_arms(const EstimateArmsIo& io, const ArmTuning& tuning);
 
-// The steps of it, each for one player. A level direction is a unit vector without y.
+// The steps of estimate_arms for one player. A level direction is a unit vector with y = 0.
 
-// Where a head looks whose axes these are, level. Beyond 45 degrees of pitch its up (looking up:
-// the opposite) joins in.
+// Level direction in which a head looks, from its forward and up axes. Beyond 45 degrees of pitch
+// the up axis blends in (negated if the head looks up).
 Vec3 level_look(const Vec3& ahead, const Vec3& up);
 
-// The share of the way that a low-pass filter of `lag_s` goes in dt_s. Implicit: what moves
-// steadily lags by lag_s at any frame rate.
+// Gain dt / (dt + lag) of an implicit low-pass filter. A steady motion lags by lag_s at any frame
+// rate.
 inline double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
 
-// `look_ps` turned towards `now_ps` by that share of the angle; both level.
+// Turns `look_ps` towards `now_ps` by `share` of the angle. Both are level.
 Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share);
 
-// `facing_ps` turned towards `now_ps` by at most `most_rad`; both level.
+// Turns `facing_ps` towards `now_ps` by at most `most_rad`. Both are level.
 Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad);
 
-// How the chest leans: the rotation of play space's up by a share of the head's tilt.
+// Lean of the chest: rotates the play space's up by a share of the head's tilt.
 Quat chest_lean(const Vec3& head_up_ps, double share);
 
-// A hand against the eyes.
+// A hand relative to the eyes.
 struct HandReach {
     Vec3 position;  // in arm lengths
-    Vec3 back;      // the back of the hand, unit
+    Vec3 back;      // unit, out of the back of the hand
 };
-// The largest angle by which something turns, at most half a turn.
+// A largest angle, at most half a turn, as sine and cosine.
 struct TurnLimit {
     double sine = 0.0;
     double cosine = 1.0;
 };
-// Where the chest faces, level, from where the head does and the hands as the leaning chest sees
-// them: their sum turns it a little, the line between them is what it is square to, and hands that
-// roll turn it along.
+// Level direction in which the chest faces, from the head's direction and the hands in the axes of
+// the leaning chest. The chest turns towards the hands' sum, turns perpendicular to the line
+// between them, and follows hands that roll.
 Vec3 chest_facing(const Vec3& look_ps, const Quat& lean_ps,
                   const std::array<HandReach, k_hand_count>& hands_ps, const TurnLimit& limit,
                   const ArmTuning& tuning);
 
-// How far the clavicle moves the shoulder towards a hand at `hand` from it, in torso axes and arm
-// lengths; metres.
+// Displacement of the shoulder by the clavicle, metres. `hand`: from the shoulder, in torso axes
+// and arm lengths.
 Vec3 clavicle_shift(const Vec3& hand, const ArmTuning& tuning);
 
-// How far a shoulder follows a hand at `hand_m` that the arm does not reach; both from the
+// Displacement of the shoulder towards a hand that the arm does not reach. `hand_m`: from the
 // shoulder.
 Vec3 shoulder_follow(const Vec3& hand_m, double arm_m, const ArmTuning& tuning);
 
-// To which side the elbow of a hand points, not of unit length; torso axes.
+// Direction in which a hand's elbow points, torso axes, not normalised.
 Vec3 elbow_pole(const Vec3& facing_ps, const Mat3& hand_axes_ps, HandSide side,
                 const ArmTuning& tuning);
 
-// Where the bones let an elbow be: on a circle about the line to the hand. From the shoulder.
+// Positions that the bone lengths allow an elbow: a circle about the line from shoulder to hand.
+// Measured from the shoulder.
 struct ElbowCircle {
-    Vec3 axis_ts = -Vec3::UnitY();  // unit: to the hand
+    Vec3 axis_ts = -Vec3::UnitY();  // unit, towards the hand
     Vec3 middle_ts = Vec3::Zero();
     double radius_m = 0.0;
 };
 ElbowCircle elbow_circle(double distance_m, const Vec3& axis_ts, double upper_m, double forearm_m);
 
-// The side nearest to `bend_ts` (unit, square to the axis) where a shoulder lets the upper arm
-// point: within a cone ahead, outward and down. Where the whole circle lies outside, the side that
-// is least so.
+// Direction closest to `bend_ts` (unit, perpendicular to the axis) in which the upper arm stays
+// inside the shoulder's cone (ArmTuning::elbow_cone). If the whole circle is outside the cone,
+// returns the direction nearest to it.
 Vec3 reachable_bend(const ElbowCircle& circle, const Vec3& bend_ts, HandSide side,
                     const ArmTuning& tuning);
 
-// The last frame's side of the elbow, square to the line to the hand now. It goes along with the
-// line without turning about it where the arm is straight; a bent arm's elbow rather stays where it
-// was.
+// Carries the last frame's elbow direction to the current line from shoulder to hand. A straight
+// arm's direction turns with the line, without rotating about it; a bent arm's elbow tends to keep
+// its place (ArmTuning::elbow_inertia).
 Vec3 carry_bend(const ArmMemory::Arm& arm, const Vec3& axis_ts, const ArmTuning& tuning);
 
-// `bend_ts` turned about the axis towards `wanted_ts` by a share of the way, at most by an angle.
+// Turns `bend_ts` about the axis towards `wanted_ts` by a share of the angle, at most by
+// `most_rad`.
 struct BendTurn {
     double share = 0.0;
     double most_rad = 0.0;

@@ -17,8 +17,9 @@ struct PoseArmsIo {
     Column<ArmPose>& arms;                 // out: of players who have hands
 };
 
-// Stage 13. The arms' joints in the world: two-bone IK from the estimated shoulder to the palm. The
-// hand's joint is the palm's pose, bit for bit: where the arm is too short both bones stretch.
+// Stage 13. Poses the arms' joints in the world by two-bone IK from the estimated shoulder to the
+// palm. The hand's joint equals the palm's pose exactly: both bones stretch if the arm is too
+// short.
 void pose_arms(const PoseArmsIo& io);
 
 }  // namespace handhold

@@ -11,8 +11,40 @@ namespace {
 // Body proportions: shoulder width / arm span, and arm span / eye height (docs/decisions/, 40).
 constexpr double k_shoulder_share = 0.25;
 constexpr double k_span_share = 0.95;
-// Eyes lower than this share of what the span says: he sits.
+// Shoulder joints below the eyes / arm span.
+constexpr double k_shoulder_drop_share = 0.145;
+// Eyes lower than this share of what the span predicts: the player sits.
 constexpr double k_seated_share = 0.87;
+
+// Arm span of wrists that are `level_m` apart and `below_m` under the eyes. With span S, shoulders
+// k_shoulder_share S apart and k_shoulder_drop_share S under the eyes, arms of length
+// a = (1 - k_shoulder_share) S / 2 and half distance x = level_m / 2:
+//   (x - k_shoulder_share S / 2)^2 + (below_m - k_shoulder_drop_share S)^2 = a^2.
+// Hands at shoulder height or above give S = level_m.
+double span_of_pose(double level_m, double below_m) {
+    if (below_m <= k_shoulder_drop_share * level_m) {
+        return level_m;
+    }
+    constexpr double k_half_shoulder = 0.5 * k_shoulder_share;
+    constexpr double k_arm = 0.5 - k_half_shoulder;
+    constexpr double k_square = k_arm * k_arm - k_half_shoulder * k_half_shoulder -
+                                k_shoulder_drop_share * k_shoulder_drop_share;
+    const double half_m = 0.5 * level_m;
+    const double linear = k_half_shoulder * half_m + k_shoulder_drop_share * below_m;  // halved
+    const double constant = half_m * half_m + below_m * below_m;
+    return (std::sqrt(linear * linear + k_square * constant) - linear) / k_square;
+}
+
+// The ratio of arm span to eye height that people have, with a margin. Who sits has lower eyes, and
+// cannot lower the arms.
+bool is_plausible(double span_m, double eyes_m, bool are_arms_level) {
+    constexpr double k_shortest_span = 0.80;
+    constexpr double k_longest_span = 1.12;
+    constexpr double k_lowest_seat = 0.45;  // eyes on the floor / eyes standing
+    const double standing_m = span_m / k_span_share;
+    return span_m >= k_shortest_span * eyes_m && eyes_m >= k_lowest_seat * standing_m &&
+           (are_arms_level || span_m <= k_longest_span * eyes_m);
+}
 
 bool is_known(TrackingState state) { return state == TrackingState::tracked; }
 
@@ -53,21 +85,24 @@ std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const
     constexpr double k_level = 0.12;   // of the span: one hand above the other
     constexpr double k_middle = 0.15;  // the head off the middle
     constexpr double k_highest = 0.02;
-    constexpr double k_lowest = 0.30;  // the hands below the eyes
+    constexpr double k_lowest = 0.47;      // the hands below the eyes: arms 60 degrees down
+    constexpr double k_level_arms = 0.30;  // arms count as level down to this
     const Vec3 line = right_ps - left_ps;
     const Vec3 level(line.x(), 0.0, line.z());
-    const double span = level.norm();
+    const Vec3 middle = 0.5 * (left_ps + right_ps);
+    const double below_m = head_ps.y() - middle.y();
+    const double span = span_of_pose(level.norm(), below_m);
     if (!is_finite(head_ps) || !(span >= TPoseRange::k_min_span_m) ||
         !(span <= TPoseRange::k_max_span_m)) {
         return std::nullopt;
     }
-    const Vec3 middle = 0.5 * (left_ps + right_ps);
     const Vec3 aside(head_ps.x() - middle.x(), 0.0, head_ps.z() - middle.z());
-    const double below = (head_ps.y() - middle.y()) / span;
+    const double below = below_m / span;
     const bool is_one = std::abs(line.y()) <= k_level * span && aside.norm() <= k_middle * span &&
                         below >= k_highest && below <= k_lowest &&
                         head_ps.y() > TPoseRange::k_min_eyes_m &&
-                        head_ps.y() < TPoseRange::k_max_eyes_m;
+                        head_ps.y() < TPoseRange::k_max_eyes_m &&
+                        is_plausible(span, head_ps.y(), below <= k_level_arms);
     return is_one ? std::optional(TPose{head_ps.y(), span}) : std::nullopt;
 }
 

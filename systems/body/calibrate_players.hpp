@@ -22,22 +22,24 @@ struct CalibratePlayersIo {
     Column<BodyMeasures>& measures;          // in/out
 };
 
-// Stage 1a. Who asks for it and holds a T-pose still for a second is measured: eye height, and from
-// wrist to wrist what arms and shoulders are. Who sits gets the eye height of such a span. Once for
-// each time it is asked for; without the pose nothing changes.
+// Stage 1a. Measures players who ask for it and hold a T-pose or an A-pose (arms up to 60 degrees
+// down) still for CalibrationTuning::hold_s: eye height, and arms and shoulders from the distance
+// of the wrists. Seated players get the eye height that their arm span predicts. Measures once per
+// request. Changes nothing without the pose.
 void calibrate_players(const CalibratePlayersIo& io, const CalibrationTuning& tuning);
 
-// A head and two hands as a T-pose: both hands level below the eyes, the head between them, the
-// span of an arm's order. Metres; nothing where it is none.
+// What a T-pose or an A-pose measures.
 struct TPose {
     double eyes_m = 0.0;  // above the floor
-    double span_m = 0.0;  // from wrist to wrist, level
+    double span_m = 0.0;  // from wrist to wrist with level arms
 };
+// Nothing if the pose is another one: hands at equal heights between the eyes and 0.47 spans below,
+// the head in the middle between them, and arms as long as people of that height have.
 std::optional<TPose> read_t_pose(const Vec3& head_ps, const Vec3& left_ps, const Vec3& right_ps);
 
-// A body of this T-pose, by the proportions of people.
+// The body of this pose, with people's proportions.
 BodyMeasures measures_of(const TPose& pose);
-// And of a height alone.
+// The body of an eye height alone.
 BodyMeasures measures_of_eye_height(double eye_height_m);
 
 }  // namespace handhold

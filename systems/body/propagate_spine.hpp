@@ -20,22 +20,26 @@ struct PropagateSpineIo {
     const Column<ArmEstimate>& estimate;         // in: the chest
     Column<SpineMemory>& memory;                 // in/out
     Column<SpinePose>& pose;                     // out
-    // What legs touch: all three, or none and they touch nothing.
+    // For contacts of the legs: `collision` and the two columns below it, or none of them.
     const CollisionWorld* collision = nullptr;            // in
-    const Column<HeadTracking>* head = nullptr;           // in: before all surfaces
-    const Column<PersistentId>* persistent_id = nullptr;  // in: nobody's legs touch his own head
+    const Column<HeadTracking>* head = nullptr;           // in: rays start here; the floor's shift
+    const Column<PersistentId>* persistent_id = nullptr;  // in: legs ignore their own player
 };
 
-// Stage 14. Spine and legs of every player: momentum snakes down from the chest, link by link.
-// Ticks at every 120th of a second of the world's clock, whatever the frames are; between two of
-// them what is shown goes on linearly, a tick late. Only velocities
-// count, against the reference velocity, and the chest's own motion in play space: turning the play
-// space, and whatever puts a player elsewhere, takes the chain along unmoved. Where the chest jumps
-// the chain starts at rest. Of a frame longer than half a second only half a second is played.
-// Knees and soles stay on the head's side of the surface that the line from the head to the sole
-// meets, and slide along it, as far as their limits let them; they push nothing, and the player not
-// at all. Each leg looks 15 times a second; what it found stays where it is against the reference.
-// Clips lie on top and see no surfaces.
+// Stage 14. Simulates spine and legs of every player: motion travels down from the chest, link by
+// link. The chain advances in ticks at multiples of 1/120 s of the world clock, independent of the
+// frame rate; frames interpolate between the last two ticks.
+//
+// Only velocities relative to the reference velocity and the chest's own motion in play space move
+// the chain. Turning the play space or teleporting a player carries the chain along. If the chest
+// jumps, the chain restarts from rest. At most 0.5 s of a frame is simulated.
+//
+// Contacts: knees and soles stay on the head's side of the first surface between head and sole, and
+// slide along it, within their joint limits. They apply no force. Each leg queries surfaces 15
+// times a second; in between the surface keeps its place relative to the reference. Clips are added
+// later and ignore surfaces.
+//
+// Crouching: the chain hangs straight in SpineMemory; pose_spine folds it above the tracked floor.
 void propagate_spine(const PropagateSpineIo& io, const SpineTuning& tuning);
 
 }  // namespace handhold

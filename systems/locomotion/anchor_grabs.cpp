@@ -30,7 +30,7 @@ void take_anchor_at_start(const AnchorGrabsIo& io, Entity player, const HandTrac
 }
 
 // Hands that led a body together and do not any more, for whatever reason: what stays starts
-// afresh.
+// from scratch.
 void end_broken_two_hand_grips(const AnchorGrabsIo& io, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -134,8 +134,9 @@ bool leaves_shared_grip(const HandPair& pair) {
            pair.other->phase == GrabPhase::holding && share_hold(pair.grab, *pair.other);
 }
 
-// Hands that leave what their players' others stay on drop their rows now; those start afresh. All
-// anchors are found before any hand is gone: hands of several players may lead one thing.
+// Hands that leave what their players' others stay on drop their rows now; those start from
+// scratch. All anchors are found before any hand is gone: hands of several players may lead one
+// body.
 void leave_shared_grips(const AnchorGrabsIo& io, const PhaseTuning& tuning, StageStats& stats) {
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         const HandPair pair = pair_of(io, row);
@@ -172,7 +173,7 @@ void drop_lost_grabs(const AnchorGrabsIo& io, StageStats& stats) {
     }
 }
 
-// A free thing that a hand has by an authored grip comes into the hand: it was authored against
+// A free body in an authored grip moves into the hand: it was authored against
 // hand and controller, and a gun points where the controller does. As fast as shown palms move; in
 // two hands it stays as they have it, for they say together how it lies.
 void move_into_authored_grip(const AnchorGrabsIo& io, Entity entity, const PalmTuning& tuning,

@@ -14,12 +14,12 @@ using AnchorGrabsIo = GrabFrame;  // systems/locomotion/shared/grab_instant.hpp
 //    residual, no jump. A body that hands have already is where they lead it, along its joint where
 //    it hangs on one (joint_rail.hpp), not where its velocity would take it;
 //  - a hand that lets go carries on with its release velocity to the frame's end, and is free then;
-//  - where one of a player's two hands on fixed things, or on one body, lets go, it leaves at once
-//    and the other's anchor is taken anew where that hand is: no throw, no jump. The same where a
+//  - where one of a player's two hands on fixed bodies, or on one body, lets go, it leaves at once
+//    and the other's anchor is taken again where that hand is: no throw, no jump. The same where a
 //    gripping hand's tracking comes back;
 //  - two hands on one free body lead it together as long as they are apart: the first's point, the
 //    line between them, the twist about it (engine/solver/model/drive_pair.hpp);
-//  - a free body that one hand has by an authored grip comes into the hand: its anchor goes to
+//  - a free body in an authored grip of one hand moves into it: its anchor goes to
 //    where the grip has the hand, at PalmTuning::rate_mps. That moves the body, never the player.
 // Also sets what the hand's constraint aims at in this frame. Each step is taken for all hands
 // before the next one: whose hand is listed first never shows.

@@ -22,7 +22,7 @@ struct Grips {
 
 bool is_on_surface(const Grips::Grip& grip) { return grip.grab->kind == GripKind::surface; }
 
-// What is fixed to the world leads, of two equal ones the hand that holds longer, and of two that
+// A grip fixed to the world leads, of two equal ones the hand that holds longer, and of two that
 // closed at one instant the left: never the one that is listed first.
 bool comes_first(const Grips::Grip& a, const Grips::Grip& b) {
     if (is_on_surface(a) != is_on_surface(b)) {

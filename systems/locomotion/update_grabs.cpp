@@ -197,7 +197,7 @@ struct Closing {
     Entity only = k_no_entity;  // null: anything
 };
 
-// What is pulled is taken where it touches the palm, or has come through it by a frame's way: not
+// A pulled body is gripped where it touches the palm, or has come through it by a frame's way: not
 // as far off as a hand reaches, for it would stay there.
 bool is_at_palm(const Surface& surface, const PalmRay& ray) {
     constexpr double k_touches_m = 0.02;

@@ -1,42 +1,47 @@
 #include "systems/rigs/body_bones.hpp"
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace handhold {
 namespace {
 
-std::size_t depth_of(const SkinnedMesh& figure, std::size_t joint) {
-    std::size_t depth = 0;
-    for (std::int32_t at = figure.joints[joint].parent; at >= 0;
-         at = figure.joints[static_cast<std::size_t>(at)].parent) {
-        ++depth;
-    }
-    return depth;
-}
+constexpr std::array k_sides = {HandSide::left, HandSide::right};
 
-// What a map says first; the rest by names.
+// Finds bones by the map and by names.
 class BoneFinder {
   public:
-    BoneFinder(const SkinnedMesh& figure, const BodyMap& map) : figure_(figure), map_(map) {}
+    BoneFinder(const SkinnedMesh& figure, const BodyMap& map)
+        : figure_(figure), map_(map), tree_(figure) {}
 
     Result<BodyBones> find() {
-        if (const auto error = find_body_map()) {
+        if (const auto error = find_mapped()) {
             return *error;
         }
-        guess();
-        for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const BodyBones mapped = bones_;
+        find_named();
+        for (const HandSide side : k_sides) {
             use_last_joints(side);
         }
-        if (const auto error = missing()) {
-            return *error;
+        find_second_meanings();
+        fill_bones_by_shape(figure_, bones_);
+        std::string wrong = what_is_wrong(bones_);
+        if (wrong.empty()) {
+            return bones_;
         }
-        return bones_;
+        bones_ = mapped;
+        fill_bones_by_shape(figure_, bones_);
+        if (what_is_wrong(bones_).empty()) {
+            return bones_;
+        }
+        return FileError{figure_.file, "/nodes", wrong + "; name the joints with --body-map"};
     }
 
   private:
-    std::optional<FileError> find_body_map() {
+    std::optional<FileError> find_mapped() {
         for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
-            for (const HandSide side : {HandSide::left, HandSide::right}) {
+            for (const HandSide side : k_sides) {
                 if (auto error = look_up({static_cast<BodyBone>(bone), side})) {
                     return error;
                 }
@@ -44,10 +49,25 @@ class BoneFinder {
         }
         return std::nullopt;
     }
+    std::optional<FileError> look_up(const BodyJointName& name) {
+        const auto entry = map_.find(body_joint_text(name));
+        if (entry == map_.end()) {
+            return std::nullopt;
+        }
+        for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
+            if (figure_.joints[i].name == entry->second) {
+                bones_.at(name) = i;
+                return std::nullopt;
+            }
+        }
+        return FileError{figure_.file, "/nodes",
+                         "expected a joint \"" + entry->second + "\" for " + entry->first};
+    }
     bool is_mapped(const BodyJointName& name) const {
         return map_.find(body_joint_text(name)) != map_.end();
     }
-    // Nothing where the map says what this joint is.
+
+    // What a joint's name says; nothing for parts of bones and for joints that the map names.
     std::optional<BodyNameGuess> guess_of(std::size_t joint) const {
         const std::string& name = figure_.joints[joint].name;
         for (const auto& [bone, mapped] : map_) {
@@ -55,19 +75,27 @@ class BoneFinder {
                 return std::nullopt;
             }
         }
-        return parse_body_joint_name(name);
+        auto guess = parse_body_joint_name(name);
+        return guess && !guess->is_part ? guess : std::nullopt;
     }
 
-    // The joint nearest to the root for each bone; doubtful names only where no other is there.
-    void guess() {
-        std::map<std::optional<std::size_t>*, std::pair<int, std::size_t>> best;
+    // Lower is better: clearer names, joints that deform, joints with others below them, then the
+    // joint nearest to the root, then the one with most joints below it.
+    using Rank = std::tuple<int, bool, bool, std::size_t, std::ptrdiff_t>;
+    Rank rank_of(std::size_t joint, int doubt) const {
+        return {doubt, is_spare_name(figure_.joints[joint].name), tree_.size(joint) == 0,
+                tree_.depth(joint), -static_cast<std::ptrdiff_t>(tree_.size(joint))};
+    }
+
+    void find_named() {
+        std::map<std::optional<std::size_t>*, Rank> best;
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = guess_of(i);
             if (!guess || is_mapped(guess->name)) {
                 continue;
             }
             std::optional<std::size_t>& bone = bones_.at(guess->name);
-            const std::pair<int, std::size_t> rank = {guess->doubt, depth_of(figure_, i)};
+            const Rank rank = rank_of(i, guess->doubt);
             if (!bone || rank < best[&bone]) {
                 bone = i;
                 best[&bone] = rank;
@@ -89,9 +117,11 @@ class BoneFinder {
             }
         }
         const auto& shin = bones_.limb(side, BodyBone::shin);
+        auto& thigh = bones_.at({BodyBone::thigh, side});
         if (shin && !is_mapped({BodyBone::thigh, side})) {
-            if (const auto thigh = last_above({BodyBone::thigh, side}, *shin)) {
-                bones_.at({BodyBone::thigh, side}) = thigh;
+            const auto last = last_above({BodyBone::thigh, side}, *shin);
+            if (last && !(thigh && is_on_bone(*last, *thigh, *shin))) {
+                thigh = last;
             }
         }
         auto& clavicle = bones_.at({BodyBone::clavicle, side});
@@ -99,7 +129,16 @@ class BoneFinder {
             clavicle.reset();
         }
     }
-    // Beside the length from `upper` to `forearm`.
+    // True for a joint that splits the bone from `upper` to `lower`: it lies well inside its line.
+    bool is_on_bone(std::size_t joint, std::size_t upper, std::size_t lower) const {
+        constexpr double k_inside = 0.1;
+        constexpr double k_aside = 0.1;
+        const Vec3 bone = place_of(figure_, lower) - place_of(figure_, upper);
+        const Vec3 at = place_of(figure_, joint) - place_of(figure_, upper);
+        const double along = at.dot(bone) / bone.squaredNorm();
+        return along > k_inside && (at - along * bone).norm() < k_aside * at.norm();
+    }
+    // Compared with the length of the upper arm.
     bool are_in_one_place(std::size_t joint, std::size_t upper, std::size_t forearm) const {
         constexpr double k_share = 0.003;
         const Vec3& shoulder = place_of(figure_, upper);
@@ -107,69 +146,115 @@ class BoneFinder {
         return (place_of(figure_, joint) - shoulder).norm() <= k_share * arm_m;
     }
 
-    // The last joint of this name above another.
+    // The joint of this name that is nearest above `joint`.
     std::optional<std::size_t> last_above(const BodyJointName& name, std::size_t joint) const {
-        for (std::int32_t at = figure_.joints[joint].parent; at >= 0;
-             at = figure_.joints[static_cast<std::size_t>(at)].parent) {
-            const auto above = static_cast<std::size_t>(at);
-            const auto guess = guess_of(above);
+        std::optional<std::size_t> last;
+        const std::vector<std::size_t> path = tree_.path_to(joint);
+        for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+            const auto guess = guess_of(path[i]);
             if (guess && guess->name == name) {
-                return above;
+                last = path[i];
             }
         }
-        return std::nullopt;
+        return last;
     }
 
-    // The one nearest to the root of this name below another.
+    // The best joint of this name below `joint`.
     std::optional<std::size_t> first_below(const BodyJointName& name, std::size_t joint) const {
         std::optional<std::size_t> first;
+        Rank best;
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = guess_of(i);
-            if (guess && guess->name == name && is_below(figure_, i, joint) &&
-                (!first || depth_of(figure_, i) < depth_of(figure_, *first))) {
+            if (!guess || guess->name != name || !is_below(figure_, i, joint)) {
+                continue;
+            }
+            // Hands may be leaves: the nearest counts.
+            const Rank rank = {guess->doubt, false, false, tree_.depth(i),
+                               -static_cast<std::ptrdiff_t>(tree_.size(i))};
+            if (!first || rank < best) {
                 first = i;
+                best = rank;
             }
         }
         return first;
     }
 
-    std::optional<FileError> look_up(const BodyJointName& name) {
-        const auto entry = map_.find(body_joint_text(name));
-        if (entry == map_.end()) {
-            return std::nullopt;
-        }
+    // "Shoulder" beside a scapula, "Leg" above a knee.
+    void find_second_meanings() {
+        std::vector<bool> is_used(figure_.joints.size(), false);
+        const auto mark = [&](const SideBones& side) {
+            for (const auto& joint : side) {
+                if (joint) {
+                    is_used[*joint] = true;
+                }
+            }
+        };
+        mark(bones_.middle);
+        mark(bones_.sides[0]);
+        mark(bones_.sides[1]);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
-            if (figure_.joints[i].name == entry->second) {
-                bones_.at(name) = i;
-                return std::nullopt;
+            const auto guess = guess_of(i);
+            if (guess && guess->other != guess->name && !is_used[i] && !bones_.at(guess->other)) {
+                bones_.at(guess->other) = i;
             }
         }
-        return FileError{figure_.file, "/nodes",
-                         "expected a joint \"" + entry->second + "\" for " + entry->first};
     }
 
-    std::optional<FileError> missing() {
-        std::string names;
+    std::string what_is_wrong(BodyBones& bones) const {
+        std::string missing;
         const auto need = [&](const BodyJointName& name) {
-            if (!bones_.at(name)) {
-                names += (names.empty() ? "" : ", ") + body_joint_text(name);
+            if (!bones.at(name)) {
+                missing += (missing.empty() ? "" : ", ") + body_joint_text(name);
             }
         };
         need({BodyBone::head, HandSide::left});
-        for (const HandSide side : {HandSide::left, HandSide::right}) {
+        for (const HandSide side : k_sides) {
             need({BodyBone::upper_arm, side});
             need({BodyBone::forearm, side});
             need({BodyBone::hand, side});
         }
-        if (names.empty()) {
-            return std::nullopt;
+        const bool has_thighs = bones.limb(HandSide::left, BodyBone::thigh) &&
+                                bones.limb(HandSide::right, BodyBone::thigh);
+        if (!has_thighs && !bones.of_middle(BodyBone::trunk)) {
+            missing += std::string(missing.empty() ? "" : ", ") + "pelvis (or left_thigh and " +
+                       "right_thigh)";
         }
-        return FileError{figure_.file, "/nodes",
-                         "expected joints of a body, found none for " + names};
+        for (const BodyBone bone : {BodyBone::thigh, BodyBone::shin}) {  // both or none
+            const bool is_left = bones.limb(HandSide::left, bone).has_value();
+            if (is_left != bones.limb(HandSide::right, bone).has_value()) {
+                need({bone, is_left ? HandSide::right : HandSide::left});
+            }
+        }
+        if (!missing.empty()) {
+            return "expected joints of a body, found none for " + missing;
+        }
+        const std::string shared = find_shared_joint(bones);
+        return shared.empty() ? find_implausible_bone(figure_, bones).value_or("") : shared;
+    }
+    // A joint that is taken for two bones.
+    std::string find_shared_joint(BodyBones& bones) const {
+        std::map<std::size_t, std::string> users;
+        for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+            for (const HandSide side : k_sides) {
+                const BodyJointName name{static_cast<BodyBone>(bone), side};
+                const auto joint = bones.at(name);
+                if (!joint || (!is_limb(name.bone) && side == HandSide::right)) {
+                    continue;
+                }
+                const auto [user, is_new] = users.emplace(*joint, body_joint_text(name));
+                if (!is_new) {
+                    return "expected a joint for each bone, found \"" +
+                           figure_.joints[*joint].name + "\" for " + user->second + " and " +
+                           body_joint_text(name);
+                }
+            }
+        }
+        return "";
     }
 
     const SkinnedMesh& figure_;
     const BodyMap& map_;
+    JointTree tree_;
     BodyBones bones_;
 };
 
@@ -181,6 +266,42 @@ bool is_below(const SkinnedMesh& figure, std::size_t joint, std::size_t above) {
         at = figure.joints[static_cast<std::size_t>(at)].parent;
     }
     return at >= 0;
+}
+
+JointTree::JointTree(const SkinnedMesh& figure)
+    : figure_(&figure),
+      children_(figure.joints.size()),
+      depth_(figure.joints.size(), 0),
+      size_(figure.joints.size(), 0),
+      skin_(figure.joints.size(), 0.0),
+      skin_below_(figure.joints.size(), 0.0) {
+    for (const SkinWeights& weights : figure.weights) {
+        for (std::size_t k = 0; k < weights.joint.size(); ++k) {
+            skin_[weights.joint[k]] += static_cast<double>(weights.weight[k]);
+        }
+    }
+    for (std::size_t i = 0; i < figure.joints.size(); ++i) {
+        skin_below_[i] += skin_[i];
+        std::int32_t at = figure.joints[i].parent;
+        if (at >= 0) {
+            children_[static_cast<std::size_t>(at)].push_back(i);
+        }
+        for (; at >= 0; at = figure.joints[static_cast<std::size_t>(at)].parent) {
+            ++depth_[i];
+            ++size_[static_cast<std::size_t>(at)];
+            skin_below_[static_cast<std::size_t>(at)] += skin_[i];
+        }
+    }
+}
+
+std::vector<std::size_t> JointTree::path_to(std::size_t joint) const {
+    std::vector<std::size_t> path;
+    for (auto at = static_cast<std::int32_t>(joint); at >= 0;
+         at = figure_->joints[static_cast<std::size_t>(at)].parent) {
+        path.push_back(static_cast<std::size_t>(at));
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
 }
 
 Result<BodyBones> find_body_bones(const SkinnedMesh& figure, const BodyMap& map) {

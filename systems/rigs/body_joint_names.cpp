@@ -1,10 +1,12 @@
+// Sources: joint names of 3ds Max Biped, Mixamo, Unity and VRM, Unreal, Valve, Meta, Rigify,
+// AdvancedSkeleton, DAZ, MakeHuman, Character Creator, CATS and MMD, as their exporters write them.
+#include "systems/rigs/body_joint_names.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string>
 #include <vector>
-
-#include "systems/rigs/body_rig_fit.hpp"
 
 namespace handhold {
 namespace {
@@ -24,74 +26,197 @@ constexpr std::array<NamedBone, k_body_bone_count> k_bones = {{{BodyBone::trunk,
                                                                {BodyBone::shin, "shin"},
                                                                {BodyBone::foot, "foot"}}};
 
-// What a name has in it; earlier lines go before later ones.
+// A text that names a bone if a joint's name contains it.
 struct Word {
     const char* text;
     BodyBone bone;
     int doubt;
-    bool is_whole;  // the name has to end with it
+    bool is_last;    // the name has to end with it
+    BodyBone other;  // what it means where `bone` is another joint; the same: nothing else
 };
-constexpr std::array<Word, 27> k_limb_words = {{
-    {"forearm", BodyBone::forearm, 0, false}, {"lowerarm", BodyBone::forearm, 0, false},
-    {"elbow", BodyBone::forearm, 0, false},   {"upperarm", BodyBone::upper_arm, 0, false},
-    {"uparm", BodyBone::upper_arm, 0, false}, {"clavicle", BodyBone::clavicle, 0, false},
-    {"collar", BodyBone::clavicle, 0, false}, {"shoulder", BodyBone::clavicle, 0, false},
-    {"hand", BodyBone::hand, 0, false},       {"wrist", BodyBone::hand, 0, false},
-    {"palm", BodyBone::hand, 0, false},       {"lowerleg", BodyBone::shin, 0, false},
-    {"calf", BodyBone::shin, 0, false},       {"shin", BodyBone::shin, 0, false},
-    {"knee", BodyBone::shin, 0, false},       {"upleg", BodyBone::thigh, 0, false},
-    {"upperleg", BodyBone::thigh, 0, false},  {"thigh", BodyBone::thigh, 0, false},
-    {"hip", BodyBone::thigh, 0, false},       {"foot", BodyBone::foot, 0, false},
-    {"ankle", BodyBone::foot, 0, false},      {"arm", BodyBone::upper_arm, 1, true},
-    {"arm1", BodyBone::upper_arm, 1, true},   {"armlink", BodyBone::upper_arm, 1, true},
-    {"leg", BodyBone::shin, 1, true},         {"leg1", BodyBone::shin, 1, true},
-    {"leglink", BodyBone::shin, 1, true},
-}};
-constexpr std::array<Word, 4> k_middle_words = {{
-    {"pelvis", BodyBone::trunk, 0, false},
-    {"hip", BodyBone::trunk, 0, false},
-    {"neck", BodyBone::neck, 0, false},
-    {"head", BodyBone::head, 0, true},
-}};
-// Whatever else stands in such a name, it is no bone of the body; the first ones even inside of a
-// word.
-constexpr std::array<const char*, 7> k_digits = {"thumb", "index",  "middle", "ring",
-                                                 "pinky", "finger", "toe"};
-constexpr std::array<const char*, 8> k_others = {"little", "twist",  "end",    "ik",
-                                                 "pole",   "target", "helper", "tip"};
+constexpr Word sure(const char* text, BodyBone bone) { return {text, bone, 0, false, bone}; }
+constexpr Word likely(const char* text, BodyBone bone) { return {text, bone, 1, false, bone}; }
 
-// Runs of letters and digits, cut before a capital that follows a small letter; small letters.
-// A namespace before the name is left out.
+// Earlier words win over later ones.
+constexpr std::array k_limb_words = {
+    sure("forearm", BodyBone::forearm),
+    sure("lowerarm", BodyBone::forearm),
+    sure("lowarm", BodyBone::forearm),
+    sure("loarm", BodyBone::forearm),
+    sure("armlower", BodyBone::forearm),
+    sure("elbow", BodyBone::forearm),
+    sure("upperarm", BodyBone::upper_arm),
+    sure("uparm", BodyBone::upper_arm),
+    sure("armupper", BodyBone::upper_arm),
+    sure("shldr", BodyBone::upper_arm),
+    sure("humerus", BodyBone::upper_arm),
+    sure("clavicle", BodyBone::clavicle),
+    sure("collar", BodyBone::clavicle),
+    sure("scapula", BodyBone::clavicle),
+    Word{"shoulder", BodyBone::clavicle, 1, false, BodyBone::upper_arm},
+    sure("hand", BodyBone::hand),
+    sure("wrist", BodyBone::hand),
+    likely("palm", BodyBone::hand),
+    sure("lowerleg", BodyBone::shin),
+    sure("lowleg", BodyBone::shin),
+    sure("loleg", BodyBone::shin),
+    sure("leglower", BodyBone::shin),
+    sure("calf", BodyBone::shin),
+    sure("shin", BodyBone::shin),
+    sure("knee", BodyBone::shin),
+    sure("upleg", BodyBone::thigh),
+    sure("upperleg", BodyBone::thigh),
+    sure("legupper", BodyBone::thigh),
+    sure("thigh", BodyBone::thigh),
+    sure("femur", BodyBone::thigh),
+    likely("hip", BodyBone::thigh),
+    likely("buttock", BodyBone::thigh),
+    sure("foot", BodyBone::foot),
+    sure("ankle", BodyBone::foot),
+    Word{"arm", BodyBone::upper_arm, 1, true, BodyBone::upper_arm},
+    Word{"leg", BodyBone::shin, 1, true, BodyBone::thigh},
+};
+constexpr std::array k_middle_words = {
+    sure("pelvis", BodyBone::trunk),    sure("lowertorso", BodyBone::trunk),
+    sure("lowerbody", BodyBone::trunk), sure("hip", BodyBone::trunk),
+    sure("neck", BodyBone::neck),       Word{"head", BodyBone::head, 0, true, BodyBone::head},
+};
+// MMD. A name is one of these, after its side.
+constexpr std::array k_japanese_limbs = {
+    sure("肩", BodyBone::clavicle),  sure("腕", BodyBone::upper_arm),
+    sure("ひじ", BodyBone::forearm), sure("肘", BodyBone::forearm),
+    sure("手首", BodyBone::hand),    sure("足", BodyBone::thigh),
+    sure("ひざ", BodyBone::shin),    sure("膝", BodyBone::shin),
+    sure("足首", BodyBone::foot),
+};
+constexpr std::array k_japanese_middle = {
+    sure("下半身", BodyBone::trunk),
+    sure("首", BodyBone::neck),
+    sure("頭", BodyBone::head),
+};
+constexpr std::array k_japanese_twists = {
+    sure("腕捩", BodyBone::upper_arm),
+    sure("腕捩れ", BodyBone::upper_arm),
+    sure("手捩", BodyBone::forearm),
+    sure("手捩れ", BodyBone::forearm),
+};
+
+// Thumbs, fingers and toes, even inside a word.
+constexpr std::array<const char*, 9> k_digits = {"thumb",  "index", "middle", "ring",  "pinky",
+                                                 "finger", "toe",   "指",     "つま先"};
+// Joints with these words are not bones of the body, whatever else their names contain.
+constexpr std::array<const char*, 24> k_others = {
+    "little", "end",      "nub",  "tip",     "ik",     "fk",     "ikfk", "pole",
+    "target", "helper",   "ctrl", "control", "mch",    "vis",    "wgt",  "tweak",
+    "goal",   "effector", "null", "socket",  "attach", "weapon", "prop", "forehead"};
+// Words that say nothing about the bone.
+constexpr std::array<const char*, 11> k_fillers = {"joint", "jnt", "bone", "bn", "link", "bend",
+                                                   "def",   "org", "m",    "c",  "jt"};
+// Joints with these words move with the bone that they name, but are not its first joint.
+constexpr std::array<const char*, 3> k_parts = {"part", "share", "corrective"};
+
+template <std::size_t N>
+bool contains(const std::array<const char*, N>& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+bool is_latin(char c) { return static_cast<unsigned char>(c) < 0x80; }
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_word_letter(char c) {
+    return !is_latin(c) || is_upper(c) || is_lower(c) || (c >= '0' && c <= '9');
+}
+
+// True if a word begins at `i`: "leftArm" at A, "LArm" at A, "左腕IK" at I.
+bool begins_word(std::string_view name, std::size_t i) {
+    const char before = name[i - 1];
+    const char c = name[i];
+    if (is_latin(before) != is_latin(c)) {
+        return true;
+    }
+    const bool ends_capitals = is_upper(before) && i + 1 < name.size() && is_lower(name[i + 1]);
+    return is_upper(c) && (is_lower(before) || ends_capitals);
+}
+
+// Words of a name in lower case, without namespaces ("mixamorig:", "Armature|").
 std::vector<std::string> cut_words(std::string_view name) {
     const std::size_t space = name.find_last_of(":|");
     if (space != std::string_view::npos) {
         name.remove_prefix(space + 1);
     }
-    std::vector<std::string> words(1);
-    bool was_small = false;
-    for (const char c : name) {
-        const auto letter = static_cast<unsigned char>(c);
-        if (std::isalnum(letter) == 0) {
-            words.emplace_back();
-            was_small = false;
+    std::vector<std::string> words;
+    bool is_open = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const char c = name[i];
+        if (!is_word_letter(c)) {
+            is_open = false;
             continue;
         }
-        if (was_small && std::isupper(letter) != 0) {
+        if (!is_open || begins_word(name, i)) {
             words.emplace_back();
         }
-        was_small = std::islower(letter) != 0;
-        words.back() += static_cast<char>(std::tolower(letter));
+        is_open = true;
+        words.back() += is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c;
     }
-    words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
     return words;
+}
+
+// Removes `text` from the front of `word` if something else follows it.
+bool remove_prefix(std::string& word, std::string_view text) {
+    if (word.size() > text.size() && word.starts_with(text)) {
+        word.erase(0, text.size());
+        return true;
+    }
+    return false;
+}
+
+// The side that a word says, removed from it.
+std::optional<HandSide> take_side(std::string& word) {
+    constexpr std::array<const char*, 4> k_left = {"l", "left", "lf", "lft"};
+    constexpr std::array<const char*, 4> k_right = {"r", "right", "rt", "rgt"};
+    if (contains(k_left, word)) {
+        word.clear();
+        return HandSide::left;
+    }
+    if (contains(k_right, word)) {
+        word.clear();
+        return HandSide::right;
+    }
+    if (remove_prefix(word, "left") || remove_prefix(word, "左")) {
+        return HandSide::left;
+    }
+    if (remove_prefix(word, "right") || remove_prefix(word, "右")) {
+        return HandSide::right;
+    }
+    return std::nullopt;
+}
+
+void remove_final_digits(std::string& word) {
+    while (!word.empty() && word.back() >= '0' && word.back() <= '9') {
+        word.pop_back();
+    }
+}
+
+BodyNameGuess guess_of(const Word& word) {
+    return {{word.bone, HandSide::left}, word.doubt, {word.other, HandSide::left}, false};
 }
 
 template <std::size_t N>
 std::optional<BodyNameGuess> find_word(const std::array<Word, N>& list, const std::string& name) {
     for (const Word& word : list) {
         const std::string_view text = word.text;
-        if (word.is_whole ? name.ends_with(text) : name.find(text) != std::string::npos) {
-            return BodyNameGuess{{word.bone, HandSide::left}, word.doubt};
+        if (word.is_last ? name.ends_with(text) : name.find(text) != std::string::npos) {
+            return guess_of(word);
+        }
+    }
+    return std::nullopt;
+}
+
+template <std::size_t N>
+std::optional<BodyNameGuess> find_whole(const std::array<Word, N>& list, const std::string& name) {
+    for (const Word& word : list) {
+        if (name == word.text) {
+            return guess_of(word);
         }
     }
     return std::nullopt;
@@ -100,6 +225,52 @@ std::optional<BodyNameGuess> find_word(const std::array<Word, N>& list, const st
 bool has_digit(const std::string& words) {
     return std::any_of(k_digits.begin(), k_digits.end(),
                        [&](const char* digit) { return words.find(digit) != std::string::npos; });
+}
+
+struct CutName {
+    std::optional<HandSide> side;
+    std::string latin;     // what is left of the Latin words, joined
+    std::string japanese;  // likewise
+    bool is_part = false;
+    bool is_other = false;
+};
+
+CutName cut_name(std::string_view name) {
+    CutName cut;
+    for (std::string word : cut_words(name)) {
+        const bool is_latin_word = is_latin(word.front());
+        if (const auto side = take_side(word)) {
+            cut.side = side;
+        }
+        remove_final_digits(word);
+        if (!is_latin_word) {
+            cut.japanese += word;
+            continue;
+        }
+        cut.is_other = cut.is_other || contains(k_others, word);
+        if (word.find("twist") != std::string::npos || contains(k_parts, word)) {
+            cut.is_part = true;
+        }
+        if (!contains(k_fillers, word)) {
+            cut.latin += word;
+        }
+    }
+    return cut;
+}
+
+std::optional<BodyNameGuess> parse_japanese(const CutName& cut) {
+    if (!cut.side) {
+        return cut.latin.empty() ? find_whole(k_japanese_middle, cut.japanese) : std::nullopt;
+    }
+    if (auto twist = find_whole(k_japanese_twists, cut.japanese)) {
+        twist->is_part = true;
+        return twist;
+    }
+    auto guess = find_whole(k_japanese_limbs, cut.japanese);
+    if (guess && !cut.latin.empty()) {  // "左足D", "左肩P" double the joint without the letter
+        guess->is_part = true;
+    }
+    return guess;
 }
 
 }  // namespace
@@ -113,30 +284,27 @@ bool is_digit_name(std::string_view name) {
 }
 
 std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name) {
-    std::optional<HandSide> side;
-    std::string rest;
-    for (const std::string& word : cut_words(name)) {
-        if (word == "l" || word == "left") {
-            side = HandSide::left;
-        } else if (word == "r" || word == "right") {
-            side = HandSide::right;
-        } else if (std::find(k_others.begin(), k_others.end(), word) != k_others.end()) {
-            return std::nullopt;
-        } else {
-            rest += word;
-        }
-    }
-    if (has_digit(rest)) {
+    const CutName cut = cut_name(name);
+    if (cut.is_other || has_digit(cut.latin) || has_digit(cut.japanese)) {
         return std::nullopt;
     }
-    if (!side) {
-        return find_word(k_middle_words, rest);
+    std::optional<BodyNameGuess> guess;
+    if (!cut.japanese.empty()) {
+        guess = parse_japanese(cut);
+    } else {
+        guess =
+            cut.side ? find_word(k_limb_words, cut.latin) : find_word(k_middle_words, cut.latin);
     }
-    std::optional<BodyNameGuess> guess = find_word(k_limb_words, rest);
     if (guess) {
-        guess->name.side = *side;
+        guess->name.side = guess->other.side = cut.side.value_or(HandSide::left);
+        guess->is_part = guess->is_part || cut.is_part;
     }
     return guess;
+}
+
+bool is_spare_name(std::string_view name) {
+    const std::vector<std::string> words = cut_words(name);
+    return !words.empty() && words.front() == "org";
 }
 
 std::string body_joint_text(const BodyJointName& joint) {

@@ -70,7 +70,7 @@ struct SkeletonPose {
 
 // Talk rows 19 to 23 for any rig: joints of `rig` where the player's head, chest, arms, hands,
 // spine and legs are. How long bones are goes by the player, how thick legs are by eye heights, the
-// trunk by shoulders, all else by the lesser of both. What is along a forearm takes its share of
+// trunk by shoulders, all else by the lesser of both. Joints along a forearm take its share of
 // the hand's twist. A hand's joint whose axes are hand space's is RenderPose's hand bit for bit.
 // The vectors of `out` are filled, without allocating from the second call on.
 void pose_skeleton(const BodyRig& rig, const BodyMeasures& measures, const RenderPose& render,

@@ -176,7 +176,7 @@ class BodyFitter {
         forearm.twist_rad = followed_twist(forearm.rest_ms.rotation, turn);
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const auto guess = parse_body_joint_name(figure_.joints[i].name);
-            const bool is_hand = (guess && guess->name.bone == BodyBone::hand) ||
+            const bool is_hand = (guess && !guess->is_part && guess->name.bone == BodyBone::hand) ||
                                  is_digit_name(figure_.joints[i].name);
             if (is_hand && is_below(figure_, i, joint(BodyBone::forearm))) {
                 carrier_of_[i] = carrier_of_[hand];
@@ -221,7 +221,7 @@ class BodyFitter {
         }
     }
 
-    // What is no bone goes with the limb or the head above it, else with the trunk.
+    // A joint that is no bone goes with the limb or the head above it, else with the trunk.
     void carry_joints() {
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const SkinJoint& joint = figure_.joints[i];
@@ -238,6 +238,9 @@ class BodyFitter {
                                                               : carry_along(joint, carrier);
             }
         }
+        if (const auto part = part_carrier(joint)) {
+            return *part;
+        }
         const double above =
             (place(joint) - stance_.pelvis_ms).dot(stance_.up_ms) / stance_.trunk_m;
         const double along = std::clamp(above, 0.0, 1.0);
@@ -246,6 +249,20 @@ class BodyFitter {
                     along,
                     {stance_.pelvis_ms + along * stance_.trunk_m * stance_.up_ms, stance_.axes_ms},
                     stance_.trunk_m});
+    }
+
+    // Some rigs keep twist joints and doubles of joints beside the limb, not below it: their names
+    // say where they belong.
+    std::optional<std::size_t> part_carrier(std::size_t joint) {
+        const auto guess = parse_body_joint_name(figure_.joints[joint].name);
+        if (!guess || !is_limb(guess->name.bone)) {
+            return std::nullopt;
+        }
+        const auto& bone = bones_.limb(guess->name.side, guess->name.bone);
+        if (!bone || carrier_of_[*bone] == k_none) {
+            return std::nullopt;
+        }
+        return carry_along(joint, carrier_of_[*bone]);
     }
 
     // What hangs on a forearm twists with the hand by where it is along it.
@@ -371,6 +388,33 @@ Result<BodyMap> load_body_map(const std::filesystem::path& path) {
 
 Result<BodyMap> parse_body_map(std::string_view text, const std::string& file) {
     return read_body_map(JsonDocument::parse(text, file));
+}
+
+BodyMap body_map_of_vrm(const std::map<std::string, std::string>& humanoid) {
+    constexpr std::array<std::pair<const char*, BodyBone>, 3> k_middle = {
+        {{"hips", BodyBone::trunk}, {"neck", BodyBone::neck}, {"head", BodyBone::head}}};
+    constexpr std::array<std::pair<const char*, BodyBone>, 7> k_limbs = {
+        {{"Shoulder", BodyBone::clavicle},
+         {"UpperArm", BodyBone::upper_arm},
+         {"LowerArm", BodyBone::forearm},
+         {"Hand", BodyBone::hand},
+         {"UpperLeg", BodyBone::thigh},
+         {"LowerLeg", BodyBone::shin},
+         {"Foot", BodyBone::foot}}};
+    BodyMap map;
+    const auto add = [&](const std::string& vrm_bone, const BodyJointName& name) {
+        if (const auto entry = humanoid.find(vrm_bone); entry != humanoid.end()) {
+            map[body_joint_text(name)] = entry->second;
+        }
+    };
+    for (const auto& [text, bone] : k_middle) {
+        add(text, {bone, HandSide::left});
+    }
+    for (const auto& [text, bone] : k_limbs) {
+        add(std::string("left") + text, {bone, HandSide::left});
+        add(std::string("right") + text, {bone, HandSide::right});
+    }
+    return map;
 }
 
 Result<BodyRig> fit_body_rig(const SkinnedMesh& figure, const BodyMap& map) {

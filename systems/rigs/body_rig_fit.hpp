@@ -9,34 +9,12 @@
 
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/result.hpp"
+#include "systems/rigs/body_joint_names.hpp"
 #include "systems/rigs/body_rig.hpp"
 
 // Body rigs out of any humanoid figure (load_gltf_figure): in T-pose or A-pose, +Y up, facing
 // either way, of any size and proportions.
 namespace handhold {
-
-// A bone of a body; sides are of limbs only.
-struct BodyJointName {
-    BodyBone bone = BodyBone::trunk;  // trunk: the pelvis
-    HandSide side = HandSide::left;
-    bool operator==(const BodyJointName&) const = default;
-};
-
-// How well a joint's name tells its bone: "UpperArm" does, "Arm" does where nothing else is there.
-struct BodyNameGuess {
-    BodyJointName name;
-    int doubt = 0;  // 0 or 1
-};
-// What a joint is by its name, whatever its letters' case and what stands around the words: "Bip01
-// L UpperArm", "mixamorig:LeftArm", "UpperArm.L" and "leftElbowPitchLink" are known. Nothing where
-// it is no joint of a body, and for fingers, toes, ends and faces.
-std::optional<BodyNameGuess> parse_body_joint_name(std::string_view name);
-
-// Thumbs, fingers and toes.
-bool is_digit_name(std::string_view name);
-
-// "left_upper_arm", "pelvis": keys of a map's file.
-std::string body_joint_text(const BodyJointName& joint);
 
 // Which joint is which bone, where names do not tell it; what it leaves out is found by name among
 // the other joints.
@@ -46,6 +24,9 @@ using BodyMap = std::map<std::string, std::string>;  // body_joint_text -> name 
 Result<BodyMap> load_body_map(const std::filesystem::path& path);
 // The same for text in memory; `file` is for messages.
 Result<BodyMap> parse_body_map(std::string_view text, const std::string& file);
+
+// The bones of VRM's humanoid table (parse_vrm_humanoid) that a body has.
+BodyMap body_map_of_vrm(const std::map<std::string, std::string>& humanoid);
 
 // Of several joints whose names are alike the one nearest to the root is taken, but of a hip's the
 // last above the knee, and a shoulder's last where no upper arm is named. What hangs on a forearm

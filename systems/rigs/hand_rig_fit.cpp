@@ -138,11 +138,11 @@ Result<HandRigFit> fit_hand_rig(const SkinnedMesh& skin, HandSide side) {
         fit.rig.joints.push_back({joint.name, RigJoint::k_palm, 0, to_hand * joint.bind_ms});
     }
     for (const FingerBones& finger : bones.value().fingers) {
-        std::vector<Pose> joints_hs;
+        std::vector<Vec3> joints_hs;
         for (const std::size_t hinge : finger.hinges) {
-            joints_hs.push_back(to_hand * skin.joints[hinge].bind_ms);
+            joints_hs.push_back(transform_point(to_hand, skin.joints[hinge].bind_ms.position));
         }
-        joints_hs.push_back(to_hand * skin.joints[finger.tip].bind_ms);
+        joints_hs.push_back(transform_point(to_hand, skin.joints[finger.tip].bind_ms.position));
         fit.rig.fingers.push_back(
             fit_finger(finger, joints_hs, side, fit.bind[fit.rig.fingers.size()]));
         add_finger_joints(skin, finger, to_hand, fit);

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "systems/rigs/builtin_hand_rig.hpp"
+#include "systems/rigs/hand_kinematics.hpp"
 #include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
@@ -13,10 +15,9 @@ namespace {
 constexpr double k_min_bone_m = 0.004;
 constexpr double k_min_hand_m = 0.05;  // from the wrist to the farthest tip
 constexpr double k_max_hand_m = 1.0;
-constexpr double k_axes_cosine = 0.819;  // 35 degrees
-// How much a joint's x axis says about its finger's plane beside the bones' directions: a straight
-// finger has any plane, a bent one only one.
-constexpr double k_axis_weight = 0.3;
+// Weight of the usual hinge axis beside the bones' directions: a bent finger determines its plane,
+// a straight one does not.
+constexpr double k_prior_weight = 0.3;
 
 using JointsByBone = std::map<HandBone, std::size_t>;
 
@@ -69,27 +70,37 @@ Vec3 bind_position(const SkinnedMesh& skin, std::size_t joint) {
     return skin.joints[joint].bind_ms.position;
 }
 
-// Axes of a hand from its knuckles; those of the wrist's joint where only one finger has one.
-Quat axes_from_knuckles(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
-    const Pose& wrist = skin.joints[bones.wrist].bind_ms;
+// First hinges of the fingers. The thumb's counts only beside a single finger.
+template <typename Fingers, typename PlaceOf>
+std::vector<Vec3> knuckles_of(const Fingers& fingers, const PlaceOf& place_of) {
     std::vector<Vec3> knuckles;
-    for (const FingerBones& finger : bones.fingers) {
-        if (finger.name != FingerName::thumb) {
-            knuckles.push_back(bind_position(skin, finger.hinges.front()));
+    std::optional<Vec3> thumb;
+    for (const auto& finger : fingers) {
+        if (finger.name == FingerName::thumb) {
+            thumb = place_of(finger);
+        } else {
+            knuckles.push_back(place_of(finger));
         }
     }
-    if (knuckles.size() < 2) {
-        return wrist.rotation;
+    if (knuckles.size() < 2 && thumb) {
+        knuckles.insert(knuckles.begin(), *thumb);
     }
+    return knuckles;
+}
+
+// Axes from the wrist and the knuckles of a right (to_right = 1) or left (-1) hand: +Z back along
+// the palm, +Y out of the back of the hand. Nothing where the knuckles lie on a line with the
+// wrist.
+std::optional<Quat> palm_axes(const Vec3& wrist, const std::vector<Vec3>& knuckles,
+                              double to_right) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& knuckle : knuckles) {
         middle += knuckle / static_cast<double>(knuckles.size());
     }
-    const double to_right = side == HandSide::right ? 1.0 : -1.0;
-    const Vec3 back = wrist.position - middle;  // +Z
+    const Vec3 back = wrist - middle;
     const Vec3 across = to_right * (knuckles.back() - knuckles.front());
     if (back.cross(across).norm() < 1e-6) {
-        return wrist.rotation;
+        return std::nullopt;
     }
     Mat3 axes;
     axes.col(2) = back.normalized();
@@ -98,30 +109,81 @@ Quat axes_from_knuckles(const SkinnedMesh& skin, const HandBones& bones, HandSid
     return Quat(axes).normalized();
 }
 
-bool are_near(const Quat& a, const Quat& b) {
-    const auto is_near = [&](const Vec3& axis) {
-        return (a * axis).dot(b * axis) >= k_axes_cosine;
-    };
-    return is_near(Vec3::UnitY()) && is_near(Vec3::UnitZ());
+// Hand space lies to the palm as it does in the built-in hand with the same fingers. Joints' own
+// axes do not count: every exporter has others.
+std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
+    const double to_right = side == HandSide::right ? 1.0 : -1.0;
+    const auto found = palm_axes(bind_position(skin, bones.wrist),
+                                 knuckles_of(bones.fingers,
+                                             [&](const FingerBones& finger) {
+                                                 return bind_position(skin, finger.hinges.front());
+                                             }),
+                                 to_right);
+    std::vector<FingerRig> usual_fingers;
+    for (const FingerRig& finger : builtin_hand_rig(side).fingers) {
+        if (std::any_of(bones.fingers.begin(), bones.fingers.end(),
+                        [&](const FingerBones& own) { return own.name == finger.name; })) {
+            usual_fingers.push_back(finger);
+        }
+    }
+    const auto usual = palm_axes(
+        Vec3::Zero(),
+        knuckles_of(usual_fingers, [](const FingerRig& finger) { return finger.base_hs.position; }),
+        to_right);
+    return found && usual ? std::optional((*found * usual->conjugate()).normalized())
+                          : std::nullopt;
+}
+
+// How far fingers and thumb reach to the palm's side of the hand, -Y: positive if the hand is of
+// the side that its axes were made for. Sums of shares of the fingers' lengths.
+double reach_to_palm(const SkinnedMesh& skin, const HandBones& bones, const Pose& hand) {
+    constexpr double k_thumb_weight = 2.0;
+    double reach = 0.0;
+    for (const FingerBones& finger : bones.fingers) {
+        const auto place = [&](std::size_t joint) {
+            return inverse_transform_point(hand, bind_position(skin, joint));
+        };
+        const Vec3 tip = place(finger.tip);
+        if (finger.name == FingerName::thumb) {
+            reach -= k_thumb_weight * tip.y() / tip.norm();
+            continue;
+        }
+        const Vec3 first = place(finger.hinges[1]) - place(finger.hinges[0]);
+        const Vec3 whole = tip - place(finger.hinges[0]);
+        const Vec3 bent = whole - first * (whole.dot(first) / first.squaredNorm());
+        reach -= bent.y() / whole.norm();
+    }
+    return reach;
 }
 
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
     return arc_tangent2(axis.dot(from.cross(to)), from.dot(to));
 }
 
-// The unit vector least along the bones and most along the joints' x axes: least squares.
-Vec3 fit_hinge_axis(const std::vector<Pose>& joints_hs) {
-    const std::size_t hinges = joints_hs.size() - 1;
-    Vec3 mean = Vec3::Zero();
-    Mat3 spread = Mat3::Zero();
-    for (std::size_t i = 0; i < hinges; ++i) {
-        mean += joints_hs[i].rotation * Vec3::UnitX();
-        const Vec3 bone = (joints_hs[i + 1].position - joints_hs[i].position).normalized();
-        spread += bone * bone.transpose();
+// The axis about which a straight finger curls to the palm: level, across its first bone. A thumb
+// has the built-in thumb's axis, turned with its first bone.
+Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
+    if (name == FingerName::thumb) {
+        const HandRig usual = builtin_hand_rig(side);
+        const FingerRig& thumb = usual.fingers.front();
+        const Quat rotation = finger_link_frames(thumb, relaxed_angles(thumb))[0].rotation;
+        return rotation_between(rotation * -Vec3::UnitZ(), first_bone) * (rotation * Vec3::UnitX());
     }
-    const Mat3 system = spread + k_axis_weight * Mat3::Identity();
+    constexpr double k_upright = 0.2;  // a bone that points out of the palm tells no axis
+    const Vec3 axis = first_bone.cross(Vec3::UnitY());
+    return axis.norm() > k_upright ? Vec3(axis.normalized()) : Vec3(Vec3::UnitX());
+}
+
+// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and w =
+// k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
+Vec3 fit_hinge_axis(const std::vector<Vec3>& points_hs, const Vec3& usual_axis) {
+    Mat3 system = k_prior_weight * Mat3::Identity();
+    for (std::size_t i = 0; i + 1 < points_hs.size(); ++i) {
+        const Vec3 bone = (points_hs[i + 1] - points_hs[i]).normalized();
+        system += bone * bone.transpose();
+    }
     const Mat3 solved = system.inverse();
-    return (solved * mean).normalized();
+    return (solved * usual_axis).normalized();
 }
 
 }  // namespace
@@ -159,16 +221,13 @@ Result<HandBones> find_hand_bones(const SkinnedMesh& skin) {
 }
 
 Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
-    const Pose& wrist = skin.joints[bones.wrist].bind_ms;
-    const Quat from_knuckles = axes_from_knuckles(skin, bones, side);
-    const HandSide other = side == HandSide::right ? HandSide::left : HandSide::right;
-    bool is_other = !are_near(wrist.rotation, from_knuckles) &&
-                    are_near(wrist.rotation, axes_from_knuckles(skin, bones, other));
-    const Pose hand = {wrist.position,
-                       are_near(wrist.rotation, from_knuckles) ? wrist.rotation : from_knuckles};
+    const std::optional<Quat> axes = hand_axes(skin, bones, side);
+    if (!axes) {
+        return FileError{skin.file, "/skins",
+                         "expected knuckles beside each other, found them in line with the wrist"};
+    }
+    const Pose hand = {bind_position(skin, bones.wrist), *axes};
     double reach_m = 0.0;
-    double thumb_x = 0.0;
-    double fingers_x = 0.0;
     for (const FingerBones& finger : bones.fingers) {
         std::vector<std::size_t> chain = finger.hinges;
         chain.push_back(finger.tip);
@@ -183,16 +242,14 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
         }
         const Vec3 tip = inverse_transform_point(hand, bind_position(skin, finger.tip));
         reach_m = std::max(reach_m, tip.norm());
-        (finger.name == FingerName::thumb ? thumb_x : fingers_x) += tip.x();
     }
     if (!(reach_m >= k_min_hand_m && reach_m <= k_max_hand_m)) {
         return FileError{skin.file, "/skins",
                          "expected a hand of 0.05 to 1 m, found " + std::to_string(reach_m) + " m"};
     }
-    const bool has_thumb = bones.fingers.front().name == FingerName::thumb;
-    fingers_x /= static_cast<double>(bones.fingers.size() - (has_thumb ? 1 : 0));
-    is_other = is_other || (has_thumb && (thumb_x > fingers_x) == (side == HandSide::right));
-    if (is_other) {
+    // A flat hand does not tell its side: then the caller's word counts.
+    constexpr double k_flat = -0.05;
+    if (reach_to_palm(skin, bones, hand) < k_flat) {
         return FileError{skin.file, "/skins",
                          std::string("expected a ") + (side == HandSide::right ? "right" : "left") +
                              " hand, found one of the other side"};
@@ -200,23 +257,24 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
     return hand;
 }
 
-FingerRig fit_finger(const FingerBones& bones, const std::vector<Pose>& joints_hs, HandSide side,
+FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_hs, HandSide side,
                      FingerAngles& bind) {
     FingerRig finger;
     finger.name = bones.name;
     finger.link_count = static_cast<std::uint32_t>(bones.hinges.size());
     set_hand_limits(side, finger);
     const bool is_thumb = finger.name == FingerName::thumb;
-    const Vec3 hinge = fit_hinge_axis(joints_hs);
+    const Vec3 hinge = fit_hinge_axis(
+        joints_hs, usual_hinge_axis(bones.name, (joints_hs[1] - joints_hs[0]).normalized(), side));
     // All joints into the plane through their middle.
     Vec3 middle = Vec3::Zero();
-    for (const Pose& joint : joints_hs) {
-        middle += joint.position / static_cast<double>(joints_hs.size());
+    for (const Vec3& joint : joints_hs) {
+        middle += joint / static_cast<double>(joints_hs.size());
     }
     std::vector<Vec3> points;
     points.reserve(joints_hs.size());
-    for (const Pose& joint : joints_hs) {
-        points.push_back(joint.position - hinge * hinge.dot(joint.position - middle));
+    for (const Vec3& joint : joints_hs) {
+        points.push_back(joint - hinge * hinge.dot(joint - middle));
     }
     const auto flattened = [&](const Vec3& v) {
         return Vec3((v - hinge * hinge.dot(v)).normalized());

@@ -28,7 +28,7 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
 
 // The finger through its joints' bind poses (hand space; hinges, then the tip), and its bind
 // angles. Without radii.
-FingerRig fit_finger(const FingerBones& bones, const std::vector<Pose>& joints_hs, HandSide side,
+FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_hs, HandSide side,
                      FingerAngles& bind);
 
 // Radii, the last links' lengths, the palm's capsules and centre, from the skin. `positions_hs`: of

@@ -2,6 +2,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "engine/collision/shape_library.hpp"
 #include "engine/io/gltf.hpp"
@@ -16,6 +17,12 @@
 namespace handhold::fuzz {
 namespace {
 
+void check_notes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        promise(note == printable(note, 1000), "notes are short and have no control characters");
+    }
+}
+
 // The same bytes as a skinned hand.
 void run_skin(Bytes bytes) {
     const Result<SkinnedMesh> skin = parse_gltf_skin(text_of(bytes), "/nonexistent/fuzz.gltf");
@@ -24,6 +31,7 @@ void run_skin(Bytes bytes) {
         return;
     }
     const SkinnedMesh& mesh = skin.value();
+    check_notes(mesh.notes);
     promise(mesh.weights.size() == mesh.positions.size() &&
                 mesh.normals.size() == mesh.positions.size(),
             "every vertex has a normal and weights");
@@ -43,7 +51,7 @@ void run_skin(Bytes bytes) {
     }
 }
 
-// And as a body, in no pose in particular.
+// The same bytes as a body, in the default pose.
 void run_figure(Bytes bytes) {
     const Result<SkinnedMesh> figure = parse_gltf_figure(text_of(bytes), "/nonexistent/fuzz.gltf");
     if (!figure) {
@@ -55,7 +63,7 @@ void run_figure(Bytes bytes) {
         promise(!rig.error().expected.empty(), "a refusal says what was expected");
         return;
     }
-    promise(rig.value().joints.size() == figure.value().joints.size(), "every joint is carried");
+    promise(rig.value().joints.size() == figure.value().joints.size(), "every joint has a pose");
     SkeletonPose pose;
     pose_skeleton(rig.value(), {}, {}, pose);
     for (const Pose& joint : pose.joint_ws) {
@@ -63,7 +71,7 @@ void run_figure(Bytes bytes) {
     }
 }
 
-// The same bytes as an authored grip: what is taken from them a scene file may say.
+// The same bytes as an authored grip. A scene file must accept every grip that was read.
 void run_grip(Bytes bytes) {
     const Result<SceneGrip> grip =
         parse_grip_glb(text_of(bytes), "/nonexistent/fuzz.gltf",
@@ -76,7 +84,7 @@ void run_grip(Bytes bytes) {
     promise(json.ok(), "a grip is written as JSON");
     std::set<std::string> names;
     read_scene_grip(json.value().root(), names);
-    promise(!json.value().failed(), "a grip that was read may be written and read again");
+    promise(!json.value().failed(), "a grip that was read can be written and read again");
 }
 
 }  // namespace
@@ -85,12 +93,13 @@ void run_gltf(Bytes bytes) {
     run_skin(bytes);
     run_figure(bytes);
     run_grip(bytes);
-    // In a folder that is not there: external buffers are never found.
+    // The folder does not exist, so no external buffer is found.
     Result<GltfLevel> level = parse_gltf_level(text_of(bytes), "/nonexistent/fuzz.gltf");
     if (!level) {
         promise(!level.error().expected.empty(), "a refusal says what was expected");
         return;
     }
+    check_notes(level.value().notes);
     ShapeLibrary shapes;
     for (LevelPart& part : level.value().parts) {
         for (const Vec3& position : part.mesh.positions) {

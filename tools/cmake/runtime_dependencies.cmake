@@ -22,6 +22,12 @@ find_package(box2d REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(TinyGLTF REQUIRED)
-add_library(handhold::tinygltf INTERFACE IMPORTED)
-target_link_libraries(handhold::tinygltf INTERFACE TinyGLTF::TinyGLTF)
+
+# Draco decodes KHR_draco_mesh_compression. It is optional: without it the glTF reader refuses files that require the
+# extension. The installed package defines HANDHOLD_HAS_DRACO as the library was built; -DHANDHOLD_HAS_DRACO=OFF builds without.
+if(NOT DEFINED HANDHOLD_HAS_DRACO)
+  find_package(draco QUIET)
+  set(HANDHOLD_HAS_DRACO ${draco_FOUND})
+elseif(HANDHOLD_HAS_DRACO)
+  find_package(draco REQUIRED)
+endif()

@@ -14,7 +14,7 @@
 // players' play spaces (_ps).
 namespace handhold {
 
-// All that a frame's grabs are settled by: AnchorGrabsIo. What is asked here reads it; anchor_grabs
+// The inputs of anchor_grabs (AnchorGrabsIo). The functions here read them; anchor_grabs
 // alone writes, and only `grab`.
 struct GrabFrame {
     double start_s = 0.0;  // in: the frame
@@ -34,7 +34,7 @@ struct GrabFrame {
     Column<Grab>& grab;                         // in/out: anchor, target, phase, two_handed
 };
 
-// Where things were at one instant within the frame, 0 its start, 1 its end.
+// Poses at one instant within the frame, 0 its start, 1 its end.
 struct GrabInstant {
     const GrabFrame& io;
     double t = 0.0;

@@ -22,6 +22,33 @@ struct BadFile {
     std::function<void(GltfBuilder&)> spoil;
 };
 
+// Overwrites positions of the triangle; every value is (2, 2, 2).
+Json& make_sparse(GltfBuilder& b, const std::vector<std::uint16_t>& indices) {
+    const std::size_t views = b.json["bufferViews"].size();
+    b.add_indices(indices);
+    b.add_positions(std::vector<std::array<float, 3>>(indices.size(), {2, 2, 2}));
+    Json& sparse = b.json["accessors"][0]["sparse"];
+    sparse = {{"count", indices.size()},
+              {"indices", {{"bufferView", views}, {"componentType", 5123}}},
+              {"values", {{"bufferView", views + 1}}}};
+    return sparse;
+}
+
+// Declares the positions to be compressed, which they are not.
+Json& make_compressed(GltfBuilder& b) {
+    Json& meshopt = b.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"];
+    meshopt = {{"buffer", 0},
+               {"byteLength", 36},
+               {"byteStride", 12},
+               {"count", 3},
+               {"mode", "ATTRIBUTES"}};
+    return meshopt;
+}
+
+Json& instances_of(GltfBuilder& b) {
+    return b.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+}
+
 void PrintTo(const BadFile& file, std::ostream* stream) { *stream << file.what; }
 
 class MalformedGltf : public ::testing::TestWithParam<BadFile> {};
@@ -39,8 +66,10 @@ TEST_P(MalformedGltf, IsRefusedAtItsPlace) {
 const BadFile k_bad_files[] = {
     {"no version", "/asset/version", [](GltfBuilder& b) { b.json["asset"].erase("version"); }},
     {"version 1", "/asset/version", [](GltfBuilder& b) { b.json["asset"]["version"] = "1.0"; }},
-    {"required compression", "/extensionsRequired/0",
-     [](GltfBuilder& b) { b.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},
+    {"required extension that nobody supports", "/extensionsRequired/1",
+     [](GltfBuilder& b) {
+         b.json["extensionsRequired"] = {"KHR_mesh_quantization", "ACME_folded_geometry"};
+     }},
     {"nodes no array", "/nodes", [](GltfBuilder& b) { b.json["nodes"] = 3; }},
     {"node no object", "/nodes/0", [](GltfBuilder& b) { b.json["nodes"][0] = "x"; }},
     {"mesh index as text", "/nodes/0/mesh",
@@ -102,17 +131,16 @@ const BadFile k_bad_files[] = {
      [](GltfBuilder& b) { b.json["nodes"][0]["extras"]["synthetic"] = "yes"; }},
     {"no primitives", "/meshes/0/primitives",
      [](GltfBuilder& b) { b.json["meshes"][0].erase("primitives"); }},
-    {"no positions", "/meshes/0/primitives/0/attributes/POSITION",
-     [](GltfBuilder& b) { b.json["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); }},
     {"unknown mode", "/meshes/0/primitives/0/mode",
      [](GltfBuilder& b) { b.json["meshes"][0]["primitives"][0]["mode"] = 7; }},
     {"no such position accessor", "/meshes/0/primitives/0/attributes/POSITION",
      [](GltfBuilder& b) { b.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 2; }},
     {"no such material", "/meshes/0/primitives/0/material",
      [](GltfBuilder& b) { b.json["meshes"][0]["primitives"][0]["material"] = 0; }},
-    {"colour above 1", "/materials/0/pbrMetallicRoughness/baseColorFactor/1",
+    {"colour as text", "/materials/0/pbrMetallicRoughness/baseColorFactor/1",
      [](GltfBuilder& b) {
-         b.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 2, 0, 1}}}}}};
+         b.json["materials"] = {
+             {{"pbrMetallicRoughness", {{"baseColorFactor", {0, "red", 0, 1}}}}}};
      }},
     {"indices no multiple of three", "/meshes/0/primitives/0",
      [](GltfBuilder& b) { b.json["accessors"][1]["count"] = 2; }},
@@ -120,8 +148,8 @@ const BadFile k_bad_files[] = {
      [](GltfBuilder& b) { b.binary[b.binary.size() - 4] = 3; }},
     {"indices of float", "/accessors/1",
      [](GltfBuilder& b) { b.json["accessors"][1]["componentType"] = 5126; }},
-    {"positions of short", "/accessors/0",
-     [](GltfBuilder& b) { b.json["accessors"][0]["componentType"] = 5122; }},
+    {"positions of unsigned int", "/accessors/0",
+     [](GltfBuilder& b) { b.json["accessors"][0]["componentType"] = 5125; }},
     {"unknown component", "/accessors/0/componentType",
      [](GltfBuilder& b) { b.json["accessors"][0]["componentType"] = 1; }},
     {"positions of VEC2", "/accessors/0",
@@ -135,8 +163,81 @@ const BadFile k_bad_files[] = {
      [](GltfBuilder& b) { b.json["accessors"][0]["byteOffset"] = 4; }},
     {"offset as text", "/accessors/0/byteOffset",
      [](GltfBuilder& b) { b.json["accessors"][0]["byteOffset"] = "0"; }},
-    {"sparse", "/accessors/0/sparse",
+    {"empty sparse", "/accessors/0/sparse/count",
      [](GltfBuilder& b) { b.json["accessors"][0]["sparse"] = Json::object(); }},
+    {"more sparse elements than elements", "/accessors/0/sparse/count",
+     [](GltfBuilder& b) {
+         make_sparse(b, {0, 1, 2, 3});
+     }},
+    {"sparse index out of range", "/accessors/0/sparse/indices",
+     [](GltfBuilder& b) { make_sparse(b, {3}); }},
+    {"sparse index twice", "/accessors/0/sparse/indices",
+     [](GltfBuilder& b) {
+         make_sparse(b, {1, 1});
+     }},
+    {"sparse indices beyond their view", "/accessors/0/sparse/indices",
+     [](GltfBuilder& b) { make_sparse(b, {1})["indices"]["byteOffset"] = 2; }},
+    {"sparse values beyond their view", "/accessors/0/sparse/values",
+     [](GltfBuilder& b) { make_sparse(b, {1})["values"]["byteOffset"] = 4294967295LL; }},
+    {"sparse indices of float", "/accessors/0/sparse/indices/componentType",
+     [](GltfBuilder& b) { make_sparse(b, {1})["indices"]["componentType"] = 5126; }},
+    {"no such sparse view", "/accessors/0/sparse/values/bufferView",
+     [](GltfBuilder& b) { make_sparse(b, {1})["values"]["bufferView"] = 99; }},
+    {"compressed bytes that are none", "/bufferViews/0/extensions/EXT_meshopt_compression",
+     [](GltfBuilder& b) { make_compressed(b); }},
+    {"compressed bytes beyond the buffer", "/bufferViews/0/extensions/EXT_meshopt_compression",
+     [](GltfBuilder& b) { make_compressed(b)["byteLength"] = 4294967295LL; }},
+    {"compressed elements of 1 GB", "/bufferViews/0/extensions/EXT_meshopt_compression",
+     [](GltfBuilder& b) { make_compressed(b)["count"] = 1 << 26; }},
+    {"compressed elements of 6 bytes", "/bufferViews/0/extensions/EXT_meshopt_compression",
+     [](GltfBuilder& b) { make_compressed(b)["byteStride"] = 6; }},
+    {"unknown compression", "/bufferViews/0/extensions/EXT_meshopt_compression/mode",
+     [](GltfBuilder& b) { make_compressed(b)["mode"] = "BEST"; }},
+    {"unknown filter", "/bufferViews/0/extensions/EXT_meshopt_compression/filter",
+     [](GltfBuilder& b) { make_compressed(b)["filter"] = "BEST"; }},
+    {"no such compressed buffer", "/bufferViews/0/extensions/EXT_meshopt_compression/buffer",
+     [](GltfBuilder& b) { make_compressed(b)["buffer"] = 9; }},
+    {"Draco bytes that are none", "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression",
+     [](GltfBuilder& b) {
+         b.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+             {"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
+         b.json["accessors"][0].erase("bufferView");  // no uncompressed geometry beside it
+     }},
+    {"instances of no kind", "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes",
+     [](GltfBuilder& b) { instances_of(b) = Json::object(); }},
+    {"instances of differing counts",
+     "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE",
+     [](GltfBuilder& b) {
+         instances_of(b) = {{"TRANSLATION", 0}, {"SCALE", b.add_positions({{1, 1, 1}})}};
+     }},
+    {"instances of indices", "/accessors/1",
+     [](GltfBuilder& b) {
+         instances_of(b) = {{"TRANSLATION", 1}};
+     }},
+    {"no such instances", "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION",
+     [](GltfBuilder& b) {
+         instances_of(b) = {{"ROTATION", 9}};
+     }},
+    {"instance not finite", "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes",
+     [](GltfBuilder& b) {
+         instances_of(b) = {{"SCALE", b.add_positions({{1, std::nanf(""), 1}})}};
+     }},
+    {"buffer outside the folder", "/buffers/1/uri",
+     [](GltfBuilder& b) {
+         b.json["buffers"].push_back({{"byteLength", 4}, {"uri", "a/../../b.bin"}});
+     }},
+    {"buffer elsewhere", "/buffers/1/uri",
+     [](GltfBuilder& b) {
+         b.json["buffers"].push_back({{"byteLength", 4}, {"uri", "https://example.org/b.bin"}});
+     }},
+    {"data URI that is not base64", "/buffers/1/uri",
+     [](GltfBuilder& b) {
+         b.json["buffers"].push_back({{"byteLength", 3}, {"uri", "data:;base64,A*=="}});
+     }},
+    {"data URI that is too short", "/buffers/1/byteLength",
+     [](GltfBuilder& b) {
+         b.json["buffers"].push_back({{"byteLength", 4}, {"uri", "data:;base64,AAAA"}});
+     }},
     {"zeros without a view", "/accessors/0/bufferView",
      [](GltfBuilder& b) {
          b.json["accessors"][0].erase("bufferView");
@@ -192,14 +293,14 @@ TEST(LoadGltfLevel, RefusesEveryTruncation) {
     }
 }
 
-// The length in the header mended, so that the cut reaches the chunks.
-TEST(LoadGltfLevel, RefusesEveryTruncationWithMendedLength) {
+// The length in the header is corrected, so that the cut reaches the chunks.
+TEST(LoadGltfLevel, RefusesEveryTruncationWithCorrectedLength) {
     const std::string whole = triangle_file().glb();
     for (std::size_t length = 12; length < whole.size(); ++length) {
         std::string cut = whole.substr(0, length);
-        std::string mended;
-        test::append_le32(mended, length);
-        cut.replace(8, 4, mended);
+        std::string corrected;
+        test::append_le32(corrected, length);
+        cut.replace(8, 4, corrected);
         EXPECT_FALSE(parse_gltf_level(cut, "cut.glb").ok()) << length;
     }
 }
@@ -242,9 +343,14 @@ TEST(LoadGltfLevel, RefusesManyNodesThatMultiplyOneLargeMesh) {
 }
 
 TEST(LoadGltfLevel, ClaimsOfGigabytesTakeNoMemory) {
-    for (const char* place : {"/buffers/0/byteLength", "/bufferViews/0/byteLength",
-                              "/accessors/0/count", "/accessors/1/count"}) {
+    for (const char* place :
+         {"/buffers/0/byteLength", "/bufferViews/0/byteLength", "/accessors/0/count",
+          "/accessors/1/count", "/bufferViews/0/extensions/EXT_meshopt_compression/count",
+          "/bufferViews/0/extensions/EXT_meshopt_compression/byteLength"}) {
         GltfBuilder builder = triangle_file();
+        if (std::string_view(place).find("meshopt") != std::string_view::npos) {
+            make_compressed(builder);
+        }
         builder.json[Json::json_pointer(place)] = 1LL << 30;
         const std::string glb = builder.glb();
         const std::size_t before = allocated_bytes();
@@ -260,6 +366,30 @@ TEST(LoadGltfLevel, ContainersThatClaimGigabytesTakeNoMemory) {
         const std::size_t before = allocated_bytes();
         EXPECT_FALSE(parse_gltf_level(glb, "claim.glb").ok()) << length_at;
         EXPECT_LT(allocated_bytes() - before, std::size_t{1} << 20U) << length_at;
+    }
+}
+
+// Elements that are zero take no bytes in the file.
+TEST(LoadGltfLevel, ZerosThatAreNotInTheFileTakeNoMemory) {
+    GltfBuilder builder = triangle_file();
+    builder.json["accessors"][0].erase("bufferView");
+    builder.json["accessors"][0]["count"] = 1 << 24;
+    const std::string glb = builder.glb();
+    const std::size_t before = allocated_bytes();
+    EXPECT_FALSE(parse_gltf_level(glb, "claim.glb").ok());
+    EXPECT_LT(allocated_bytes() - before, std::size_t{1} << 20U);
+}
+
+TEST(LoadGltfLevel, NamesTheRequiredExtensionInOneShortLine) {
+    GltfBuilder builder = triangle_file();
+    builder.json["extensionsRequired"] = {"ACME_geometry\n\x1b[31m" + std::string(5000, 'x')};
+    const Result<GltfLevel> level = parse_gltf_level(builder.glb(), "a\nb.glb");
+    ASSERT_FALSE(level.ok());
+    const std::string message = level.error().message();
+    EXPECT_NE(message.find("ACME_geometry"), std::string::npos) << message;
+    EXPECT_LT(message.size(), 300U);
+    for (const char c : message) {
+        EXPECT_GE(static_cast<unsigned char>(c), 0x20) << message;
     }
 }
 

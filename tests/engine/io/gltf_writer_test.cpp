@@ -116,12 +116,12 @@ TEST(LoadGltfLevel, MaterialsWithoutMeaningAreRefusedAtTheirPlace) {
         EXPECT_FALSE(level.ok());
         return level.ok() ? std::string() : level.error().place;
     };
-    EXPECT_EQ(error_of({{"pbrMetallicRoughness", {{"roughnessFactor", 1.5}}}}),
+    EXPECT_EQ(error_of({{"pbrMetallicRoughness", {{"roughnessFactor", "rough"}}}}),
               "/materials/0/pbrMetallicRoughness/roughnessFactor");
     EXPECT_EQ(error_of({{"emissiveFactor", {0, 0}}}), "/materials/0/emissiveFactor");
     EXPECT_EQ(error_of({{"alphaMode", 3}}), "/materials/0/alphaMode");
     EXPECT_EQ(error_of({{"extensions",
-                         {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}}}),
+                         {{"KHR_materials_emissive_strength", {{"emissiveStrength", "much"}}}}}}),
               "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength");
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/gltf.hpp"
+#include "engine/io/gltf_skin.hpp"
 #include "tests/places.hpp"
 
 // The folder's SOURCE.md and MANIFEST.json say what is in the files.
@@ -154,6 +155,27 @@ TEST(RealMeshes, StationHasItsModulesAndMarksItsFillers) {
     EXPECT_EQ(modules, published.size());
     EXPECT_GT(fillers, 0U);
     EXPECT_EQ(level.value().dropped_triangles, 0U);  // "zero-area and duplicate triangles removed"
+}
+
+// README.md of the cases. Each is a file as other programs export it.
+TEST(RealMeshes, ExportedFilesLoadWithTheirNotes) {
+    const fs::path cases = k_data / "../cases";
+    if (!fs::exists(cases / "figure_sparse_morph/fig.glb")) {
+        GTEST_SKIP() << "no " << cases;
+    }
+    for (const char* name : {"level_quantized", "level_emissive"}) {
+        const Result<GltfLevel> level = load_gltf_level(cases / name / "l.glb");
+        ASSERT_TRUE(level.ok()) << level.error().message();
+        EXPECT_EQ(count_triangles(level.value()), 12U) << name;  // a box
+        EXPECT_EQ(level.value().notes.empty(), std::string(name) == "level_quantized");
+    }
+    const Result<SkinnedMesh> morph = load_gltf_figure(cases / "figure_sparse_morph/fig.glb");
+    ASSERT_TRUE(morph.ok()) << morph.error().message();
+    ASSERT_EQ(morph.value().notes.size(), 1U);
+    EXPECT_NE(morph.value().notes[0].find("morph targets: 1"), std::string::npos);
+    const Result<SkinnedMesh> joints = load_gltf_figure(cases / "figure_joints_1/fig.glb");
+    ASSERT_TRUE(joints.ok()) << joints.error().message();
+    EXPECT_EQ(joints.value().positions.size(), 2064U);
 }
 
 // SOURCE.md of nasty/: "600 duplicate and 80 degenerate triangles added".

@@ -202,7 +202,7 @@ TEST(ControllerJoints, MoveTheControllerNotTheHandOfWhoPlaysAtADesk) {
 
 // How near a hand's fingers come to a controller's triangles, by capsules against triangles.
 struct FingerGap {
-    double skin_m = 1.0;  // below 0: sunk
+    double skin_m = 1.0;  // below 0: penetrating
     double bone_m = 1.0;  // 0: a triangle goes through the capsule's middle
 };
 std::vector<FingerGap> finger_gaps(const ControllerModel& model, const HandRig& rig) {

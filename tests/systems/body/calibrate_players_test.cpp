@@ -118,6 +118,39 @@ TEST(CalibratePlayers, OnceForEachTimeItIsAskedFor) {
     EXPECT_NEAR(player.found().eye_height_m, 1.50, 1e-9);
 }
 
+// Arms at any angle from level to 55 degrees down give the same span: shoulders 0.25 spans apart
+// and 0.145 spans below the eyes.
+TEST(ReadTPose, MeasuresLoweredArms) {
+    for (const double span_m : {1.1, 1.5, 1.8}) {
+        const Vec3 head(0.0, span_m / 0.95, 0.0);
+        for (int degrees = 0; degrees <= 55; degrees += 5) {
+            const double angle = degrees * k_degree;
+            const double x = 0.125 * span_m + 0.375 * span_m * std::cos(angle);
+            const double y = head.y() - 0.145 * span_m - 0.375 * span_m * std::sin(angle);
+            const auto pose = read_t_pose(head, Vec3(-x, y, 0.0), Vec3(x, y, 0.0));
+            ASSERT_TRUE(pose) << span_m << " " << degrees;
+            EXPECT_NEAR(pose->span_m, span_m, 1e-9) << degrees;
+        }
+        // Hanging arms are no pose.
+        const double x = 0.2 * span_m;
+        const double y = head.y() - 0.51 * span_m;
+        EXPECT_FALSE(read_t_pose(head, Vec3(-x, y, 0.0), Vec3(x, y, 0.0)));
+    }
+}
+
+// Bent arms, or controllers held far apart, are not measured.
+TEST(ReadTPose, RefusesArmsThatNobodyOfThatHeightHas) {
+    const Vec3 head(0.0, 1.7, 0.0);
+    const auto at = [&](double half_m, double below_m) {
+        const Vec3 down(0.0, 1.7 - below_m, 0.0);
+        return read_t_pose(head, down - half_m * Vec3::UnitX(), down + half_m * Vec3::UnitX());
+    };
+    EXPECT_TRUE(at(0.80, 0.22));
+    EXPECT_FALSE(at(0.60, 0.22));
+    EXPECT_FALSE(at(0.80, 0.80));
+    EXPECT_TRUE(at(0.62, 0.66));
+}
+
 TEST(ReadTPose, RefusesOtherPoses) {
     const Vec3 head(0.0, 1.7, 0.0);
     const Vec3 left(-0.8, 1.48, 0.0);

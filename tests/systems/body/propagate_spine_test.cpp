@@ -172,7 +172,7 @@ TEST(PropagateSpine, BonesKeepTheirLengthsAndKneesBendOnlyBackwards) {
             const Vec3 shin = leg.foot_ws.position - leg.shin_ws.position;
             EXPECT_NEAR(thigh.norm(), 0.40 * scale, 1e-9);
             EXPECT_NEAR(shin.norm(), 0.39 * scale, 1e-9);
-            // Backwards: about the thigh's X, by at most the limit. What is shown lies between two
+            // Backwards: about the thigh's X, by at most the limit. The shown pose lies between two
             // ticks, so a degree is allowed.
             const Vec3 in_thigh = leg.thigh_ws.rotation.conjugate() * shin.normalized();
             EXPECT_GT(in_thigh.z(), -0.02);
@@ -205,7 +205,7 @@ TEST(PropagateSpine, PelvisTurnsAfterTheChest) {
         chest = rotation_about(Vec3::UnitY(), i / 45.0 * 0.8);
         body.step(Vec3::Zero(), 1.0 / 90.0);
     }
-    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s once it has settled.
+    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s at steady state.
     EXPECT_GT(heading(), 0.8 - 1.6 * 3.0 * body.tuning.twist_lag_s - 0.02);
     EXPECT_LT(heading(), 0.8 - 0.25);
     for (int i = 0; i < 270; ++i) {

@@ -55,6 +55,7 @@ class Scenario {
     PlayerEntities player;
     double hz = 90.0;
     double sample_hz = 90.0;  // of the devices
+    bool fits_hands = true;   // false: hands are shown as tracked, which is several times as fast
 
     // Applied to everything added, for moved and rotated worlds.
     Pose frame_ws;
@@ -104,7 +105,9 @@ class Scenario {
         for (const Entity hand : player.hands) {
             world.controller_to_hand.add(hand, {});  // scripts give hand poses, not controllers
         }
-        grip_meshes_ = GripMeshLibrary(shapes);
+        if (fits_hands) {
+            grip_meshes_ = GripMeshLibrary(shapes);
+        }
         drop_caches();
     }
     void drop_caches() { caches_ = std::make_unique<FrameCaches>(shapes, &grip_meshes_); }

@@ -34,7 +34,7 @@ void set_state(Settling& scene, Entity hand, const HandState& state, double edge
 }
 
 // A hand-over within one frame must not depend on which hand the world lists first, so all pairs of
-// states are tried. Edges lie beside the straight way, as samples do, and may be of one instant.
+// states are tested. Edges lie beside the straight way, as samples do, and may be of one instant.
 RC_GTEST_PROP(SettleGrabs, OrderOfHandsDoesNotMatterInAnyPairOfStates, (std::uint64_t seed)) {
     for (const HandState& left : k_hand_states) {
         for (const HandState& right : k_hand_states) {

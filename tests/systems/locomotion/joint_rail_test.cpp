@@ -111,7 +111,7 @@ TEST(JointRail, TakesAPointAsNearToTheHandAsTheJointLetsIt) {
     const Quat turn = rotation_about(Vec3::UnitY(), 0.7);
     const Vec3 on_arc = hinge.point_hs + turn * (from - hinge.point_hs);
     EXPECT_NEAR(travel_along(hinge, from, on_arc), 0.7, 1e-15);
-    // Along the axle and away from it the thing cannot go.
+    // Along the axle and away from it the body cannot move.
     const Vec3 beside = on_arc + Vec3(0.0, 0.3, 0.0) + 0.5 * (turn * Vec3::UnitX());
     EXPECT_NEAR(travel_along(hinge, from, beside), 0.7, 1e-15);
     EXPECT_EQ(travel_along(hinge, hinge.point_hs, on_arc), 0.0);

@@ -233,7 +233,8 @@ TEST(LocomotePlayers, HeldRockIsNoReference) {
 
 // --- Brake, drag, thrusters ----------------------------------------------------------------------
 
-// What is fast against the reference loses 1/(1 + drag dt); what rests against it keeps its speed.
+// A body that moves relative to the reference loses 1/(1 + drag dt); a body at rest relative to it
+// keeps its speed.
 TEST(LocomotePlayers, BrakeActsAgainstTheReference) {
     Locomotion player;
     player.scene_velocity = Vec3(20.0, 0.0, 0.0);

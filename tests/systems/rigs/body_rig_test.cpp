@@ -285,7 +285,6 @@ TEST(FitBodyRig, WhatTheMapSaysHelpsToFindTheRest) {
     Sticks sticks;
     sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";
     sticks.figure.joints[sticks.joint("LeftArm")].name = "LeftShoulderRoll";
-    EXPECT_FALSE(fit_body_rig(sticks.figure).ok());
     const Result<BodyRig> rig = fit_body_rig(sticks.figure, {{"left_forearm", "a"}});
     ASSERT_TRUE(rig.ok()) << rig.error().message();
     const RenderPose render = any_pose(3);
@@ -363,9 +362,13 @@ TEST(FitBodyRig, NamesWhatIsMissing) {
     Sticks sticks;
     sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";
     sticks.figure.joints[sticks.joint("Head")].name = "b";
+    for (SkinJoint& joint : sticks.figure.joints) {  // a flat file: no hierarchy helps
+        joint.parent = std::min(joint.parent, 0);
+    }
     const Result<BodyRig> rig = fit_body_rig(sticks.figure);
     ASSERT_FALSE(rig.ok());
-    EXPECT_NE(rig.error().message().find("head, left_forearm"), std::string::npos)
+    EXPECT_NE(rig.error().message().find("--body-map"), std::string::npos);
+    EXPECT_NE(rig.error().message().find("for left_forearm"), std::string::npos)
         << rig.error().message();
     const Result<BodyRig> told =
         fit_body_rig(sticks.figure, {{"head", "b"}, {"left_forearm", "a"}});

@@ -1,21 +1,26 @@
 #include "systems/rigs/hand_rig_fit.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/io/gltf_skin_writer.hpp"
 #include "systems/rigs/builtin_hand_rig.hpp"
 #include "systems/rigs/hand_joint_names.hpp"
 #include "systems/rigs/hand_kinematics.hpp"
 #include "tests/places.hpp"
+#include "tests/random.hpp"
 #include "tests/systems/hand/tube_hand.hpp"
 
 namespace handhold::hand_rig_fit_test {
 namespace {
 
 using test::make_tube_hand;
+using test::Random;
 using Angles = std::array<FingerAngles, k_finger_count>;
 
 const Pose k_somewhere{Vec3(3.0, -1.0, 2.0), rotation_about(Vec3(1.0, 2.0, -2.0) / 3.0, 1.1)};
@@ -85,6 +90,17 @@ TEST(HandRigFit, JointsStandAsInTheFileAtTheBindAngles) {
     expect_bind_pose(fit.value(), skin);
 }
 
+// Where joint `i` stands in the file's frame with the fingers at these angles.
+Pose posed(const HandRigFit& fit, const Angles& angles, std::size_t i) {
+    const RigJoint& joint = fit.rig.joints[i];
+    Pose carrier;
+    if (joint.finger != RigJoint::k_palm) {
+        const auto place = static_cast<std::size_t>(joint.finger);
+        carrier = finger_link_frames(fit.rig.fingers[place], angles[place])[joint.link];
+    }
+    return fit.hand_ms * carrier * joint.joint_in_link;
+}
+
 HandRig three_fingered(HandSide side) {
     HandRig rig = builtin_hand_rig(side);
     rig.fingers = {rig.fingers[0], rig.fingers[1], rig.fingers[4]};
@@ -149,6 +165,131 @@ TEST(HandRigFit, TakesTheHandsAxesFromItsKnucklesWhereTheWristsAreStrange) {
     expect_bind_pose(fit.value(), skin);
 }
 
+// Exporters give joints any axes: hinges follow from the joints' places. Two fits of one hand whose
+// joints are turned differently pose equal fingers and carry the skin equally.
+TEST(HandRigFit, AxesOfJointsChangeNoPosedFinger) {
+    Random random(11);
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const HandRig rig = builtin_hand_rig(side);
+        const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+        const Result<HandRigFit> fit = fit_hand_rig(skin, side);
+        ASSERT_TRUE(fit.ok()) << fit.error().message();
+        for (int i = 0; i < 20; ++i) {
+            SkinnedMesh turned = skin;
+            for (SkinJoint& joint : turned.joints) {
+                joint.bind_ms.rotation = joint.bind_ms.rotation * random.rotation();
+            }
+            const Result<HandRigFit> other = fit_hand_rig(turned, side);
+            ASSERT_TRUE(other.ok()) << other.error().message();
+            Angles angles;
+            for (FingerAngles& finger : angles) {
+                finger.curl_rad = {random.between(0.0, 1.5), random.between(0.0, 1.5),
+                                   random.between(0.0, 1.0)};
+                finger.opposition_rad = random.between(-0.5, 0.5);
+            }
+            for (std::size_t k = 0; k < skin.joints.size(); ++k) {
+                const Pose here = posed(fit.value(), angles, k) * inverse(skin.joints[k].bind_ms);
+                const Pose there =
+                    posed(other.value(), angles, k) * inverse(turned.joints[k].bind_ms);
+                EXPECT_NEAR((here.position - there.position).norm(), 0.0, 1e-6);
+                EXPECT_LT(here.rotation.angularDistance(there.rotation), 1e-6);
+            }
+        }
+    }
+}
+
+// Across a plane, as a negative scale does.
+SkinnedMesh mirrored(SkinnedMesh skin, const Vec3& normal) {
+    const auto mirror = [&](const Vec3& v) { return Vec3(v - 2.0 * normal * normal.dot(v)); };
+    for (Vec3& position : skin.positions) {
+        position = mirror(position);
+    }
+    for (Vec3& direction : skin.normals) {
+        direction = mirror(direction);
+    }
+    for (auto& triangle : skin.triangles) {
+        std::swap(triangle[1], triangle[2]);
+    }
+    for (SkinJoint& joint : skin.joints) {
+        joint.bind_ms.position = mirror(joint.bind_ms.position);
+    }
+    return skin;
+}
+
+TEST(HandRigFit, MirroredRightHandIsALeftOne) {
+    Random random(12);
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const SkinnedMesh right = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    const Result<HandRigFit> from = fit_hand_rig(right, HandSide::right);
+    ASSERT_TRUE(from.ok());
+    const HandRig wanted = mirror_hand_rig(from.value().rig);
+    for (int i = 0; i < 10; ++i) {
+        const SkinnedMesh left = mirrored(right, random.direction());
+        const Result<HandRigFit> fit = fit_hand_rig(left, HandSide::left);
+        ASSERT_TRUE(fit.ok()) << fit.error().message();
+        EXPECT_FALSE(fit_hand_rig(left, HandSide::right).ok());
+        for (std::size_t k = 0; k < wanted.fingers.size(); ++k) {
+            for (const double share : {0.0, 0.4, 1.0}) {
+                const auto a =
+                    finger_points(wanted.fingers[k], coupled_angles(wanted.fingers[k], share));
+                const auto b = finger_points(fit.value().rig.fingers[k],
+                                             coupled_angles(wanted.fingers[k], share));
+                for (std::size_t point = 0; point < a.size(); ++point) {
+                    EXPECT_NEAR((a[point] - b[point]).norm(), 0.0, 1e-6);
+                }
+            }
+        }
+    }
+}
+
+// A hand's glTF below a node that mirrors it.
+TEST(HandRigFit, NegativeScaleInAFileMakesTheOtherHand) {
+    const HandRig rig = builtin_hand_rig(HandSide::right);
+    const SkinnedMesh hand = make_tube_hand(rig, relaxed(rig), {});
+    GltfSkin skin{"hand", hand.joints, {}};
+    GltfSkinSurface surface;
+    for (std::size_t i = 0; i < hand.positions.size(); ++i) {
+        const auto to_float = [](const Vec3& v) {
+            return std::array<float, 3>{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                                        static_cast<float>(v.z())};
+        };
+        surface.vertices.push_back({to_float(hand.positions[i]), to_float(hand.normals[i])});
+        surface.weights.push_back(hand.weights[i]);
+    }
+    for (const auto& triangle : hand.triangles) {
+        surface.indices.insert(surface.indices.end(), triangle.begin(), triangle.end());
+    }
+    skin.surfaces.push_back(surface);
+    const GltfMaterial material;
+    const std::string glb = write_skinned_glb({&material, 1}, skin);
+    const auto u32 = [](std::uint32_t value) {
+        return std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+    };
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, sizeof(length));
+    nlohmann::json json = nlohmann::json::parse(glb.substr(20, length));
+    json["nodes"].push_back({{"scale", {-1, 1, 1}}, {"children", json["scenes"][0]["nodes"]}});
+    json["scenes"][0]["nodes"] = {json["nodes"].size() - 1};
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string binary = glb.substr(20 + length);
+    const auto bytes = static_cast<std::uint32_t>(20 + text.size() + binary.size());
+    const std::string other = "glTF" + u32(2) + u32(bytes) +
+                              u32(static_cast<std::uint32_t>(text.size())) + "JSON" + text + binary;
+    const Result<SkinnedMesh> read = parse_gltf_skin(other, "left.glb");
+    ASSERT_TRUE(read.ok()) << read.error().message();
+    EXPECT_FALSE(fit_hand_rig(read.value(), HandSide::right).ok());
+    const Result<HandRigFit> fit = fit_hand_rig(read.value(), HandSide::left);
+    ASSERT_TRUE(fit.ok()) << fit.error().message();
+    const HandRig wanted = builtin_hand_rig(HandSide::left);
+    for (std::size_t i = 0; i < wanted.fingers.size(); ++i) {
+        for (std::size_t link = 0; link < 3; ++link) {
+            EXPECT_NEAR(fit.value().rig.fingers[i].length_m[link], wanted.fingers[i].length_m[link],
+                        1e-4);
+        }
+    }
+}
+
 struct BadHand {
     const char* what;
     const char* says;  // a part of the error
@@ -209,12 +350,19 @@ TEST_P(MalformedHand, IsRefusedWithItsReason) {
 }
 INSTANTIATE_TEST_SUITE_P(Hands, MalformedHand, ::testing::ValuesIn(k_bad_hands));
 
+// Whatever the axes of its joints.
 TEST(HandRigFit, RefusesAHandOfTheOtherSide) {
+    Random random(13);
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
-    const Result<HandRig> found = hand_rig_from_skin(skin, HandSide::left);
-    ASSERT_FALSE(found.ok());
-    EXPECT_NE(found.error().expected.find("expected a left hand"), std::string::npos);
+    SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
+    for (int i = 0; i < 20; ++i) {
+        const Result<HandRig> found = hand_rig_from_skin(skin, HandSide::left);
+        ASSERT_FALSE(found.ok());
+        EXPECT_NE(found.error().expected.find("expected a left hand"), std::string::npos);
+        for (SkinJoint& joint : skin.joints) {
+            joint.bind_ms.rotation = random.rotation();
+        }
+    }
 }
 
 TEST(HandRigFitRealData, SharedHandsStandAsInTheirFilesAtTheBindAngles) {

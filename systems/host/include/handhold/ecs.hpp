@@ -1,8 +1,8 @@
 #pragma once
 
 // The world as packed columns and the frame that steps it: for hosts that read and write components
-// directly. The component columns in `World` are the whole state; everything in `FrameCaches` may be
-// rebuilt before any frame without changing the result.
+// directly. The component columns in `World` are the whole state; everything in `FrameCaches` may
+// be rebuilt before any frame without changing the result.
 //
 //   World, add_body, add_joint, add_player, destroy    components/world.hpp
 //   ShapeLibrary                                       collision shapes, shared by worlds

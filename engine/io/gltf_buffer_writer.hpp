@@ -18,9 +18,6 @@ using GltfJson = nlohmann::ordered_json;
 
 inline constexpr const char* k_emissive_strength = "KHR_materials_emissive_strength";
 
-// Least significant byte first.
-void append_u32(std::string& bytes, std::uint32_t value);
-
 GltfJson gltf_material_json(const GltfMaterial& material);
 
 // Collects views and accessors of one binary buffer; each call gives an accessor's number.

@@ -1,8 +1,10 @@
-#include "engine/io/gltf_buffer.hpp"
+#include "engine/io/gltf_buffer_writer.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
+
+#include "engine/io/glb.hpp"
 
 namespace handhold {
 namespace {
@@ -20,12 +22,6 @@ void append_floats(std::string& bytes, std::span<const float> values) {
 }
 
 }  // namespace
-
-void append_u32(std::string& bytes, std::uint32_t value) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        bytes += static_cast<char>((value >> shift) & 0xFFU);
-    }
-}
 
 GltfJson gltf_material_json(const GltfMaterial& material) {
     GltfJson json;

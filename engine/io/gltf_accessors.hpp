@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/io/gltf_model.hpp"
+
+namespace handhold::gltf {
+
+// What an accessor must hold: its shape and the component types that its use allows
+// (specification, 3.6.2 and 3.7; KHR_mesh_quantization widens `vectors`).
+enum class Elements { vectors, quaternions, indices, joints, weights, matrices };
+std::size_t components_of(Elements elements);
+
+// Reads accessors: strided, sparse, normalised, and of views that EXT_meshopt_compression
+// compressed. Every offset, count and stride is checked against the bytes that are there before
+// memory is taken. Private to engine/io/gltf*.
+class AccessorReader {
+  public:
+    // All arguments must outlive the reader. `buffers`: by buffer of the model.
+    AccessorReader(const Model& model, std::span<const std::string_view> buffers, Refusal& refusal)
+        : model_(model), buffers_(buffers), refusal_(refusal), decoded_(model.views.size()) {}
+
+    // Checks that the accessor exists and may be read as `elements`. Every function that returns a
+    // bool returns false after a refusal. `place` is the pointer of the reference to the accessor.
+    bool check(int accessor, Elements elements, const std::string& place);
+    // components_of(elements) floats an element; normalised integers are divided by their largest
+    // value, weights always are.
+    bool read_floats(int accessor, Elements elements, const std::string& place,
+                     std::vector<float>& out);
+    bool read_indices(int accessor, const std::string& place, std::vector<std::uint32_t>& out);
+    // The bytes of a view, decompressed; valid as long as the reader.
+    bool read_view(int view, const std::string& place, std::string_view& bytes);
+
+  private:
+    // Elements that lie within `bytes`.
+    struct Block {
+        std::string_view bytes;  // begins with the first element
+        std::size_t stride = 0;
+        std::size_t count = 0;
+        std::size_t components = 0;
+        ComponentType type = ComponentType::float32;
+        bool is_normalized = false;
+    };
+
+    bool slice(int buffer, std::uint64_t offset, std::uint64_t bytes, const std::string& place,
+               std::string_view& out);
+    bool decompress(int view, std::string_view& bytes);
+    // Fills `bytes` and `stride` of a block whose other fields are set.
+    bool find_block(int view, std::uint64_t offset, const std::string& place, Block& block);
+    template <typename T>
+    static void convert_block(const Block& block, T* out);
+    template <typename T>
+    bool read(int accessor, Elements elements, const std::string& place, std::vector<T>& out);
+    template <typename T>
+    bool apply_sparse(const Accessor& accessor, const Block& shape, const std::string& place,
+                      std::vector<T>& out);
+
+    const Model& model_;
+    std::span<const std::string_view> buffers_;
+    Refusal& refusal_;
+    std::vector<std::string> decoded_;  // by view; empty until it is needed
+    std::uint64_t decoded_bytes_ = 0;
+};
+
+}  // namespace handhold::gltf

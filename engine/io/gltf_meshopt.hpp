@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/io/gltf_model.hpp"
+
+namespace handhold::gltf {
+
+// Decodes a view that EXT_meshopt_compression compressed. Nothing if `compressed` is malformed, or
+// too short for the count of elements that the view claims; memory is taken only after that check.
+std::optional<std::string> decode_meshopt(const Meshopt& view, std::string_view compressed);
+
+}  // namespace handhold::gltf

@@ -1,0 +1,91 @@
+#include "engine/io/vrm_humanoid.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <vector>
+
+#include "engine/io/json.hpp"
+
+namespace handhold {
+namespace {
+
+using Humanoid = std::map<std::string, std::string>;
+
+// The JSON of a .glb (its first chunk); other bytes are JSON themselves.
+std::string_view json_of(std::string_view bytes) {
+    constexpr std::size_t k_header_bytes = 20;
+    if (!bytes.starts_with("glTF") || bytes.size() < k_header_bytes) {
+        return bytes;
+    }
+    std::uint32_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        length |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[12 + i])) << (8 * i);
+    }
+    return bytes.substr(k_header_bytes, length);
+}
+
+// The value at the end of these members, if all of them are there.
+std::optional<JsonValue> find_member(JsonValue value, std::initializer_list<const char*> keys) {
+    for (const char* const key : keys) {
+        if (!value.is_object()) {
+            return std::nullopt;
+        }
+        value = value[key];
+    }
+    return value.exists() ? std::optional(value) : std::nullopt;
+}
+
+// Names by node; empty where there is none or where another node has it too.
+std::vector<std::string> node_names(const JsonValue& root) {
+    std::vector<std::string> names;
+    std::map<std::string, int> uses;
+    for (const JsonValue& node : root["nodes"].optional_items()) {
+        names.push_back(node["name"].is_text() ? node["name"].text_or("") : "");
+        ++uses[names.back()];
+    }
+    for (std::string& name : names) {
+        if (uses[name] > 1) {
+            name.clear();
+        }
+    }
+    return names;
+}
+
+void add_bone(const std::string& bone, const JsonValue& node, const std::vector<std::string>& names,
+              Humanoid& humanoid) {
+    const auto last = static_cast<std::int64_t>(names.size()) - 1;
+    const std::int64_t index = node.integer(0, last);
+    if (index <= last && !names[static_cast<std::size_t>(index)].empty()) {
+        humanoid[bone] = names[static_cast<std::size_t>(index)];
+    }
+}
+
+}  // namespace
+
+Result<Humanoid> parse_vrm_humanoid(std::string_view bytes, const std::string& file) {
+    Result<JsonDocument> document = JsonDocument::parse(json_of(bytes), file);
+    if (!document) {
+        return document.error();
+    }
+    const JsonValue root = document.value().root();
+    Humanoid humanoid;
+    const std::vector<std::string> names = node_names(root);
+    if (const auto bones = find_member(root, {"extensions", "VRM", "humanoid", "humanBones"})) {
+        for (const JsonValue& bone : bones->items()) {
+            add_bone(bone["bone"].text(), bone["node"], names, humanoid);
+        }
+    }
+    if (const auto bones =
+            find_member(root, {"extensions", "VRMC_vrm", "humanoid", "humanBones"})) {
+        for (const auto& [bone, value] : bones->optional_members()) {
+            add_bone(bone, value["node"], names, humanoid);
+        }
+    }
+    if (document.value().failed()) {
+        return document.value().error();
+    }
+    return humanoid;
+}
+
+}  // namespace handhold

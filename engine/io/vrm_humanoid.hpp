@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "engine/io/result.hpp"
+
+// The humanoid table of VRM files. Source: VRM 0.0 (extension VRM) and VRM 1.0 (VRMC_vrm).
+namespace handhold {
+
+// Name of a VRM bone ("leftUpperArm") -> name of its node. Empty if the file has no such table.
+// Leaves out nodes without a name and names that several nodes share. `bytes` are those of a .glb,
+// .vrm or .gltf; `file` is for messages.
+//
+// Refused, with the JSON pointer of the cause: bytes that are no glTF; a table with other types, or
+// with nodes that do not exist.
+Result<std::map<std::string, std::string>> parse_vrm_humanoid(std::string_view bytes,
+                                                              const std::string& file);
+
+}  // namespace handhold

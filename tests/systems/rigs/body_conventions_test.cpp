@@ -1,0 +1,189 @@
+// Figures of public rig conventions: names, hierarchies, axes.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/gltf_skin_writer.hpp"
+#include "engine/io/text_file.hpp"
+#include "systems/rigs/body_bones.hpp"
+#include "tests/random.hpp"
+#include "tests/systems/rigs/humanoid.hpp"
+
+namespace handhold::body_conventions_test {
+namespace {
+
+using test::Humanoid;
+using test::HumanoidConvention;
+using test::make_humanoid;
+using test::Random;
+
+// Every expected bone is found at its joint.
+void expect_bones(const Humanoid& humanoid, const BodyMap& map = {}) {
+    const Result<BodyBones> found = find_body_bones(humanoid.figure, map);
+    ASSERT_TRUE(found.ok()) << found.error().message();
+    BodyBones bones = found.value();
+    for (std::size_t bone = 0; bone < k_body_bone_count; ++bone) {
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            const BodyJointName name{static_cast<BodyBone>(bone), side};
+            const auto expected = humanoid.expected.find(body_joint_text(name));
+            if (expected == humanoid.expected.end() || name.bone == BodyBone::trunk) {
+                continue;
+            }
+            const auto joint = bones.at(name);
+            const std::string wanted = humanoid.figure.joints[expected->second].name;
+            EXPECT_TRUE(joint) << body_joint_text(name) << ", expected " << wanted;
+            if (joint) {
+                EXPECT_EQ(humanoid.figure.joints[*joint].name, wanted) << body_joint_text(name);
+            }
+        }
+    }
+}
+
+// Arm length.
+double arm_of(const Humanoid& humanoid) {
+    const auto at = [&](const char* bone) {
+        return place_of(humanoid.figure, humanoid.expected.at(bone));
+    };
+    return (at("left_hand") - at("left_upper_arm")).norm();
+}
+
+class EveryConvention : public ::testing::TestWithParam<std::size_t> {
+  protected:
+    HumanoidConvention convention() const { return test::humanoid_conventions()[GetParam()]; }
+};
+
+TEST_P(EveryConvention, BonesAreFoundByName) {
+    Random random(GetParam() + 1);
+    for (int i = 0; i < 10; ++i) {
+        const Humanoid humanoid =
+            make_humanoid(convention(), {.arms_down_rad = random.between(0.0, 0.9),
+                                         .scale = std::exp(random.between(-4.0, 4.0)),
+                                         .yaw_rad = random.between(-3.0, 3.0)});
+        SCOPED_TRACE(humanoid.figure.file);
+        expect_bones(humanoid);
+    }
+}
+
+// The order in which a file lists its nodes says nothing.
+TEST_P(EveryConvention, OrderOfJointsDoesNotCount) {
+    Random random(GetParam() + 31);
+    Humanoid humanoid = make_humanoid(convention());
+    SCOPED_TRACE(humanoid.figure.file);
+    std::vector<std::size_t> order(humanoid.figure.joints.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        order[i] = i;
+    }
+    for (std::size_t i = order.size(); i-- > 1;) {
+        std::swap(
+            order[i],
+            order[static_cast<std::size_t>(random.between(0.0, 1.0) * static_cast<double>(i + 1))]);
+    }
+    std::vector<std::size_t> place(order.size());
+    std::vector<SkinJoint> joints;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        place[order[i]] = i;
+        joints.push_back(humanoid.figure.joints[order[i]]);
+    }
+    for (SkinJoint& joint : joints) {
+        if (joint.parent >= 0) {
+            joint.parent = static_cast<std::int32_t>(place[static_cast<std::size_t>(joint.parent)]);
+        }
+    }
+    humanoid.figure.joints = joints;
+    for (SkinWeights& weights : humanoid.figure.weights) {
+        for (std::uint16_t& joint : weights.joint) {
+            joint = static_cast<std::uint16_t>(place[joint]);
+        }
+    }
+    for (auto& [bone, joint] : humanoid.expected) {
+        joint = place[joint];
+    }
+    expect_bones(humanoid);
+}
+
+// Without names the hierarchy and the places of the joints decide. Twist joints in line with a limb
+// leave its elbow or knee; helpers beside it may be taken for it: then it is refused or right.
+TEST_P(EveryConvention, LimbsAreFoundWithoutNamesOrRefused) {
+    Random random(GetParam() + 61);
+    for (int i = 0; i < 10; ++i) {
+        const Humanoid humanoid =
+            make_humanoid(convention(), {.arms_down_rad = random.between(0.0, 0.7),
+                                         .scale = std::exp(random.between(-2.0, 2.0)),
+                                         .yaw_rad = random.between(-3.0, 3.0),
+                                         .is_named = false});
+        SCOPED_TRACE(humanoid.figure.file);
+        const Result<BodyBones> found = find_body_bones(humanoid.figure, {});
+        if (!found) {
+            EXPECT_NE(found.error().expected.find("--body-map"), std::string::npos);
+            continue;
+        }
+        BodyBones bones = found.value();
+        const auto at = [&](const BodyJointName& name) {
+            return place_of(humanoid.figure, *bones.at(name));
+        };
+        for (const HandSide side : {HandSide::left, HandSide::right}) {
+            for (const BodyBone bone : {BodyBone::upper_arm, BodyBone::forearm, BodyBone::hand,
+                                        BodyBone::thigh, BodyBone::shin, BodyBone::foot}) {
+                const BodyJointName name{bone, side};
+                ASSERT_TRUE(bones.at(name)) << body_joint_text(name);
+                const Vec3 expected =
+                    place_of(humanoid.figure, humanoid.expected.at(body_joint_text(name)));
+                EXPECT_LT((at(name) - expected).norm(), 0.1 * arm_of(humanoid))
+                    << body_joint_text(name);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Figures, EveryConvention,
+                         ::testing::Range<std::size_t>(0, test::humanoid_conventions().size()),
+                         [](const auto& test) {
+                             return std::string(
+                                 handhold::test::humanoid_conventions()[test.param].name);
+                         });
+
+// A wrong joint in a map shows in the proportions: refused, or the same body within a helper's
+// distance.
+TEST(FindBodyBones, MapsWithWrongJointsAreRefused) {
+    const HumanoidConvention convention = test::humanoid_conventions()[1];
+    const Humanoid humanoid = make_humanoid(convention);
+    const auto refused = [&](const BodyMap& map) {
+        const Result<BodyBones> found = find_body_bones(humanoid.figure, map);
+        return !found && found.error().expected.find("--body-map") != std::string::npos;
+    };
+    EXPECT_TRUE(refused({{"left_upper_arm", "mixamorig:LeftShoulder"},
+                         {"right_upper_arm", "mixamorig:RightShoulder"}}));
+    EXPECT_TRUE(refused({{"left_upper_arm", "mixamorig:RightArm"}}));
+    EXPECT_TRUE(refused({{"left_hand", "mixamorig:RightHand"}}));
+    EXPECT_TRUE(refused({{"head", "mixamorig:Hips"}}));
+    EXPECT_TRUE(refused({{"left_shin", "mixamorig:RightLeg"}}));
+    EXPECT_TRUE(
+        refused({{"left_thigh", "mixamorig:LeftFoot"}, {"left_foot", "mixamorig:LeftUpLeg"}}));
+    EXPECT_TRUE(refused({{"left_forearm", "mixamorig:LeftHand"}}));
+}
+
+// The figures as files: what a picture of each is made of. Kept if HANDHOLD_FIGURES names a folder.
+TEST(HumanoidFiles, AreReadBackAndFitted) {
+    const char* const keep = std::getenv("HANDHOLD_FIGURES");
+    const std::filesystem::path folder = keep != nullptr ? keep : testing::TempDir();
+    for (const HumanoidConvention& convention : test::humanoid_conventions()) {
+        SCOPED_TRACE(convention.name);
+        const Humanoid humanoid = make_humanoid(convention, {.arms_down_rad = 0.5});
+        const auto path = folder / (std::string("humanoid_") + convention.name + ".glb");
+        ASSERT_FALSE(write_file_atomically(path, test::write_humanoid(humanoid)));
+        const Result<SkinnedMesh> figure = load_gltf_figure(path);
+        ASSERT_TRUE(figure.ok()) << figure.error().message();
+        const Result<BodyRig> rig = fit_body_rig(figure.value());
+        ASSERT_TRUE(rig.ok()) << rig.error().message();
+        EXPECT_NEAR(rig.value().shoulder_width_m, 0.36, 1e-3);
+        EXPECT_NEAR(rig.value().eye_height_m, 1.65, 0.07);
+        if (keep == nullptr) {
+            std::filesystem::remove(path);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace handhold::body_conventions_test
