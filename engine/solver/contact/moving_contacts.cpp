@@ -121,11 +121,12 @@ void merge_contacts(const MovingContacts& moving, OldPoints old_points) {
         const auto found = std::span(merged).subspan(first, end - first);
         if (found.empty()) {
             merged.push_back(old);
-        } else if (!any_touches(found) && limited_motion(moving.graph, old)) {
-            old.feature = ++feature;
-            merged.push_back(old);
-        } else if (old_points == OldPoints::kept && !has_slid_apart(moving.graph, old) &&
-                   !has_same_point(old, found)) {
+            continue;
+        }
+        const bool limited = !any_touches(found) && limited_motion(moving.graph, old);
+        const bool stays = old_points == OldPoints::kept && !has_slid_apart(moving.graph, old) &&
+                           !has_same_point(old, found);
+        if (limited || stays) {
             old.feature = ++feature;
             merged.push_back(old);
         }
