@@ -45,7 +45,7 @@ class LevelReader {
     bool read_primitive(const gltf::Primitive& primitive, const std::string& place,
                         LevelPart& part);
     bool append_positions(const Affine& frame, const std::string& place, Mesh& mesh);
-    void begin_color(const gltf::Material* material, LevelPart& part);
+    static void begin_color(const gltf::Material* material, LevelPart& part);
     void add_notes();
 
     const gltf::Model& model_;

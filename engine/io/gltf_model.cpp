@@ -200,7 +200,7 @@ void ModelParser::parse_views() {
         if (const JsonValue meshopt = extension_of(value, k_meshopt); meshopt.exists()) {
             view.meshopt = parse_meshopt(meshopt);
         }
-        model_.views.push_back(std::move(view));
+        model_.views.push_back(view);
     }
 }
 
@@ -257,7 +257,7 @@ void ModelParser::parse_accessors() {
         if (const JsonValue sparse = value["sparse"]; sparse.exists()) {
             accessor.sparse = parse_sparse(sparse);
         }
-        model_.accessors.push_back(std::move(accessor));
+        model_.accessors.push_back(accessor);
     }
 }
 
