@@ -1,4 +1,4 @@
-// Why not Bullet's btContinuousConvexCollision, which advances in the same way: it stops a
+// Bullet's btContinuousConvexCollision advances in the same way, but is not used: it stops a
 // millimetre early, misses some impacts of fast rotating shapes (1 of 600 capsules) and supports
 // only rotation about the shape's own centre. It also counts iterations in a global, which is a
 // data race.

@@ -2,7 +2,7 @@
 
 #ifdef HH_THREAD_SANITIZER
 
-// These are in the sanitizer's run-time library.
+// Defined in the sanitizer's run-time library.
 extern "C" void __tsan_release(void* address);
 extern "C" void __tsan_acquire(void* address);
 

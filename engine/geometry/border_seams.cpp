@@ -128,8 +128,8 @@ std::vector<SeamCut> find_cuts(const SurfaceGraph& graph, const Borders& borders
     return cuts;
 }
 
-// A piece of a split triangle. rest_of[i]: the side of the original triangle of which edge i is the
-// rest that is not cut off yet; k_no_side if edge i is no such rest.
+// A piece of a split triangle. rest_of[i]: number of the original side of which edge i is the part
+// that later cuts may split; k_no_side if edge i is not such a part.
 struct Piece {
     Triangle corners;
     std::array<std::uint32_t, 3> rest_of;
@@ -141,7 +141,7 @@ Vec3 area_of(const SurfaceGraph& graph, const Triangle& corners) {
         {graph.positions[corners[0]], graph.positions[corners[1]], graph.positions[corners[2]]});
 }
 
-// Splits the piece that has the rest of side `cut.side`. Cuts of one side must come in ascending
+// Splits the piece with the uncut part of side `cut.side`. Cuts of one side must come in ascending
 // order. Returns false and changes nothing if a new piece would be flipped or degenerate.
 bool cut_piece(const SurfaceGraph& graph, const Vec3& area, const SeamCut& cut,
                std::vector<Piece>& pieces) {

@@ -80,7 +80,7 @@ void BvhBuilder::gather() {
     }
 }
 
-// The bin is meaningless along an axis along which all middles are equal.
+// If all boxes have the same middle along an axis, their bin along this axis means nothing.
 Int4 BvhBuilder::bins_of(const Item& item, const Box& middles) {
     const Float4 width = middles.high - middles.low;
     const Float4 safe = width > splat4(0.0F) ? width : splat4(1.0F);

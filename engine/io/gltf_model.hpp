@@ -156,7 +156,7 @@ const T& element(const std::vector<T>& section, int index) {
 class Refusal {
   public:
     explicit Refusal(std::string file) : file_(std::move(file)) {}
-    // Both return false.
+    // refuse and refuse_index always return false.
     bool refuse(std::string place, std::string expected);
     bool refuse_index(std::string place, const char* what, std::size_t size, int found);
     // Precondition: an error was reported.

@@ -44,7 +44,7 @@ class JsonValue {
 
     // A member of an object.
     JsonValue operator[](std::string_view key) const;
-    // The elements of an array. For an absent array, optional_items is empty and items an error.
+    // The elements of an array. If the array is absent, optional_items is empty; items is an error.
     std::vector<JsonValue> items() const;
     std::vector<JsonValue> optional_items() const;
     // The members of an object, sorted by key. An absent object is empty.

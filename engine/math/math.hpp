@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-// The only file that includes Eigen. Right-handed, +Y up, -Z forward, +X right; metres, seconds,
-// radians. Never use `auto` for an Eigen expression: it would hold references to temporaries.
+// The only file of the engine that includes Eigen. Right-handed, +Y up, -Z forward, +X right;
+// metres, seconds, radians. Never use `auto` for an Eigen expression: it would hold references to
+// temporaries.
 namespace handhold {
 
 using Vec3 = Eigen::Vector3d;
