@@ -132,6 +132,9 @@ class CollisionWorld {
     // id.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
+    // Longest path in the broadphase's tree: what placing or removing one collider may cost.
+    int broadphase_depth() const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increment whenever the format changes, or the result of the build for the same input.
-constexpr std::uint64_t k_version = 1;
+constexpr std::uint64_t k_version = 2;
 constexpr std::uint64_t k_cache_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
 constexpr std::size_t k_header_words = 4;                       // magic, key, word count, checksum
 
@@ -263,6 +263,9 @@ GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
     // Building these takes no longer than reading a file.
     if (shape.kind != ShapeKind::mesh) {
         return build_grip_mesh(shape, settings);
+    }
+    if (shape.scale == Vec3::Ones()) {
+        return cached_grip_mesh(*shape.mesh, settings, directory);  // no copy of a large mesh
     }
     return cached_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), settings, directory);
 }
