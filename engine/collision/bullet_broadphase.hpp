@@ -45,7 +45,7 @@ class Broadphase {
     // scratch is used again. Thread-safe if each thread uses its own scratch.
     std::span<const std::size_t> find(const Bounds& box, BroadphaseScratch& scratch) const;
 
-    // Longest path in the tree: for tests.
+    // Longest path in the tree.
     int depth() const { return btDbvt::maxdepth(tree_.m_root); }
 
   private:

@@ -167,6 +167,8 @@ void CollisionWorld::set_proxies(std::span<const ColliderProxy> proxies) {
     impl_->broadphase.set_proxies(proxies, impl_->extents);
 }
 
+int CollisionWorld::broadphase_depth() const { return impl_->broadphase.depth(); }
+
 void CollisionWorld::set_ignored_pairs(std::span<const IgnoredPair> pairs) {
     for (std::size_t i = 1; i < pairs.size(); ++i) {
         HH_CHECK(pairs[i - 1] <= pairs[i], "pairs must be sorted", pairs[i].id_a);

@@ -130,6 +130,9 @@ class CollisionWorld {
     // The same for the collider `id` alone, at any distance; nullopt if there is no such collider.
     std::optional<SurfacePoint> closest_point_on(std::uint64_t id, const Vec3& point_ws) const;
 
+    // Longest path in the broadphase's tree: what placing or removing one collider may cost.
+    int broadphase_depth() const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

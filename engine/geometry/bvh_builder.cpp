@@ -338,13 +338,15 @@ void BvhBuilder::build() {
     }
     divide();
     fill_leaves();
+    bvh_.triangle_count_ = items_.size();
+    std::vector<Item>().swap(items_);  // frees 32 MB for a million triangles
     make_nodes();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<Eigen::Index>(axis);
         bvh_.low_[at] = static_cast<double>(pairs_[0].box.low[axis]);
         bvh_.high_[at] = static_cast<double>(pairs_[0].box.high[axis]);
     }
-    bvh_.triangle_count_ = items_.size();
+    std::vector<Pair>().swap(pairs_);
     bvh_.nodes_.shrink_to_fit();
     bvh_.positions_.shrink_to_fit();
 }

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Increment on every change of the format or of the build's result for the same input.
-constexpr std::uint64_t k_version = 1;
+constexpr std::uint64_t k_version = 2;
 constexpr std::uint64_t k_cache_magic = 0x0148534d50495248ULL;  // "HRIPMSH" and 1
 constexpr std::size_t k_header_words = 4;                       // magic, key, word count, checksum
 
@@ -262,6 +262,9 @@ GripMesh cached_grip_mesh(const Shape& shape, const GripMeshSettings& settings,
                           const fs::path& directory) {
     if (shape.kind != ShapeKind::mesh) {  // as fast to build as to read
         return build_grip_mesh(shape, settings);
+    }
+    if (shape.scale == Vec3::Ones()) {
+        return cached_grip_mesh(*shape.mesh, settings, directory);  // no copy of a large mesh
     }
     return cached_grip_mesh(shape_surface(shape, settings.shape_tolerance_m), settings, directory);
 }

@@ -219,7 +219,7 @@ ClimberHold make_hold(const Search& search, const HoldCandidate& chosen) {
         const Quat tip = rotation_between(Vec3::UnitZ(), seen.normal_ws);
         fingers = tip * Vec3::UnitX();
     }
-    const PalmFrame palm{seen.point_ws + k_hold_gap_m * seen.normal_ws, seen.normal_ws, fingers};
+    const PalmTarget palm{seen.point_ws + k_hold_gap_m * seen.normal_ws, seen.normal_ws, fingers};
     const Pose wrist_ws = hand_on(palm, search.ask.side, search.sight.scene.tuning.hand);
     const Pose& body_ws = search.sight.scene.world.body_pose.at(chosen.body).pose_ws;
     return {chosen.body, inverse(body_ws) * wrist_ws,

@@ -42,8 +42,8 @@ Vec3 fingers_on(const Vec3& away, const Quat& head) {
 
 // Rest pose of a hand: open, at chest height, in view.
 Pose DesktopBody::rest_ps(HandSide side, const HandTuning& tuning) const {
-    const PalmFrame place{mirrored({0.2, -0.24, -0.42}, side),
-                          mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
+    const PalmTarget place{mirrored({0.2, -0.24, -0.42}, side),
+                           mirrored({0.5, 0.85, 0.0}, side).normalized(), -Vec3::UnitZ()};
     return head_ps_ * hand_on(place, side, tuning);
 }
 
@@ -69,8 +69,8 @@ void DesktopBody::aim(const Scene& scene, const CollisionWorld& collision,
 
 // Target of a reach: on the surface in view; without one, in front of the player.
 Pose DesktopBody::target_ps(HandSide side, const HandTuning& tuning) const {
-    const PalmFrame ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
-                          head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
+    const PalmTarget ahead{transform_point(head_ps_, Vec3(0.0, 0.0, -k_no_surface_m)),
+                           head_ps_.rotation * Vec3::UnitY(), head_ps_.rotation * -Vec3::UnitZ()};
     return hand_on(aim_ps_.value_or(ahead), side, tuning);
 }
 

@@ -58,7 +58,7 @@ class DesktopBody {
     double yaw_rad_ = 0.0;
     double pitch_rad_ = 0.0;
     Pose head_ps_;
-    std::optional<PalmFrame> aim_ps_;  // on the surface in view; nullopt: none in view
+    std::optional<PalmTarget> aim_ps_;  // on the surface in view; nullopt: none in view
     std::array<Hand, k_hand_count> hands_;
     std::array<Use, k_hand_count> uses_{};
     bool has_hands_ = false;  // whether the hands have poses; false before the first frame

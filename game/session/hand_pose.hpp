@@ -7,7 +7,7 @@
 namespace handhold {
 
 // A pose of a palm that touches a surface.
-struct PalmFrame {
+struct PalmTarget {
     Vec3 palm = Vec3::Zero();
     Vec3 away = Vec3::UnitY();  // unit, from the surface into the palm
     // Not parallel to `away`; only the part perpendicular to `away` counts.
@@ -15,7 +15,7 @@ struct PalmFrame {
 };
 
 // The wrist of a hand whose palm is at `place`.
-inline Pose hand_on(const PalmFrame& place, HandSide side, const HandTuning& tuning) {
+inline Pose hand_on(const PalmTarget& place, HandSide side, const HandTuning& tuning) {
     Mat3 axes;
     const Vec3 across = (place.fingers - place.away * place.away.dot(place.fingers)).normalized();
     axes.col(1) = place.away;
