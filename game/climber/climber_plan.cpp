@@ -55,7 +55,7 @@ struct Search {
     const ClimberState& state;
     Vec3 eyes_ws;
     Vec3 shoulder_ws;
-    Vec3 palm_ws;     // position of the wrist
+    Vec3 wrist_ws;
     Vec3 outward_ws;  // towards the hand's side
     Vec3 body_mps;    // velocity of the play space in the world
 };
@@ -97,7 +97,7 @@ std::optional<HoldCandidate> evaluate(const Search& search, const Seen& seen, do
         return std::nullopt;  // a head, or too light to climb on
     }
     const Vec3 relative_mps = search.body_mps - velocity_at(world, body, seen.point_ws);
-    const double reach_s = reach_time_s((seen.point_ws - search.palm_ws).norm());
+    const double reach_s = reach_time_s((seen.point_ws - search.wrist_ws).norm());
     const Vec3 shoulder_then_ws = search.shoulder_ws + reach_s * relative_mps;
     const double distance_m = (seen.point_ws - shoulder_then_ws).norm();
     if (relative_mps.norm() > k_fastest_mps || distance_m < k_nearest_m ||

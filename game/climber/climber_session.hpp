@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "game/climber/climber.hpp"
@@ -25,18 +24,5 @@ struct ClimbPlan {
 // stepped. Adds a player "player0", disables jets, and steps the scene at 90 Hz. Playing the
 // recording from the same place at 90 Hz repeats the session bit for bit.
 Recording record_climb(Scene& scene, const ClimbPlan& plan);
-
-// Options of `handhold climb`.
-struct ClimbOptions {
-    std::string scene;
-    std::string spawn;  // name of the spawn; empty: the scene's first
-    std::string out;    // file for the recording
-    double seconds = 20.0;
-    std::uint64_t seed = 1;
-};
-// Records a wandering climber. Returns the exit status: 0; k_exit_bad_file, after one line on
-// standard error, if a file is invalid or cannot be written; k_exit_interrupted if a signal ended
-// the session. An interrupted recording is saved too.
-int climb_command(const ClimbOptions& options);
 
 }  // namespace handhold

@@ -14,9 +14,9 @@
 #include <handhold/version.hpp>
 
 #include "engine/io/printable.hpp"
-#include "game/climber/climber_session.hpp"
 #include "game/commands/body_export.hpp"
 #include "game/commands/build_station_command.hpp"
+#include "game/commands/climb_command.hpp"
 #include "game/commands/exit_status.hpp"
 #include "game/commands/flag_checks.hpp"
 #include "game/commands/grip_command.hpp"

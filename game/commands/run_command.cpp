@@ -17,6 +17,7 @@
 #include "game/commands/loading.hpp"
 #include "game/commands/output_folder.hpp"
 #include "game/commands/progress.hpp"
+#include "game/commands/run_shots.hpp"
 #include "game/render/image.hpp"
 #include "game/report/frames_csv.hpp"
 #include "game/report/report_html.hpp"
@@ -29,7 +30,6 @@
 #include "game/session/interrupt.hpp"
 #include "game/session/session_run.hpp"
 #include "game/view/film.hpp"
-#include "game/view/run_shots.hpp"
 #include "systems/snapshot.hpp"
 
 namespace handhold {

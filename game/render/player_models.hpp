@@ -7,8 +7,8 @@
 
 #include "game/render/body_figures.hpp"
 #include "game/render/controller_figures.hpp"
+#include "game/render/ghost_hands.hpp"
 #include "game/render/hand_figures.hpp"
-#include "game/view/ghost_hands.hpp"
 
 // The models that players are drawn with.
 namespace handhold {

@@ -145,7 +145,6 @@ SessionScript ship_script() {
     crawl.along = along;
     crawl.away = Vec3::UnitX();
     crawl.fingers = Vec3::UnitY();
-    crawl.speed_mps = 0.45;
     crawl.from_s = k_first_grip_s;
     crawl.until_s = 6.9;
     add_crawl(crawl, script);

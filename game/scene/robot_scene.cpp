@@ -90,7 +90,6 @@ SessionScript robot_script() {
     crawl.along = ahead;
     crawl.away = up;
     crawl.fingers = Vec3::UnitX();
-    crawl.speed_mps = 0.25;
     crawl.from_s = 0.35;
     crawl.until_s = 6.8;
     add_crawl(crawl, script);

@@ -86,7 +86,7 @@ struct Candidate {
     double score = 0.0;
 };
 
-struct Judge {
+struct SpawnEvaluator {
     const CollisionWorld& collision;
     const Rehearsal& rehearsal;
     const HeadTuning& head;
@@ -168,7 +168,7 @@ struct SurfaceSampler {
     }
 };
 
-std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
+std::vector<Candidate> propose(const Scene& scene, const SpawnEvaluator& evaluator) {
     std::vector<Candidate> best;
     const SurfaceSampler surface(scene);
     if (surface.pieces.empty()) {
@@ -184,15 +184,15 @@ std::vector<Candidate> propose(const Scene& scene, const Judge& evaluate) {
             // Chooses a side of the surface and one of the first three grabs (the head, if there
             // are none), which is placed next to the surface.
             const double side = random.unit() < 0.5 ? -1.0 : 1.0;
-            const std::size_t grabs = std::min<std::size_t>(evaluate.rehearsal.grabs.size(), 3);
+            const std::size_t grabs = std::min<std::size_t>(evaluator.rehearsal.grabs.size(), 3);
             const auto pick = static_cast<std::size_t>(random.unit() * static_cast<double>(grabs));
             const bool lay_head = grabs == 0;
-            const Vec3 laid = lay_head ? evaluate.rehearsal.heads.front()
-                                       : evaluate.rehearsal.grabs[pick].palm_ws;
+            const Vec3 laid = lay_head ? evaluator.rehearsal.heads.front()
+                                       : evaluator.rehearsal.grabs[pick].palm_ws;
             const double gap = lay_head ? 0.5 : k_palm_gap_m;
             const Pose origin_ws{sample.point_ws + side * gap * sample.normal_ws - rotation * laid,
                                  rotation};
-            const double score = evaluate.score(origin_ws);
+            const double score = evaluator.score(origin_ws);
             if (score >= 0.0) {
                 best.push_back({origin_ws, score});
             }
@@ -246,9 +246,10 @@ FoundSpawn find_spawn(const Scene& scene, FrameCaches& caches, const Recording& 
     if (rehearsal.heads.empty()) {
         return found;
     }
-    const Judge evaluate{caches.collision, rehearsal, scene.tuning.head, scene.tuning.hand};
+    const SpawnEvaluator evaluator{caches.collision, rehearsal, scene.tuning.head,
+                                   scene.tuning.hand};
     double best_path_m = -1.0;
-    for (const Candidate& candidate : propose(scene, evaluate)) {
+    for (const Candidate& candidate : propose(scene, evaluator)) {
         const Played played =
             play_from(trial, scene.world, caches, recording, candidate.origin_ws, hz);
         if (best_path_m < 0.0 || played.gripped > found.gripped ||

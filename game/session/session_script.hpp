@@ -56,7 +56,6 @@ struct ScriptedCrawl {
     Vec3 away = Vec3::UnitY();
     Vec3 fingers = Vec3::UnitY();
     double palm_off_axis_m = 0.02;  // slightly more than the bar's radius
-    double speed_mps = 0.5;
     double from_s = 0.0;
     double until_s = 1.0;
 };

@@ -6,7 +6,7 @@
 
 #include "game/desktop/desktop_session.hpp"
 #include "game/desktop/play_tally.hpp"
-#include "game/session/session_history.hpp"
+#include "game/desktop/session_history.hpp"
 #include "game/view/gizmos.hpp"
 
 namespace handhold {

@@ -1,5 +1,5 @@
 // Solver, model: Jacobians and residuals of every block kind. Every Jacobian is checked against
-// central differences in tests/engine/solver/rows_test.cpp and joint_rows_test.cpp.
+// central differences in tests/engine/solver/model/rows_test.cpp and joint_rows_test.cpp.
 #include "engine/solver/model/rows.hpp"
 
 #include <algorithm>

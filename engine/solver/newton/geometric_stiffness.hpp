@@ -1,7 +1,7 @@
 // Solver, newton: geometric stiffness for one body at a time. packed/triad_bodies.hpp evaluates the
 // same expression for four bodies at a time. It stays a separate routine because it is rearranged
 // to one division for all lanes, which rounds differently: sharing it changes state hashes (the
-// playground's after 40 s). tests/engine/solver/stiffness_test.cpp compares the two.
+// playground's after 40 s). tests/engine/solver/newton/stiffness_test.cpp compares the two.
 
 #pragma once
 

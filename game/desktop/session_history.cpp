@@ -1,4 +1,4 @@
-#include "game/session/session_history.hpp"
+#include "game/desktop/session_history.hpp"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,5 +1,5 @@
 // Pause and rewind restore past frames bit for bit.
-#include "game/session/session_history.hpp"
+#include "game/desktop/session_history.hpp"
 
 #include <vector>
 

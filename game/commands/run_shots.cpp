@@ -1,4 +1,4 @@
-#include "game/view/run_shots.hpp"
+#include "game/commands/run_shots.hpp"
 
 #include <cstdio>
 #include <optional>

@@ -12,7 +12,7 @@
 #include "tests/places.hpp"
 #include "tests/systems/frame/column_scene.hpp"
 
-namespace handhold::body_rates_test {
+namespace handhold::arm_rates_test {
 namespace {
 
 using test::k_left;
@@ -132,4 +132,4 @@ TEST(BodyRates, ElbowsOfRecordedPeopleAgreeAtBothRates) {
 }
 
 }  // namespace
-}  // namespace handhold::body_rates_test
+}  // namespace handhold::arm_rates_test
