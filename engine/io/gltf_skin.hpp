@@ -47,15 +47,17 @@ constexpr std::size_t k_max_skin_joints = 1024;
 //
 // Errors, with the JSON pointer of the cause: load_gltf_level's errors about geometry; no skin or
 // more than one; joints that are not nodes of the scene, are listed twice, or are scaled unevenly
-// or mirrored; weights that are negative or not finite.
+// or sheared; weights that are negative or not finite. A joint may be mirrored if its scale is
+// otherwise even: bind_ms then keeps the direction of its Y axis, and is turned about it towards
+// its Z axis.
 Result<SkinnedMesh> load_gltf_skin(const std::filesystem::path& path);
 // Reads from memory. `path` is used in messages and gives the folder of external buffers.
 Result<SkinnedMesh> parse_gltf_skin(std::string_view bytes, const std::filesystem::path& path);
 
 // Loads a whole figure: every node of the default scene becomes a joint. Meshes without a skin
 // follow their node rigidly, and there may be several skins. Joints may also be scaled unevenly or
-// mirrored: bind_ms then keeps the direction of their Y axis, and is turned about it towards their
-// Z axis. More than k_max_skin_joints nodes are an error. Otherwise as load_gltf_skin.
+// sheared: bind_ms is then found as for mirrored joints. More than k_max_skin_joints nodes are an
+// error. Otherwise as load_gltf_skin.
 Result<SkinnedMesh> load_gltf_figure(const std::filesystem::path& path);
 Result<SkinnedMesh> parse_gltf_figure(std::string_view bytes, const std::filesystem::path& path);
 
