@@ -6,6 +6,7 @@
 #include "engine/core/check.hpp"
 #include "game/climber/climber_body.hpp"
 #include "game/climber/climber_plan.hpp"
+#include "game/climber/climber_steer.hpp"
 #include "game/scene/player_defaults.hpp"
 
 namespace handhold {
@@ -18,7 +19,6 @@ constexpr double k_missed_after_s = 0.02;
 constexpr double k_grip_lost_m = 0.1;
 // Both hands hold at least this long before one of them releases.
 constexpr double k_both_hold_s = 0.15;
-constexpr double k_near_waypoint_m = 0.3;
 constexpr double k_leap_clearance_m = 1.2;  // minimum free distance ahead for a push-off
 constexpr double k_leap_mps = 1.2;
 constexpr double k_leap_longest_s = 0.8;
@@ -26,27 +26,6 @@ constexpr double k_leap_stretch_m = 0.62;
 constexpr std::uint32_t k_failed_queries_before_leap = 3;
 constexpr double k_adrift_s = 1.0;  // time without a hold before the climber may use jets
 constexpr double k_return_mps = 1.2;
-constexpr double k_detour_s = 2.0;
-// Time without reaching the next waypoint before the climber takes a detour.
-constexpr double k_stuck_s = 12.0;
-
-// The inputs and state of one frame's decision.
-struct Mind {
-    const ClimberSight& sight;
-    const ClimberTask& task;
-    ClimberMoment now;
-    ClimberState& state;
-
-    const World& world() const { return sight.scene.world; }
-    Entity player() const { return task.player.player; }
-    ClimberHand& hand(HandSide side) const { return state.hands[index_of(side)]; }
-    Vec3 wrist_ws(HandSide side) const {
-        return transform_point(now.origin_ws, hand(side).wrist_ps.position);
-    }
-    double stretch_m(HandSide side) const {
-        return (hand(side).wrist_ps.position - shoulder_ps(state, side)).norm();
-    }
-};
 
 constexpr std::array<HandSide, k_hand_count> k_sides = {HandSide::left, HandSide::right};
 HandSide other(HandSide side) { return side == HandSide::left ? HandSide::right : HandSide::left; }
@@ -58,7 +37,7 @@ std::size_t count_hands(const ClimberState& state, ClimberHandMode mode) {
 
 // --- Results of grabs ---
 
-void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
+void feel_closing(const ClimberMind& mind, HandSide side, const Grab& grab) {
     ClimberHand& hand = mind.hand(side);
     if (grab.kind == GripKind::surface) {
         hand.mode = ClimberHandMode::holding;
@@ -77,7 +56,7 @@ void feel_closing(const Mind& mind, HandSide side, const Grab& grab) {
     }
 }
 
-void feel_hands(const Mind& mind) {
+void feel_hands(const ClimberMind& mind) {
     for (const HandSide side : k_sides) {
         ClimberHand& hand = mind.hand(side);
         const Grab& grab = mind.world().grab.at(mind.task.player.hands[index_of(side)]);
@@ -102,90 +81,9 @@ void feel_hands(const Mind& mind) {
     }
 }
 
-// --- Where to go ---
-
-Vec3 waypoint_ws(const Mind& mind) {
-    const std::size_t index =
-        std::min<std::size_t>(mind.state.waypoint, mind.task.waypoints.size() - 1);
-    const ClimberWaypoint& waypoint = mind.task.waypoints[index];
-    const BodyPose* const body = mind.world().body_pose.find(waypoint.body);
-    return body != nullptr ? transform_point(body->pose_ws, waypoint.point_bs) : waypoint.point_bs;
-}
-
-// Sets the heading towards the current waypoint, or a detour if the climber is stuck. Returns false
-// if the climber is at the last waypoint and stays.
-bool head_for_waypoint(const Mind& mind) {
-    ClimberState& state = mind.state;
-    Vec3 way = waypoint_ws(mind) - mind.now.head_ws;
-    if (way.norm() < k_near_waypoint_m && !is_at_target(mind.task, state)) {
-        ++state.waypoint;
-        state.waypoint_since_s = mind.now.t_s;
-        way = waypoint_ws(mind) - mind.now.head_ws;
-    }
-    if (is_at_target(mind.task, state) && way.norm() < 2.0 * k_near_waypoint_m) {
-        return false;
-    }
-    if (mind.now.t_s < state.detour_until_s) {
-        return true;
-    }
-    if (mind.now.t_s - state.waypoint_since_s > k_stuck_s) {
-        state.waypoint_since_s = mind.now.t_s;
-        state.detour_until_s = mind.now.t_s + k_detour_s;
-        state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
-        return true;
-    }
-    state.heading_ws = way.norm() > 1e-6 ? Vec3(way.normalized()) : state.heading_ws;
-    return true;
-}
-
-void head_anywhere(const Mind& mind) {
-    ClimberState& state = mind.state;
-    state.heading_ws = choose_heading(mind.sight, mind.player(), mind.now.head_ws, state);
-    state.heading_until_s = mind.now.t_s + state.random.between(3.0, 9.0);
-    state.failed_queries = 0;
-}
-
-void look_ahead(const Mind& mind) {
-    constexpr double k_far_m = 6.0;
-    const auto way_m = free_distance_m(mind.sight, mind.player(), mind.now.head_ws,
-                                       mind.state.heading_ws, k_far_m);
-    mind.state.way_ahead_m = way_m.value_or(k_far_m);
-    mind.state.shore_ahead = way_m.has_value();
-}
-
-// Updates the heading. Returns the wanted velocity of the head in the world: along the heading,
-// slower in front of a wall, and away from surfaces nearby.
-Vec3 steer(const Mind& mind) {
-    ClimberState& state = mind.state;
-    bool goes_on = true;
-    look_ahead(mind);
-    if (!mind.task.waypoints.empty()) {
-        goes_on = head_for_waypoint(mind);
-        look_ahead(mind);
-    } else if (mind.now.t_s >= state.heading_until_s || state.way_ahead_m < 1.5 * k_head_clear_m) {
-        head_anywhere(mind);
-        look_ahead(mind);
-    }
-    const double room = std::clamp((state.way_ahead_m - k_head_clear_m) / 0.4, 0.0, 1.0);
-    Vec3 wanted_mps = Vec3::Zero();
-    if (goes_on) {
-        wanted_mps = (mind.task.cruise_mps * room) * state.heading_ws;
-    }
-    const std::array<std::uint64_t, 1> himself = {
-        mind.world().persistent_id.at(mind.player()).value};
-    if (const auto near =
-            mind.sight.collision.closest_point(mind.now.head_ws, k_head_clear_m, himself)) {
-        constexpr double k_push_mps = 0.5;
-        const double into = wanted_mps.dot(near->normal_ws);
-        wanted_mps -= std::min(0.0, into) * near->normal_ws;
-        wanted_mps += (k_push_mps * (1.0 - near->distance_m / k_head_clear_m)) * near->normal_ws;
-    }
-    return wanted_mps;
-}
-
 // --- Hand over hand ---
 
-bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
+bool try_reach(const ClimberMind& mind, HandSide side, const Vec3& toward_ws) {
     const bool loose_too =
         mind.task.picks_up_bodies && mind.now.carried && mind.state.random.chance(0.15);
     const auto found =
@@ -200,7 +98,7 @@ bool try_reach(const Mind& mind, HandSide side, const Vec3& toward_ws) {
 }
 
 // Precondition: both hands hold. Releases the hand that is farther back along the heading.
-void release_trailing(const Mind& mind) {
+void release_trailing(const ClimberMind& mind) {
     const auto ahead_m = [&mind](HandSide side) {
         return (mind.wrist_ws(side) - mind.now.head_ws).dot(mind.state.heading_ws);
     };
@@ -216,7 +114,7 @@ void release_trailing(const Mind& mind) {
 
 // For ClimberTask::single_hand: releases the holding hand shortly before the other hand closes, so
 // the climber floats for a moment.
-void hand_over(const Mind& mind) {
+void hand_over(const ClimberMind& mind) {
     constexpr double k_float_s = 0.06;
     for (const HandSide side : k_sides) {
         const ClimberHand& next = mind.hand(other(side));
@@ -228,13 +126,13 @@ void hand_over(const Mind& mind) {
     }
 }
 
-void begin_leap(const Mind& mind) {
+void begin_leap(const ClimberMind& mind) {
     mind.state.leaping = true;
     mind.state.leap_until_s = mind.now.t_s + k_leap_longest_s;
     mind.state.failed_queries = 0;
 }
 
-void go_on(const Mind& mind, const Vec3& wanted_mps) {
+void go_on(const ClimberMind& mind, const Vec3& wanted_mps) {
     ClimberState& state = mind.state;
     state.wanted_ps_mps = mind.now.origin_ws.rotation.conjugate() * wanted_mps;
     state.gaze_ws = state.heading_ws;
@@ -266,7 +164,7 @@ void go_on(const Mind& mind, const Vec3& wanted_mps) {
 
 // Pushes off with the holding hand. Releases it once the climber is fast enough, the arm is nearly
 // straight, or the push has lasted too long.
-void leap(const Mind& mind) {
+void leap(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     const Vec3 heading_ps = mind.now.origin_ws.rotation.conjugate() * state.heading_ws;
     state.wanted_ps_mps = k_leap_mps * heading_ps;
@@ -291,7 +189,7 @@ void leap(const Mind& mind) {
 
 // Thrusts with the jets towards `home`. If the head is already near it, or now and then at random,
 // first replaces `home` by a surface nearby.
-void return_home(const Mind& mind) {
+void return_home(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     const double jets_mps2 = mind.sight.scene.tuning.locomotion.thruster_mps2;
     Vec3 home_ws = transform_point(body_at(mind.world(), state.home.body, mind.now, mind.now.t_s),
@@ -322,7 +220,7 @@ void return_home(const Mind& mind) {
     state.thrust_ps = mind.now.origin_ws.rotation.conjugate() * thrust;
 }
 
-void drift(const Mind& mind) {
+void drift(const ClimberMind& mind) {
     ClimberState& state = mind.state;
     state.leaping = false;
     state.wanted_ps_mps.setZero();
@@ -353,7 +251,7 @@ void drift(const Mind& mind) {
     }
 }
 
-void decide(const Mind& mind) {
+void decide(const ClimberMind& mind) {
     mind.state.thrust_ps.setZero();
     if (mind.now.carried) {
         const Vec3 wanted_mps = steer(mind);
@@ -391,7 +289,7 @@ ClimberState begin_climber(const Scene& scene, const ClimberTask& task, std::uin
 PlayerCommands climb(const ClimberSight& sight, const ClimberTask& task, double frame_end_s,
                      ClimberState& state, std::vector<TrackingSample>& samples) {
     samples.clear();
-    Mind mind{sight, task, sense(sight.scene, task, state), state};
+    ClimberMind mind{sight, task, sense(sight.scene, task, state), state};
     if (state.last.t_s > mind.now.t_s || !state.first_given) {
         samples.push_back(state.last);
         state.first_given = true;

@@ -25,8 +25,8 @@ std::uint64_t id_of(const ClimberSight& sight, Entity entity) {
 
 std::optional<RayHit> look(const ClimberSight& sight, Entity player, const Vec3& from_ws,
                            const Vec3& to_ws) {
-    const std::array<std::uint64_t, 1> himself = {id_of(sight, player)};
-    return sight.collision.cast_ray(from_ws, to_ws, himself);
+    const std::array<std::uint64_t, 1> own_id = {id_of(sight, player)};
+    return sight.collision.cast_ray(from_ws, to_ws, own_id);
 }
 
 // The body with this id; null for a player's head. Searches only the bodies, because a world has
@@ -287,8 +287,8 @@ std::optional<ClimberHold> find_shore(const ClimberSight& sight, Entity player, 
         }
     }
     if (id == 0) {
-        const std::array<std::uint64_t, 1> himself = {id_of(sight, player)};
-        const auto near = sight.collision.closest_point(from_ws, k_all_m, himself);
+        const std::array<std::uint64_t, 1> own_id = {id_of(sight, player)};
+        const auto near = sight.collision.closest_point(from_ws, k_all_m, own_id);
         if (!near) {
             return std::nullopt;
         }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double k_between_lines_s = 0.1;
 constexpr auto k_retry_interval = std::chrono::milliseconds(500);
-constexpr int k_max_attempts = 60;
+constexpr int k_max_find_attempts = 60;
 
 double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(now_ns() - begin_ns);
@@ -88,7 +88,7 @@ class HeadsetLoop {
     bool find_again(std::string& why_not) {
         std::fprintf(stderr, "the headset's runtime is lost; looking for it\n");
         ++figures_.losses;
-        for (int i = 0; i < k_max_attempts && !ends_; ++i) {
+        for (int i = 0; i < k_max_find_attempts && !ends_; ++i) {
             headset_.reset();
             std::this_thread::sleep_for(k_retry_interval);
             look_around();

@@ -14,7 +14,7 @@ namespace handhold {
 namespace {
 
 constexpr double k_max_time_s = 1e9;
-constexpr double k_max_coordinate_m = 1e6;
+constexpr double k_max_recorded_m = 1e6;
 constexpr double k_max_buttons = 65535.0;
 constexpr double k_length_tolerance = 1e-2;
 // A quaternion this near to unit length is not normalised. That could change its last bits, but a
@@ -73,7 +73,7 @@ class RowReader {
             }
         }
         for (std::size_t i = begin; i < begin + 3; ++i) {
-            if (!check(i, std::abs(cells[i]) <= k_max_coordinate_m, "a coordinate within 1e6 m",
+            if (!check(i, std::abs(cells[i]) <= k_max_recorded_m, "a coordinate within 1e6 m",
                        cells)) {
                 return false;
             }
