@@ -35,7 +35,7 @@ HH_INLINE void write_axes(Bodies4& bodies) {
     assign(axes.y, bodies.axes.y);
     assign(axes.z, bodies.axes.z);
 }
-// An end's contribution to its triad's residual; also updates its arm.
+// Contribution of four ends to the residuals of their triads. Also updates the ends' arms.
 HH_INLINE Wide3 part_of(const Bodies4& bodies, Ends4& end) {
     const Wide3 arm = rotate(bodies.axes, end.point_bs);
     assign(arm, end.arm);
@@ -95,7 +95,7 @@ HH_INLINE double worst_square(const TriadArrays& arrays) {
 
 // --- Inertia -----------------------------------------------------------------------------------
 
-// A diagonal matrix given in body axes, in world axes.
+// Converts a diagonal matrix from body axes to world axes.
 HH_INLINE WideSymmetric to_world(const WideAxes& axes, const Wide3& diagonal) {
     const Wide3 x = diagonal.x * axes.x;
     const Wide3 y = diagonal.y * axes.y;
@@ -121,8 +121,9 @@ HH_INLINE WideSymmetric inverse_of(const WideSymmetric& m, const Double4& times)
             factor * (m.xy * m.xz - m.xx * m.yz)};
 }
 
-// (I + stiffness)^-1. Works on I times the product of its inverse moments, which needs one division
-// at the end instead of three at the start.
+// (I + stiffness)^-1; I: inertia in world axes. 0 if the body cannot rotate. Both terms are first
+// multiplied by the product of the inverse moments, which takes one division at the end instead of
+// three at the start.
 HH_INLINE WideSymmetric inverse_with_stiffness(const Bodies4& bodies,
                                                const WideSymmetric& stiffness) {
     const Wide3& in = bodies.inverse_inertia_bs;
@@ -151,8 +152,8 @@ HH_INLINE void add_outer(const Wide3& v, const Double4& factor, WideSymmetric& o
     out.yz += scaled.y * v.z;
 }
 
-// out += positive_stiffness(force, arm, +1). The arm of b's ends is reversed, which amounts to the
-// sign -1.
+// out += positive_stiffness(force, arm, +1) (newton/geometric_stiffness.hpp). At b's ends the arm
+// points the other way, which has the effect of sign -1.
 HH_INLINE void add_stiffness(const Wide3& force, const Wide3& arm, WideSymmetric& out) {
     constexpr double k_min_ratio = 1e-12;
     const Double4 zero = zero4();
@@ -225,7 +226,8 @@ HH_INLINE void write_row(const Wide3& row, const TriadPlan::Pair& pair, int plac
     }
 }
 
-// Rotational part of the rows of J W of an end. Rows of J: arm x e_k, or lever * e_k.
+// Rotational part of J W at one end, three rows. The rows of J are arm x e_k (point triads) or
+// lever * e_k (angular triads); e_k: unit vector along world axis k.
 template <bool HasTurn>
 HH_INLINE void write_side(const WideSymmetric& w, const Ends4& end, Wide3* side) {
     const Wide3 x{w.xx, w.xy, w.xz};
