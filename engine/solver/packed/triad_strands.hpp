@@ -107,8 +107,8 @@ HH_INLINE void gather_strand_stiffness(const TriadArrays& arrays) {
         const StrandPackArrays of = part_of(strand_pack, arrays);
         for (std::size_t row = arrays.windows[i].begin; row < arrays.windows[i].end; ++row) {
             WideSymmetric sum{zero, zero, zero, zero, zero, zero};
-            add_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
-            add_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
+            add_positive_stiffness(of.multipliers[row], of.ends[2 * row].arm, sum);
+            add_positive_stiffness(of.multipliers[row + 1], of.ends[2 * row + 1].arm, sum);
             assign(sum, arrays.stiffness[strand_pack.row + row]);
         }
     }
