@@ -12,7 +12,7 @@ std::uint64_t read_size(const JsonValue& value, std::int64_t low) {
 
 std::uint64_t read_offset(const JsonValue& value) { return value.exists() ? read_size(value) : 0; }
 
-std::vector<int> read_indices(const JsonValue& array) {
+std::vector<int> read_index_array(const JsonValue& array) {
     std::vector<int> indices;
     for (const JsonValue& index : array.optional_items()) {
         indices.push_back(read_index(index));

@@ -25,7 +25,7 @@ std::uint64_t read_size(const JsonValue& value, std::int64_t low = 0);
 // An offset in bytes; 0 if it is absent.
 std::uint64_t read_offset(const JsonValue& value);
 // The indices of an array; empty if it is absent.
-std::vector<int> read_indices(const JsonValue& array);
+std::vector<int> read_index_array(const JsonValue& array);
 // Indices of accessors by attribute name; empty if the object is absent.
 std::map<std::string, int> read_attributes(const JsonValue& object);
 // The numbers of an array, which must have `count` elements. Empty if the array is absent.

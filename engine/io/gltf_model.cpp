@@ -196,7 +196,7 @@ void ModelParser::parse_nodes() {
         node.is_synthetic = read_synthetic(value);
         node.mesh = read_index(value["mesh"]);
         node.skin = read_index(value["skin"]);
-        node.children = read_indices(value["children"]);
+        node.children = read_index_array(value["children"]);
         node.local = parse_transform(value);
         node.numbers = parse_extras(value["extras"]);
         if (const JsonValue instancing = extension_of(value, k_instancing); instancing.exists()) {
@@ -210,14 +210,14 @@ void ModelParser::parse_skins() {
     for (const JsonValue& value : root_["skins"].optional_items()) {
         value["joints"].items();  // required
         model_.skins.push_back(
-            {read_indices(value["joints"]), read_index(value["inverseBindMatrices"])});
+            {read_index_array(value["joints"]), read_index(value["inverseBindMatrices"])});
     }
 }
 
 void ModelParser::parse_scenes() {
     model_.scene = read_index(root_["scene"]);
     for (const JsonValue& value : root_["scenes"].optional_items()) {
-        model_.scenes.push_back(read_indices(value["nodes"]));
+        model_.scenes.push_back(read_index_array(value["nodes"]));
     }
 }
 

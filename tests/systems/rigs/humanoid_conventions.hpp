@@ -5,15 +5,15 @@
 // Joint names, hierarchies and axes of public conventions for humanoid rigs.
 namespace handhold::test {
 
-// Which way a convention's joints turn their own axes.
+// Orientation of the joints' own axes in a convention.
 enum class JointAxes { world, y_along, x_along, x_along_mirrored };
 
-// One joint. '*' stands for the side: the joint is made twice.
+// One joint. "*" stands for the side: a left and a right joint are made.
 struct HumanoidJoint {
     const char* name;
     const char* parent;   // "": the root
     const char* place;    // "upper_arm" or, halfway to its end, "upper_arm/0.5"
-    bool is_bone = true;  // the joint that a body rig takes for the bone of that place
+    bool is_bone = true;  // true: a body rig must find the bone of `place` at this joint
 };
 struct HumanoidConvention {
     const char* name;
