@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
 // Statistics of one frame: stage times, counters, and every fallback with its reason. Not state.
@@ -51,8 +54,12 @@ enum class Fallback : std::uint8_t {
     grip_lost,        // tracking returned with the hand open: let go without a throw
     grip_body_gone,   // the gripped body was destroyed: let go
     grip_reanchored,  // tracking returned or the other hand let go: anchor set to where the hand is
-    two_hand_grip_ended,  // one of two hands let go: no throw
-    hands_too_close,      // two hands at one point of a free body: only the first hand drives it
+    two_hand_grip_ended,   // one of two hands let go: no throw
+    hands_too_close,       // two hands at one point of a free body: only the first hand drives it
+    grab_refused_by_rule,  // all that is in reach refuses the hand: GrabRule or GrabLayers
+    grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
+    grip_needs_two_hands,  // one of both hands left such a body: the other lets go
+    grip_ended_by_host,    // a GrabOrder
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
     contacts_contradict,       // hand rows were dropped so that contacts could be met
@@ -98,6 +105,14 @@ struct MomentumLedger {
                                                     Vec3::Zero()};
 };
 
+// A hand that did not grip, or let go without its button, and why: with `reason` counted. `body`
+// may be null.
+struct HandNote {
+    Entity hand;
+    Entity body;
+    Fallback reason = Fallback::count;
+};
+
 struct StageStats {
     std::array<std::uint64_t, static_cast<std::size_t>(Fallback::count)> fallbacks{};
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_us{};  // times, this frame
@@ -114,7 +129,19 @@ struct StageStats {
     double joint_error_rad = 0.0;         // worst joint: direction or angle limit violation
     double hand_error_m = 0.0;            // largest distance between a hand and its anchor
     MomentumLedger ledger;
+    std::vector<HandNote> hand_notes;  // in the order in which they happened
 
+    // Empties everything; keeps the memory of the notes.
+    void clear() {
+        std::vector<HandNote> notes = std::move(hand_notes);
+        *this = {};
+        notes.clear();
+        hand_notes = std::move(notes);
+    }
+    void note(Fallback reason, Entity hand, Entity body) {
+        count(reason);
+        hand_notes.push_back({hand, body, reason});
+    }
     void count(Fallback reason) { ++fallbacks[static_cast<std::size_t>(reason)]; }
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "components/arm.hpp"
 #include "components/authored_grip.hpp"
@@ -32,6 +34,7 @@ struct World {
     EntityPool entities;
     FrameClock clock;
     Vec3 reference_velocity_mps = Vec3::Zero();  // the scene's, world
+    Vec3 gravity_mps2 = Vec3::Zero();            // of free bodies, world; players float
     Column<PersistentId> persistent_id;          // every entity
 
     Column<RigidBody> body;
@@ -42,6 +45,10 @@ struct World {
     Column<Mover> mover;                   // kinematic bodies with a constant twist
     Column<PathMover> path_mover;          // kinematic bodies on closed paths
     Column<LegMover> leg_mover;            // kinematic bones of legs of path movers
+    Column<MoveTarget> move_target;        // kinematic bodies that a host moves
+    Column<GravityScale> gravity_scale;    // bodies whose scale is not 1
+    Column<CollisionFilter> filter;        // bodies and players with layers of their own
+    Column<GrabRule> grab_rule;            // bodies that not every hand may grip
     Column<LastValidPose> last_valid;      // free bodies and players
     Column<AuthoredGrips> authored_grips;  // bodies with authored grips
 
@@ -78,10 +85,15 @@ struct World {
         controller_to_hand;  // only hands with their own controller-to-hand joint; else Tuning's
     Column<AuthoredHold> authored_hold;  // only hands in an authored grip
     Column<HandPull> hand_pull;          // only hands that pull a body from a distance
+    Column<EarlySample> early_sample;    // only players with a sample of after the last frame
+    Column<GrabLayers> grab_layers;      // only players whose hands do not grip everything
+    Column<GrabOrder> grab_order;        // only hands with an order for the next frame
+    Column<HandRigChoice> hand_rig;      // only hands with a rig of their own
 
     // Caches over persistent_id and joint, kept by the functions below. Not state.
     EntityById entity_by_id;
     JointsByBody joints_by_body;
+    std::unordered_map<std::uint64_t, std::string> name_of_id;  // by persistent id
 };
 
 // Calls visit(name, column) for every column. The only list of columns: hashing, destroying and
@@ -97,6 +109,10 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("mover", world.mover);
     visit("path_mover", world.path_mover);
     visit("leg_mover", world.leg_mover);
+    visit("move_target", world.move_target);
+    visit("gravity_scale", world.gravity_scale);
+    visit("filter", world.filter);
+    visit("grab_rule", world.grab_rule);
     visit("last_valid", world.last_valid);
     visit("authored_grips", world.authored_grips);
     visit("joint", world.joint);
@@ -129,6 +145,10 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("controller_to_hand", world.controller_to_hand);
     visit("authored_hold", world.authored_hold);
     visit("hand_pull", world.hand_pull);
+    visit("early_sample", world.early_sample);
+    visit("grab_layers", world.grab_layers);
+    visit("grab_order", world.grab_order);
+    visit("hand_rig", world.hand_rig);
 }
 
 // Largest numbers that the add_ functions take. With them no frame computes a number that a
@@ -137,6 +157,7 @@ namespace world_limits {
 constexpr double k_max_coordinate_m = 1e9;  // of each axis
 constexpr double k_max_speed_mps = 1e6;
 constexpr double k_max_spin_radps = 1e4;
+constexpr double k_max_gravity_mps2 = 1e4;  // of each axis
 constexpr double k_min_mass_kg = 1e-12;
 constexpr double k_max_mass_kg = 1e15;
 constexpr double k_min_inertia_kgm2 = 1e-24;
@@ -200,5 +221,9 @@ void sync_index(World& world);
 
 // k_no_entity if no entity has the id. Constant cost.
 Entity find_by_id(const World& world, PersistentId id);
+Entity find_by_name(const World& world, std::string_view name);
+// The name that the entity was added with; empty for a stale handle, and for an entity that came
+// with a snapshot and was never added here. Valid until an entity is added or destroyed.
+std::string_view name_of(const World& world, Entity entity);
 
 }  // namespace handhold

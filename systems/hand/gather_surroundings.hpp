@@ -33,6 +33,9 @@ struct GatherSurroundingsIo {
     // In. HandSurroundings::authored points into it, so it must not change until hands are posed.
     const Column<AuthoredHold>& authored_hold;
     std::vector<HandSurroundings>& surroundings;  // out: one per row of `owner`, in its order
+    // In: hands with a rig of their own, and these rigs. Null, or an index beyond: `rigs`.
+    const Column<HandRigChoice>* rig_choice = nullptr;
+    std::span<const HandRig> more_rigs = {};
 };
 
 // Collects, for each hand, its wrist pose and the surfaces near it, in the gripped body's frame.
