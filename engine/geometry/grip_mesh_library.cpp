@@ -20,7 +20,8 @@ std::size_t work_of(const Shape& shape) {
     return shape.kind == ShapeKind::mesh ? shape.mesh->triangles.size() : 1000;
 }
 
-// Larger round shapes would be tessellated too coarsely to grip, or into too many triangles.
+// Round shapes above this size would be tessellated too coarsely to grip, or into too many
+// triangles.
 bool is_too_large(const Shape& shape) {
     constexpr double k_largest_m = 64.0;
     const bool may_be_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule ||
