@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "engine/core/check.hpp"
+#include "engine/geometry/grip_mesh_library.hpp"
 #include "tests/engine/collision/scene.hpp"
 
 namespace handhold::streaming_shapes_test {
