@@ -11,22 +11,45 @@ namespace {
 
 constexpr double k_max_position_m = 1e7;
 
+// Removes a shape that was not published because something failed on the way.
+class Unpublished {
+  public:
+    Unpublished(hh_world& host, ShapeId id) : host_(host), id_(id) {}
+    ~Unpublished() {
+        if (!is_published_) {
+            host_.grip_meshes.remove(host_.shapes, id_);
+            host_.shapes.remove(id_);
+            host_.may_recycle_shapes = true;
+        }
+    }
+    Unpublished(const Unpublished&) = delete;
+    Unpublished& operator=(const Unpublished&) = delete;
+    void publish() { is_published_ = true; }
+
+  private:
+    hh_world& host_;
+    ShapeId id_;
+    bool is_published_ = false;
+};
+
 // Makes the id, and prepares the shape for collision and hands.
 hh_shape publish_shape(hh_world& host, ShapeId id, const Pose& frame, bool is_moved,
                        std::shared_ptr<const GripMesh> grip = nullptr) {
+    Unpublished shape_of_host(host, id);
     if (id.index >= host.host_shapes.size()) {
         host.host_shapes.resize(std::size_t{id.index} + 1);
     }
-    HostShape& shape = host.host_shapes[id.index];
-    ++shape.generation;
-    shape.frame = frame;
-    shape.is_moved = is_moved;
     if (grip != nullptr) {
         host.grip_meshes.insert(host.shapes, id, std::move(grip));
     } else if (host.settings.fits_hands && host.shapes.at(id).kind != ShapeKind::mesh) {
         host.grip_meshes.add(host.shapes, std::array{id});
     }
     host.caches.collision.update_shapes();
+    shape_of_host.publish();
+    HostShape& shape = host.host_shapes[id.index];
+    ++shape.generation;
+    shape.frame = frame;
+    shape.is_moved = is_moved;
     return {id.index, shape.generation};
 }
 
@@ -41,11 +64,11 @@ hh_result add_shape(hh_world* world, hh_shape* shape, const Add& add) {
 
 // Hulls and compounds: the library's frame is at the centre of mass, along the principal axes.
 hh_shape publish_centred(hh_world& host, ShapeId id) {
+    Unpublished original(host, id);
     const CentredShape centred = host.shapes.add_centred(id);
     const bool is_moved = centred.shape != id;
-    if (is_moved) {
-        host.shapes.remove(id);
-        host.may_recycle_shapes = true;
+    if (!is_moved) {
+        original.publish();
     }
     return publish_shape(host, centred.shape, centred.frame, is_moved);
 }
@@ -232,6 +255,7 @@ hh_result hh_shape_remove(hh_world* world, hh_shape shape) {
 
 bool hh_shape_is_valid(const hh_world* world, hh_shape shape) {
     return world != nullptr && shape.generation != 0 && world->shapes.has({shape.index}) &&
+           shape.index < world->host_shapes.size() &&
            world->host_shapes[shape.index].generation == shape.generation;
 }
 

@@ -16,7 +16,7 @@ ShapeId shape_of(const hh_world& host, hh_shape shape) {
     if (shape.generation == 0) {
         return k_no_shape;
     }
-    require(host.shapes.has({shape.index}) &&
+    require(host.shapes.has({shape.index}) && shape.index < host.host_shapes.size() &&
                 host.host_shapes[shape.index].generation == shape.generation,
             HH_ERROR_HANDLE, "no shape with this id");
     return {shape.index};

@@ -50,7 +50,7 @@ int main() {
     hh_body_def ball = hh::body_def();
     ball.kind = HH_DYNAMIC;
     ball.shape = *world.add_sphere(0.2);
-    ball.pose.position = {200.0, 2.0, 200.0};
+    ball.pose.position = {200.0, 4.0, 200.0};
     ball.velocity_mps = {0.0, -3.0, 0.0};
     const hh::Body ball_id = *world.add(ball);
     if (!world.step(1.0 / 90.0)) {

@@ -24,6 +24,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/handholdConfigVersi
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/handholdConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/handholdConfigVersion.cmake
   tools/cmake/runtime_dependencies.cmake DESTINATION ${handhold_package_dir} COMPONENT dev)
 
+file(RELATIVE_PATH handhold_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 set(handhold_pc_static "-lhandhold_runtime -lbox2d -lmeshoptimizer -lBulletCollision-float64 -lLinearMath-float64 -ltbb -lstdc++ -lm")
 if(HANDHOLD_HAS_DRACO)
   string(REPLACE "-lmeshoptimizer" "-lmeshoptimizer -ldraco" handhold_pc_static "${handhold_pc_static}")
