@@ -243,11 +243,13 @@ void add_touch_events(hh_world& host) {
     }
 }
 
-bool is_at_limit(const Joint& joint, const JointState& state) {
-    constexpr double k_near = 1e-4;  // rad or m
+// A joint that came to its limit rests a little before it.
+bool is_at_limit(const Joint& joint, const JointState& state, bool was_at_limit) {
+    const double near_limit = was_at_limit ? 1e-2 : 5e-3;  // rad or m
     const bool has_limits = joint.limited || joint.kind == JointKind::distance;
     return has_limits && joint.kind != JointKind::fixed && joint.lower < joint.upper &&
-           (state.coordinate <= joint.lower + k_near || state.coordinate >= joint.upper - k_near);
+           (state.coordinate <= joint.lower + near_limit ||
+            state.coordinate >= joint.upper - near_limit);
 }
 
 // The hand that grips one of the joint's bodies, if any does.
@@ -268,8 +270,9 @@ void update_joint_reports(hh_world& host, bool makes_events) {
         const Entity entity = host.world.joint.owners()[row];
         const Joint& joint = host.world.joint.rows()[row];
         const JointState& state = host.world.joint_state.at(entity);
-        const JointReport now{state.latched, is_at_limit(joint, state)};
-        JointReport* known = host.joints.find(entity);
+        JointReport* const known = host.joints.find(entity);
+        const bool was_at_limit = known != nullptr && known->at_limit;
+        const JointReport now{state.latched, is_at_limit(joint, state, was_at_limit)};
         if (known == nullptr) {
             host.joints.add(entity, now);
             continue;

@@ -164,7 +164,7 @@ TEST(HostGrabRules, HigherPriorityIsTakenFirst) {
     scene.add_wall();
     hh_body_def handle = hh::body_def();
     handle.shape = *scene.world.add_box({0.02, 0.02, 0.02});
-    handle.pose.position = {0.2, 1.33, -0.47};
+    handle.pose.position = {0.2, 1.42, -0.47};
     handle.grab_priority = 5;
     const hh::Body wanted = *scene.world.add(handle);
     scene.closed[HH_RIGHT] = true;
