@@ -351,7 +351,8 @@ void visit_tuning(TuningType& t, Visit&& visit) {
         "Constraint error above which Newton steps include geometric stiffness (forces turning "
         "with their levers).");
     see("solver.load_stepping_from_m", t.solver.load_stepping_from_m, "m", 0.0, 1e6,
-        "Error reduction above which an unconverged solve is repeated by load stepping the hands.");
+        "A solve that runs out of iterations after reducing the hands' error by more than this is "
+        "repeated by load stepping: the hands' targets move in steps.");
     see("solver.friction_passes", t.solver.friction_passes, "", 1.0, 100.0,
         "Maximum number of velocity solves to decide which contacts stick and which slip.");
     visit_body_tuning(t, see);

@@ -24,12 +24,12 @@ struct FrameInput {
     std::span<const PlayerInput> players;  // any subset of the world's players
 };
 
-// What a frame keeps outside the world: caches, and the assets they are built from. Caches may be
-// dropped before any frame; that changes no bit of the next.
+// Data that frames keep outside the world: caches, and the assets that they are built from. Caches
+// may be dropped before any frame; no bit of a result changes.
 struct FrameCaches {
     // `shapes` must outlive the caches and contain every shape of the world's colliders.
-    // `grip_meshes`, to which hands are fitted, must outlive them too. Without it, or for a shape
-    // it lacks, hands are shown as tracked.
+    // `grip_meshes` has the meshes that hands are fitted to, and must outlive the caches too. Hands
+    // are shown as tracked without it, and on shapes that it lacks.
     explicit FrameCaches(const ShapeLibrary& library, const GripMeshLibrary* grip_meshes = nullptr)
         : shapes(&library), collision(library), meshes_for_hands(grip_meshes) {}
 
@@ -58,8 +58,9 @@ void step_frame(World& world, FrameCaches& caches, const Tuning& tuning, const F
 void step_pose_only(World& world, FrameCaches& caches, const Tuning& tuning,
                     const FrameInput& input, StageStats& stats);
 
-// Hash of all columns by persistent id: independent of slots, creation order, thread count, build
-// and compiler.
+// Hash of all columns, the clock, the reference velocity and, unless it is zero, gravity.
+// Identifies rows by persistent id, so it is independent of slots, creation order, thread count,
+// build and compiler.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace handhold

@@ -133,8 +133,8 @@ class CollisionWorld {
     // kept.
     void find_contacts(const ContactLimits& limits, std::vector<ContactPoint>& contacts);
 
-    // First surface that the segment hits, from outside or inside. Colliders are at to_ws. Ignores
-    // the ids in `skip`.
+    // First surface that the segment hits, from outside or inside. Colliders are at their end poses
+    // (ColliderProxy::to_ws). Ignores the ids in `skip`.
     std::optional<RayHit> cast_ray(const Vec3& from_ws, const Vec3& to_ws,
                                    std::span<const std::uint64_t> skip = {}) const;
     // First impact of a sphere moving along a segment. distance_m: how far the sphere's centre has

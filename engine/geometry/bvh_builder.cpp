@@ -9,7 +9,8 @@
 namespace handhold {
 namespace {
 
-constexpr std::uint32_t k_leaf = 4;  // largest leaf; size of one leaf when a small set is split
+// Largest leaf, in triangles. A set of at most two leaves is split into a full leaf and the rest.
+constexpr std::uint32_t k_leaf = 4;
 // Deeper sets are split in halves, which limits the query stack.
 constexpr std::uint32_t k_planned_depth = 30;
 constexpr double k_padding = 0x1p-22;  // of boxes, per size of the mesh: four float roundings

@@ -201,8 +201,8 @@ Scene make_ship_scene() {
     rock.shape = scene.shapes->add_sphere(k_rock_radius_m);
     rock.body = {BodyKind::free, k_rock_mass_kg,
                  solid_inertia(scene.shapes->at(rock.shape), k_rock_mass_kg), 0.3};
-    // The rock moves in a straight line while the ship turns. It starts where it will meet the
-    // hand, in the turning ship, at k_pick_s.
+    // The rock flies along with the ship but does not turn with it. It starts, relative to the
+    // ship's origin, where the turning ship will bring the hand at k_pick_s.
     rock.pose_ws.position = rotation_from_vector(spin * k_pick_s) * k_rock_place;
     rock.velocity = {velocity, Vec3::Zero()};
     const Entity entity = add_body(scene.world, rock, *scene.shapes);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double k_sample_hz = 90.0;
 constexpr double k_lift_m = 0.07;       // height of a moving hand above the surface
-constexpr double k_rest_after_s = 0.7;  // time to lower an idle hand
+constexpr double k_rest_after_s = 0.7;  // duration of an idle hand's way down to its rest pose
 
 Vec3 eyes_at(const std::vector<ScriptedBody>& body, double t_s) {
     const auto next = std::find_if(body.begin(), body.end(),

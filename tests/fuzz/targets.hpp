@@ -17,7 +17,6 @@ void run_recording(Bytes bytes);
 void run_tuning(Bytes bytes);
 void run_shots(Bytes bytes);
 void run_station(Bytes bytes);     // a station's description
-void run_grip(Bytes bytes);        // an authored grip's .glb
 void run_controller(Bytes bytes);  // a controller's profile
 void run_csv(Bytes bytes);         // a table of the lab
 // The first byte selects the meaning of the rest: 0 patches of a valid snapshot, 1 a payload, 2 a

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Target{"scene", fuzz::run_scene}, Target{"gltf", fuzz::run_gltf},
                     Target{"recording", fuzz::run_recording}, Target{"tuning", fuzz::run_tuning},
                     Target{"shots", fuzz::run_shots}, Target{"snapshot", fuzz::run_snapshot},
-                    Target{"station", fuzz::run_station}, Target{"grip", fuzz::run_grip},
+                    Target{"station", fuzz::run_station},
                     Target{"controller", fuzz::run_controller}, Target{"csv", fuzz::run_csv}));
 
 }  // namespace
