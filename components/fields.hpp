@@ -115,6 +115,38 @@ void visit_fields(const JointLatch& c, V&& visit) {
     visit("handle_at", c.handle_at);
 }
 template <typename V>
+void visit_fields(const MoveTarget& c, V&& visit) {
+    visit("pose_ws", c.pose_ws);
+}
+template <typename V>
+void visit_fields(const GravityScale& c, V&& visit) {
+    visit("scale", c.scale);
+}
+template <typename V>
+void visit_fields(const CollisionFilter& c, V&& visit) {
+    visit("layers", c.layers);
+    visit("mask", c.mask);
+}
+template <typename V>
+void visit_fields(const GrabRule& c, V&& visit) {
+    visit("left", c.left);
+    visit("right", c.right);
+    visit("two_hands", c.two_hands);
+    visit("priority", c.priority);
+}
+template <typename V>
+void visit_fields(const GrabLayers& c, V&& visit) {
+    visit("layers", c.layers);
+}
+template <typename V>
+void visit_fields(const GrabOrder& c, V&& visit) {
+    visit("body", c.body);
+}
+template <typename V>
+void visit_fields(const HandRigChoice& c, V&& visit) {
+    visit("index", c.index);
+}
+template <typename V>
 void visit_fields(const Joint& c, V&& visit) {
     visit("kind", c.kind);
     visit("a", c.a);
@@ -212,6 +244,15 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("sample_t_s", c.sample_t_s);
     visit("state", c.state);
     visit("shift_m", c.shift_m);
+}
+template <typename V>
+void visit_fields(const EarlySample& c, V&& visit) {
+    visit("t_s", c.t_s);
+    visit("head_ps", c.head_ps);
+    visit("controllers_ps", c.controllers_ps);
+    visit("head_tracked", c.head_tracked);
+    visit("tracked", c.tracked);
+    visit("grab", c.grab);
 }
 template <typename V>
 void visit_fields(const HeadIgnores& c, V&& visit) {

@@ -67,6 +67,27 @@ struct Grab {
     bool jointed = false;
 };
 
+// Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.
+struct GrabRule {
+    bool left = true;
+    bool right = true;
+    bool two_hands = false;  // only by both hands of one player at once
+    // Of the bodies in reach of a closing hand, one of highest priority is gripped; 0: none set.
+    std::int32_t priority = 0;
+};
+
+// Layers of the bodies that a player's hands grip. A player without one grips all. Written by the
+// host.
+struct GrabLayers {
+    std::uint32_t layers = ~0U;
+};
+
+// A host's order to a hand: grip `body` (a body, or another player's head) wherever the hand is, or
+// let go without a throw if it is null. Carried out and removed by update_grabs in the next frame.
+struct GrabOrder {
+    Entity body = k_no_entity;
+};
+
 // Distance grab: the free body that a closed, empty hand pulls towards itself. Only pulling hands
 // have this component. Written by pull_bodies; read by update_grabs.
 struct HandPull {

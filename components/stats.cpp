@@ -82,6 +82,14 @@ const char* name_of(Fallback reason) {
             return "two_hand_grip_ended";
         case Fallback::hands_too_close:
             return "hands_too_close";
+        case Fallback::grab_refused_by_rule:
+            return "grab_refused_by_rule";
+        case Fallback::grab_needs_two_hands:
+            return "grab_needs_two_hands";
+        case Fallback::grip_needs_two_hands:
+            return "grip_needs_two_hands";
+        case Fallback::grip_ended_by_host:
+            return "grip_ended_by_host";
         case Fallback::contact_rounds_exhausted:
             return "contact_rounds_exhausted";
         case Fallback::contacts_contradict:

@@ -142,6 +142,9 @@ void walk_globals(const World& world, Visitor& visitor) {
     visitor.enter("reference_velocity_mps");
     walk_field(world.reference_velocity_mps, visitor);
     visitor.leave();
+    visitor.enter("gravity_mps2");
+    walk_field(world.gravity_mps2, visitor);
+    visitor.leave();
 }
 
 }  // namespace handhold

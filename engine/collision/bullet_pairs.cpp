@@ -17,6 +17,9 @@ bool CollisionWorld::Impl::is_pair(const BroadphaseBody& a, const BroadphaseBody
     if (b.proxy.free && a.proxy.id >= b.proxy.id) {
         return false;  // two free bodies form one pair, found from the lower id
     }
+    if ((a.proxy.layers & b.proxy.mask) == 0 || (b.proxy.layers & a.proxy.mask) == 0) {
+        return false;
+    }
     const auto [low, high] = std::minmax(a.proxy.id, b.proxy.id);
     return !std::binary_search(ignored.begin(), ignored.end(), IgnoredPair{low, high});
 }

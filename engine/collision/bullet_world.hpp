@@ -1,5 +1,10 @@
 #pragma once
 
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "engine/collision/bullet_broadphase.hpp"
 #include "engine/collision/bullet_triangle_tree.hpp"
 #include "engine/collision/pair_cache.hpp"
@@ -26,7 +31,10 @@ struct BodyPairs {
 constexpr double k_isolation_reach_m = 0.3;
 
 struct CollisionWorld::Impl {
-    explicit Impl(const ShapeLibrary& library);
+    explicit Impl(const ShapeLibrary& library) : shapes(library) { update_shapes(); }
+
+    void update_shapes();
+    std::shared_ptr<const TriangleTree> tree_of(const std::shared_ptr<const Mesh>& mesh);
 
     void check(std::span<const ColliderProxy> proxies) const;
     bool is_pair(const BroadphaseBody& a, const BroadphaseBody& b) const;
@@ -51,6 +59,9 @@ struct CollisionWorld::Impl {
     const ShapeLibrary& shapes;
     std::vector<CollisionShape> cache;  // by shape index
     std::vector<ShapeExtent> extents;   // by shape index
+    std::uint64_t shapes_revision = 0;  // of the library, when `cache` was brought up to date
+    // Shapes of one mesh share its tree. The mesh itself is kept alive by its shapes.
+    std::map<const Mesh*, std::weak_ptr<const TriangleTree>> trees;
     Broadphase broadphase;
     std::vector<IgnoredPair> ignored;
     // Scratch of find_contacts.

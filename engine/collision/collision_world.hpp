@@ -21,6 +21,10 @@ struct ColliderProxy {
     // Current pose. Contacts are computed here, or at the first impact on the motion from from_ws.
     Pose to_ws;
     bool free = false;  // two non-free colliders never make contacts
+    // Two colliders make contacts only if each one's layers meet the other's mask. Queries find
+    // colliders of all layers.
+    std::uint32_t layers = 1;
+    std::uint32_t mask = ~0U;
 };
 // Bitwise equal.
 inline bool same_pose(const Pose& x, const Pose& y) {
@@ -28,8 +32,8 @@ inline bool same_pose(const Pose& x, const Pose& y) {
 }
 // True if replacing one proxy by the other cannot change a contact.
 inline bool same_proxy(const ColliderProxy& a, const ColliderProxy& b) {
-    return a.id == b.id && a.shape == b.shape && a.free == b.free &&
-           same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
+    return a.id == b.id && a.shape == b.shape && a.free == b.free && a.layers == b.layers &&
+           a.mask == b.mask && same_pose(a.from_ws, b.from_ws) && same_pose(a.to_ws, b.to_ws);
 }
 
 // A pair of colliders that makes no contacts, e.g. two bodies connected by a joint.
@@ -76,16 +80,29 @@ struct SurfacePoint {
     double distance_m = 0.0;  // 0 inside a solid; point_ws is on the surface there too
 };
 
+// The BVH of a mesh. Keeps a reference to the mesh, which must outlive it. Any thread.
+class TriangleTree;
+std::shared_ptr<const TriangleTree> build_triangle_tree(const Mesh& mesh);
+
 // The collision state of a set of proxies. A cache, not simulation state: a new world with the same
 // proxies gives bitwise the same answers. The const queries are thread-safe. No other member may be
 // called while any call is running.
 class CollisionWorld {
   public:
-    // Builds the BVH of every mesh. `shapes` must outlive the world and not change.
+    // Builds the BVH of every mesh. `shapes` must outlive the world.
     explicit CollisionWorld(const ShapeLibrary& shapes);
     ~CollisionWorld();
     CollisionWorld(const CollisionWorld&) = delete;
     CollisionWorld& operator=(const CollisionWorld&) = delete;
+
+    // Builds what shapes that were added since the last call need, and drops what removed ones
+    // needed. set_proxies calls it too; a host that calls it first chooses when a mesh's BVH is
+    // built. Costs nothing if the library is unchanged, else a look at each id.
+    void update_shapes();
+    // Offers a mesh's BVH that was built elsewhere, for instance on a loading thread. The next
+    // update_shapes uses it if it still exists by then.
+    void offer_tree(const std::shared_ptr<const Mesh>& mesh,
+                    const std::shared_ptr<const TriangleTree>& tree);
 
     // Replaces all proxies. They must be sorted by unique id, and meshes must not be free
     // (PreconditionError). A proxy with an invalid pose (is_valid) is ignored until its poses are
@@ -139,9 +156,5 @@ class CollisionWorld {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-// Number of allocations by the collision library since the process began, for tests. Its allocator
-// is hooked when the first world is created.
-std::uint64_t collision_allocation_count();
 
 }  // namespace handhold

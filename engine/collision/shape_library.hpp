@@ -58,8 +58,8 @@ struct CentredShape {
     Pose frame;
 };
 
-// The shapes of a scene: an asset, built before the first frame and immutable while frames run. Ids
-// count up from 0. Members throw PreconditionError for invalid arguments.
+// The shapes of a scene: an asset, immutable while a frame runs. Shapes may come and go between
+// frames. Ids count up from 0. Invalid arguments throw PreconditionError.
 class ShapeLibrary {
   public:
     // All sizes are in metres, in [1e-3, 1e4].
@@ -81,13 +81,36 @@ class ShapeLibrary {
     // if the shape is already centred. Not for meshes.
     CentredShape add_centred(ShapeId id);
 
+    // Frees the shape's memory. Precondition: no collider has the shape. Compounds keep their own
+    // copies of their parts.
+    void remove(ShapeId id);
+    // Lets the add functions reuse the ids of removed shapes, last removed first. Call it after a
+    // frame has run without them: caches compare colliders by id.
+    void recycle_removed();
+
+    // Throws for a removed shape.
     const Shape& at(ShapeId id) const;
+    bool has(ShapeId id) const { return id.index < shapes_.size() && !slots_[id.index].removed; }
+    // Ids are below this number; some may be removed.
     std::size_t size() const { return shapes_.size(); }
 
+    // Number of changes so far, and the change at which the shape was added or removed: caches
+    // rebuild what is newer than they are.
+    std::uint64_t revision() const { return revision_; }
+    std::uint64_t revision_of(ShapeId id) const { return slots_[id.index].revision; }
+
   private:
+    struct Slot {
+        std::uint64_t revision = 0;
+        bool removed = false;
+    };
     ShapeId add(Shape shape);
     ShapeId add_round(ShapeKind kind, double radius_m, double half_height_m);
     std::vector<Shape> shapes_;
+    std::vector<Slot> slots_;             // parallel to shapes_
+    std::vector<std::uint32_t> removed_;  // not reusable yet
+    std::vector<std::uint32_t> free_;     // reusable
+    std::uint64_t revision_ = 0;
 };
 
 constexpr std::size_t k_max_parts = 64;  // parts of a compound

@@ -10,11 +10,10 @@ class PreconditionError : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
-// Throws PreconditionError: "column.at: no row for this entity (value 7)".
-[[noreturn]] inline void fail_precondition(const char* function, const char* what,
-                                           const std::string& value) {
-    throw PreconditionError(std::string(function) + ": " + what + " (value " + value + ")");
-}
+// Throws PreconditionError: "column.at: no row for this entity (value 7)". Defined in a source, so
+// that headers compile without exceptions.
+[[noreturn]] void fail_precondition(const char* function, const char* what,
+                                    const std::string& value);
 
 }  // namespace handhold
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,10 +34,17 @@ class GripMeshLibrary {
              const GripMeshSettings& settings = {},
              const std::filesystem::path& cache_directory = {});
 
+    // Takes a mesh that was built elsewhere, for instance on a loading thread. Replaces nothing: if
+    // an equal surface has a mesh, that one is used.
+    void insert(const ShapeLibrary& shapes, ShapeId shape, std::shared_ptr<const GripMesh> mesh);
+    // Forgets a shape, and its mesh if no other shape has it. Call it before the shape is removed
+    // from `shapes`. No effect on a shape without a mesh.
+    void remove(const ShapeLibrary& shapes, ShapeId shape);
+
     // Precondition: has(shape).
     const GripMesh& at(ShapeId shape) const;
     bool has(ShapeId shape) const;
-    std::size_t distinct_count() const { return meshes_.size(); }
+    std::size_t distinct_count() const { return mesh_of_surface_.size(); }
     std::size_t memory_bytes() const;
 
   private:
@@ -46,8 +54,15 @@ class GripMeshLibrary {
     static SurfaceKey surface_key(const Shape& shape);
 
     std::map<SurfaceKey, std::uint32_t> mesh_of_surface_;  // index into meshes_
-    std::vector<std::uint32_t> mesh_of_shape_;  // by ShapeId::index; k_no_triangle: no grip mesh
-    std::vector<GripMesh> meshes_;
+    std::vector<std::uint32_t> mesh_of_shape_;             // by ShapeId::index; k_no_triangle: none
+    struct Entry {
+        std::shared_ptr<const GripMesh> mesh;  // null: unused
+        std::uint32_t users = 0;               // shapes
+    };
+    std::vector<Entry> meshes_;
+    std::vector<std::uint32_t> unused_;  // indices into meshes_
+    std::uint32_t new_entry();
+    void use(ShapeId shape, std::uint32_t mesh);
 };
 
 }  // namespace handhold

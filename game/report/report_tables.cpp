@@ -83,6 +83,14 @@ const char* meaning_of(Fallback reason) {
             return "One of two hands let go; nothing was thrown.";
         case Fallback::hands_too_close:
             return "Two hands on one body were too close to turn it; only the first one moved it.";
+        case Fallback::grab_refused_by_rule:
+            return "A hand closed where everything within reach refuses it by a rule or layer.";
+        case Fallback::grab_needs_two_hands:
+            return "One hand closed on a body that only both hands grip; it holds nothing.";
+        case Fallback::grip_needs_two_hands:
+            return "One of both hands left a body that needs two; the other let go.";
+        case Fallback::grip_ended_by_host:
+            return "The host ordered a gripping hand to let go.";
         case Fallback::contact_rounds_exhausted:
             return "New contacts appeared after the last allowed round; they wait for the next "
                    "frame.";

@@ -30,21 +30,92 @@ Entity owner_of_id(const UpdateGrabsIo& io, std::uint64_t id) {
     return k_no_entity;
 }
 
-// Anybody's head may be gripped but one's own.
-std::optional<Surface> find_surface(const UpdateGrabsIo& io, Entity player, const PalmRay& ray,
-                                    const HandTuning& tuning) {
-    const std::array own_head = {io.persistent_id.at(player).value};
-    const auto surface_of = [&io](const auto& found) -> std::optional<Surface> {
-        const Entity body = found ? owner_of_id(io, found->id) : k_no_entity;
-        if (is_null(body)) {
-            return std::nullopt;
-        }
-        return Surface{body, found->point_ws, found->normal_ws};
-    };
-    const auto hit = surface_of(io.collision.cast_ray(ray.from_ws, ray.to_ws, own_head));
-    return hit ? hit
-               : surface_of(io.collision.closest_point(ray.palm_ws, tuning.reach_m, own_head));
+template <typename T>
+const T* find_in(const Column<T>* column, Entity entity) {
+    return column != nullptr ? column->find(entity) : nullptr;
 }
+
+bool may_grip(const UpdateGrabsIo& io, const HandOwner& owner, Entity gripped) {
+    const GrabRule* const rule = find_in(io.rule, gripped);
+    if (rule != nullptr && !(owner.side == HandSide::left ? rule->left : rule->right)) {
+        return false;
+    }
+    const GrabLayers* const wanted = find_in(io.layers, owner.player);
+    if (wanted == nullptr) {
+        return true;
+    }
+    const CollisionFilter* const filter = find_in(io.filter, gripped);
+    return (wanted->layers & (filter != nullptr ? *filter : CollisionFilter{}).layers) != 0;
+}
+
+bool any_priority(const UpdateGrabsIo& io) {
+    return io.rule != nullptr && std::ranges::any_of(io.rule->rows(), [](const GrabRule& rule) {
+               return rule.priority != 0;
+           });
+}
+
+// Looks along the palm's ray and then around the palm, and passes over what refuses the hand.
+// Anybody's head may be gripped but one's own.
+class SurfaceFinder {
+  public:
+    SurfaceFinder(const UpdateGrabsIo& io, const HandOwner& owner)
+        : io_(io), owner_(owner), looks_on_(any_priority(io)) {
+        skip_[0] = io.persistent_id.at(owner.player).value;
+    }
+
+    // nullopt: nothing in reach, or only what refuses the hand: see refused_by.
+    std::optional<Surface> find(const PalmRay& ray, const HandTuning& tuning) {
+        while (offer(io_.collision.cast_ray(ray.from_ws, ray.to_ws, skipped()))) {
+        }
+        while (!is_done() &&
+               offer(io_.collision.closest_point(ray.palm_ws, tuning.reach_m, skipped()))) {
+        }
+        return best_;
+    }
+    Entity refused_by() const { return refused_by_; }
+
+  private:
+    static constexpr std::size_t k_max_skipped = 16;
+
+    std::span<const std::uint64_t> skipped() const { return {skip_.data(), skip_count_}; }
+    bool is_done() const { return best_.has_value() && !looks_on_; }
+
+    // False: there is no sense in looking farther.
+    template <typename Found>
+    bool offer(const Found& found) {
+        if (!found) {
+            return false;
+        }
+        const Entity body = owner_of_id(io_, found->id);
+        if (is_null(body)) {
+            return false;
+        }
+        if (!may_grip(io_, owner_, body)) {
+            refused_by_ = body;
+        } else {
+            const GrabRule* const rule = find_in(io_.rule, body);
+            const std::int32_t priority = rule != nullptr ? rule->priority : 0;
+            if (!best_ || priority > priority_) {
+                best_ = Surface{body, found->point_ws, found->normal_ws};
+                priority_ = priority;
+            }
+        }
+        if (is_done() || skip_count_ == k_max_skipped) {
+            return false;
+        }
+        skip_[skip_count_++] = found->id;
+        return true;
+    }
+
+    const UpdateGrabsIo& io_;
+    const HandOwner& owner_;
+    bool looks_on_;  // past the first surface, for one of higher priority
+    std::array<std::uint64_t, k_max_skipped> skip_{};
+    std::size_t skip_count_ = 1;
+    std::optional<Surface> best_;
+    std::int32_t priority_ = 0;
+    Entity refused_by_ = k_no_entity;
+};
 
 // A grip that a hand may snap to.
 struct Snap {
@@ -107,7 +178,7 @@ class SnapFinder {
         for (std::size_t row = 0; row < io_.authored_grips.size(); ++row) {
             const AuthoredGrips& grips = io_.authored_grips.rows()[row];
             const Entity body = io_.authored_grips.owners()[row];
-            if (!is_null(only) && body != only) {
+            if ((!is_null(only) && body != only) || !may_grip(io_, owner_, body)) {
                 continue;
             }
             for (std::uint8_t i = 0; i < grips.count; ++i) {
@@ -205,40 +276,82 @@ bool is_at_palm(const Surface& surface, const PalmRay& ray) {
     return way.norm() <= k_touches_m || way.dot(ray.to_ws - ray.from_ws) <= 0.0;
 }
 
-void begin_grab(const UpdateGrabsIo& io, Entity entity, const Closing& closing, Grab& grab,
+void start_grab(const UpdateGrabsIo& io, Entity hand, const Surface& surface, double since_s,
+                Grab& grab, const Tuning& tuning, StageStats& stats) {
+    ++stats.grabs_gripped;
+    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, surface.body);
+    grab = {};
+    grab.kind = grip_kind(io, surface.body, tuning.phases);
+    grab.jointed =
+        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(surface.body));
+    grab.phase = GrabPhase::fresh;
+    grab.body = surface.body;
+    grab.since_s = since_s;
+    grab.hit_bs = inverse_transform_point(body_ws, surface.point_ws);
+    grab.hit_normal_bs = body_ws.rotation.conjugate() * surface.normal_ws;
+    if (grab.kind == GripKind::held) {
+        ignore_for_head(io.head_ignores.at(io.owner.at(hand).player), grab.body, stats);
+    }
+}
+
+// For a body that only both hands grip: true if the player's other hand has it, or is closed on it
+// and grips it from now on.
+bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, Entity body, const Tuning& tuning,
+                      StageStats& stats) {
+    const std::size_t other = find_other_hand(io.owner, io.grab, row);
+    if (other >= io.grab.size()) {
+        return false;
+    }
+    const Entity entity = io.grab.owners()[other];
+    const HandTracking& hand = io.hand.at(entity);
+    Grab& grab = io.grab.rows()[other];
+    if (grab.kind != GripKind::none || !hand.pressed || hand.state != TrackingState::tracked) {
+        return grab.body == body && grab.phase != GrabPhase::releasing;
+    }
+    const bool closes_now = hand.edge == GrabEdge::onset;
+    const HandOwner& owner = io.owner.at(entity);
+    const Pose hand_ws =
+        io.origin.at(owner.player).pose_ws * (closes_now ? hand.edge_ps : hand.start_ps);
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+    const auto surface = SurfaceFinder(io, owner).find(ray, tuning.hand);
+    if (!surface || surface->body != body) {
+        return false;
+    }
+    const double since_s = closes_now ? hand.edge_t_s : io.hand.at(io.grab.owners()[row]).edge_t_s;
+    start_grab(io, entity, *surface, since_s, grab, tuning, stats);
+    return true;
+}
+
+void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing,
                 const Tuning& tuning, StageStats& stats) {
+    const Entity entity = io.grab.owners()[row];
     const HandOwner& owner = io.owner.at(entity);
     const Pose hand_ws = io.origin.at(owner.player).pose_ws * closing.hand_ps;
     const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     const auto snap = SnapFinder(io, entity, hand_ws, tuning, stats).find(closing.only);
-    const auto surface =
-        snap ? std::optional(snap->surface) : find_surface(io, owner.player, ray, tuning.hand);
+    SurfaceFinder finder(io, owner);
+    const auto surface = snap ? std::optional(snap->surface) : finder.find(ray, tuning.hand);
     if (!is_null(closing.only) &&
         (!surface || surface->body != closing.only || !(snap || is_at_palm(*surface, ray)))) {
         return;  // it is still on its way
     }
     io.authored_hold.remove(entity);
+    if (!surface) {
+        stats.note(is_null(finder.refused_by()) ? Fallback::grab_no_surface
+                                                : Fallback::grab_refused_by_rule,
+                   entity, finder.refused_by());
+        return;
+    }
+    const GrabRule* const rule = find_in(io.rule, surface->body);
+    if (rule != nullptr && rule->two_hands &&
+        !other_hand_joins(io, row, surface->body, tuning, stats)) {
+        stats.note(Fallback::grab_needs_two_hands, entity, surface->body);
+        return;
+    }
     if (snap) {
         io.authored_hold.add(entity, snap->hold);
     }
-    if (!surface) {
-        stats.count(Fallback::grab_no_surface);
-        return;
-    }
-    ++stats.grabs_gripped;
-    const Pose body_ws = gripped_pose_ws(io.body_pose, io.origin, io.head, surface->body);
-    grab = {};
-    grab.kind = grip_kind(io, surface->body, tuning.phases);
-    grab.jointed =
-        grab.kind == GripKind::held && io.joint_groups.is_anchored(io.body.find_row(surface->body));
-    grab.phase = GrabPhase::fresh;
-    grab.body = surface->body;
-    grab.since_s = closing.since_s;
-    grab.hit_bs = inverse_transform_point(body_ws, surface->point_ws);
-    grab.hit_normal_bs = body_ws.rotation.conjugate() * surface->normal_ws;
-    if (grab.kind == GripKind::held) {
-        ignore_for_head(io.head_ignores.at(owner.player), grab.body, stats);
-    }
+    start_grab(io, entity, *surface, closing.since_s, io.grab.rows()[row], tuning, stats);
 }
 
 // The row of the player's other hand, where that grips something too.
@@ -260,7 +373,7 @@ Pose gripped_start_ws(const UpdateGrabsIo& io, Entity gripped) {
 // where it is, before anything has moved: nobody is drawn to where it closed.
 void release_grab(const UpdateGrabsIo& io, std::size_t row, Fallback reason, StageStats& stats) {
     Grab& grab = io.grab.rows()[row];
-    stats.count(reason);
+    stats.note(reason, io.grab.owners()[row], grab.body);
     if (const std::optional<std::size_t> partner = partner_of(io, row)) {
         Grab& staying = io.grab.rows()[*partner];
         const Entity hand = io.grab.owners()[*partner];
@@ -342,11 +455,57 @@ void update_authored_hold(const UpdateGrabsIo& io, Entity entity, const Grab& gr
     }
 }
 
+// One of both hands left a body that needs them, or leaves it now.
+void release_half_held_bodies(const UpdateGrabsIo& io, StageStats& stats) {
+    if (io.rule == nullptr) {
+        return;
+    }
+    for (std::size_t row = 0; row < io.grab.size(); ++row) {
+        const Grab& grab = io.grab.rows()[row];
+        const GrabRule* const rule = io.rule->find(grab.body);
+        if (grab.kind == GripKind::none || grab.phase == GrabPhase::releasing || rule == nullptr ||
+            !rule->two_hands) {
+            continue;
+        }
+        const std::optional<std::size_t> partner = partner_of(io, row);
+        const bool is_whole = partner && io.grab.rows()[*partner].body == grab.body &&
+                              io.grab.rows()[*partner].phase != GrabPhase::releasing;
+        if (!is_whole) {
+            release_grab(io, row, Fallback::grip_needs_two_hands, stats);
+        }
+    }
+}
+
+void carry_out_orders(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
+    while (io.order != nullptr && !io.order->empty()) {
+        const Entity hand = io.order->owners().front();
+        const Entity body = io.order->rows().front().body;
+        io.order->remove(hand);
+        const std::size_t row = io.grab.find_row(hand);
+        const bool has_body = io.body.contains(body) ||
+                              (io.origin.contains(body) && body != io.owner.at(hand).player &&
+                               io.head.at(body).state != TrackingState::never);
+        if (io.grab.rows()[row].kind != GripKind::none) {
+            release_grab(io, row, Fallback::grip_ended_by_host, stats);
+            io.authored_hold.remove(hand);
+        }
+        if (!has_body || io.hand.at(hand).state == TrackingState::never) {
+            continue;
+        }
+        const HandOwner& owner = io.owner.at(hand);
+        const Pose hand_ws = io.origin.at(owner.player).pose_ws * io.hand.at(hand).start_ps;
+        const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
+        const Surface surface{body, ray.palm_ws, hand_ws.rotation * Vec3::UnitY()};
+        start_grab(io, hand, surface, io.start_s, io.grab.rows()[row], tuning, stats);
+    }
+}
+
 }  // namespace
 
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats) {
     release_destroyed_bodies(io, stats);
     release_overstretched_grabs(io, tuning.hand.max_stretch_m, stats);
+    carry_out_orders(io, tuning, stats);
     for (std::size_t row = 0; row < io.grab.size(); ++row) {
         Grab& grab = io.grab.rows()[row];
         const Entity entity = io.grab.owners()[row];
@@ -356,16 +515,16 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         }
         update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset) {
+        if (hand.edge == GrabEdge::onset && grab.kind == GripKind::none) {
             ++stats.grab_onsets;
-            begin_grab(io, entity, {hand.edge_ps, hand.edge_t_s, k_no_entity}, grab, tuning, stats);
+            begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
                    hand.state == TrackingState::tracked && !hand.resumed &&
                    grab.kind == GripKind::none) {
-            begin_grab(io, entity, {hand.start_ps, pull->closed_s, pull->body}, grab, tuning,
-                       stats);
+            begin_grab(io, row, {hand.start_ps, pull->closed_s, pull->body}, tuning, stats);
         }
     }
+    release_half_held_bodies(io, stats);
 }
 
 }  // namespace handhold

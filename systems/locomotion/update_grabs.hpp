@@ -28,6 +28,11 @@ struct UpdateGrabsIo {
     Column<Grab>& grab;                           // in/out
     Column<AuthoredHold>& authored_hold;          // in/out: of hands that sit in an authored grip
     Column<HeadIgnores>& head_ignores;            // in/out: held bodies are added
+    const Column<GrabRule>* rule = nullptr;       // in: null: any hand grips anything
+    const Column<GrabLayers>* layers = nullptr;   // in
+    const Column<CollisionFilter>* filter = nullptr;  // in: layers of bodies
+    Column<GrabOrder>* order = nullptr;               // in/out: carried out and removed
+    double start_s = 0.0;                             // in: of the frame; for orders
 };
 
 // Stage 2. Hands that close look for a surface along the palm's ray, from behind the palm through
@@ -38,6 +43,9 @@ struct UpdateGrabsIo {
 // Before any surface comes an authored grip in whose snap zone the hand closes: of several the one
 // of the highest priority, of equal ones that which moves the palm least. One that another hand
 // sits in, or that something stands before, does not count. Talk row 10.
+// Bodies that refuse the hand by their GrabRule or its player's GrabLayers are passed over, as if
+// they were not there. One for two hands is gripped when the second of them closes on it.
+// Orders of the host come before everything; they ask no rule.
 // A closed hand that pulls a body from afar grips it as soon as it would by closing where it is.
 void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& stats);
 
