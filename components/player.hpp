@@ -6,8 +6,8 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// A player is the translation of his play space: three degrees of freedom. Head and hands sit at
-// tracked offsets, which are input: nothing ever fights the headset.
+// A player's only dynamic state is the translation of the play space: three degrees of freedom.
+// Head and hands are tracked offsets in it; no constraint acts on them.
 namespace handhold {
 
 // Written by whoever makes the player.
@@ -15,36 +15,37 @@ struct PlayerBody {
     double mass_kg = 80.0;  // > 0
 };
 
-// The play space in the world. The position is moved by predict_bodies and finish_positions, the
-// rotation by locomote_players only (turning, following a support).
+// Pose of the play space in the world. predict_bodies and finish_positions write the position;
+// locomote_players writes the rotation (turns, support_follow) and the position that a turn about a
+// hand or the head requires.
 struct PlayerOrigin {
     Pose pose_ws;
 };
-// The same at the start of the frame. Written by predict_bodies.
+// PlayerOrigin at the start of the frame. Written by predict_bodies.
 struct PlayerStart {
     Pose pose_ws;
 };
-// Of the play space. The head's own tracked motion does not count. Written by locomote_players,
-// update_velocities.
+// Velocity of the play space, without the tracked motion of the head in it. Written by
+// locomote_players and update_velocities.
 struct PlayerVelocity {
     Vec3 linear_mps = Vec3::Zero();
 };
 
-// What drags, brakes and clamps count as standing still: the velocity of the body last gripped, at
-// the point of the grip, else the scene's. Written by locomote_players.
+// Velocity relative to which drag, brake and the release clamp act: that of the body last gripped
+// at the point of the grip, else the scene's. Written by locomote_players.
 struct ReferenceVelocity {
     Vec3 linear_mps = Vec3::Zero();
-    Entity body = k_no_entity;     // last gripped
-    Vec3 point_bs = Vec3::Zero();  // where: a turning body's velocity is taken there
+    Entity body = k_no_entity;     // last gripped; null: none yet
+    Vec3 point_bs = Vec3::Zero();  // where it was gripped
 };
 
-// Bodies that the head passes through: those in this player's hands, and those let go until they
-// are apart from the head. Added by update_grabs, dropped by find_contacts. When full, places are
-// overwritten in turn.
+// Bodies that do not collide with the player's head: those in the player's hands, and released ones
+// until they no longer touch the head. update_grabs adds them, find_contacts removes them. When all
+// places are used, they are overwritten in turn.
 struct HeadIgnores {
     static constexpr std::size_t k_capacity = 8;
     std::array<Entity, k_capacity> bodies;  // null: unused
-    std::uint32_t next = 0;                 // to be overwritten when full
+    std::uint32_t next = 0;                 // the place that is overwritten next
 };
 
 }  // namespace handhold

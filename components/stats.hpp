@@ -45,6 +45,9 @@ enum class Fallback : std::uint8_t {
     tracking_lost,        // a device is silent or invalid: its pose is frozen
     hand_out_of_reach,    // farther from its head than HandTuning::max_arm_m: sample ignored
     head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
+    device_asleep,        // a controller at exactly (0, 0, 0): sample ignored
+    hand_implausible,     // faster than TrackingTuning::max_hand_speed_mps: sample ignored
+    space_recentred,      // head and hands jumped as one rigid body: the player stays put
     // Grabs.
     grab_no_surface,  // a hand closed with no surface in reach
     grip_stretched,   // farther from its anchor than HandTuning::max_stretch_m: let go
@@ -53,6 +56,9 @@ enum class Fallback : std::uint8_t {
     grip_reanchored,  // tracking returned or the other hand let go: anchor set to where the hand is
     two_hand_grip_ended,  // one of two hands let go: no throw
     hands_too_close,      // two hands at one point of a free body: only the first hand drives it
+    grip_out_of_reach,    // after a tracking error the palm is too far from its surface: let go
+    grip_speed_limited,   // a gripping hand was faster than max_hand_speed_mps: its anchor slips
+    grab_out_of_sight,    // a wall stands between hand and surface: nothing gripped
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
     contacts_contradict,       // hand rows were dropped so that contacts could be met

@@ -7,17 +7,17 @@
 #include "engine/ecs/entity.hpp"
 #include "engine/math/math.hpp"
 
-// What the headset and the controllers say, and what stage 1 makes of it. Play space (_ps) is the
-// frame that the tracking is given in, but for HeadTracking::shift_m, which the readings of an
-// input do not have in them yet: it is carried through the world by PlayerOrigin.
+// Input from headset and controllers, and what read_tracking makes of it. Play space (_ps) is the
+// room that the headset tracks; PlayerOrigin is its pose in the world. Samples are given in the
+// device's own space; HeadTracking's shift brings them to play space.
 namespace handhold {
 
 enum class HandSide : std::uint8_t { left, right };
 inline constexpr std::size_t k_hand_count = 2;
 inline constexpr std::size_t index_of(HandSide side) { return static_cast<std::size_t>(side); }
 
-// One reading of one device. A pose that is not finite, or whose rotation is not of unit length,
-// says: not tracked.
+// One reading of one controller. Not tracked: a pose that is not finite, a rotation that is not of
+// unit length, or a position of exactly (0, 0, 0).
 struct ControllerSample {
     Pose controller_ps;
     bool grab = false;  // a button that closes the hand is down
@@ -29,41 +29,42 @@ struct TrackingSample {
     std::array<ControllerSample, k_hand_count> controllers;  // by HandSide
 };
 
-// What the player asks for with sticks and buttons. All zero: nothing.
+// Commands from sticks and buttons for one frame. All zero: none.
 // Written by read_tracking from the frame's input; read by locomote_players.
 struct PlayerCommands {
     double smooth_turn = 0.0;       // [-1, 1], positive turns left
     std::int32_t snap_turns = 0;    // turns to the left begun in this frame; negative to the right
     double brake = 0.0;             // [0, 1]
-    Vec3 thrust_ps = Vec3::Zero();  // each in [-1, 1]; obeyed only where Tuning allows thrusters
-    bool calibrate = false;         // held while he holds a T-pose
+    Vec3 thrust_ps = Vec3::Zero();  // each in [-1, 1]; used only if Tuning allows thrusters
+    bool calibrate = false;         // down while the player holds a T-pose
 };
 
 // The frame's input of one player.
 struct PlayerInput {
     Entity player;
-    // Sorted by time: those since the last frame's end, and, where known, one after this frame's
-    // end: poses are then interpolated to the frame's end instead of being held.
+    // Sorted by time: the samples since the end of the last frame and, if known, one after the end
+    // of this frame. Poses are interpolated to that one; without it the last pose is held.
     std::span<const TrackingSample> samples;
     PlayerCommands commands;
 };
 
 enum class TrackingState : std::uint8_t {
     never,    // no valid sample yet: the device does not exist
-    tracked,  // a valid sample, not older than TrackingTuning::lost_after_s
+    tracked,  // the last valid sample is not older than TrackingTuning::lost_after_s
     lost,     // the pose is frozen at the last valid one
 };
 
-// The head of a player. Written by read_tracking; read by everything after it.
+// The head of a player. Written by read_tracking; read by all later stages.
 struct HeadTracking {
     Pose pose_ps;    // at the end of the frame
     Pose start_ps;   // at its start
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Added to every position that the tracking gives, so that a head that jumps (re-centring, a
-    // glitch) stays where it was in the world.
+    // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
+    // (recentring, a tracking error), it changes so that the head stays where it was in the world.
     Vec3 shift_m = Vec3::Zero();
+    Quat shift_turn = Quat::Identity();  // about +Y
 };
 
 enum class GrabEdge : std::uint8_t { none, onset, release };
@@ -71,29 +72,34 @@ enum class GrabEdge : std::uint8_t { none, onset, release };
 // One hand: the controller's pose after the controller-to-hand joint (OpenXR wrist axes: -Z to the
 // fingers, +Y the back of the hand). Written by read_tracking.
 struct HandTracking {
-    Pose pose_ps;   // at the end of the frame
-    Pose start_ps;  // at its start
-    Pose sample_ps;
+    Pose pose_ps;    // at the end of the frame
+    Pose start_ps;   // at its start
+    Pose sample_ps;  // last sample that was used
     double sample_t_s = 0.0;
     TrackingState state = TrackingState::never;
-    // Tracked in this frame, and lost in the last one, or a sample was farther than
-    // TrackingTuning::max_jump_m from the one before: the pose may have jumped.
+    // The pose may have jumped in this frame: the hand was lost in the last one, or came back
+    // elsewhere after samples that were ignored or missing. start_ps equals pose_ps then.
     bool resumed = false;
-    // At most one edge a frame and hand; where buttons bounce faster the next frame begins with the
-    // next edge.
+    // Samples after sample_ps were ignored or missing: the next one may lie elsewhere.
+    bool interrupted = false;
+    // Last valid sample, used or not. Newer than sample_ps if it was ignored because the hand would
+    // have moved too fast.
+    Pose reading_ps;
+    double reading_t_s = 0.0;
+    // At most one edge per frame and hand. If a button bounces faster, the next frame begins with
+    // the next edge.
     GrabEdge edge = GrabEdge::none;
-    double edge_t_s = 0.0;     // the sample's own time, within the frame
-    Pose edge_ps;              // the hand then
+    double edge_t_s = 0.0;     // time of the edge's sample, within the frame
+    Pose edge_ps;              // the hand at that time
     bool pressed = false;      // after the edge
-    bool raw_pressed = false;  // what the last sample said
-    // At a release: slopes over the last samples (TrackingTuning::release_window_s), of the hand in
-    // play space.
+    bool raw_pressed = false;  // in the last sample
+    // At a release: velocity of the hand in play space over TrackingTuning::release_window_s.
     Vec3 release_velocity_ps_mps = Vec3::Zero();
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
-// The hand's last samples, oldest overwritten first, for velocities that do not depend on the frame
-// rate. Written by read_tracking.
+// The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written
+// by read_tracking.
 struct HandHistory {
     static constexpr std::size_t k_capacity = 32;
     struct Entry {
@@ -101,7 +107,7 @@ struct HandHistory {
         Pose hand_ps;
     };
     std::array<Entry, k_capacity> entries;
-    std::uint32_t next = 0;   // where the next sample goes
+    std::uint32_t next = 0;   // index of the next sample
     std::uint32_t count = 0;  // at most k_capacity
 };
 

@@ -113,7 +113,7 @@ void update_grabs(const FrameContext& f) {
     handhold::update_grabs(
         {f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
          w.head_tracking, w.body, w.body_pose, f.graph().joint_groups, w.authored_grips,
-         w.hand_pull, w.grab, w.authored_hold, w.head_ignores},
+         w.hand_pull, w.reference_velocity, w.hand_sight, w.grab, w.authored_hold, w.head_ignores},
         f.tuning, f.stats);
 }
 
@@ -131,7 +131,7 @@ void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
-                           w.grab, w.player, w.player_origin, w.body, w.body_pose,
+                           w.grab, w.hand_sight, w.player, w.player_origin, w.body, w.body_pose,
                            f.graph().joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
                           f.tuning, f.stats);
 }

@@ -12,6 +12,7 @@ struct HeadsetSpaces {
     OwnedXrSpace room;
     OwnedXrSpace head;
     std::string room_name;  // which of OpenXR's spaces the room is
+    XrReferenceSpaceType room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
 };
 // The stage, else what lies on the floor, else what begins at the eyes, an upright person's height
 // above the floor.

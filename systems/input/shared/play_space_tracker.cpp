@@ -1,0 +1,124 @@
+#include "systems/input/shared/play_space_tracker.hpp"
+
+#include <cmath>
+
+#include "systems/input/shared/motion_limit.hpp"
+
+namespace handhold {
+namespace {
+
+// The part of a rotation that turns about +Y.
+Quat turn_about_up(const Quat& rotation) {
+    const Quat turn(rotation.w(), 0.0, rotation.y(), 0.0);
+    constexpr double k_min_norm = 1e-6;  // upside down: any turn would do
+    return turn.norm() > k_min_norm ? turn.normalized() : Quat::Identity();
+}
+
+}  // namespace
+
+bool is_trackable(const Pose& pose_ps) {
+    constexpr double k_farthest_m = 1e4;
+    return is_valid(pose_ps) && pose_ps.position.cwiseAbs().maxCoeff() < k_farthest_m;
+}
+
+bool is_stale(double t_s, bool has_sample, double last_t_s) {
+    constexpr double k_latest_s = 1e9;  // a snapshot refuses later times too
+    return !(std::abs(t_s) <= k_latest_s) || (has_sample && t_s <= last_t_s);
+}
+
+PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
+                                   const std::array<Hand, k_hand_count>& hands)
+    : shift_{head.shift_m, head.shift_turn},
+      head_ps_(head.sample_ps),
+      head_t_s_(head.sample_t_s),
+      has_head_(head.state != TrackingState::never),
+      hands_(hands) {}
+
+// Exact where nothing was shifted.
+Pose PlaySpaceTracker::corrected(const Pose& pose) const {
+    return {shift_.rotation * pose.position + shift_.position, shift_.rotation * pose.rotation};
+}
+
+Pose PlaySpaceTracker::hand_ps(const ControllerSample& reading, HandSide side) const {
+    return corrected(reading.controller_ps * hands_[index_of(side)].in_controller);
+}
+
+bool PlaySpaceTracker::is_in_reach(const Vec3& hand_ps, double max_arm_m) const {
+    return !has_head_ || (hand_ps - head_ps_.position).norm() <= max_arm_m;
+}
+
+PlaySpaceTracker::Jump PlaySpaceTracker::follow(const TrackingSample& sample,
+                                                const TrackingTuning& tuning) {
+    if (is_stale(sample.t_s, has_head_, head_t_s_)) {
+        return Jump::none;
+    }
+    if (!is_trackable(sample.head_ps)) {
+        keep_hands(sample);
+        return Jump::none;
+    }
+    Jump jump = Jump::none;
+    Pose next_ps = corrected({sample.head_ps.position, sample.head_ps.rotation.normalized()});
+    Pose undo;
+    if (has_head_ && find_recentring(sample, next_ps, tuning, undo)) {
+        jump = Jump::play_space;
+        shift_by(undo);
+        next_ps = {head_ps_.position, undo.rotation * next_ps.rotation};
+    } else if (has_head_ && (next_ps.position - head_ps_.position).norm() > tuning.max_jump_m) {
+        jump = Jump::head;
+        shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
+        next_ps.position = head_ps_.position;
+    }
+    head_ps_ = next_ps;
+    head_t_s_ = sample.t_s;
+    has_head_ = true;
+    keep_hands(sample);
+    return jump;
+}
+
+void PlaySpaceTracker::shift_by(const Pose& undo) {
+    shift_.position = undo.rotation * shift_.position + undo.position;
+    shift_.rotation = (undo.rotation * shift_.rotation).normalized();
+}
+
+void PlaySpaceTracker::keep_hands(const TrackingSample& sample) {
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ControllerSample& reading = sample.controllers[index_of(side)];
+        Hand& hand = hands_[index_of(side)];
+        if (is_seen(reading)) {
+            hand.reading_ps = hand_ps(reading, side);
+            hand.reading_t_s = sample.t_s;
+            hand.has_reading = true;
+        }
+    }
+}
+
+// `head_ps` is the sample's, corrected as before. `undo` takes it back to where the head was; the
+// head's tilt is its own, for play spaces are level.
+bool PlaySpaceTracker::find_recentring(const TrackingSample& sample, const Pose& head_ps,
+                                       const TrackingTuning& tuning, Pose& undo) const {
+    if (sample.t_s - head_t_s_ > tuning.lost_after_s) {
+        return false;
+    }
+    undo.rotation = turn_about_up(head_ps_.rotation * head_ps.rotation.conjugate());
+    undo.position = head_ps_.position - undo.rotation * head_ps.position;
+    const double max_mps = tuning.max_hand_speed_mps;
+    const double head_dt_s = sample.t_s - head_t_s_;
+    bool is_jump = !could_move(head_ps_, head_ps, head_dt_s, max_mps);
+    bool is_rigid = could_move(head_ps_, undo * head_ps, head_dt_s, max_mps);
+    int hands = 0;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const ControllerSample& reading = sample.controllers[index_of(side)];
+        const Hand& hand = hands_[index_of(side)];
+        const double dt_s = sample.t_s - hand.reading_t_s;
+        if (!hand.has_reading || !is_seen(reading) || dt_s > tuning.lost_after_s) {
+            continue;
+        }
+        const Pose next_ps = hand_ps(reading, side);
+        is_jump = is_jump || !could_move(hand.reading_ps, next_ps, dt_s, max_mps);
+        is_rigid = is_rigid && could_move(hand.reading_ps, undo * next_ps, dt_s, max_mps);
+        ++hands;
+    }
+    return is_jump && is_rigid && hands > 0;
+}
+
+}  // namespace handhold

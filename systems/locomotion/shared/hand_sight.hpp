@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/collision/collision_world.hpp"
+#include "engine/math/math.hpp"
+
+namespace handhold {
+
+// What a hand can get at without crossing a wall. `outside_ws` is where the palm was last known to
+// be outside of walls; the head always is. Bodies in `skip` are no obstacles.
+struct SightLines {
+    const CollisionWorld& collision;
+    std::span<const std::uint64_t> skip;
+    Vec3 outside_ws;
+    Vec3 head_ws;
+
+    enum class Sight : std::uint8_t { blocked, clear, clear_beyond };
+    // `clear_beyond`: nothing stands in the way until 1 cm past the palm.
+    Sight sight_of_palm(const Vec3& palm_ws) const;
+
+    // True if the hand may grip there: its palm is in sight, or the point is, or the hand can go
+    // round what blocks the view (a rail, a pipe). `hits_body`: any point of that body will do.
+    bool may_grip(const Vec3& palm_ws, const Vec3& point_ws,
+                  std::optional<std::uint64_t> hits_body = std::nullopt) const;
+
+    // The first surface between `outside_ws` and the palm.
+    std::optional<RayHit> obstacle(const Vec3& palm_ws) const;
+
+  private:
+    bool is_free(const Vec3& from_ws, const Vec3& to_ws) const;
+    bool sees(const Vec3& from_ws, const Vec3& point_ws,
+              std::optional<std::uint64_t> hits_body) const;
+    bool can_go_round(const Vec3& palm_ws) const;
+};
+
+}  // namespace handhold
