@@ -77,7 +77,7 @@ inline bool has_slipped(const Grab& grab) {
 struct HandSight {
     Vec3 outside_bs = Vec3::Zero();  // in `frame`
     Entity frame = k_no_entity;      // body that the player last gripped; null: the world
-    bool is_known = false;           // false: the head takes its place
+    bool is_known = false;           // false: the palm counts as outside
     bool is_clear = true;            // no wall between that point, or the head, and the palm
 };
 

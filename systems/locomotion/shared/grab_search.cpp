@@ -56,14 +56,15 @@ Pose sight_frame_ws(const GrabSearch& io, Entity frame) {
     return body != nullptr ? body->pose_ws : Pose{};
 }
 
-SightLines sight_lines(const GrabSearch& io, Entity hand, const SightSkips& skips,
-                       const HeadTuning& tuning) {
+// A hand that begins somewhere is outside there.
+SightLines sight_lines(const GrabSearch& io, Entity hand, const Vec3& palm_ws,
+                       const SightSkips& skips, const HeadTuning& tuning) {
     const HandSight& sight = io.sight.at(hand);
     const Vec3 head_ws = head_center_ws(io, io.owner.at(hand).player, tuning);
     const bool is_known =
         sight.is_known && (is_null(sight.frame) || io.body_pose.contains(sight.frame));
     return {io.collision, skips.view(),
-            is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : head_ws,
+            is_known ? transform_point(sight_frame_ws(io, sight.frame), sight.outside_bs) : palm_ws,
             head_ws};
 }
 
@@ -234,7 +235,7 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
         palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning.hand)
             .palm_ws;
     const SightSkips skips = sight_skips(io, entity);
-    const SightLines lines = sight_lines(io, entity, skips, tuning.head);
+    const SightLines lines = sight_lines(io, entity, palm_ws, skips, tuning.head);
     const SightLines::Sight palm_sight = lines.sight_of_palm(palm_ws);
     const Vec3 outside_ws =
         palm_sight == SightLines::Sight::clear_beyond ? palm_ws : lines.outside_ws;
@@ -249,12 +250,12 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
 std::optional<GrabTarget> find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,
                                            Entity only, const Tuning& tuning, StageStats& stats) {
     const HandOwner& owner = io.owner.at(hand);
+    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     const SightSkips skips = sight_skips(io, hand);
-    const SightLines sight = sight_lines(io, hand, skips, tuning.head);
+    const SightLines sight = sight_lines(io, hand, ray.palm_ws, skips, tuning.head);
     if (const auto snap = SnapFinder(io, hand, hand_ws, sight, tuning, stats).find(only)) {
         return snap->target;
     }
-    const PalmRay ray = palm_ray(hand_ws, owner.side, tuning.hand);
     return find_visible_surface(io, owner.player, ray, sight, tuning.hand, stats);
 }
 
