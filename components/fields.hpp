@@ -211,6 +211,8 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("start_ps", c.start_ps);
     visit("sample_ps", c.sample_ps);
     visit("sample_t_s", c.sample_t_s);
+    visit("before_ps", c.before_ps);
+    visit("before_t_s", c.before_t_s);
     visit("state", c.state);
     visit("shift_m", c.shift_m);
     visit("shift_turn", c.shift_turn);

@@ -60,6 +60,8 @@ struct HeadTracking {
     Pose start_ps;   // at its start
     Pose sample_ps;  // last valid sample at or before the end of the frame
     double sample_t_s = 0.0;
+    Pose before_ps;  // the valid sample before that one
+    double before_t_s = 0.0;
     TrackingState state = TrackingState::never;
     // Corrects samples: pose_ps = (shift_m, shift_turn) * sample. When the samples jump
     // (recentring, a tracking error), it changes so that the head stays where it was in the world.

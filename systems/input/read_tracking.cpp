@@ -243,6 +243,8 @@ void read_head(HeadTracking& head, PlaySpaceTracker space, const PlayerInput& in
             }
             head.shift_m = space.shift_m();
             head.shift_turn = space.shift_turn();
+            head.before_ps = space.before_ps();
+            head.before_t_s = space.before_t_s();
             head.sample_ps = space.head_ps();
             head.sample_t_s = sample.t_s;
             has_sample = true;

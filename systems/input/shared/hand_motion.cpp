@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/input/shared/motion_limit.hpp"
+
 namespace handhold {
 namespace {
 
@@ -34,20 +36,12 @@ void remember(HandHistory& history, const HandTracking& hand) {
 void clear(HandHistory& history) { history.count = history.next = 0; }
 
 Pose extrapolated(const HandTracking& hand, const HandHistory& history, double t_s) {
-    constexpr double k_min_dt_s = 1e-3;
-    constexpr double k_max_dt_s = 0.05;
     if (history.count < 2) {
         return hand.sample_ps;
     }
     const HandHistory::Entry& before =
         history.entries[(history.next + HandHistory::k_capacity - 2) % HandHistory::k_capacity];
-    const double dt_s = hand.sample_t_s - before.t_s;
-    if (dt_s < k_min_dt_s || dt_s > k_max_dt_s) {
-        return hand.sample_ps;
-    }
-    const double steps = (t_s - hand.sample_t_s) / dt_s;
-    return {hand.sample_ps.position + steps * (hand.sample_ps.position - before.hand_ps.position),
-            hand.sample_ps.rotation};
+    return extrapolate(before.hand_ps, before.t_s, hand.sample_ps, hand.sample_t_s, t_s);
 }
 
 void measure_release(const HandHistory& history, double t_s, double window_s, HandTracking& hand) {

@@ -9,8 +9,7 @@ namespace handhold {
 void remember(HandHistory& history, const HandTracking& hand);
 void clear(HandHistory& history);
 
-// The hand's pose at constant velocity, from its last two samples; the rotation is the last one.
-// The last sample itself if the two are not 1 to 50 ms apart.
+// The hand's pose at constant velocity, from its last two samples (motion_limit.hpp).
 Pose extrapolated(const HandTracking& hand, const HandHistory& history, double t_s);
 
 // Velocity and spin at a release: the least-squares slopes of position and rotation vector, both

@@ -22,4 +22,21 @@ inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max
     return travel_m(from, to) <= max_speed_mps * dt_s + k_unnoticed_m;
 }
 
+// The pose at `t_s` at constant velocity and spin, from two earlier ones. The last one itself if
+// the two are not 1 to 50 ms apart: noise would dominate, or the velocity be out of date.
+inline Pose extrapolate(const Pose& before, double before_s, const Pose& last, double last_s,
+                        double t_s) {
+    constexpr double k_min_dt_s = 1e-3;
+    constexpr double k_max_dt_s = 0.05;
+    const double dt_s = last_s - before_s;
+    if (dt_s < k_min_dt_s || dt_s > k_max_dt_s) {
+        return last;
+    }
+    const double steps = (t_s - last_s) / dt_s;
+    const Vec3 turn =
+        rotation_to_vector((last.rotation * before.rotation.conjugate()).normalized());
+    return {last.position + steps * (last.position - before.position),
+            (rotation_from_vector(steps * turn) * last.rotation).normalized()};
+}
+
 }  // namespace handhold

@@ -31,6 +31,8 @@ PlaySpaceTracker::PlaySpaceTracker(const HeadTracking& head,
     : shift_{head.shift_m, head.shift_turn},
       head_ps_(head.sample_ps),
       head_t_s_(head.sample_t_s),
+      before_ps_(head.before_ps),
+      before_t_s_(head.before_t_s),
       has_head_(head.state != TrackingState::never),
       hands_(hands) {}
 
@@ -62,12 +64,14 @@ PlaySpaceTracker::Jump PlaySpaceTracker::follow(const TrackingSample& sample,
     if (has_head_ && find_recentring(sample, next_ps, tuning, undo)) {
         jump = Jump::play_space;
         shift_by(undo);
-        next_ps = {head_ps_.position, undo.rotation * next_ps.rotation};
+        next_ps = undo * next_ps;
     } else if (has_head_ && (next_ps.position - head_ps_.position).norm() > tuning.max_jump_m) {
         jump = Jump::head;
         shift_by({head_ps_.position - next_ps.position, Quat::Identity()});
         next_ps.position = head_ps_.position;
     }
+    before_ps_ = has_head_ ? head_ps_ : next_ps;
+    before_t_s_ = has_head_ ? head_t_s_ : sample.t_s;
     head_ps_ = next_ps;
     head_t_s_ = sample.t_s;
     has_head_ = true;
@@ -92,17 +96,18 @@ void PlaySpaceTracker::keep_hands(const TrackingSample& sample) {
     }
 }
 
-// `head_ps` is the sample's, corrected as before. `undo` takes it back to where the head was; the
-// head's tilt is its own, for play spaces are level.
+// `head_ps` is the sample's, corrected as before. `undo` takes it to where the head would be
+// without the jump: it keeps its velocity. Its tilt is the head's own, for play spaces are level.
 bool PlaySpaceTracker::find_recentring(const TrackingSample& sample, const Pose& head_ps,
                                        const TrackingTuning& tuning, Pose& undo) const {
-    if (sample.t_s - head_t_s_ > tuning.lost_after_s) {
+    const double head_dt_s = sample.t_s - head_t_s_;
+    if (head_dt_s > tuning.lost_after_s) {
         return false;
     }
-    undo.rotation = turn_about_up(head_ps_.rotation * head_ps.rotation.conjugate());
-    undo.position = head_ps_.position - undo.rotation * head_ps.position;
+    const Pose expected_ps = extrapolate(before_ps_, before_t_s_, head_ps_, head_t_s_, sample.t_s);
+    undo.rotation = turn_about_up(expected_ps.rotation * head_ps.rotation.conjugate());
+    undo.position = expected_ps.position - undo.rotation * head_ps.position;
     const double max_mps = tuning.max_hand_speed_mps;
-    const double head_dt_s = sample.t_s - head_t_s_;
     bool is_jump = !could_move(head_ps_, head_ps, head_dt_s, max_mps);
     bool is_rigid = could_move(head_ps_, undo * head_ps, head_dt_s, max_mps);
     int hands = 0;

@@ -35,8 +35,8 @@ class PlaySpaceTracker {
 
     PlaySpaceTracker(const HeadTracking& head, const std::array<Hand, k_hand_count>& hands);
 
-    // Advances to `sample`. From a jump on, all readings are corrected so that the head stays where
-    // it was:
+    // Advances to `sample`. From a jump on, all readings are corrected so that the head goes on as
+    // before (play_space) or stays where it was (head):
     //  - play_space: head and hands moved by one transform (a turn about +Y and a translation), at
     //    least one of them farther than a device can move. What remains of each hand's motion once
     //    that transform is undone must be one that a hand can make;
@@ -47,7 +47,9 @@ class PlaySpaceTracker {
     Pose hand_ps(const ControllerSample& reading, HandSide side) const;
     bool is_in_reach(const Vec3& hand_ps, double max_arm_m) const;
 
-    const Pose& head_ps() const { return head_ps_; }  // last valid one, corrected
+    const Pose& head_ps() const { return head_ps_; }      // last valid one, corrected
+    const Pose& before_ps() const { return before_ps_; }  // the valid one before that
+    double before_t_s() const { return before_t_s_; }
     bool has_head() const { return has_head_; }
     const Vec3& shift_m() const { return shift_.position; }
     const Quat& shift_turn() const { return shift_.rotation; }
@@ -62,6 +64,8 @@ class PlaySpaceTracker {
     Pose shift_;
     Pose head_ps_;
     double head_t_s_ = 0.0;
+    Pose before_ps_;
+    double before_t_s_ = 0.0;
     bool has_head_ = false;
     std::array<Hand, k_hand_count> hands_;
 };
