@@ -10,16 +10,13 @@ namespace handhold {
 
 namespace {
 
-// What an error message shows of a cell that somebody may have filled with a megabyte.
+// A cell for an error message: it may be a megabyte long.
 std::string quote(std::string_view cell) {
-    constexpr std::size_t k_shown = 40;
-    std::string result = "\"";
-    result += cell.substr(0, k_shown);
-    result += cell.size() > k_shown ? "...\"" : "\"";
-    return result;
+    constexpr std::size_t k_shown_characters = 40;
+    return '"' + printable(cell, k_shown_characters) + '"';
 }
 
-// Takes the next line off `rest`, without its end.
+// Removes the next line from `rest` and returns it without its line end.
 std::string_view take_line(std::string_view& rest) {
     const std::size_t end = rest.find('\n');
     std::string_view line = rest.substr(0, end);
@@ -40,7 +37,7 @@ bool parse_cell(std::string_view cell, NanCells nan, double& value) {
     if (result.ec != std::errc() || result.ptr != end) {
         return false;
     }
-    // from_chars also reads "inf", "-nan" and "nan(2)".
+    // from_chars also accepts "inf", "-nan" and "nan(2)".
     return std::isfinite(value) || (nan == NanCells::allowed && (cell == "nan" || cell == "NaN"));
 }
 
@@ -80,7 +77,7 @@ std::optional<FileError> parse_row(std::string_view line, std::size_t line_numbe
         const std::string_view cell = line.substr(begin, end - begin);
         begin = end + 1;
         if (column >= table.columns.size()) {
-            continue;  // counted below: the number of cells says more than the first one too many
+            continue;  // the error below names the number of cells
         }
         double value = 0.0;
         if (!parse_cell(cell, nan, value)) {
@@ -118,7 +115,7 @@ Result<NumericTable> parse_csv(std::string_view text, const std::string& file, N
     if (std::optional<FileError> error = parse_header(take_line(text), file, table.columns)) {
         return *std::move(error);
     }
-    // A cell is at least one character and its comma or line end.
+    // A cell takes at least two bytes: one character, and a comma or line end.
     const std::size_t lines =
         static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     table.cells.reserve(std::min(lines * table.columns.size(), text.size() / 2 + 1));

@@ -11,10 +11,10 @@
 
 namespace handhold {
 
-// Numbers under named columns.
+// A table of numbers with named columns.
 struct NumericTable {
-    std::vector<std::string> columns;  // not empty, unique
-    std::vector<double> cells;         // row by row, columns.size() each
+    std::vector<std::string> columns;  // names are not empty and unique
+    std::vector<double> cells;         // row-major, columns.size() a row
 
     std::size_t row_count() const { return columns.empty() ? 0 : cells.size() / columns.size(); }
     double at(std::size_t row, std::size_t column) const {
@@ -25,11 +25,11 @@ struct NumericTable {
 
 enum class NanCells { refused, allowed };
 
-// Reads a strict table: one header row with unique, non-empty names; then rows of as many cells,
-// each a decimal number in C notation without spaces, quotes or a leading plus; comma between
-// cells; lines end in LF or CRLF, the last one may lack it. Every number is finite; with
-// NanCells::allowed a cell may also be the text "nan". A byte order mark is skipped. Locale-free,
-// one pass, one allocation for the cells. Row r of the table is line r + 2.
+// Reads a strict CSV table. The first line holds unique, non-empty names. Every other line has as
+// many cells, each a finite decimal number in C notation without spaces, quotes or a leading plus.
+// With NanCells::allowed a cell may also be "nan". Cells are separated by commas; lines end in LF
+// or CRLF, which the last line may lack. A byte order mark is skipped. Independent of the locale,
+// one pass, one allocation for the cells. Row r of the table is line r + 2 of the file.
 Result<NumericTable> parse_csv(std::string_view text, const std::string& file,
                                NanCells nan = NanCells::refused);
 Result<NumericTable> load_csv(const std::filesystem::path& path, NanCells nan = NanCells::refused);

@@ -8,6 +8,7 @@
 
 #include "engine/io/glb.hpp"
 #include "engine/io/gltf_draco.hpp"
+#include "engine/io/gltf_json.hpp"
 #include "engine/io/json.hpp"
 
 namespace handhold::gltf {
@@ -32,22 +33,6 @@ std::uint64_t read_size(const JsonValue& value, std::int64_t low = 0) {
 
 std::uint64_t read_offset(const JsonValue& value) { return value.exists() ? read_size(value) : 0; }
 
-// `count` numbers; empty if the array is absent.
-std::vector<double> read_numbers(const JsonValue& array, std::size_t count) {
-    std::vector<double> numbers;
-    if (!array.exists()) {
-        return numbers;
-    }
-    for (const JsonValue& number : array.items()) {
-        numbers.push_back(number.number());
-    }
-    if (numbers.size() != count) {
-        array.refuse("an array of " + std::to_string(count) + " numbers");
-        numbers.resize(count);
-    }
-    return numbers;
-}
-
 std::vector<int> read_indices(const JsonValue& array) {
     std::vector<int> indices;
     for (const JsonValue& index : array.optional_items()) {
@@ -62,12 +47,6 @@ std::map<std::string, int> read_attributes(const JsonValue& object) {
         attributes.emplace(name, read_index(value));
     }
     return attributes;
-}
-
-// A member of the object's extensions; it does not exist if the object has no such extension.
-JsonValue extension_of(const JsonValue& object, const char* name) {
-    const JsonValue extensions = object["extensions"];
-    return extensions.exists() ? extensions[name] : extensions;
 }
 
 bool read_synthetic(const JsonValue& object) {
@@ -108,12 +87,9 @@ class ModelParser {
     void parse_nodes();
     void parse_skins();
     void parse_scenes();
-    float clamped(const JsonValue& value, double fallback);
-    Material parse_material(const JsonValue& value);
 
     JsonValue root_;
     Model model_;
-    std::size_t clamped_ = 0;
 };
 
 bool changes_geometry(std::string_view extension) {
@@ -315,58 +291,13 @@ void ModelParser::parse_meshes() {
     }
 }
 
-// A factor that the specification limits to [0, 1].
-float ModelParser::clamped(const JsonValue& value, double fallback) {
-    const double found = value.number_or(fallback);
-    clamped_ += found < 0.0 || found > 1.0 ? 1U : 0U;
-    return static_cast<float>(std::clamp(found, 0.0, 1.0));
-}
-
-Material ModelParser::parse_material(const JsonValue& value) {
-    const auto clamp_all = [this](const JsonValue& array, std::size_t count, float* out) {
-        const std::vector<double> checked = read_numbers(array, count);
-        const std::vector<JsonValue> items =
-            checked.empty() ? std::vector<JsonValue>() : array.items();
-        for (std::size_t i = 0; i < std::min(count, items.size()); ++i) {
-            out[i] = clamped(items[i], 0.0);
-        }
-    };
-    Material material;
-    std::array<float, 4> base = {1.0F, 1.0F, 1.0F, 1.0F};
-    if (const JsonValue pbr = value["pbrMetallicRoughness"]; pbr.exists()) {
-        clamp_all(pbr["baseColorFactor"], 4, base.data());
-        material.gloss = 1.0F - clamped(pbr["roughnessFactor"], 1.0);
-    }
-    material.color = {base[0], base[1], base[2]};
-    if (value["alphaMode"].text_or("OPAQUE") == "BLEND") {
-        material.opacity = base[3];
-    }
-    std::array<float, 3> emissive = {};
-    clamp_all(value["emissiveFactor"], 3, emissive.data());
-    double strength = 1.0;
-    if (const JsonValue glow = extension_of(value, "KHR_materials_emissive_strength");
-        glow.exists()) {
-        strength = glow["emissiveStrength"].number_or(1.0);
-        clamped_ += strength < 0.0 ? 1U : 0U;
-        strength = std::max(strength, 0.0);
-    }
-    // A surface here emits light of its own colour. From another emissive colour only the
-    // brightness is kept.
-    const float brightest = *std::max_element(material.color.begin(), material.color.end());
-    if (brightest > 0.0F) {
-        const double factor =
-            static_cast<double>(*std::max_element(emissive.begin(), emissive.end()));
-        material.emissive = static_cast<float>(factor / static_cast<double>(brightest) * strength);
-    }
-    return material;
-}
-
 void ModelParser::parse_materials() {
+    std::size_t clamped = 0;
     for (const JsonValue& value : root_["materials"].optional_items()) {
-        model_.materials.push_back(parse_material(value));
+        model_.materials.push_back(parse_material(value, clamped));
     }
-    if (clamped_ > 0) {
-        model_.notes.push_back("material factors clamped to [0, 1]: " + std::to_string(clamped_));
+    if (clamped > 0) {
+        model_.notes.push_back("material factors clamped to [0, 1]: " + std::to_string(clamped));
     }
 }
 
@@ -448,6 +379,26 @@ void ModelParser::parse_scenes() {
 }
 
 }  // namespace
+
+std::vector<double> read_numbers(const JsonValue& array, std::size_t count) {
+    std::vector<double> numbers;
+    if (!array.exists()) {
+        return numbers;
+    }
+    for (const JsonValue& number : array.items()) {
+        numbers.push_back(number.number());
+    }
+    if (numbers.size() != count) {
+        array.refuse("an array of " + std::to_string(count) + " numbers");
+        numbers.resize(count);
+    }
+    return numbers;
+}
+
+JsonValue extension_of(const JsonValue& object, const char* name) {
+    const JsonValue extensions = object["extensions"];
+    return extensions.exists() ? extensions[name] : extensions;
+}
 
 Result<Model> parse_model(std::string_view bytes, const std::string& file) {
     const Result<GlbChunks> chunks = split_glb(bytes, file);

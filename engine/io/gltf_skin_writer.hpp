@@ -7,10 +7,10 @@
 #include "engine/io/gltf_skin.hpp"
 #include "engine/io/gltf_writer.hpp"
 
-// Meshes on skeletons into glTF 2.0. Source: Khronos glTF 2.0 specification, section 3.7.3.
+// Writes skinned meshes as glTF 2.0. Source: Khronos glTF 2.0 specification, section 3.7.3.
 namespace handhold {
 
-// Of one material.
+// The part of a skin with one material.
 struct GltfSkinSurface {
     std::vector<GltfVertex> vertices;
     std::vector<SkinWeights> weights;  // by vertex
@@ -24,18 +24,18 @@ struct GltfSkin {
     std::vector<GltfSkinSurface> surfaces;
 };
 
-// Something rigid beside a skin: a node of that name with a mesh a surface below it; without
-// surfaces an empty node. Its vertices are in its own frame.
+// A rigid object beside the skin: a node with one child per surface. Without surfaces it is an
+// empty node.
 struct GltfObject {
     std::string name;
     Pose pose_ms;
-    std::vector<GltfSurface> surfaces;
+    std::vector<GltfSurface> surfaces;  // vertices are in the object's frame
 };
 
-// The bytes of a .glb in which the joints stand in their bind pose: equal for equal input.
-// load_gltf_skin reads from it what was given, joints to within rounding to float. Throws
-// PreconditionError for a skin without joints or surfaces, a surface without triangles, and an
-// index, a joint, a parent or a material that is not there.
+// The bytes of a .glb whose joints are in their bind pose. Equal input gives equal bytes.
+// load_gltf_skin reads the input back; joints are rounded to float. Throws PreconditionError for a
+// skin without joints or surfaces, a surface without triangles, and an index, joint, parent or
+// material out of range.
 std::string write_skinned_glb(std::span<const GltfMaterial> materials, const GltfSkin& skin,
                               std::span<const GltfObject> objects = {});
 

@@ -9,7 +9,7 @@
 namespace handhold {
 namespace {
 
-// Nodes: one a group, above those of its surfaces.
+// One node per group, with a child node per surface.
 void add_nodes(std::span<const GltfSurface> surfaces, GltfJson& root) {
     GltfJson nodes = GltfJson::array();
     GltfJson roots = GltfJson::array();

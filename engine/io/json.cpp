@@ -14,7 +14,7 @@ namespace handhold {
 
 using Json = nlohmann::json;
 
-// nlohmann's destructor allocates for deep documents: depth is limited to k_max_depth.
+// nlohmann's destructor allocates for nested documents; k_max_depth bounds that.
 struct JsonValue::Document {  // NOLINT(bugprone-exception-escape)
     Json root;
     std::string file;
@@ -32,9 +32,7 @@ std::string write_number(double value) {
     return digits;
 }
 
-std::string shorten(const std::string& text) {
-    return text.size() <= k_shown_characters ? text : text.substr(0, k_shown_characters) + "...";
-}
+std::string shorten(std::string_view text) { return printable(text, k_shown_characters); }
 
 std::string describe(const Json* node) {
     if (node == nullptr) {
@@ -87,8 +85,8 @@ std::string describe_place(std::string_view text, std::size_t position) {
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-// Builds the tree. The library's own builder keeps the last of two equal keys, knows no limit of
-// depth, and tells the place of no number that is too large.
+// Builds the tree. The library's own builder accepts duplicate keys, has no depth limit, and
+// reports no position for a number out of range.
 class TreeBuilder {
   public:
     TreeBuilder(Json& root, std::string_view text, std::string file)
@@ -102,7 +100,7 @@ class TreeBuilder {
         return add(Json(value)) != nullptr;
     }
     bool string(std::string& value) { return add(Json(std::move(value))) != nullptr; }
-    // Never met in text.
+    // Only binary formats call this.
     bool binary(  // NOLINT(readability-convert-member-functions-to-static)
         Json::binary_t& /*value*/) {
         return false;
@@ -124,8 +122,8 @@ class TreeBuilder {
 
     bool parse_error(std::size_t position, const std::string& /*token*/,
                      const Json::exception& exception) {
-        // Of "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..."
-        // the place is told by ourselves, for every kind of error in one way.
+        // Keeps "syntax error ..." of "[json.exception.parse_error.101] parse error at line 1,
+        // column 2: syntax error ...". describe_place gives the position of every kind of error.
         std::string reason = exception.what();
         const std::size_t place = reason.find(": ");
         const std::size_t name = reason.find("] ");
@@ -135,14 +133,14 @@ class TreeBuilder {
             reason = reason.substr(name + 2);
         }
         error_ = FileError{file_, describe_place(text_, position),
-                           "expected JSON: " + reason.substr(0, 200)};
+                           "expected JSON: " + printable(reason)};
         return false;
     }
 
     const std::optional<FileError>& error() const { return error_; }
 
   private:
-    // Where the innermost open container is.
+    // JSON pointer of the innermost open container.
     std::string pointer() const {
         std::string result;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
@@ -156,7 +154,7 @@ class TreeBuilder {
         return result;
     }
 
-    // Pointers in open_ stay valid: a container is not changed while one of its children is open.
+    // Pointers in open_ stay valid: a container does not change while one of its children is open.
     Json* add(Json value) {
         if (open_.empty()) {
             root_ = std::move(value);
@@ -194,10 +192,9 @@ class TreeBuilder {
     Json& root_;
     std::string_view text_;
     std::string file_;
-    std::vector<Json*> open_;  // containers, outermost first
-    std::vector<std::string>
-        keys_;         // under which key each of them stands, where its parent is an object
-    std::string key_;  // of the next value
+    std::vector<Json*> open_;        // containers, outermost first
+    std::vector<std::string> keys_;  // by container: its key, if its parent is an object
+    std::string key_;                // of the next value
     std::optional<FileError> error_;
 };
 
@@ -302,7 +299,7 @@ double JsonValue::number(const NumberRange& range) const {
 }
 
 std::int64_t JsonValue::integer(std::int64_t low, std::int64_t high) const {
-    // An unsigned value above 2^63 would turn negative.
+    // An unsigned value of 2^63 or more would become negative.
     if (exists() && node_->is_number_integer() &&
         !(node_->is_number_unsigned() && node_->get<std::uint64_t>() > INT64_MAX)) {
         const std::int64_t value = node_->get<std::int64_t>();
@@ -340,7 +337,7 @@ Vec3 JsonValue::vector(const NumberRange& range) const {
 }
 
 Quat JsonValue::rotation() const {
-    constexpr double k_length_tolerance = 1e-2;  // four decimals a component stay far inside
+    constexpr double k_length_tolerance = 1e-2;  // allows components of four decimals
     if (!exists() || !node_->is_array() || node_->size() != 4) {
         refuse("a quaternion: an array of 4 numbers x, y, z, w");
         return Quat::Identity();
@@ -351,7 +348,7 @@ Quat JsonValue::rotation() const {
         refuse("a quaternion of length 1, not " + write_number(value.norm()));
         return Quat::Identity();
     }
-    // One that is unit up to rounding stays as it is: written and read again it is the same.
+    // A quaternion of unit length up to rounding is kept, so that writing and reading is lossless.
     constexpr double k_rounding = 1e-15;
     return std::abs(value.squaredNorm() - 1.0) <= k_rounding ? value : value.normalized();
 }

@@ -15,17 +15,16 @@
 #include "engine/io/result.hpp"
 #include "engine/math/math.hpp"
 
-// Typed reading of JSON. Code that reads a file is a straight line without a test after every
-// value: the first value that is absent, of the wrong kind or out of its range is kept as the
-// document's error, everything read after it is a zero of the asked type, and whoever reads asks
-// once, at the end, whether there was an error.
+// Typed reading of JSON without a test after every value. The document keeps its first error: a
+// value that is absent, of the wrong type or out of range. A bad value reads as zero of the
+// requested type. The caller checks JsonDocument::failed() once, at the end.
 namespace handhold {
 
-// Limits of a number, both included unless `above_low`.
+// The range of a number, [low, high] or, with `above_low`, (low, high].
 struct NumberRange {
     double low = -1e12;
     double high = 1e12;
-    bool above_low = false;  // low itself is refused
+    bool above_low = false;
 };
 constexpr NumberRange k_positive = {0.0, 1e12, true};
 constexpr NumberRange k_not_negative = {0.0, 1e12, false};
@@ -33,7 +32,7 @@ constexpr NumberRange k_unit_interval = {0.0, 1.0, false};
 
 class JsonDocument;
 
-// A place in a document: its value (none where a key is absent) and its JSON pointer. Valid as long
+// A value of a document and its JSON pointer. It does not exist if its key is absent. Valid as long
 // as the document.
 class JsonValue {
   public:
@@ -43,39 +42,39 @@ class JsonValue {
     bool is_text() const;
     bool is_number() const;
 
-    // The member of an object; a value that does not exist where there is none.
+    // A member of an object.
     JsonValue operator[](std::string_view key) const;
-    // The elements of an array. `optional_items` takes an absent array for an empty one.
+    // The elements of an array. For `optional_items` an absent array is empty.
     std::vector<JsonValue> items() const;
     std::vector<JsonValue> optional_items() const;
-    // The members of an object by their keys, in the keys' order; none where it is absent.
+    // The members of an object, sorted by key. An absent object is empty.
     std::vector<std::pair<std::string, JsonValue>> optional_members() const;
-    // Makes every key that is not listed an error.
+    // Refuses every key that is not listed.
     void allow_only(std::initializer_list<std::string_view> keys) const;
     void allow_only(std::span<const std::string_view> keys) const;
 
     double number(const NumberRange& range = {}) const;
-    std::int64_t integer(std::int64_t low, std::int64_t high) const;  // written without a fraction
+    std::int64_t integer(std::int64_t low, std::int64_t high) const;  // no fraction, no exponent
     bool flag() const;
     std::string text() const;  // not empty
     Vec3 vector(const NumberRange& range = {}) const;
-    // x, y, z, w within 1e-2 of unit length, made unit.
+    // In the order x, y, z, w. Its length must be within 1e-2 of 1; the result is normalised.
     Quat rotation() const;
 
-    // The same, with a value for an absent key. A null is not absent.
+    // As above, but an absent value reads as `fallback`. A null is not absent.
     double number_or(double fallback, const NumberRange& range = {}) const;
     bool flag_or(bool fallback) const;
     std::string text_or(std::string fallback) const;
     Vec3 vector_or(const Vec3& fallback, const NumberRange& range = {}) const;
     Quat rotation_or(const Quat& fallback) const;
-    // A label that may be anything: empty if the value is absent or is not a text.
+    // For labels: never refused. Empty if the value is absent or not a text.
     std::string label() const;
 
-    // This value as JSON text, for another parser; an object without these members.
+    // The value as JSON text for another parser. An object is written without the members `keys`.
     std::string dump_without(std::initializer_list<std::string_view> keys) const;
 
     const std::string& pointer() const { return pointer_; }
-    // Keeps the error "expected <what>, found <this value>" unless there is one already.
+    // Sets the document's error to "expected <expected>, found <this value>" if it has none.
     void refuse(const std::string& expected) const;
 
   private:
@@ -91,9 +90,9 @@ class JsonValue {
 // A parsed document and the first error found in it.
 class JsonDocument {
   public:
-    // Refused: what is not JSON (the error names line and column), a key twice in one object, a
-    // number that no double holds, text that is not UTF-8, more than 64 levels of nesting. `file`
-    // is only for messages.
+    // Refused: malformed JSON (the error names line and column), a key twice in one object, a
+    // number out of double's range, text that is not UTF-8, more than 64 levels of nesting. `file`
+    // is for messages.
     static Result<JsonDocument> parse(std::string_view text, const std::string& file);
     static Result<JsonDocument> load(const std::filesystem::path& path);
 

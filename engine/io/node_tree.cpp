@@ -22,7 +22,7 @@ std::string describe_node_range(const std::vector<FileNode>& nodes, int found) {
            std::to_string(found);
 }
 
-// parent_of: by node, k_no_parent for a root.
+// Fills `parent_of`: by node, its parent, or k_no_parent for a root.
 std::optional<FileError> find_parents(const std::vector<FileNode>& nodes, const std::string& file,
                                       std::vector<int>& parent_of) {
     parent_of.assign(nodes.size(), k_no_parent);
@@ -45,8 +45,8 @@ std::optional<FileError> find_parents(const std::vector<FileNode>& nodes, const 
     return std::nullopt;
 }
 
-// Every node has one parent at most: what cannot be reached from a node without a parent is in a
-// cycle or below one.
+// Every node has at most one parent, so a node that cannot be reached from a root is in a cycle or
+// below one.
 std::optional<FileError> find_cycle(const std::vector<FileNode>& nodes, const std::string& file,
                                     const std::vector<int>& parent_of) {
     std::vector<std::size_t> reached;
@@ -63,11 +63,11 @@ std::optional<FileError> find_cycle(const std::vector<FileNode>& nodes, const st
             is_reached[static_cast<std::size_t>(child)] = true;
         }
     }
-    const auto lost = std::find(is_reached.begin(), is_reached.end(), false);
-    if (lost == is_reached.end()) {
+    const auto unreached = std::find(is_reached.begin(), is_reached.end(), false);
+    if (unreached == is_reached.end()) {
         return std::nullopt;
     }
-    return FileError{file, node_place(static_cast<std::size_t>(lost - is_reached.begin())),
+    return FileError{file, node_place(static_cast<std::size_t>(unreached - is_reached.begin())),
                      "expected a tree of nodes, found a cycle at or above this one"};
 }
 
@@ -130,8 +130,8 @@ Result<std::vector<PlacedNode>> place_nodes(const std::vector<FileNode>& nodes,
             first.push_back(static_cast<int>(node));
         }
     }
-    // A stack of our own: a chain of a million nodes is no reason to run out of the thread's.
-    // `world` holds the parent's frame until the node is taken off.
+    // An explicit stack: recursion over a chain of a million nodes would overflow the thread's
+    // stack. `world` holds the parent's frame until the node is popped.
     std::vector<PlacedNode> open;
     for (auto root = first.rbegin(); root != first.rend(); ++root) {
         open.push_back({*root, {}});

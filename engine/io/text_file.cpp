@@ -89,7 +89,7 @@ std::optional<FileError> write_file_atomically(const fs::path& path, std::string
     if (!target) {
         return target.error();
     }
-    // A random suffix: two processes that write the same path do not share a temporary file.
+    // The random suffix keeps two processes that write the same path from sharing a temporary file.
     fs::path temporary = target.value();
     temporary += ".tmp" + std::to_string(std::random_device()());
     std::string reason = write_bytes(temporary, "wbx", text);

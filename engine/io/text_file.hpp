@@ -10,11 +10,11 @@
 
 namespace handhold {
 
-// Largest file that is read into memory: above it something other than one of our files was named.
+// Limit of a file that is read into memory. A larger file is not one of ours.
 constexpr std::uint64_t k_max_file_bytes = 1ULL << 30;
 
-// The bytes of a regular file, as they are. Refused: what is absent, unreadable, not a regular file
-// (a folder, a pipe, a device), or larger than `max_bytes`.
+// The unchanged bytes of a file. Refuses a file that is absent, unreadable, not regular (a folder,
+// a pipe, a device) or larger than `max_bytes`.
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uint64_t max_bytes = k_max_file_bytes);
 

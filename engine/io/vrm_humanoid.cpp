@@ -5,25 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "engine/io/glb.hpp"
 #include "engine/io/json.hpp"
 
 namespace handhold {
 namespace {
 
 using Humanoid = std::map<std::string, std::string>;
-
-// The JSON of a .glb (its first chunk); other bytes are JSON themselves.
-std::string_view json_of(std::string_view bytes) {
-    constexpr std::size_t k_header_bytes = 20;
-    if (!bytes.starts_with("glTF") || bytes.size() < k_header_bytes) {
-        return bytes;
-    }
-    std::uint32_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        length |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[12 + i])) << (8 * i);
-    }
-    return bytes.substr(k_header_bytes, length);
-}
 
 // The value at the end of these members, if all of them are there.
 std::optional<JsonValue> find_member(JsonValue value, std::initializer_list<const char*> keys) {
@@ -64,7 +52,11 @@ void add_bone(const std::string& bone, const JsonValue& node, const std::vector<
 }  // namespace
 
 Result<Humanoid> parse_vrm_humanoid(std::string_view bytes, const std::string& file) {
-    Result<JsonDocument> document = JsonDocument::parse(json_of(bytes), file);
+    const Result<GlbChunks> chunks = split_glb(bytes, file);
+    if (!chunks) {
+        return chunks.error();
+    }
+    Result<JsonDocument> document = JsonDocument::parse(chunks.value().json, file);
     if (!document) {
         return document.error();
     }

@@ -14,7 +14,7 @@ namespace {
 
 enum class Region { body, head, hand };
 
-// What rises above the shoulders counts as head: it would stand before the eyes.
+// Parts above the shoulders count as head: they would block the view from the eyes.
 Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights& weights) {
     switch (rig.carriers[rig.joints[heaviest_joint(weights)].carrier].bone) {
         case BodyBone::head:
@@ -32,7 +32,7 @@ Region region_of(const BodyRig& rig, const Vec3& position_ms, const SkinWeights&
     }
 }
 
-// A VRM figure brings its own map; the user's goes before it.
+// Merges the user's map with a VRM figure's table; the user's entries win.
 Result<BodyMap> read_body_map(std::string_view figure, const std::string& figure_file,
                               const std::string& map_file) {
     BodyMap map;
@@ -93,7 +93,7 @@ BodyFigures::BodyFigures(BodyModel model, Renderer& renderer) : model_(std::move
     copies_.push_back(make_copy(renderer));
 }
 
-// A triangle belongs where most of its corners do; hands are left out.
+// Assigns each triangle to the region of most of its corners; leaves out hands.
 void BodyFigures::cut_pieces() {
     const SkinnedMesh& figure = model_.figure;
     std::vector<Region> regions;
@@ -156,7 +156,7 @@ void BodyFigures::add(const BodyMeasures& measures, const RenderPose& render, Se
     }
     const SkinnedMesh& figure = model_.figure;
     pose_skeleton(model_.rig, measures, render, pose_);
-    // Vertices about the head, where they keep their precision far from the origin.
+    // Vertices relative to the head, to keep float precision far from the origin.
     const Pose origin_ws{render.head_ws.position, Quat::Identity()};
     for (Affine& carry : pose_.carry_ws) {
         carry.translation -= origin_ws.position;

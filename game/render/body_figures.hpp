@@ -9,7 +9,7 @@
 #include "game/render/renderer.hpp"
 #include "systems/rigs/body_rig_fit.hpp"
 
-// Bodies as they are drawn: the robot's, or a loaded figure.
+// Draws bodies: the built-in robot's, or a loaded figure's.
 namespace handhold {
 
 struct BodyModel {
@@ -18,34 +18,33 @@ struct BodyModel {
 };
 
 BodyModel builtin_body_model();
-// Of a command line: a figure and how its joints are called, both may be empty: then the robot's,
-// and names tell.
+// Loads the figure and the joint map of a command line. Both may be empty: without a figure,
+// returns the robot; without a map, a VRM table or the joints' names decide.
 Result<BodyModel> choose_body_model(const std::string& figure_file, const std::string& map_file);
 
-// The meshes of one body in one renderer. Every player of a picture is added again for each
-// picture. What hangs on the figure's hands is never drawn: hands have rigs of their own
-// (HandFigures).
+// Meshes of one body model in one renderer. Call begin(), then add() for every player, for each
+// picture. The figure's own hands are not drawn: HandFigures draws hands.
 class BodyFigures {
   public:
-    // Whose eyes the picture is from has no head, neck and collar.
+    // by_himself: the picture is from the player's eyes; head, neck and collar are not drawn.
     enum class Seen { by_others, by_himself };
 
     BodyFigures(BodyModel model, Renderer& renderer);
 
-    void begin();  // a new picture
+    void begin();  // starts a new picture
     void add(const BodyMeasures& measures, const RenderPose& render, Seen seen, Renderer& renderer,
              RenderFrame& frame);
 
   private:
-    // Triangles of one material, with vertices of their own.
+    // Triangles of one material with their own vertices.
     struct Piece {
-        std::vector<std::uint32_t> vertices;  // of the figure
+        std::vector<std::uint32_t> vertices;  // indices into the figure's vertices
         std::vector<std::array<std::uint32_t, 3>> triangles;
         Color color{};
         Look look;
         bool is_head = false;
     };
-    using Copy = std::vector<MeshId>;  // of one player, by piece
+    using Copy = std::vector<MeshId>;  // meshes of one player, by piece
 
     void cut_pieces();
     Copy make_copy(Renderer& renderer) const;
@@ -53,8 +52,8 @@ class BodyFigures {
     BodyModel model_;
     std::vector<Piece> pieces_;
     std::vector<Copy> copies_;
-    std::size_t used_ = 0;  // copies in this picture
-    SkeletonPose pose_;     // scratch, as what follows
+    std::size_t used_ = 0;  // copies used in this picture
+    SkeletonPose pose_;     // scratch, as are the vectors below
     std::vector<Vec3> positions_, normals_, piece_positions_, piece_normals_;
 };
 

@@ -20,8 +20,9 @@ struct LayerClaviclesIo {
 };
 
 // Between estimate_arms and pose_arms. Turns each clavicle about the base of the neck by its clip,
-// by how high the hand is from the shoulder and how far; then the arm reaches its hand from there.
-// The hand stays where it is. Without the clip, or with its weight 0, nothing changes.
+// from the height and the distance of the hand relative to the shoulder. The arm then reaches its
+// hand from the moved shoulder; the hand keeps its pose. Without the clip, or with weight 0,
+// nothing changes.
 void layer_clavicles(const LayerClaviclesIo& io, const AdditiveTuning& additive,
                      const ArmTuning& arm);
 
@@ -39,9 +40,9 @@ struct LayerAdditivesIo {
 };
 
 // Stage 15. Talk row 24: turns spine and legs, bone by bone from the top, by the clips: idle, the
-// push-off after the last hand has let go, and where the head looks. Bones keep their lengths,
-// knees bend only backwards. The chain's own motion (SpineMemory) knows nothing of it. Without
-// clips, or with all weights 0, no pose changes.
+// push-off after the last hand has let go, and the direction in which the head looks. Bones keep
+// their lengths and knees bend only backwards. The simulated chain (SpineMemory) is not affected.
+// Without clips, or with all weights 0, no pose changes.
 void layer_additives(const LayerAdditivesIo& io, const AdditiveTuning& tuning);
 
 }  // namespace handhold

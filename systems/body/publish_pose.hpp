@@ -27,7 +27,8 @@ struct PublishPoseIo {
     Column<RenderPose>& render;                 // out
 };
 
-// Stage 16. What a host draws: head and hands in the world, hands fitted to what they hold.
+// Stage 16. Writes what a host draws of head and hands: world poses, and hands fitted to what they
+// hold.
 void publish_pose(const PublishPoseIo& io, const Tuning& tuning);
 
 }  // namespace handhold

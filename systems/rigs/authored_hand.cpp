@@ -5,8 +5,8 @@
 namespace handhold {
 namespace {
 
-// Mirrors across the planes of two axes are half turns about them, but for a sign that cancels: so
-// a rotation R becomes turn(body axis) R turn(hand's x).
+// A mirror across the plane normal to an axis is minus a half turn about that axis. The two minus
+// signs cancel, so a rotation R becomes turn(body axis) R turn(hand's x).
 Quat half_turn(int axis) {
     Quat turn(0.0, 0.0, 0.0, 0.0);
     turn.coeffs()[axis] = 1.0;
@@ -19,7 +19,7 @@ AuthoredHand mirror_authored_hand(const AuthoredHand& hand, int body_axis) {
     AuthoredHand mirrored = hand;
     mirrored.wrist_bs.position[body_axis] = -hand.wrist_bs.position[body_axis];
     const Quat turned = half_turn(body_axis) * hand.wrist_bs.rotation * half_turn(0);
-    // Of the two quaternions of one rotation the one that a second mirror leads back from.
+    // The sign that makes mirroring twice return the same quaternion.
     mirrored.wrist_bs.rotation = Quat(-turned.w(), -turned.x(), -turned.y(), -turned.z());
     return mirrored;
 }

@@ -223,6 +223,12 @@ class ShapeFinder {
         if (!end) {
             end = kind.end == BodyBone::foot ? foot_on(path) : palm_on(path);
         }
+        // Clavicle, arm, hand and an end: longer paths without fingers do not tell where the hand
+        // is.
+        constexpr std::size_t k_longest = 5;
+        if (!end && !known(kind.upper) && !known(kind.lower) && path.size() > k_longest) {
+            return;
+        }
         std::array<std::size_t, 3> best{};
         double least = std::numeric_limits<double>::max();
         for (std::size_t k = 2; k < path.size(); ++k) {

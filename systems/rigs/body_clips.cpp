@@ -5,7 +5,7 @@
 namespace handhold {
 namespace {
 
-// The rows around `at` in a list sorted by `key`, and how far between them it is.
+// The elements around `at` in a list sorted by `key`, and the interpolation share between them.
 struct Place {
     std::size_t before = 0;
     std::size_t after = 0;

@@ -21,12 +21,13 @@ inline constexpr std::size_t k_clip_bones = k_clip_clavicle + 1;
 using ClipTurns = std::array<Vec3, k_clip_bones>;  // rotation vectors in the bones' frames, radians
 ClipTurns no_turns();
 
+// The parameter of each clip.
 enum class BodyClipName : std::uint8_t {
-    idle,        // by seconds, over and over: the last key is the first again
-    push_off,    // by seconds since the last gripping hand let go
-    look_yaw,    // by how far left of the chest the head looks, radians
-    look_pitch,  // by how far up
-    clavicle,    // by how high the hand is from the shoulder, radians; scaled by ClavicleReach
+    idle,        // seconds; loops: the last key equals the first
+    push_off,    // seconds since the last gripping hand let go
+    look_yaw,    // yaw of the head to the left of the chest, radians
+    look_pitch,  // pitch of the head, upwards, radians
+    clavicle,    // elevation of the hand from the shoulder, radians; scaled by ClavicleReach
     count
 };
 inline constexpr std::size_t k_body_clip_count = static_cast<std::size_t>(BodyClipName::count);
@@ -36,22 +37,23 @@ struct ClipKey {
     ClipTurns turns = no_turns();
 };
 struct BodyClip {
-    std::vector<ClipKey> keys;  // by rising `at`; none: the clip does nothing
+    std::vector<ClipKey> keys;  // by increasing `at`; empty: the clip has no effect
 };
-// How much of the clavicle's clip there is, by distance of the hand in arm lengths.
+// Weight of the clavicle clip by the hand's distance in arm lengths.
 struct ClavicleReach {
     double distance = 0.0;
     double weight = 0.0;
 };
 struct BodyClips {
     std::array<BodyClip, k_body_clip_count> clips;  // by BodyClipName
-    std::vector<ClavicleReach> reach;               // by rising distance
+    std::vector<ClavicleReach> reach;               // by increasing distance
 
     const BodyClip& at(BodyClipName name) const { return clips[static_cast<std::size_t>(name)]; }
 };
 
-// Adds `weight` times the clip's turns at `at`: before the first key and after the last those,
-// between two a blend, straight or, `eased`, at rest at both.
+// Adds `weight` times the clip's turns at `at`. Before the first and after the last key the turns
+// are constant; between two keys they are interpolated linearly, or, if eased, with zero slope at
+// keys.
 enum class ClipBlend : std::uint8_t { straight, eased };
 void add_turns(const BodyClip& clip, double at, double weight, ClipBlend blend, ClipTurns& turns);
 double reach_weight(const BodyClips& clips, double distance);

@@ -6,7 +6,7 @@
 namespace handhold {
 namespace {
 
-// Where a bone is and how long; 0 where it ends in itself.
+// Pose and length of a player's bone; length 0: the bone has no end joint.
 struct PlacedBone {
     Pose frame_ws;
     double length_m = 0.0;
@@ -31,7 +31,7 @@ double trunk_length(const SpinePose& spine) {
     return length;
 }
 
-// Its own share of the hand's twist, beside what it has in the file.
+// The forearm with the carrier's share of the hand's twist, relative to the twist in the file.
 Pose twisted(const BodyRig::Carrier& carrier, const ArmPose::Arm& arm) {
     const double twist_rad =
         followed_twist(arm.forearm_ws.rotation, arm.hand_ws.rotation) - carrier.twist_rad;
@@ -68,7 +68,7 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
     switch (carrier.bone) {
         case BodyBone::trunk:
             return {trunk_at(render.spine, carrier.along), trunk_length(render.spine)};
-        case BodyBone::neck:  // goes by place_neck
+        case BodyBone::neck:  // see place_neck
         case BodyBone::head:
             return {render.head_ws, 0.0};
         case BodyBone::clavicle:
@@ -84,7 +84,8 @@ PlacedBone place_bone(const BodyRig::Carrier& carrier, const RenderPose& render)
     return place_leg(render.spine.legs[index_of(carrier.side)], carrier.bone);
 }
 
-// Between the chest that carries its lower end and the head that carries the upper one.
+// The neck between its lower end, which follows the chest, and its upper end, which follows the
+// head.
 PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest, const Quat& head) {
     const Vec3 along = to_ws - from_ws;
     const double length = along.norm();
@@ -96,7 +97,7 @@ PlacedBone place_neck(const Vec3& from_ws, const Vec3& to_ws, const Quat& chest,
     return {{from_ws, (onto * between).normalized()}, length};
 }
 
-// How much thicker a player is than the rig.
+// Thickness of the player relative to the rig.
 struct Girth {
     double legs = 1.0;
     double trunk = 1.0;
@@ -107,7 +108,8 @@ struct Girth {
     }
 };
 
-// From the file to the world: into the bone, scaled there, and out with it.
+// Map from the file's frame to the world: into the bone's rest frame, scaled there, to the bone's
+// world frame.
 Affine stretch_onto(const BodyRig::Carrier& carrier, const PlacedBone& placed, const Girth& girth) {
     Vec3 scale = Vec3::Constant(girth.of(carrier.bone));
     if (carrier.length_m > 0.0 && placed.length_m > 0.0) {
@@ -129,7 +131,7 @@ bool is_identity(const Pose& pose) {
 double followed_twist(const Quat& forearm, const Quat& hand) {
     constexpr double k_wholly_rad = 2.0 / 3.0 * k_pi;
     const Quat turn = forearm.conjugate() * hand;
-    // Half the twist's cosine and sine, times the cosine of half the wrist's bend.
+    // Cosine and sine of half the twist, times the cosine of half the wrist's bend.
     const double cosine = std::abs(turn.w());
     const double sine = turn.w() < 0.0 ? -turn.z() : turn.z();
     const double twist_rad = 2.0 * arc_tangent2(sine, cosine);
@@ -147,7 +149,7 @@ Pose trunk_at(const SpinePose& spine, double along) {
     const double share = link - static_cast<double>(below);
     Pose at;
     at.position = points[below] + share * (points[below + 1] - points[below]);
-    // Each link's turn is that of its middle; pelvis and chest are at the ends.
+    // Knots of the rotation: the links' middles, with pelvis and chest at the ends.
     std::array<double, k_spine_links + 2> knots;
     std::array<Quat, k_spine_links + 2> turns;
     knots.front() = 0.0;

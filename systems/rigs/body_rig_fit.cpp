@@ -11,25 +11,25 @@ namespace handhold {
 namespace {
 
 constexpr double k_shortest_trunk_m = 1e-6;
-constexpr double k_shortest = 1e-3;  // bones, of the trunk's length
-// The trunk ends this share of its length above the hips.
+constexpr double k_shortest = 1e-3;  // shortest bone / trunk length
+// The trunk begins this share of its length above the hips.
 constexpr double k_hips_below = 0.06;
 
-// The upright figure's own axes: +Y up, -Z where it faces.
+// Axes and trunk of the upright figure.
 struct Stance {
-    Quat axes_ms = Quat::Identity();
-    Vec3 pelvis_ms = Vec3::Zero();     // where the trunk begins
-    Vec3 shoulders_ms = Vec3::Zero();  // and ends
+    Quat axes_ms = Quat::Identity();   // +Y up, -Z where the figure faces
+    Vec3 pelvis_ms = Vec3::Zero();     // lower end of the trunk
+    Vec3 shoulders_ms = Vec3::Zero();  // upper end
     Vec3 up_ms = Vec3::UnitY();
     double trunk_m = 0.0;
 };
 
-// `aside`, but where the bone nearly lies along it, `other`.
+// `aside`, or `other` if the bone is nearly parallel to `aside`.
 const Vec3& choose_aside(const Vec3& along, const Vec3& aside, const Vec3& other) {
     constexpr double k_nearly = 0.98;
     return std::abs(along.normalized().dot(aside)) < k_nearly ? aside : other;
 }
-// +Y along the bone, +Z as near to `back` as that allows.
+// Rotation with +Y along the bone and +Z as close to `back` as possible.
 Quat along_y(const Vec3& along, const Vec3& back) {
     Mat3 axes;
     axes.col(1) = along.normalized();
@@ -83,7 +83,7 @@ class BodyFitter {
         return place(*bones_.limb(side, bone));
     }
     Vec3 back() const { return stance_.axes_ms * Vec3::UnitZ(); }
-    // +Y along the bone; +Z to the back, or where that goes as the bone is bent there.
+    // +Y along the bone; +Z to the back, or to where the back turns if the bone points backwards.
     Quat upright_along(const Vec3& along) const {
         const Vec3 bent = along.dot(back()) > 0.0 ? Vec3(-stance_.up_ms) : stance_.up_ms;
         return along_y(along, choose_aside(along, back(), bent));
@@ -184,7 +184,7 @@ class BodyFitter {
         }
     }
 
-    // To the middle of what hangs on the hand; straight on where that is nothing.
+    // Towards the mean of the hand's child joints; along the forearm if it has none.
     Vec3 hand_direction(HandSide side) const {
         const std::size_t hand = *bones_.limb(side, BodyBone::hand);
         Vec3 sum = Vec3::Zero();
@@ -208,7 +208,7 @@ class BodyFitter {
         const Vec3 hip = limb_place(side, BodyBone::thigh);
         const Vec3 knee = limb_place(side, BodyBone::shin);
         const auto& foot = bones_.limb(side, BodyBone::foot);
-        // Feet that are not there end as far below the knee as the hip is above it.
+        // A missing foot is assumed as far below the knee as the hip is above it.
         const Vec3 ankle = foot ? place(*foot) : Vec3(2.0 * knee - hip);
         const double thigh_m = checked((knee - hip).norm(), {BodyBone::thigh, side});
         const double shin_m = checked((ankle - knee).norm(), {BodyBone::shin, side});
@@ -221,7 +221,7 @@ class BodyFitter {
         }
     }
 
-    // A joint that is no bone goes with the limb or the head above it, else with the trunk.
+    // Gives every joint a carrier.
     void carry_joints() {
         for (std::size_t i = 0; i < figure_.joints.size(); ++i) {
             const SkinJoint& joint = figure_.joints[i];
@@ -251,8 +251,8 @@ class BodyFitter {
                     stance_.trunk_m});
     }
 
-    // Some rigs keep twist joints and doubles of joints beside the limb, not below it: their names
-    // say where they belong.
+    // The limb that a joint's name says. Some rigs keep twist joints and duplicates beside the limb
+    // instead of below it.
     std::optional<std::size_t> part_carrier(std::size_t joint) {
         const auto guess = parse_body_joint_name(figure_.joints[joint].name);
         if (!guess || !is_limb(guess->name.bone)) {
@@ -265,7 +265,7 @@ class BodyFitter {
         return carry_along(joint, carrier_of_[*bone]);
     }
 
-    // What hangs on a forearm twists with the hand by where it is along it.
+    // Carrier of a joint below a bone: on a forearm, with the share of twist at the joint's place.
     std::size_t carry_along(std::size_t joint, std::size_t above) {
         constexpr double k_at_elbow = 0.02;
         BodyRig::Carrier carrier = rig_.carriers[above];
@@ -290,7 +290,8 @@ class BodyFitter {
             eyes > 0 ? Vec3(sum / eyes) : eyes_from_skin();
     }
 
-    // Above the lowest point; of a figure without legs what is usual above its pelvis.
+    // Height of the eyes above the lowest vertex; estimated from the pelvis for figures without
+    // legs.
     bool find_eye_height() {
         constexpr double k_share_above_pelvis = 0.43;
         const auto above = [&](const Vec3& point) {
@@ -316,7 +317,7 @@ class BodyFitter {
                low.ends_with("eye_r") || low.ends_with("eye.l") || low.ends_with("eye.r");
     }
 
-    // In the middle of the head, at its front.
+    // The middle of the head's front.
     Vec3 eyes_from_skin() const {
         Vec3 low = Vec3::Constant(1e30);
         Vec3 high = Vec3::Constant(-1e30);
@@ -336,7 +337,7 @@ class BodyFitter {
         return rig_.head_joint_ms + stance_.axes_ms * eyes;
     }
 
-    // Exactly nothing where rounding to float is all that is left.
+    // Exactly the identity if only rounding to float is left.
     Pose in_bone(const Pose& bone_ms, const Pose& joint_ms) const {
         const Pose pose = inverse(bone_ms) * joint_ms;
         const bool is_there =
@@ -348,7 +349,7 @@ class BodyFitter {
     const BodyBones& bones_;
     Stance stance_;
     BodyRig rig_;
-    std::vector<std::size_t> carrier_of_;  // by joint; k_none where it is no bone
+    std::vector<std::size_t> carrier_of_;  // by joint; k_none for joints that are not bones
     double shortest_m_ = 0.0;
     std::string wrong_;
 };

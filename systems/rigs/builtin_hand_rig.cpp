@@ -1,5 +1,4 @@
-// Figures of our own, after the proportions of an adult's hand: bones 44/27/18 mm in the middle
-// finger, knuckles 20 mm apart.
+// Dimensions follow an adult's hand: middle finger bones 44, 27 and 18 mm, knuckles 20 mm apart.
 #include "systems/rigs/builtin_hand_rig.hpp"
 
 #include <span>
@@ -19,12 +18,12 @@ Links scaled(const Links& values, double scale) {
     return {values[0] * scale, values[1] * scale, values[2] * scale};
 }
 
-// A finger of the right hand, as figures.
+// Dimensions of a finger of the right hand.
 struct FingerFigures {
     FingerName name;
-    const char* joints;          // what the names of its joints begin with
+    const char* joints;          // prefix of its joints' names
     std::array<double, 3> base;  // mm
-    double spread_deg;           // to the thumb's side
+    double spread_deg;           // towards the thumb
     Links length, radius;        // mm
 };
 constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
@@ -55,7 +54,7 @@ constexpr std::array<FingerFigures, 4> k_fingers = {{{FingerName::index,
 constexpr std::array<double, 3> k_thumb_base = {-24.0, -6.0, -26.0};  // mm
 constexpr Links k_thumb_length = {46.0, 34.0, 25.0};                  // mm
 constexpr Links k_thumb_radius = {10.0, 9.2, 8.4};                    // mm
-// Of the first link at curl 0: from the opposition axis.
+// Angle of the first link from the opposition axis, at curl 0.
 constexpr double k_thumb_away_deg = 52.0;
 
 Vec3 from_mm(const std::array<double, 3>& mm) { return k_mm * Vec3(mm[0], mm[1], mm[2]); }
@@ -77,7 +76,7 @@ FingerRig make_thumb() {
     thumb.length_m = scaled(k_thumb_length, k_mm);
     thumb.radius_m = scaled(k_thumb_radius, k_mm);
     set_hand_limits(HandSide::right, thumb);
-    // The thumb's plane holds the axis: a curl turns the links from their side of it to the other.
+    // The thumb's plane contains the axis: a curl turns the links from one side of it to the other.
     const Vec3 axis = -thumb.opposition_axis_hs;  // to the fingers, on a right hand
     double away_sine = 0.0;
     double away_cosine = 1.0;
@@ -92,7 +91,8 @@ FingerRig make_thumb() {
     return thumb;
 }
 
-// Flush with the palm's centre, 14 mm below the wrist, so that a flat hand lies on a flat wall.
+// All capsules are flush with the palm's centre, 14 mm below the wrist, so that a flat hand lies on
+// a flat wall.
 std::vector<PalmCapsule> make_palm() {
     const auto capsule = [](const std::array<double, 3>& a, const std::array<double, 3>& b,
                             double radius_mm) {
@@ -108,7 +108,7 @@ std::vector<PalmCapsule> make_palm() {
             capsule({-20.0, -4.5, -28.0}, {-24.0, -4.0, -52.0}, 11.0)};  // ball of the thumb
 }
 
-// Frames of joints are those of the hinges; the tip's stands at the end of the last link.
+// Joint frames are the hinges' frames; the tip is at the end of the last link.
 void add_finger_joints(const std::string& prefix, std::span<const char* const> names,
                        std::int32_t place, HandRig& rig) {
     const FingerRig& finger = rig.fingers[static_cast<std::size_t>(place)];

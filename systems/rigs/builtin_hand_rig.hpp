@@ -4,9 +4,9 @@
 
 namespace handhold {
 
-// The project's own robot hand: five fingers, adult size (0.18 m from the wrist to the skin of the
-// middle finger's tip), joints by WebXR's names, fingers in the order of FingerName. The left hand
-// is the exact mirror of the right one.
+// The built-in robot hand: five fingers in the order of FingerName, adult size (0.18 m from the
+// wrist to the middle finger's skin), joints with WebXR's names. The left hand is the exact mirror
+// image of the right one.
 HandRig builtin_hand_rig(HandSide side);
 
 }  // namespace handhold

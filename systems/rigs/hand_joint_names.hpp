@@ -15,9 +15,9 @@ struct HandJointName {
     HandBone bone = HandBone::proximal;
 };
 
-// What a joint is by its name, whatever its letters' case and what stands around the words:
-// "index-finger-phalanx-proximal", "XR_HAND_JOINT_LITTLE_TIP_EXT" and "PinkyDistal_L" are known.
-// Nothing where it is no joint of a finger.
+// Reads finger and bone from a joint's name: "index-finger-phalanx-proximal",
+// "XR_HAND_JOINT_LITTLE_TIP_EXT" or "PinkyDistal_L". Ignores case and surrounding text. Returns
+// nothing if the name is not a finger's joint.
 std::optional<HandJointName> parse_hand_joint_name(std::string_view name);
 bool is_wrist_name(std::string_view name);
 

@@ -12,23 +12,21 @@ namespace handhold {
 // Frames of a finger's links in hand space: hinge at the origin, -Z along the link.
 std::array<Pose, k_max_links> finger_link_frames(const FingerRig& finger,
                                                  const FingerAngles& angles);
-// The hinges in hand space and, behind the last one, the tip: link i's capsule lies between points
-// i and i + 1.
+// Hinges in hand space, followed by the tip: link i's capsule lies between points i and i + 1.
 std::array<Vec3, k_max_links + 1> finger_points(const FingerRig& finger,
                                                 const FingerAngles& angles);
 
-// The angles at which finger_link_frames gives these rotations; of rotations that no angles give,
-// those whose opposition and hinges come nearest, one link after the other. Not limited to the
-// finger's range.
+// Inverse of finger_link_frames for rotations. For rotations that the finger cannot reach, picks
+// the closest opposition and then the closest hinge angle link by link. Does not apply the finger's
+// limits.
 FingerAngles angles_of_links(const FingerRig& finger, std::span<const Quat> rotations_hs);
 
-// All hinges at the same share of their way: 0 fully open, 1 fully curled. Opposition 0.
+// All hinges at the same share of their range: 0 fully open, 1 fully curled. Opposition 0.
 FingerAngles coupled_angles(const FingerRig& finger, double share);
-// Where nothing is touched. Opposition 0.
+// The rest pose. Opposition 0.
 FingerAngles relaxed_angles(const FingerRig& finger);
 
-// The same hand of the other side, as a mirror across the plane x = 0 shows it: equal angles give
-// mirrored poses.
+// Mirrors a hand across the plane x = 0 to the other side: equal angles give mirrored poses.
 HandRig mirror_hand_rig(const HandRig& rig);
 Pose mirror_hand_pose(const Pose& pose_hs);
 

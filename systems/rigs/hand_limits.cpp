@@ -1,5 +1,5 @@
-// The opposition axis leans to the little finger's side, so that a flexed thumb comes back below
-// the index and middle fingers instead of beside them.
+// The opposition axis leans towards the little finger, so that a flexed thumb ends below the index
+// and middle fingers instead of beside them.
 #include "systems/rigs/hand_limits.hpp"
 
 namespace handhold {
@@ -13,7 +13,7 @@ constexpr CurlLimits k_two_bones = {{-10.0, 0.0, 0.0}, {115.0, 110.0, 0.0}, {20.
 constexpr CurlLimits k_thumb = {{-10.0, -10.0, -10.0}, {28.0, 50.0, 65.0}, {10.0, 12.0, 10.0}};
 constexpr double k_opposition_lower_deg = -85.0;
 constexpr double k_opposition_upper_deg = 70.0;
-constexpr double k_opposition_lean = 0.25;  // for 1 forward
+constexpr double k_opposition_lean = 0.25;  // sideways per unit forward
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void set_hand_limits(HandSide side, FingerRig& finger) {
     }
     finger.lower_opposition_rad = k_opposition_lower_deg * k_degree;
     finger.upper_opposition_rad = k_opposition_upper_deg * k_degree;
-    // A positive turn goes from the thumb's side to the palm's, on either hand.
+    // A positive angle turns from the thumb's side to the palm's side, on either hand.
     const Vec3 right_axis = -Vec3(k_opposition_lean, 0.0, -1.0).normalized();
     const double sign = side == HandSide::right ? 1.0 : -1.0;
     finger.opposition_axis_hs = Vec3(right_axis.x(), sign * right_axis.y(), sign * right_axis.z());

@@ -26,7 +26,7 @@ std::optional<std::size_t> find(const JointsByBone& joints, HandBone bone) {
     return found == joints.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Adds the names that a finger lacks to `missing`.
+// Adds the names of missing joints to `missing`.
 FingerBones collect_finger(FingerName name, const JointsByBone& joints, std::string& missing) {
     FingerBones finger;
     finger.name = name;
@@ -60,7 +60,7 @@ FingerBones collect_finger(FingerName name, const JointsByBone& joints, std::str
     return finger;
 }
 
-// Fingers with a phalanx or a tip; a lone metacarpal is a part of the palm.
+// True if there is a phalanx or a tip; a metacarpal alone is part of the palm.
 bool is_finger(const JointsByBone& joints) {
     return std::any_of(joints.begin(), joints.end(),
                        [](const auto& joint) { return joint.first != HandBone::metacarpal; });
@@ -70,7 +70,7 @@ Vec3 bind_position(const SkinnedMesh& skin, std::size_t joint) {
     return skin.joints[joint].bind_ms.position;
 }
 
-// First hinges of the fingers. The thumb's counts only beside a single finger.
+// First hinges of the fingers. The thumb's is used only if there is a single other finger.
 template <typename Fingers, typename PlaceOf>
 std::vector<Vec3> knuckles_of(const Fingers& fingers, const PlaceOf& place_of) {
     std::vector<Vec3> knuckles;
@@ -109,8 +109,8 @@ std::optional<Quat> palm_axes(const Vec3& wrist, const std::vector<Vec3>& knuckl
     return Quat(axes).normalized();
 }
 
-// Hand space lies to the palm as it does in the built-in hand with the same fingers. Joints' own
-// axes do not count: every exporter has others.
+// Axes of hand space: palm axes of this hand, turned as hand space is turned against the palm axes
+// of the built-in hand with the same fingers. Ignores the joints' own axes.
 std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, HandSide side) {
     const double to_right = side == HandSide::right ? 1.0 : -1.0;
     const auto found = palm_axes(bind_position(skin, bones.wrist),
@@ -134,8 +134,8 @@ std::optional<Quat> hand_axes(const SkinnedMesh& skin, const HandBones& bones, H
                           : std::nullopt;
 }
 
-// How far fingers and thumb reach to the palm's side of the hand, -Y: positive if the hand is of
-// the side that its axes were made for. Sums of shares of the fingers' lengths.
+// Bend of fingers and thumb towards the palm's side (-Y), summed in shares of their lengths.
+// Negative if the axes were made for the wrong side.
 double reach_to_palm(const SkinnedMesh& skin, const HandBones& bones, const Pose& hand) {
     constexpr double k_thumb_weight = 2.0;
     double reach = 0.0;
@@ -161,21 +161,27 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
 }
 
 // The axis about which a straight finger curls to the palm: level, across its first bone. A thumb
-// has the built-in thumb's axis, turned with its first bone.
+// has the built-in thumb's axis, carried to its first bone by a turn about the opposition axis,
+// then by the shortest rotation.
 Vec3 usual_hinge_axis(FingerName name, const Vec3& first_bone, HandSide side) {
     if (name == FingerName::thumb) {
         const HandRig usual = builtin_hand_rig(side);
         const FingerRig& thumb = usual.fingers.front();
-        const Quat rotation = finger_link_frames(thumb, relaxed_angles(thumb))[0].rotation;
-        return rotation_between(rotation * -Vec3::UnitZ(), first_bone) * (rotation * Vec3::UnitX());
+        const Vec3& axis = thumb.opposition_axis_hs;
+        const auto across = [&](const Vec3& v) { return Vec3(v - axis * axis.dot(v)); };
+        const Quat rest = finger_link_frames(thumb, relaxed_angles(thumb))[0].rotation;
+        const Vec3 bone = rest * -Vec3::UnitZ();
+        const Quat opposed =
+            rotation_about(axis, angle_about(axis, across(bone), across(first_bone)));
+        return rotation_between(opposed * bone, first_bone) * (opposed * (rest * Vec3::UnitX()));
     }
-    constexpr double k_upright = 0.2;  // a bone that points out of the palm tells no axis
+    constexpr double k_upright = 0.2;  // a bone normal to the palm determines no axis
     const Vec3 axis = first_bone.cross(Vec3::UnitY());
     return axis.norm() > k_upright ? Vec3(axis.normalized()) : Vec3(Vec3::UnitX());
 }
 
-// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and w =
-// k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
+// Minimises sum_i (h . b_i)^2 + w |h - p|^2 with unit bones b_i, the usual axis p and
+// w = k_prior_weight: (sum_i b_i b_i^T + w I) h = w p.
 Vec3 fit_hinge_axis(const std::vector<Vec3>& points_hs, const Vec3& usual_axis) {
     Mat3 system = k_prior_weight * Mat3::Identity();
     for (std::size_t i = 0; i + 1 < points_hs.size(); ++i) {
@@ -247,7 +253,7 @@ Result<Pose> find_hand_frame(const SkinnedMesh& skin, const HandBones& bones, Ha
         return FileError{skin.file, "/skins",
                          "expected a hand of 0.05 to 1 m, found " + std::to_string(reach_m) + " m"};
     }
-    // A flat hand does not tell its side: then the caller's word counts.
+    // A flat hand does not determine its side.
     constexpr double k_flat = -0.05;
     if (reach_to_palm(skin, bones, hand) < k_flat) {
         return FileError{skin.file, "/skins",
@@ -266,7 +272,7 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_h
     const bool is_thumb = finger.name == FingerName::thumb;
     const Vec3 hinge = fit_hinge_axis(
         joints_hs, usual_hinge_axis(bones.name, (joints_hs[1] - joints_hs[0]).normalized(), side));
-    // All joints into the plane through their middle.
+    // Projects the joints into the finger's plane through their mean.
     Vec3 middle = Vec3::Zero();
     for (const Vec3& joint : joints_hs) {
         middle += joint / static_cast<double>(joints_hs.size());
@@ -296,7 +302,7 @@ FingerRig fit_finger(const FingerBones& bones, const std::vector<Vec3>& joints_h
         before = bone.normalized();
     }
     if (is_thumb) {
-        // About the axis, from the thumb's side of the hand towards the palm's.
+        // Angle about the opposition axis, from the thumb's side of the hand to the palm's side.
         const Vec3& axis = finger.opposition_axis_hs;
         const auto across = [&](const Vec3& v) { return Vec3(v - axis * axis.dot(v)); };
         const Vec3 beside = side == HandSide::right ? Vec3(-Vec3::UnitX()) : Vec3(Vec3::UnitX());

@@ -1,5 +1,5 @@
-// What the skin tells of a hand's thickness. Medians and percentiles: a few odd vertices (a nail, a
-// cuff, a seam) do not count.
+// Measures a hand's thickness from its skin. Uses medians and percentiles, so that outliers (a
+// nail, a cuff, a seam) have no effect.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,14 @@ namespace {
 
 constexpr double k_min_radius_m = 0.003;
 constexpr double k_max_radius_m = 0.03;
-// Where a hand's skin is looked for around a capsule of the palm, to either side.
+// Skin of the palm within this distance of a capsule's line counts for the capsule.
 constexpr double k_half_width_m = 0.011;
-// The radius of a thumb's first link, of the next one's.
+// Largest radius of a thumb's first link / radius of the next link.
 constexpr double k_max_ball = 1.3;
-// Of the knuckles' distance from the wrist.
+// Distance of the palm's centre from the wrist / mean distance of the knuckles.
 constexpr double k_palm_center_share = 0.88;
 
-// Precondition: 0 <= share <= 1. `fallback` where there are no values.
+// Precondition: 0 <= share <= 1. Returns `fallback` if there are no values.
 double percentile(std::vector<double>& values, double share, double fallback) {
     if (values.empty()) {
         return fallback;
@@ -39,7 +39,7 @@ struct SkinPart {
     std::uint32_t link = 0;
 };
 
-// The link, or the palm, whose joints carry most of a vertex.
+// The link, or the palm, with the largest sum of weights of a vertex.
 SkinPart part_of(const SkinWeights& weights, const HandRig& rig) {
     SkinPart best;
     float most = -1.0F;
@@ -60,8 +60,8 @@ SkinPart part_of(const SkinWeights& weights, const HandRig& rig) {
     return best;
 }
 
-// Distances from the middle part of the bone give the radius; the last link ends a radius before
-// the skin.
+// Radius: median distance of the skin from the bone's middle part. The last link ends one radius
+// before the skin.
 void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<SkinPart>& parts,
                      std::int32_t place, const FingerAngles& bind, FingerRig& finger) {
     const std::array<Pose, k_max_links> frames = finger_link_frames(finger, bind);
@@ -87,7 +87,7 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
         before_m = finger.radius_m[link];
     }
     if (finger.name ==
-        FingerName::thumb) {  // whose first link lies in the ball, which is not round
+        FingerName::thumb) {  // its first link lies in the ball of the thumb, which is not round
         finger.radius_m[0] = std::min(finger.radius_m[0], k_max_ball * finger.radius_m[1]);
     }
     const std::size_t last = finger.link_count - 1;
@@ -95,7 +95,7 @@ void fit_finger_skin(const std::vector<Vec3>& positions_hs, const std::vector<Sk
     finger.length_m[last] = std::max(end_m - finger.radius_m[last], 0.25 * finger.length_m[last]);
 }
 
-// The skin of the palm as points with a side.
+// Vertices of the palm by side.
 struct PalmSkin {
     std::vector<Vec3> palmar, dorsal;  // hand space; facing -Y and +Y
 };
@@ -105,7 +105,7 @@ PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& position
     constexpr double k_facing = 0.4;
     PalmSkin palm;
     for (std::size_t i = 0; i < positions_hs.size(); ++i) {
-        // The ball of the thumb goes with the thumb: a flat hand lies flat.
+        // Skips the ball of the thumb, which follows the thumb: a flat hand then lies flat.
         if (parts[i].finger != RigJoint::k_palm) {
             continue;
         }
@@ -119,7 +119,8 @@ PalmSkin collect_palm(const SkinnedMesh& skin, const std::vector<Vec3>& position
     return palm;
 }
 
-// Median height of the skin about the part of a line that is seen from above, from `from` to `to`.
+// Median height of the skin near the line from a to b, seen along Y, between the shares `from` and
+// `to` of its length.
 double height_along(const std::vector<Vec3>& skin, const Vec3& a, const Vec3& b, double from,
                     double to, double fallback) {
     const Vec3 line(b.x() - a.x(), 0.0, b.z() - a.z());
@@ -134,8 +135,8 @@ double height_along(const std::vector<Vec3>& skin, const Vec3& a, const Vec3& b,
     return percentile(heights, 0.5, fallback);
 }
 
-// A capsule below the line from a to b (their heights only serve where there is no skin) that is
-// flush with the palm's skin and as thick as the hand is.
+// A capsule along the line from a to b, flush with the palm's skin and as thick as the hand. The
+// heights of a and b are used only if there is no skin.
 PalmCapsule flush_capsule(const PalmSkin& skin, const Vec3& a, const Vec3& b, double spare_m) {
     const auto skin_at = [&](const std::vector<Vec3>& side, double from, double to, double spare) {
         return height_along(side, a, b, from, to,
@@ -146,7 +147,7 @@ PalmCapsule flush_capsule(const PalmSkin& skin, const Vec3& a, const Vec3& b, do
     const double above =
         0.5 * (skin_at(skin.dorsal, -0.1, 0.5, spare_m) + skin_at(skin.dorsal, 0.5, 1.1, spare_m));
     PalmCapsule capsule{a, b, clamp_radius(0.5 * (above - 0.5 * (below_a + below_b)))};
-    // The medians stand for a quarter and three quarters of the way.
+    // The medians are the heights at a quarter and three quarters of the length.
     const double rise = below_b - below_a;
     capsule.a_hs.y() = below_a - 0.5 * rise + capsule.radius_m;
     capsule.b_hs.y() = below_b + 0.5 * rise + capsule.radius_m;
@@ -183,7 +184,7 @@ void fit_palm_capsules(const PalmSkin& skin, HandRig& rig) {
     }
 }
 
-// Height of the lowest surface at (x, z); `fallback` where there is none.
+// Height of the lowest surface at (x, z); `fallback` if there is none.
 double lowest_height(const SkinnedMesh& skin, const std::vector<Vec3>& positions_hs, double x,
                      double z, double fallback) {
     double lowest = fallback;

@@ -2,6 +2,8 @@
 # handhold/internal/, with includes rewritten: `#include "engine/..."` becomes `#include <handhold/internal/engine/...>`. A host's include
 # path therefore has no folder of this repository. Variables: SOURCE_DIR, PUBLIC_DIR, DESTINATION.
 
+cmake_policy(VERSION 3.25)
+
 set(our_include "^[ \t]*#[ \t]*include[ \t]*\"((engine|components|systems)/[^\"]+)\"")
 
 # Installs one header and adds the headers that it includes to the caller's `pending`.

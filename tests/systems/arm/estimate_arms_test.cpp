@@ -16,7 +16,7 @@ using test::k_right;
 using test::mirrored;
 using test::Random;
 
-// One player in columns; head and hands in play space.
+// Columns of one player; head and hands in play space.
 struct Arms {
     Column<PlayerOrigin> origin;
     Column<HeadTracking> head;
@@ -61,13 +61,13 @@ Pose turned(const Pose& pose, double yaw_rad) {
 }
 Vec3 elbow(const ArmPose& pose, std::size_t side) { return pose.arms[side].forearm_ws.position; }
 
-TEST(EstimateArms, HandsHeldAlikeLeaveTheChestWhereTheHeadLooks) {
+TEST(EstimateArms, SymmetricHandsKeepTheChestFacingTheLookDirection) {
     Arms arms;
     arms.step(k_head, k_left_hand, k_right_hand);
     EXPECT_LT((arms.estimate.at(k_player).facing_ps + Vec3::UnitZ()).norm(), 1e-12);
 }
 
-TEST(EstimateArms, HandJointIsThePalmBitForBit) {
+TEST(EstimateArms, HandJointEqualsThePalmExactly) {
     Random random(3);
     Arms arms({Vec3(1e4, -7.0, 3.0), random.rotation()});
     for (int i = 0; i < 200; ++i) {
@@ -96,7 +96,7 @@ TEST(EstimateArms, MirroredPlayerHasMirroredArms) {
     }
 }
 
-TEST(EstimateArms, TurnedRoomTurnsEverything) {
+TEST(EstimateArms, TurnedPlaySpaceTurnsTheWholeEstimate) {
     Arms arms;
     Arms other;
     for (int i = 0; i < 50; ++i) {
@@ -120,7 +120,7 @@ TEST(EstimateArms, PlayerUpsideDownHasTheSameArms) {
         1e-9);
 }
 
-TEST(EstimateArms, SteadyTurnOfTheHeadLagsByTheLagAtAnyRate) {
+TEST(EstimateArms, SteadyHeadTurnLagsEquallyAtAnyFrameRate) {
     const double speed_radps = 0.8;
     for (const double hz : {30.0, 90.0, 144.0}) {
         Vec3 look = -Vec3::UnitZ();
@@ -135,7 +135,7 @@ TEST(EstimateArms, SteadyTurnOfTheHeadLagsByTheLagAtAnyRate) {
     }
 }
 
-TEST(EstimateArms, HandOutOfReachTakesTheShoulderAlongThenStretches) {
+TEST(EstimateArms, HandOutOfReachMovesTheShoulderThenStretchesTheArm) {
     const ArmTuning tuning;
     EXPECT_EQ(shoulder_follow(Vec3(0.0, 0.0, -0.5), 0.58, tuning), Vec3::Zero());
     const Vec3 some = shoulder_follow(Vec3(0.0, 0.0, -0.60), 0.58, tuning);
@@ -144,8 +144,8 @@ TEST(EstimateArms, HandOutOfReachTakesTheShoulderAlongThenStretches) {
     EXPECT_NEAR(-most.z(), tuning.shoulder_follow_m, 1e-12);
 }
 
-// Against a search over the whole circle.
-TEST(EstimateArms, ReachableBendIsTheNearestThatAShoulderAllows) {
+// Oracle: a search over the whole circle.
+TEST(EstimateArms, ReachableBendIsTheClosestDirectionInsideTheCone) {
     Random random(17);
     const ArmTuning tuning;
     for (int i = 0; i < 300; ++i) {
@@ -182,16 +182,16 @@ TEST(EstimateArms, ReachableBendIsTheNearestThatAShoulderAllows) {
     }
 }
 
-// Smooth ways through everything that is awkward: the elbow goes no faster than a few times what
-// the hand does, and every number is finite.
-TEST(EstimateArms, NothingPopsWhereHandsCrossReachTouchTheShoulderOrGoBehind) {
+// Smooth hand paths through all singular positions: the elbow moves at most a few times as fast as
+// the hand, and all numbers are finite.
+TEST(EstimateArms, ElbowsStayContinuousThroughSingularHandPositions) {
     for (const double hz : {30.0, 72.0, 90.0, 144.0}) {
         Arms arms;
         Vec3 before[k_hand_count];
         for (int i = 0; i < static_cast<int>(12.0 * hz); ++i) {
             const double t = i / hz;
-            // Rings of changing size about each shoulder: crossed, behind, at full reach and at
-            // the shoulder, slow enough for a person.
+            // Circles of changing radius about each shoulder: crossed, behind, at full reach and at
+            // the shoulder, at human speed.
             const auto hand = [t](double side) {
                 const double size = 0.36 + 0.35 * std::sin(0.4 * t + side);
                 return Pose{Vec3(0.19 * side + size * std::sin(1.1 * t),
@@ -211,7 +211,7 @@ TEST(EstimateArms, NothingPopsWhereHandsCrossReachTouchTheShoulderOrGoBehind) {
     }
 }
 
-TEST(EstimateArms, TeleportsAndNonsenseStayFinite) {
+TEST(EstimateArms, TeleportsAndExtremeInputStayFinite) {
     Random random(11);
     Arms arms;
     for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// Elbows at 30 frames a second are where they are at 90.
+// Elbow positions at 30 frames per second agree with those at 90.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -20,7 +20,7 @@ using test::k_player;
 using test::k_right;
 
 constexpr double k_goal_m = 0.007;
-constexpr std::size_t k_every = 3;  // frame of 90 Hz is one of 30 Hz
+constexpr std::size_t k_every = 3;  // every third frame at 90 Hz coincides with one at 30 Hz
 
 struct Sample {
     Pose head_ps;
@@ -61,7 +61,7 @@ struct Arms {
     }
 };
 
-// Distances of both elbows, at 30 against 90 Hz, in all frames that both have.
+// Distances between the elbows at 30 and at 90 Hz, in all common frames.
 void compare_rates(const std::vector<Sample>& samples, std::vector<double>& apart_m) {
     Arms fast;
     Arms slow;
@@ -86,9 +86,9 @@ Pose pose_at(const NumericTable& table, std::size_t row, std::size_t column) {
     return {Vec3(cell(0), cell(1), cell(2)), Quat(cell(6), cell(3), cell(4), cell(5)).normalized()};
 }
 
-// A minute of both hands going round, waving, crossing and reaching, at up to 2.5 m/s, while the
-// head looks about.
-TEST(BodyRates, ElbowsOfAMadeMotionAgree) {
+// One minute: both hands circle, wave, cross and reach at up to 2.5 m/s while the head looks
+// around.
+TEST(BodyRates, ElbowsOfASyntheticMotionAgreeAtBothRates) {
     std::vector<Sample> samples;
     for (int i = 0; i < 60 * 90; ++i) {
         const double t = i / 90.0;
@@ -108,7 +108,7 @@ TEST(BodyRates, ElbowsOfAMadeMotionAgree) {
     RecordProperty("p99_um", static_cast<int>(1e6 * share_of(apart_m, 0.99)));
 }
 
-TEST(BodyRates, ElbowsOfPeopleAgree) {
+TEST(BodyRates, ElbowsOfRecordedPeopleAgreeAtBothRates) {
     const std::filesystem::path file = data_dir() / "body_eval" / "in.csv";
     if (!std::filesystem::exists(file)) {
         GTEST_SKIP() << "no data";

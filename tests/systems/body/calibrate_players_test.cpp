@@ -11,7 +11,7 @@ using test::k_left;
 using test::k_player;
 using test::k_right;
 
-// One player in columns who holds a T-pose: eyes at 1.70 m, 1.60 m from wrist to wrist.
+// Columns of one player in a T-pose: eyes at 1.70 m, wrists 1.60 m apart.
 struct TPosed {
     Column<PlayerCommands> commands;
     Column<HeadTracking> head;
@@ -67,7 +67,7 @@ TEST(CalibratePlayers, MeasuresATPoseHeldForASecondAtAnyRate) {
     }
 }
 
-TEST(CalibratePlayers, WhoSitsGetsTheHeightOfHisSpan) {
+TEST(CalibratePlayers, SeatedPlayerGetsTheHeightOfTheirSpan) {
     TPosed player;
     player.stand(1.20, 1.60);
     player.play(1.1);
@@ -75,7 +75,7 @@ TEST(CalibratePlayers, WhoSitsGetsTheHeightOfHisSpan) {
     EXPECT_NEAR(span_of(player.found()), 1.60, 1e-9);
 }
 
-// What re-centring added to the tracking is no height.
+// Re-centring shifts the tracking; the shift is not part of the height.
 TEST(CalibratePlayers, ShiftedTrackingIsMeasuredFromTheFloor) {
     TPosed player;
     player.head.at(k_player).shift_m = Vec3(1.0, -0.4, 2.0);
@@ -84,7 +84,7 @@ TEST(CalibratePlayers, ShiftedTrackingIsMeasuredFromTheFloor) {
     EXPECT_NEAR(player.found().eye_height_m, 1.70, 1e-9);
 }
 
-TEST(CalibratePlayers, MovingHandsBeginAnew) {
+TEST(CalibratePlayers, MovingHandsRestartTheMeasurement) {
     TPosed player;
     player.play(0.9);
     player.stand(1.70, 1.75);
@@ -94,7 +94,7 @@ TEST(CalibratePlayers, MovingHandsBeginAnew) {
     EXPECT_NEAR(span_of(player.found()), 1.75, 1e-9);
 }
 
-TEST(CalibratePlayers, NobodyIsMeasuredWhoDoesNotAskOrIsLost) {
+TEST(CalibratePlayers, NothingIsMeasuredWithoutARequestOrTracking) {
     TPosed silent;
     silent.commands.at(k_player).calibrate = false;
     silent.play(3.0);
@@ -105,7 +105,7 @@ TEST(CalibratePlayers, NobodyIsMeasuredWhoDoesNotAskOrIsLost) {
     EXPECT_TRUE(lost.is_default());
 }
 
-TEST(CalibratePlayers, OnceForEachTimeItIsAskedFor) {
+TEST(CalibratePlayers, MeasuresOncePerRequest) {
     TPosed player;
     player.play(1.1);
     player.stand(1.50, 1.40);
@@ -131,7 +131,7 @@ TEST(ReadTPose, MeasuresLoweredArms) {
             ASSERT_TRUE(pose) << span_m << " " << degrees;
             EXPECT_NEAR(pose->span_m, span_m, 1e-9) << degrees;
         }
-        // Hanging arms are no pose.
+        // Hanging arms are not accepted.
         const double x = 0.2 * span_m;
         const double y = head.y() - 0.51 * span_m;
         EXPECT_FALSE(read_t_pose(head, Vec3(-x, y, 0.0), Vec3(x, y, 0.0)));
@@ -139,7 +139,7 @@ TEST(ReadTPose, MeasuresLoweredArms) {
 }
 
 // Bent arms, or controllers held far apart, are not measured.
-TEST(ReadTPose, RefusesArmsThatNobodyOfThatHeightHas) {
+TEST(ReadTPose, RefusesImplausibleArmLengths) {
     const Vec3 head(0.0, 1.7, 0.0);
     const auto at = [&](double half_m, double below_m) {
         const Vec3 down(0.0, 1.7 - below_m, 0.0);
@@ -166,7 +166,7 @@ TEST(ReadTPose, RefusesOtherPoses) {
     EXPECT_FALSE(read_t_pose(head, nowhere, right));
 }
 
-TEST(MeasuresOf, AHeightAloneGivesABodyOfThatHeight) {
+TEST(MeasuresOf, EyeHeightAloneGivesABodyOfThatHeight) {
     for (const double height : {1.2, 1.62, 1.9}) {
         const BodyMeasures measures = measures_of_eye_height(height);
         EXPECT_EQ(measures.eye_height_m, height);

@@ -22,7 +22,7 @@ using test::k_right;
 
 constexpr double k_dt_s = 1.0 / 90.0;
 
-// One player's body in columns, with his clips.
+// Columns of one player's body, with clips.
 struct Body {
     Column<PlayerOrigin> origin;
     Column<PlayerVelocity> velocity;
@@ -103,12 +103,12 @@ void expect_same_body(const Body& a, const Body& b) {
     }
 }
 
-// Where the shin points in the thigh's frame: +Z where the knee is bent.
+// Direction of the shin in the thigh's frame: +Z for a bent knee.
 Vec3 knee_down(const SpinePose::Leg& leg) {
     return leg.thigh_ws.rotation.conjugate() * (leg.shin_ws.rotation * -Vec3::UnitY());
 }
 
-// All layers at once, of turns that are large for clips.
+// All layers at once, with large turns.
 void fill(Body& body) {
     ClipTurns all;
     all.fill(Vec3(0.3, 0.1, -0.2));
@@ -119,7 +119,7 @@ void fill(Body& body) {
     clip(body, BodyClipName::clavicle).keys = {{-1.5, no_turns()}, {1.5, all}};
 }
 
-TEST(LayerAdditives, WithWeightsOfNothingNothingChanges) {
+TEST(LayerAdditives, ZeroWeightsChangeNothing) {
     Body none;
     Body off;
     fill(off);
@@ -134,7 +134,7 @@ TEST(LayerAdditives, WithWeightsOfNothingNothingChanges) {
     }
 }
 
-TEST(LayerAdditives, HandJointStaysThePalmBitForBitAndBonesKeepTheirLengths) {
+TEST(LayerAdditives, HandJointEqualsThePalmExactlyAndBonesKeepTheirLengths) {
     test::Random random(3);
     Body body;
     Body plain;
@@ -162,33 +162,33 @@ TEST(LayerAdditives, HandJointStaysThePalmBitForBitAndBonesKeepTheirLengths) {
             const double scale = body.measures.at(k_player).eye_height_m / k_scale_eye_m;
             EXPECT_NEAR((leg.shin_ws.position - leg.thigh_ws.position).norm(), 0.40 * scale, 1e-9);
             EXPECT_NEAR((leg.foot_ws.position - leg.shin_ws.position).norm(), 0.39 * scale, 1e-9);
-            // Between two ticks a shin leans sideways a little, and its own X with it.
+            // Interpolation between two ticks tilts a shin slightly sideways.
             const Vec3 plain_down = knee_down(plain.pose().legs[side]);
             EXPECT_GT(knee_down(leg).z(),
-                      std::min(0.0, plain_down.z()) - 3e-3);  // never past straight
+                      std::min(0.0, plain_down.z()) - 3e-3);  // never beyond straight
         }
     }
 }
 
-TEST(LayerAdditives, IdleGoesRoundAndEndsWhereItBegan) {
+TEST(LayerAdditives, IdleLoops) {
     Body body;
     clip(body, BodyClipName::idle).keys = {
         {0.0, no_turns()}, {1.0, with_turn(0, Vec3(0.2, 0.0, 0.0))}, {2.0, no_turns()}};
-    body.step(1.0);  // the chain hangs still: all that moves is the clip
+    body.step(1.0);  // the chain is stationary: only the clip moves
     const Quat chest = body.pose().chest_ws.rotation;
     const auto bent = [&] {
         return rotation_to_vector(chest.conjugate() * body.pose().spine_ws[0].rotation);
     };
     EXPECT_NEAR(bent().x(), 0.2, 1e-9);
     body.step(0.5);
-    EXPECT_NEAR(bent().x(), 0.1, 1e-9);  // eased: half way at half time
+    EXPECT_NEAR(bent().x(), 0.1, 1e-9);  // eased: half the turn at half the time
     body.step(0.5);
     EXPECT_NEAR(bent().x(), 0.0, 1e-9);
     body.step(1.0);
     EXPECT_NEAR(bent().x(), 0.2, 1e-9);
 }
 
-TEST(LayerAdditives, PushOffPlaysOnceWhenTheLastHandLetsGoBySpeed) {
+TEST(LayerAdditives, PushOffPlaysOnceWhenTheLastHandLetsGoWeightedBySpeed) {
     for (const double speed_mps : {0.1, 3.0}) {
         Body body;
         clip(body, BodyClipName::push_off).keys = {
@@ -204,11 +204,11 @@ TEST(LayerAdditives, PushOffPlaysOnceWhenTheLastHandLetsGoBySpeed) {
         for (int i = 0; i < 200; ++i) {
             body.step();
         }
-        EXPECT_EQ(state.push_off_s, 1.0);  // at its end, where it stays
+        EXPECT_EQ(state.push_off_s, 1.0);  // stays at its end
     }
 }
 
-TEST(LayerAdditives, LettingGoWithOneOfTwoHandsIsNoPushOff) {
+TEST(LayerAdditives, ReleasingOneOfTwoHandsIsNoPushOff) {
     Body body;
     fill(body);
     body.velocity.at(k_player).linear_mps = Vec3(0.0, 0.0, 3.0);
@@ -223,8 +223,8 @@ TEST(LayerAdditives, LettingGoWithOneOfTwoHandsIsNoPushOff) {
     EXPECT_EQ(body.state.at(k_player).push_off_weight, 1.0);
 }
 
-// Hand over hand, fast and slow: no push-off cuts another short.
-TEST(LayerAdditives, PushOffsOneAfterTheOtherDoNotPop) {
+// Hand over hand, fast and slow: no push-off interrupts another one.
+TEST(LayerAdditives, ConsecutivePushOffsStayContinuous) {
     for (const double second_mps : {0.1, 0.3, 3.0}) {
         Body body;
         Body bare;
@@ -251,7 +251,7 @@ TEST(LayerAdditives, PushOffsOneAfterTheOtherDoNotPop) {
     }
 }
 
-TEST(LayerAdditives, ThrowingALooseThingIsNoPushOff) {
+TEST(LayerAdditives, ThrowingAFreeBodyIsNoPushOff) {
     Body body;
     fill(body);
     body.velocity.at(k_player).linear_mps = Vec3(0.0, 0.0, 3.0);
@@ -262,7 +262,7 @@ TEST(LayerAdditives, ThrowingALooseThingIsNoPushOff) {
     EXPECT_EQ(body.state.at(k_player).push_off_weight, 0.0);
 }
 
-TEST(LayerAdditives, LookGoesByWhereTheHeadLooksFromTheChest) {
+TEST(LayerAdditives, LookClipFollowsTheHeadRelativeToTheChest) {
     Body body;
     clip(body, BodyClipName::look_yaw).keys = {
         {-1.0, no_turns()}, {0.0, no_turns()}, {1.0, with_turn(0, Vec3(0.0, 0.0, 0.1))}};
@@ -279,11 +279,11 @@ TEST(LayerAdditives, LookGoesByWhereTheHeadLooksFromTheChest) {
     EXPECT_NEAR(leant(0.5), 0.05, 1e-12);  // left
     EXPECT_NEAR(leant(-0.5), 0.0, 1e-12);
     EXPECT_NEAR(leant(2.0), 0.1, 1e-12);
-    // Straight behind, where left becomes right, nothing jumps.
+    // Continuous straight behind, where left becomes right.
     EXPECT_NEAR(leant(k_pi - 1e-3), leant(-k_pi + 1e-3), 1e-5);
 }
 
-TEST(LayerAdditives, ClavicleGoesByAngleAndDistanceAndBothSidesAreMirrored) {
+TEST(LayerAdditives, ClavicleClipFollowsAngleAndDistanceAndIsMirrored) {
     Body body;
     clip(body, BodyClipName::clavicle).keys = {
         {-1.5, no_turns()},
@@ -314,7 +314,7 @@ TEST(LayerAdditives, ClavicleGoesByAngleAndDistanceAndBothSidesAreMirrored) {
     EXPECT_LT(lift(0.2, 0.05), 1e-3);  // up and near
 }
 
-TEST(LayerAdditives, StateIsAllThatClipsRemember) {
+TEST(LayerAdditives, BodyClipStateIsTheCompleteState) {
     Body body;
     fill(body);
     body.hold(true);
@@ -324,7 +324,7 @@ TEST(LayerAdditives, StateIsAllThatClipsRemember) {
     body.hold(false);
     body.velocity.at(k_player).linear_mps = Vec3(0.0, 1.0, 2.0);
     body.step();
-    Body again = body;  // its columns
+    Body again = body;  // copies the columns
     for (int i = 0; i < 50; ++i) {
         body.step();
         again.step();
@@ -332,7 +332,7 @@ TEST(LayerAdditives, StateIsAllThatClipsRemember) {
     }
 }
 
-TEST(BodyClips, FileIsReadAndWhatIsWrongIsNamed) {
+TEST(BodyClips, FileIsReadAndErrorsNameTheirPlace) {
     const Result<BodyClips> good = parse_body_clips(
         R"({"idle": {"keys": [{"at": 0}, {"at": 2, "spine_1": [90, 0, 0]}, {"at": 3}]},
             "clavicle": {"keys": [{"at": 90, "clavicle": [0, 0, 9]}],

@@ -34,7 +34,7 @@ struct Body {
         pose.add(k_player);
         estimate.at(k_player).chest_ps.position = Vec3(0.0, 1.4, 0.0);
     }
-    // The player has moved with this velocity for dt_s.
+    // Moves the player at this velocity for dt_s.
     const SpinePose& step(const Vec3& velocity_mps, double dt_s) {
         origin.at(k_player).pose_ws.position += dt_s * velocity_mps;
         velocity.at(k_player).linear_mps = velocity_mps;
@@ -49,11 +49,11 @@ struct Body {
     }
 };
 
-// Along -Z: up to 2.5 m/s in half a second, on for one, braked within 0.2 s.
+// Speed along -Z: accelerates to 2.5 m/s in 0.5 s, coasts for 1 s, brakes within 0.2 s.
 double speed_at(double t_s) {
     return -2.5 * (smooth_step(t_s, 0.0, 0.5) - smooth_step(t_s, 1.5, 1.7));
 }
-TEST(PropagateSpine, AtRestItHangsStillAndExactlyAsLongAsItIs) {
+TEST(PropagateSpine, RestPoseIsStationary) {
     Body body;
     const Vec3 first = (body.step(Vec3::Zero(), 1.0 / 90.0), body.foot_from_chest());
     for (int i = 0; i < 900; ++i) {
@@ -62,7 +62,7 @@ TEST(PropagateSpine, AtRestItHangsStillAndExactlyAsLongAsItIs) {
     EXPECT_LT((body.foot_from_chest() - first).norm(), 1e-9);
 }
 
-TEST(PropagateSpine, LegsTrailSwingPastAndSettle) {
+TEST(PropagateSpine, LegsTrailOvershootAndSettle) {
     Body body;
     const double hz = 90.0;
     const Vec3 rest = (body.step(Vec3::Zero(), 1.0 / hz), body.foot_from_chest());
@@ -79,7 +79,7 @@ TEST(PropagateSpine, LegsTrailSwingPastAndSettle) {
     EXPECT_LT((body.foot_from_chest() - rest).norm(), 0.03);
 }
 
-// Speeding up, braking, then the chest pitches; where the chest is at each frame's end is exact.
+// Accelerates, brakes, then pitches the chest. The chest's pose at each frame's end is exact.
 struct Way {
     std::vector<double> z_m;
     explicit Way(std::size_t hz, double for_s)
@@ -98,7 +98,7 @@ struct Way {
 double pitch_at(double t_s) {
     return 0.6 * (smooth_step(t_s, 2.5, 2.9) - smooth_step(t_s, 3.4, 3.8));
 }
-// The right foot from the chest 36 times a second, in frames at `hz`, a multiple of that.
+// Position of the right foot from the chest, sampled at 36 Hz; `hz` is a multiple of 36.
 std::vector<Vec3> feet_at(std::size_t hz, double starts_s) {
     const double dt_s = 1.0 / static_cast<double>(hz);
     const Way way(hz, 6.0);
@@ -124,28 +124,28 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return worst;
 }
 
-TEST(PropagateSpine, FrameRateDoesNotShow) {
+TEST(PropagateSpine, MotionIsIndependentOfTheFrameRate) {
     const std::vector<Vec3> fast = feet_at(144, 3.0);
     EXPECT_LT(farthest(feet_at(36, 3.0), fast), 0.01);
     EXPECT_LT(farthest(feet_at(72, 3.0), fast), 0.01);
     EXPECT_LT(farthest(feet_at(720, 3.0), fast), 0.01);
 }
 
-TEST(PropagateSpine, WhenTicksFallHardlyShows) {
-    // A third and a half of a tick later on the world's clock.
+TEST(PropagateSpine, MotionHardlyDependsOnThePhaseOfTheTicks) {
+    // Later on the world clock by a third and by a half of a tick.
     const std::vector<Vec3> feet = feet_at(144, 3.0);
     EXPECT_LT(farthest(feet_at(144, 3.0 + 1.0 / 360.0), feet), 0.01);
     EXPECT_LT(farthest(feet_at(144, 3.0 + 1.0 / 240.0), feet), 0.01);
 }
 
-TEST(PropagateSpine, LinksComeToRestAtTheirLimitsWithoutAStop) {
+TEST(PropagateSpine, LinksApproachTheirLimitsGradually) {
     Body body;
     const SpineTuning& tuning = body.tuning;
     const double share = 1.0 / (1.0 + 120.0 * tuning.limit_lag_s);
     std::array<double, k_body_links> before{};
     double most = 0.0;
     for (int i = 0; i < 600; ++i) {
-        // One tick a frame.
+        // One tick per frame.
         body.step(Vec3(0.0, 1.5 * std::cos(0.03 * i), 3.0 * std::sin(0.1 * i)), 1.0 / 120.0);
         const std::array<double, k_body_links>& now = body.memory.at(k_player).angle_rad;
         for (std::size_t link = 0; i > 1 && link < k_spine_links; ++link) {
@@ -172,8 +172,8 @@ TEST(PropagateSpine, BonesKeepTheirLengthsAndKneesBendOnlyBackwards) {
             const Vec3 shin = leg.foot_ws.position - leg.shin_ws.position;
             EXPECT_NEAR(thigh.norm(), 0.40 * scale, 1e-9);
             EXPECT_NEAR(shin.norm(), 0.39 * scale, 1e-9);
-            // Backwards: about the thigh's X, by at most the limit. The shown pose lies between two
-            // ticks, so a degree is allowed.
+            // Bent backwards, about the thigh's X axis, by at most the limit. Interpolation between
+            // ticks adds up to a degree.
             const Vec3 in_thigh = leg.thigh_ws.rotation.conjugate() * shin.normalized();
             EXPECT_GT(in_thigh.z(), -0.02);
             EXPECT_LT(std::atan2(in_thigh.z(), -in_thigh.y()), body.tuning.knee_limit_rad + 0.03);
@@ -181,7 +181,7 @@ TEST(PropagateSpine, BonesKeepTheirLengthsAndKneesBendOnlyBackwards) {
     }
 }
 
-TEST(PropagateSpine, OnAShipAtOneKilometreASecondNothingStreams) {
+TEST(PropagateSpine, ReferenceVelocityOfAFastShipHasNoEffect) {
     Body still;
     Body carried;
     carried.reference.at(k_player).linear_mps = Vec3(1000.0, 0.0, 0.0);
@@ -193,7 +193,7 @@ TEST(PropagateSpine, OnAShipAtOneKilometreASecondNothingStreams) {
     }
 }
 
-TEST(PropagateSpine, PelvisTurnsAfterTheChest) {
+TEST(PropagateSpine, PelvisFollowsATurnOfTheChestWithALag) {
     Body body;
     const auto heading = [&body] {
         const Vec3 ahead = body.pose.at(k_player).pelvis_ws.rotation * -Vec3::UnitZ();
@@ -205,7 +205,7 @@ TEST(PropagateSpine, PelvisTurnsAfterTheChest) {
         chest = rotation_about(Vec3::UnitY(), i / 45.0 * 0.8);
         body.step(Vec3::Zero(), 1.0 / 90.0);
     }
-    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s at steady state.
+    // A steady turn of 1.6 rad/s: each of three links lags by twist_lag_s in steady state.
     EXPECT_GT(heading(), 0.8 - 1.6 * 3.0 * body.tuning.twist_lag_s - 0.02);
     EXPECT_LT(heading(), 0.8 - 0.25);
     for (int i = 0; i < 270; ++i) {
@@ -214,7 +214,7 @@ TEST(PropagateSpine, PelvisTurnsAfterTheChest) {
     EXPECT_NEAR(heading(), 0.8, 0.01);
 }
 
-TEST(PropagateSpine, PlayersPutElsewhereAndLongFramesStayWhole) {
+TEST(PropagateSpine, TeleportsAndLongFramesKeepBodiesValid) {
     Body body;
     for (int i = 0; i < 200; ++i) {
         if (i % 20 == 0) {

@@ -73,7 +73,7 @@ RC_GTEST_PROP(PublishPose, HeadAndHandsAreTheirTrackedPosesInTheWorld, (std::uin
     }
 }
 
-TEST(PublishPose, FingersAndGripAreTheHandsOwn) {
+TEST(PublishPose, FingersAndGripBelongToTheirHand) {
     Publishing scene(3);
     scene.grab.at(k_right).kind = GripKind::held;
     scene.fingers.at(k_right).shown[2].curl_rad[1] = 0.7;
@@ -84,7 +84,7 @@ TEST(PublishPose, FingersAndGripAreTheHandsOwn) {
     EXPECT_EQ(out.hands[0].fingers[2].curl_rad[1], 0.0);
 }
 
-// Through the palm along its inward normal, -Y of the hand, from ray_back_m behind the skin.
+// The ray passes through the palm along -Y of the hand and starts ray_back_m behind the skin.
 RC_GTEST_PROP(PublishPose, RayRunsThroughThePalmAlongItsInwardNormal, (std::uint64_t seed)) {
     Publishing scene(seed);
     scene.tuning.hand.palm_center_m = Vec3(0.02, -0.01, -0.07);
@@ -101,7 +101,7 @@ RC_GTEST_PROP(PublishPose, RayRunsThroughThePalmAlongItsInwardNormal, (std::uint
     }
 }
 
-TEST(PublishPose, PushBackIsThePlayersOwnAndNothingWithoutAnEntry) {
+TEST(PublishPose, PushBackBelongsToThePlayerAndIsZeroWithoutAnEntry) {
     Publishing scene(4);
     EXPECT_EQ(scene.run().push_back_m, 0.0);
     scene.frame.graph.bodies.resize(2);
@@ -128,7 +128,7 @@ RC_GTEST_PROP(PublishPose, MovedAndRotatedWorldMovesThePictureAlong, (std::uint6
               1e-9);
 }
 
-TEST(PublishPose, OrderOfHandsDoesNotMatter) {
+TEST(PublishPose, OrderOfHandsIsIrrelevant) {
     Publishing forth(5);
     Publishing back(5, {k_right, k_left});
     const RenderPose& a = forth.run();

@@ -1,4 +1,4 @@
-// Figures of public rig conventions: names, hierarchies, axes.
+// Figures with the names, hierarchies and axes of public rig conventions.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -54,7 +54,7 @@ class EveryConvention : public ::testing::TestWithParam<std::size_t> {
     HumanoidConvention convention() const { return test::humanoid_conventions()[GetParam()]; }
 };
 
-TEST_P(EveryConvention, BonesAreFoundByName) {
+TEST_P(EveryConvention, NamesGiveTheBones) {
     Random random(GetParam() + 1);
     for (int i = 0; i < 10; ++i) {
         const Humanoid humanoid =
@@ -66,8 +66,7 @@ TEST_P(EveryConvention, BonesAreFoundByName) {
     }
 }
 
-// The order in which a file lists its nodes says nothing.
-TEST_P(EveryConvention, OrderOfJointsDoesNotCount) {
+TEST_P(EveryConvention, OrderOfJointsIsIrrelevant) {
     Random random(GetParam() + 31);
     Humanoid humanoid = make_humanoid(convention());
     SCOPED_TRACE(humanoid.figure.file);
@@ -103,9 +102,9 @@ TEST_P(EveryConvention, OrderOfJointsDoesNotCount) {
     expect_bones(humanoid);
 }
 
-// Without names the hierarchy and the places of the joints decide. Twist joints in line with a limb
-// leave its elbow or knee; helpers beside it may be taken for it: then it is refused or right.
-TEST_P(EveryConvention, LimbsAreFoundWithoutNamesOrRefused) {
+// Without names, hierarchy and joint positions decide: the limbs are right, or the figure is
+// refused.
+TEST_P(EveryConvention, ShapeGivesTheLimbsOrTheFigureIsRefused) {
     Random random(GetParam() + 61);
     for (int i = 0; i < 10; ++i) {
         const Humanoid humanoid =
@@ -144,8 +143,32 @@ INSTANTIATE_TEST_SUITE_P(Figures, EveryConvention,
                                  handhold::test::humanoid_conventions()[test.param].name);
                          });
 
-// A wrong joint in a map shows in the proportions: refused, or the same body within a helper's
-// distance.
+// A VRM table finds the bones of a figure whose names say nothing, or something else.
+TEST(BodyMapOfVrm, GivesTheBones) {
+    const std::map<std::string, std::string> vrm_names = {
+        {"pelvis", "hips"},       {"neck", "neck"},          {"head", "head"},
+        {"clavicle", "Shoulder"}, {"upper_arm", "UpperArm"}, {"forearm", "LowerArm"},
+        {"hand", "Hand"},         {"thigh", "UpperLeg"},     {"shin", "LowerLeg"},
+        {"foot", "Foot"}};
+    for (const HumanoidConvention& convention : test::humanoid_conventions()) {
+        SCOPED_TRACE(convention.name);
+        Humanoid humanoid = make_humanoid(convention, {.is_named = false});
+        humanoid.figure.joints[humanoid.expected.at("left_hand")].name = "RightUpLeg";
+        std::map<std::string, std::string> table;
+        for (const auto& [bone, joint] : humanoid.expected) {
+            const bool is_left = bone.starts_with("left_");
+            const bool is_limb = is_left || bone.starts_with("right_");
+            const std::string text = is_limb ? bone.substr(is_left ? 5 : 6) : bone;
+            table[(is_left   ? "left"
+                   : is_limb ? "right"
+                             : "") +
+                  vrm_names.at(text)] = humanoid.figure.joints[joint].name;
+        }
+        expect_bones(humanoid, body_map_of_vrm(table));
+    }
+}
+
+// A wrong joint in a map gives implausible proportions.
 TEST(FindBodyBones, MapsWithWrongJointsAreRefused) {
     const HumanoidConvention convention = test::humanoid_conventions()[1];
     const Humanoid humanoid = make_humanoid(convention);
@@ -164,7 +187,7 @@ TEST(FindBodyBones, MapsWithWrongJointsAreRefused) {
     EXPECT_TRUE(refused({{"left_forearm", "mixamorig:LeftHand"}}));
 }
 
-// The figures as files: what a picture of each is made of. Kept if HANDHOLD_FIGURES names a folder.
+// Round trip through files. Keeps the files if HANDHOLD_FIGURES names a folder, for pictures.
 TEST(HumanoidFiles, AreReadBackAndFitted) {
     const char* const keep = std::getenv("HANDHOLD_FIGURES");
     const std::filesystem::path folder = keep != nullptr ? keep : testing::TempDir();

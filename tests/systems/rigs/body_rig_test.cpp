@@ -16,7 +16,7 @@ namespace {
 
 using test::Random;
 
-// A figure of sticks in T-pose, scaled, turned about Y, its joints' own axes anything.
+// A stick figure in T-pose, scaled and turned about Y, with random joint axes.
 struct Sticks {
     SkinnedMesh figure;
 
@@ -64,7 +64,7 @@ struct Sticks {
     }
 };
 
-// A player in any pose: the bones need not fit together.
+// A random pose; the bones need not be connected.
 RenderPose any_pose(unsigned seed) {
     Random random(seed);
     RenderPose render;
@@ -87,7 +87,7 @@ void expect_at(const Vec3& found, const Vec3& wanted, const char* what) {
     EXPECT_NEAR((found - wanted).norm(), 0.0, 1e-9) << what;
 }
 
-TEST(BodyJointNames, AreKnownOfUsualRigs) {
+TEST(BodyJointNames, AreReadFromCommonRigs) {
     const auto expect = [](const char* text, BodyBone bone, HandSide side, int doubt = 0) {
         const auto guess = parse_body_joint_name(text);
         ASSERT_TRUE(guess) << text;
@@ -107,7 +107,7 @@ TEST(BodyJointNames, AreKnownOfUsualRigs) {
     expect("Bip01 Pelvis", BodyBone::trunk, HandSide::left);
     expect("mixamorig:Hips", BodyBone::trunk, HandSide::left);
     expect("Bip01 Head", BodyBone::head, HandSide::left);
-    // Who made it is no part of a joint's name.
+    // Namespaces are ignored.
     expect("Handyman:LeftForeArm", BodyBone::forearm, HandSide::left);
     expect("Engineering|Ship:UpperArm.R", BodyBone::upper_arm, HandSide::right);
     expect("LeftLeague:Pelvis", BodyBone::trunk, HandSide::left);
@@ -118,7 +118,7 @@ TEST(BodyJointNames, AreKnownOfUsualRigs) {
     }
 }
 
-TEST(PoseSkeleton, PutsEveryBoneWhereThePlayersIs) {
+TEST(PoseSkeleton, PlacesEveryJointAtThePlayersBone) {
     for (unsigned seed = 1; seed < 20; ++seed) {
         const Sticks sticks(seed % 2 == 0 ? 0.4 : 2.5, 0.6 * seed, seed);
         const Result<BodyRig> rig = fit_body_rig(sticks.figure);
@@ -145,9 +145,9 @@ TEST(PoseSkeleton, PutsEveryBoneWhereThePlayersIs) {
     }
 }
 
-// What a bone carries to its end goes along the player's bone, and the side of it that is the
-// elbow's or the knee's in the file is on the player's too.
-TEST(PoseSkeleton, BonesLieAlongThePlayersAndTurnWithThem) {
+// A bone's skin lies along the player's bone, and the elbow's or knee's side in the file is that
+// side on the player.
+TEST(PoseSkeleton, JointsFollowDirectionAndRollOfThePlayersBones) {
     for (unsigned seed = 1; seed < 20; ++seed) {
         const double yaw = 0.6 * seed;
         const Sticks sticks(1.4, yaw, seed);
@@ -185,7 +185,7 @@ TEST(PoseSkeleton, BonesLieAlongThePlayersAndTurnWithThem) {
     }
 }
 
-TEST(PoseSkeleton, DoesNotAllocateOnceItIsWarm) {
+TEST(PoseSkeleton, DoesNotAllocateOnceWarm) {
     if (!counts_allocations()) {
         GTEST_SKIP() << "a sanitizer has operators of its own";
     }
@@ -199,7 +199,7 @@ TEST(PoseSkeleton, DoesNotAllocateOnceItIsWarm) {
     EXPECT_EQ(allocation_count(), before);
 }
 
-// What the upper arm carries ends where the forearm begins, however long the player's arm is.
+// The upper arm's skin ends at the forearm's start for any arm length.
 TEST(PoseSkeleton, StretchesVerticesFromJointToJoint) {
     const Sticks sticks(1.3);
     const Result<BodyRig> rig = fit_body_rig(sticks.figure);
@@ -215,7 +215,7 @@ TEST(PoseSkeleton, StretchesVerticesFromJointToJoint) {
               arm.forearm_ws.position, "the upper arm's end");
 }
 
-TEST(PoseSkeleton, LocalPosesMakeUpTheWorldOnes) {
+TEST(PoseSkeleton, LocalPosesComposeToWorldPoses) {
     const Sticks sticks;
     const Result<BodyRig> rig = fit_body_rig(sticks.figure);
     ASSERT_TRUE(rig.ok());
@@ -232,8 +232,8 @@ TEST(PoseSkeleton, LocalPosesMakeUpTheWorldOnes) {
     }
 }
 
-// The rig's hand has hand space's own axes: -Z to the fingers, +Y its back.
-TEST(PoseSkeleton, HandOfHandSpaceIsThePlayersBitForBit) {
+// The rig's hand joint has hand space's axes: -Z to the fingers, +Y out of the back.
+TEST(PoseSkeleton, HandJointInHandSpaceEqualsThePlayersHandExactly) {
     Sticks sticks;
     for (const char* name : {"LeftHand", "RightHand"}) {
         const double out = std::string(name) == "LeftHand" ? -1.0 : 1.0;
@@ -265,7 +265,7 @@ bool has_bone(const BodyRig& rig, BodyBone bone, HandSide side) {
     });
 }
 
-// Files may be flat: every joint below the root.
+// Flat files: every joint is a child of the root.
 TEST(FitBodyRig, FindsAllBonesOfFlatFigures) {
     Sticks sticks;
     for (SkinJoint& joint : sticks.figure.joints) {
@@ -280,8 +280,8 @@ TEST(FitBodyRig, FindsAllBonesOfFlatFigures) {
     }
 }
 
-// The upper arm is found above a forearm that only the map knows.
-TEST(FitBodyRig, WhatTheMapSaysHelpsToFindTheRest) {
+// The upper arm is found above a forearm that only the map names.
+TEST(FitBodyRig, MappedJointsHelpToFindOtherBones) {
     Sticks sticks;
     sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";
     sticks.figure.joints[sticks.joint("LeftArm")].name = "LeftShoulderRoll";
@@ -294,8 +294,8 @@ TEST(FitBodyRig, WhatTheMapSaysHelpsToFindTheRest) {
               render.arms.arms[index_of(HandSide::left)].upper_ws.position, "upper arm");
 }
 
-// What the map names as one bone is not taken for another by its name.
-TEST(FitBodyRig, MappedJointsAreNothingElse) {
+// A joint that the map assigns to one bone is not assigned to another one by its name.
+TEST(FitBodyRig, MappedJointsAreUsedForNoOtherBone) {
     Sticks sticks;
     sticks.figure.joints[sticks.joint("Neck")].name = "LeftShin";  // above the leg's own
     sticks.figure.joints[sticks.joint("LeftShin")].parent = 0;
@@ -308,8 +308,8 @@ TEST(FitBodyRig, MappedJointsAreNothingElse) {
               render.spine.legs[index_of(HandSide::left)].shin_ws.position, "shin");
 }
 
-// In millimetres, in kilometres: no length is too small or too great by itself.
-TEST(FitBodyRig, TakesFiguresOfAnySize) {
+// Millimetres or kilometres: absolute lengths are irrelevant.
+TEST(FitBodyRig, AcceptsFiguresOfAnySize) {
     for (const double scale : {1e-3, 1e3}) {
         const Result<BodyRig> rig = fit_body_rig(Sticks(scale).figure);
         ASSERT_TRUE(rig.ok()) << rig.error().message();
@@ -317,8 +317,8 @@ TEST(FitBodyRig, TakesFiguresOfAnySize) {
     }
 }
 
-// Arms that hang, hands straight down: the back of each is outwards.
-TEST(FitBodyRig, HangingArmsHaveARollOfTheirOwn) {
+// Hanging arms, hands straight down: the backs of the hands face outwards.
+TEST(FitBodyRig, HangingArmsHaveTheBackOfTheHandOutwards) {
     Sticks sticks;
     for (const double x : {-0.2, 0.2}) {
         const std::string of = x < 0.0 ? "Left" : "Right";
@@ -338,8 +338,8 @@ TEST(FitBodyRig, HangingArmsHaveARollOfTheirOwn) {
     }
 }
 
-// Without joints for eyes: in front of what most of all hangs on the head.
-TEST(FitBodyRig, EyesAreWhereTheHeadsFrontIs) {
+// Without eye joints, the eyes are at the front of the head's skin.
+TEST(FitBodyRig, EyesDefaultToTheFrontOfTheHead) {
     Sticks sticks;
     for (const char* eye : {"LeftEye", "RightEye"}) {
         sticks.figure.joints[sticks.joint(eye)].name = "a";
@@ -358,11 +358,11 @@ TEST(FitBodyRig, EyesAreWhereTheHeadsFrontIs) {
     EXPECT_NEAR(eyes_ms.z(), -2.10, 1e-9);
 }
 
-TEST(FitBodyRig, NamesWhatIsMissing) {
+TEST(FitBodyRig, ErrorNamesMissingBones) {
     Sticks sticks;
     sticks.figure.joints[sticks.joint("LeftForeArm")].name = "a";
     sticks.figure.joints[sticks.joint("Head")].name = "b";
-    for (SkinJoint& joint : sticks.figure.joints) {  // a flat file: no hierarchy helps
+    for (SkinJoint& joint : sticks.figure.joints) {  // a flat file: the hierarchy does not help
         joint.parent = std::min(joint.parent, 0);
     }
     const Result<BodyRig> rig = fit_body_rig(sticks.figure);
@@ -378,7 +378,7 @@ TEST(FitBodyRig, NamesWhatIsMissing) {
     EXPECT_NE(wrong.error().message().find("\"nobody\" for head"), std::string::npos);
 }
 
-TEST(FitBodyRig, RefusesBonesWithoutALengthAndFiguresThatLie) {
+TEST(FitBodyRig, RefusesZeroLengthBonesAndLyingFigures) {
     Sticks folded;
     folded.figure.joints[folded.joint("RightHand")].bind_ms.position =
         folded.figure.joints[folded.joint("RightForeArm")].bind_ms.position;
@@ -392,7 +392,7 @@ TEST(FitBodyRig, RefusesBonesWithoutALengthAndFiguresThatLie) {
     EXPECT_FALSE(fit_body_rig(lying.figure).ok());
 }
 
-TEST(LoadBodyMap, ReadsNamesAndRefusesWhatIsNone) {
+TEST(LoadBodyMap, ReadsNamesAndRefusesInvalidEntries) {
     const auto path = std::filesystem::path(testing::TempDir()) / "handhold_body_map.json";
     const auto load = [&](const char* text) {
         std::ofstream(path) << text;
@@ -406,7 +406,7 @@ TEST(LoadBodyMap, ReadsNamesAndRefusesWhatIsNone) {
     std::filesystem::remove(path);
 }
 
-// Real figures: one without clavicles by that name, one that faces +Z in A-pose, a cartoon.
+// Real figures: one without named clavicles, one in A-pose facing +Z, one cartoon.
 TEST(FitBodyRig, FindsTheBonesOfRealFigures) {
     const auto folder = data_dir() / "body";
     if (!std::filesystem::exists(folder)) {
@@ -437,13 +437,13 @@ TEST(FitBodyRig, FindsTheBonesOfRealFigures) {
         }
         return 0.0;
     };
-    // Figures of SOURCE.md.
+    // Expected values are from the data's SOURCE.md.
     const BodyRig valkyrie = fit("nasa_valkyrie.glb");
     EXPECT_NEAR(valkyrie.shoulder_width_m, 0.50, 0.001);
     EXPECT_NEAR(length(valkyrie, BodyBone::upper_arm), 0.33, 0.002);
     EXPECT_NEAR(length(valkyrie, BodyBone::forearm), 0.287, 0.002);
     const BodyRig rocketbox = fit("rocketbox_male_adult_04.glb");
-    EXPECT_NEAR(rocketbox.eye_height_m, 1.71, 0.05);  // of 1.87 m, soles and hair in it
+    EXPECT_NEAR(rocketbox.eye_height_m, 1.71, 0.05);  // total height 1.87 m with soles and hair
     EXPECT_GT((rocketbox.carriers[BodyRig::k_head].rest_ms.rotation * -Vec3::UnitZ()).z(), 0.9);
     const BodyRig cartoon = fit("robot_expressive_cc0.glb");
     EXPECT_GT((cartoon.carriers[BodyRig::k_head].rest_ms.rotation * -Vec3::UnitZ()).z(), 0.9);

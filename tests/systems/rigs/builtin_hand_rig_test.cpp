@@ -17,7 +17,7 @@ double to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
     return (point - a - t * (b - a)).norm();
 }
 
-TEST(BuiltinHandRig, HasTheSizeOfAnAdultsHand) {
+TEST(BuiltinHandRig, HasAnAdultsSize) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     ASSERT_EQ(rig.fingers.size(), k_finger_count);
     const FingerRig& middle = rig.fingers[2];
@@ -37,7 +37,7 @@ TEST(BuiltinHandRig, HasTheSizeOfAnAdultsHand) {
     }
 }
 
-TEST(BuiltinHandRig, FingersOfAnOpenHandLieApartFromEachOther) {
+TEST(BuiltinHandRig, FingersOfAnOpenHandDoNotTouch) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     for (std::size_t i = 1; i + 1 < rig.fingers.size(); ++i) {
         const FingerRig& a = rig.fingers[i];
@@ -53,9 +53,9 @@ TEST(BuiltinHandRig, FingersOfAnOpenHandLieApartFromEachOther) {
     }
 }
 
-TEST(BuiltinHandRig, PalmsCentreLiesOnItsSkin) {
+TEST(BuiltinHandRig, PalmCentreLiesOnTheSkin) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
-    double height_m = 1.0;  // of the centre over the capsules
+    double height_m = 1.0;  // of the palm's centre above the capsules
     for (const PalmCapsule& capsule : rig.palm) {
         height_m = std::min(height_m, to_segment(rig.palm_center_hs, capsule.a_hs, capsule.b_hs) -
                                           capsule.radius_m);
@@ -64,8 +64,8 @@ TEST(BuiltinHandRig, PalmsCentreLiesOnItsSkin) {
     EXPECT_NEAR(rig.palm_normal_hs.norm(), 1.0, 1e-12);
 }
 
-// Index and middle: at mid opposition, within 10 degrees of the range's middle.
-TEST(BuiltinHandRig, CurledThumbMeetsIndexAndMiddleAtAnOppositionOfTenDegrees) {
+// Thumb and index or middle finger meet at an opposition within 10 degrees of the range's middle.
+TEST(BuiltinHandRig, CurledThumbMeetsIndexAndMiddleAtTenDegreesOfOpposition) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const FingerRig& thumb = rig.fingers[0];
     const double middle_rad = 10.0 * k_degree;
@@ -92,7 +92,7 @@ TEST(BuiltinHandRig, CurledThumbMeetsIndexAndMiddleAtAnOppositionOfTenDegrees) {
     }
 }
 
-TEST(BuiltinHandRig, OppositionCarriesTheThumbFromBesideThePalmToBelowIt) {
+TEST(BuiltinHandRig, OppositionMovesTheThumbFromBesideThePalmToBelowIt) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const HandRig rig = builtin_hand_rig(side);
         const double outward = side == HandSide::right ? -1.0 : 1.0;
@@ -145,7 +145,8 @@ TEST(BuiltinHandRig, NamesEveryWebXrJointOnce) {
     EXPECT_TRUE(names.contains("pinky-finger-phalanx-intermediate"));
 }
 
-// A positive curl turns from -Z towards -Y: one hinge at 90 degrees points its link to the palm.
+// A positive curl turns from -Z towards -Y: a hinge at 90 degrees points its link to the palm's
+// side.
 TEST(FingerLinkFrames, CurlTurnsTowardsThePalm) {
     FingerRig finger;
     finger.link_count = 2;
@@ -157,7 +158,7 @@ TEST(FingerLinkFrames, CurlTurnsTowardsThePalm) {
     EXPECT_NEAR((points[2] - Vec3(0.0, -0.04, 0.03)).norm(), 0.0, 1e-15);
 }
 
-TEST(MirrorHandRig, TwiceIsTheSameRig) {
+TEST(MirrorHandRig, MirroringTwiceReturnsTheRig) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const HandRig twice = mirror_hand_rig(mirror_hand_rig(rig));
     for (std::size_t i = 0; i < rig.fingers.size(); ++i) {

@@ -14,10 +14,10 @@ using test::Random;
 
 constexpr double k_elbow_x_m = 0.5;
 constexpr double k_wrist_x_m = 0.8;
-constexpr double k_skin_m = 0.04;  // off the bone
+constexpr double k_skin_m = 0.04;  // distance from the bone
 
-// A figure in T-pose facing -Z, its palms down; on its right forearm a strip of skin from the elbow
-// to the wrist, above the bone.
+// A figure in T-pose facing -Z with palms down. A strip of skin lies above the bone of its right
+// forearm, from elbow to wrist.
 struct Figure {
     SkinnedMesh mesh;
 
@@ -54,7 +54,7 @@ struct Figure {
         mesh.normals.push_back(Vec3::UnitY());
         mesh.weights.push_back(weights);
     }
-    // Ends with skin that hangs on the upper arm too, as skins do.
+    // The last vertex is shared with the upper arm, as in common skins.
     void add_strip() {
         const std::uint16_t forearm = joint("RightForeArm");
         for (int i = 0; i <= 12; ++i) {
@@ -69,7 +69,7 @@ struct Figure {
     }
 };
 
-// The right arm as the file has it, its hand turned about the forearm from there.
+// The right arm as in the file, with the hand turned about the forearm.
 RenderPose with_twist(const BodyRig& rig, double twist_rad) {
     RenderPose render;
     ArmPose::Arm& arm = render.arms.arms[index_of(HandSide::right)];
@@ -89,7 +89,7 @@ RenderPose with_twist(const BodyRig& rig, double twist_rad) {
     return render;
 }
 
-// Where the skin is, posed so, with a player as thick as the figure.
+// The posed skin of a player with the figure's thickness.
 std::vector<Vec3> skin_of(const Figure& figure, const BodyRig& rig, double twist_rad) {
     BodyMeasures measures;
     measures.eye_height_m = rig.eye_height_m;
@@ -103,10 +103,10 @@ std::vector<Vec3> skin_of(const Figure& figure, const BodyRig& rig, double twist
     return positions;
 }
 
-// How far a point above the forearm's bone has turned about it.
+// Rotation of a point above the forearm's bone about the bone.
 double turned_rad(const Vec3& point) { return arc_tangent2(-point.z(), point.y() - 1.45); }
 
-TEST(FollowedTwist, IsTheTurnAboutTheForearmHoweverTheWristIsBent) {
+TEST(FollowedTwist, IgnoresTheBendOfTheWrist) {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         const Quat forearm = random.rotation();
@@ -119,7 +119,7 @@ TEST(FollowedTwist, IsTheTurnAboutTheForearmHoweverTheWristIsBent) {
     }
 }
 
-TEST(FollowedTwist, GoesRoundWithoutAJump) {
+TEST(FollowedTwist, IsContinuousOverAFullTurn) {
     const Quat forearm = Quat::Identity();
     for (const double bend_rad : {0.0, 1.0, 2.5, 3.14}) {
         const Quat bend = rotation_about(Vec3::UnitX(), bend_rad);
@@ -134,7 +134,7 @@ TEST(FollowedTwist, GoesRoundWithoutAJump) {
     }
 }
 
-TEST(SpreadForearmTwist, SkinTurnsMoreTheNearerItIsToTheWrist) {
+TEST(SpreadForearmTwist, TwistGrowsFromElbowToWrist) {
     Figure figure;
     figure.add_strip();
     const std::vector<Vec3> file = figure.mesh.positions;
@@ -149,20 +149,20 @@ TEST(SpreadForearmTwist, SkinTurnsMoreTheNearerItIsToTheWrist) {
     for (std::size_t i = 0; i < file.size(); ++i) {
         EXPECT_NEAR((rest[i] - file[i]).norm(), 0.0, 1e-9) << i;
     }
-    // From palms down by a quarter turn: thumbs up. And a little the other way.
+    // A quarter turn from palms down to thumbs up, and a small turn the other way.
     for (const double twist_rad : {-k_half_pi, 0.4}) {
         const std::vector<Vec3> now = skin_of(figure, rig, twist_rad);
-        for (std::size_t i = 0; i <= 12; i += 4) {  // at the joints: exactly their share
+        for (std::size_t i = 0; i <= 12; i += 4) {  // at the joints: exactly the joint's share
             const double share = static_cast<double>(i) / 12.0;
             EXPECT_NEAR(std::abs(turned_rad(now[i])), share * std::abs(twist_rad), 1e-6);
             EXPECT_NEAR(std::hypot(now[i].y() - 1.45, now[i].z()), k_skin_m, 1e-9);
             EXPECT_NEAR(now[i].x(), file[i].x(), 1e-9);
         }
-        for (std::size_t i = 1; i <= 12; ++i) {  // between them evenly, and not thinned
+        for (std::size_t i = 1; i <= 12; ++i) {  // between them: interpolated, without thinning
             EXPECT_LT(std::abs(turned_rad(now[i]) - turned_rad(now[i - 1])), 0.15);
             EXPECT_GT(std::hypot(now[i].y() - 1.45, now[i].z()), 0.96 * k_skin_m);
         }
-        // The wrist's skin is turned as the hand is.
+        // The wrist's skin turns with the hand.
         EXPECT_NEAR((now[12] - (Vec3(k_wrist_x_m, 1.45, 0.0) +
                                 rotation_about(Vec3::UnitX(), -twist_rad) * Vec3(0, k_skin_m, 0)))
                         .norm(),
@@ -170,7 +170,7 @@ TEST(SpreadForearmTwist, SkinTurnsMoreTheNearerItIsToTheWrist) {
     }
 }
 
-TEST(SpreadForearmTwist, RigidForearmTurnsAsAWholeByHalf) {
+TEST(SpreadForearmTwist, RigidForearmTakesHalfOfTheTwist) {
     Figure figure;
     const std::uint16_t forearm = figure.joint("RightForeArm");
     figure.add_skin(0.0, {{forearm, 0, 0, 0}, {1, 0, 0, 0}});
@@ -183,8 +183,8 @@ TEST(SpreadForearmTwist, RigidForearmTurnsAsAWholeByHalf) {
     EXPECT_NEAR(turned_rad(now[1]), turned_rad(now[0]), 1e-9);
 }
 
-// A rig with a joint of its own in the middle of the forearm.
-TEST(SpreadForearmTwist, LeavesRigsThatHaveTwistJointsAsTheyAreAndTheseTakeTheirShare) {
+// A rig with a joint in the middle of the forearm.
+TEST(SpreadForearmTwist, KeepsExistingTwistJointsWhichTakeTheirShare) {
     Figure figure;
     const auto twist =
         static_cast<std::uint16_t>(figure.add("RightForeArmTwist", figure.joint("RightForeArm"),
@@ -197,7 +197,7 @@ TEST(SpreadForearmTwist, LeavesRigsThatHaveTwistJointsAsTheyAreAndTheseTakeTheir
     EXPECT_EQ(rig.joints.size(), joints);
     const std::vector<Vec3> now = skin_of(figure, rig, k_half_pi);
     EXPECT_NEAR(std::abs(turned_rad(now.back())), 0.5 * k_half_pi, 1e-6);
-    EXPECT_NEAR(turned_rad(now[12]), 0.0, 1e-9);  // what hangs on the elbow's joint alone
+    EXPECT_NEAR(turned_rad(now[12]), 0.0, 1e-9);  // bound to the elbow's joint only
 }
 
 }  // namespace

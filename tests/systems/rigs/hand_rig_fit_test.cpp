@@ -39,7 +39,7 @@ Result<HandRigFit> fit_file(const char* name, HandSide side) {
 }
 bool has_real_hands() { return std::filesystem::exists(data_dir() / "hands"); }
 
-// How far the rig's joints at the bind angles are off those of the file, at most.
+// The rig's joints at the bind angles equal those of the file.
 void expect_bind_pose(const HandRigFit& fit, const SkinnedMesh& skin) {
     for (std::size_t i = 0; i < skin.joints.size(); ++i) {
         const RigJoint& joint = fit.rig.joints[i];
@@ -55,7 +55,7 @@ void expect_bind_pose(const HandRigFit& fit, const SkinnedMesh& skin) {
     }
 }
 
-TEST(HandRigFit, FindsTheRigThatASkinWasMadeOf) {
+TEST(HandRigFit, RecoversTheRigOfASyntheticSkin) {
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const HandRig rig = builtin_hand_rig(side);
         const Result<HandRigFit> fit =
@@ -82,7 +82,7 @@ TEST(HandRigFit, FindsTheRigThatASkinWasMadeOf) {
     }
 }
 
-TEST(HandRigFit, JointsStandAsInTheFileAtTheBindAngles) {
+TEST(HandRigFit, BindAnglesReproduceTheFile) {
     const HandRig rig = builtin_hand_rig(HandSide::left);
     const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
     const Result<HandRigFit> fit = fit_hand_rig(skin, HandSide::left);
@@ -90,7 +90,7 @@ TEST(HandRigFit, JointsStandAsInTheFileAtTheBindAngles) {
     expect_bind_pose(fit.value(), skin);
 }
 
-// Where joint `i` stands in the file's frame with the fingers at these angles.
+// Pose of joint `i` in the file's frame with the fingers at these angles.
 Pose posed(const HandRigFit& fit, const Angles& angles, std::size_t i) {
     const RigJoint& joint = fit.rig.joints[i];
     Pose carrier;
@@ -120,7 +120,7 @@ HandRig three_fingered(HandSide side) {
     return rig;
 }
 
-TEST(HandRigFit, ThreeFingersOfTwoBonesAreAHand) {
+TEST(HandRigFit, AcceptsThreeFingersOfTwoBones) {
     const HandRig rig = three_fingered(HandSide::right);
     const SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
     const Result<HandRigFit> fit = fit_hand_rig(skin, HandSide::right);
@@ -153,8 +153,8 @@ TEST(HandRigFit, ReadsOpenXrNames) {
     EXPECT_EQ(found.value().fingers[2].name, FingerName::little);
 }
 
-// Axes as an exporter may leave them: the same joints, all turned by the same strange rotation.
-TEST(HandRigFit, TakesTheHandsAxesFromItsKnucklesWhereTheWristsAreStrange) {
+// The wrist's axes are turned by an arbitrary rotation.
+TEST(HandRigFit, HandSpaceIgnoresTheWristsAxes) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     SkinnedMesh skin = make_tube_hand(rig, relaxed(rig), k_somewhere);
     skin.joints[0].bind_ms.rotation =
@@ -165,9 +165,8 @@ TEST(HandRigFit, TakesTheHandsAxesFromItsKnucklesWhereTheWristsAreStrange) {
     expect_bind_pose(fit.value(), skin);
 }
 
-// Exporters give joints any axes: hinges follow from the joints' places. Two fits of one hand whose
-// joints are turned differently pose equal fingers and carry the skin equally.
-TEST(HandRigFit, AxesOfJointsChangeNoPosedFinger) {
+// Two fits of one hand with different joint axes pose equal fingers and move the skin equally.
+TEST(HandRigFit, JointAxesDoNotChangePosedFingers) {
     Random random(11);
     for (const HandSide side : {HandSide::left, HandSide::right}) {
         const HandRig rig = builtin_hand_rig(side);
@@ -198,7 +197,7 @@ TEST(HandRigFit, AxesOfJointsChangeNoPosedFinger) {
     }
 }
 
-// Across a plane, as a negative scale does.
+// Mirrors a skin across a plane through the origin.
 SkinnedMesh mirrored(SkinnedMesh skin, const Vec3& normal) {
     const auto mirror = [&](const Vec3& v) { return Vec3(v - 2.0 * normal * normal.dot(v)); };
     for (Vec3& position : skin.positions) {
@@ -242,7 +241,7 @@ TEST(HandRigFit, MirroredRightHandIsALeftOne) {
     }
 }
 
-// A hand's glTF below a node that mirrors it.
+// A glTF hand below a node with a negative scale.
 TEST(HandRigFit, NegativeScaleInAFileMakesTheOtherHand) {
     const HandRig rig = builtin_hand_rig(HandSide::right);
     const SkinnedMesh hand = make_tube_hand(rig, relaxed(rig), {});
@@ -350,7 +349,7 @@ TEST_P(MalformedHand, IsRefusedWithItsReason) {
 }
 INSTANTIATE_TEST_SUITE_P(Hands, MalformedHand, ::testing::ValuesIn(k_bad_hands));
 
-// Whatever the axes of its joints.
+// For any joint axes.
 TEST(HandRigFit, RefusesAHandOfTheOtherSide) {
     Random random(13);
     const HandRig rig = builtin_hand_rig(HandSide::right);
@@ -365,7 +364,7 @@ TEST(HandRigFit, RefusesAHandOfTheOtherSide) {
     }
 }
 
-TEST(HandRigFitRealData, SharedHandsStandAsInTheirFilesAtTheBindAngles) {
+TEST(HandRigFitRealData, BindAnglesReproduceTheSharedHands) {
     if (!has_real_hands()) {
         GTEST_SKIP() << "no such data";
     }
@@ -383,8 +382,8 @@ TEST(HandRigFitRealData, SharedHandsStandAsInTheirFilesAtTheBindAngles) {
     }
 }
 
-// The right index finger's metacarpal and proximal bones are 3 to 4 mm longer than the left one's
-// (SOURCE.md of the data): straight, that cancels; curled, the two lie across each other.
+// The right index finger's metacarpal and proximal bones are 3 to 4 mm longer than the left ones
+// (SOURCE.md of the data), which shows in curled fingers only.
 TEST(HandRigFitRealData, SharedHandsMirrorEachOther) {
     if (!has_real_hands()) {
         GTEST_SKIP() << "no such data";
