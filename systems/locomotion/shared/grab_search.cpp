@@ -89,7 +89,7 @@ std::optional<GrabTarget> find_surface(const GrabSearch& io, Entity player, cons
 std::optional<GrabTarget> find_visible_surface(const GrabSearch& io, Entity player,
                                                const PalmRay& ray, const SightLines& sight,
                                                const HandTuning& tuning, StageStats& stats) {
-    auto surface = find_surface(io, player, ray, tuning);
+    const auto surface = find_surface(io, player, ray, tuning);
     if (!surface || sight.may_grip(ray.palm_ws, surface->point_ws)) {
         return surface;
     }
@@ -221,10 +221,23 @@ class SnapFinder {
     std::optional<Snap> best_;
 };
 
+// Short steps of an open hand wait and share one ray: rays from the point before them still cross
+// every wall. An empty hand that closes or pulls needs HandSight to be exact.
+bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& hand,
+                const SightLines& lines, const Vec3& palm_ws) {
+    constexpr double k_step_m = 0.03;
+    if (grab.kind == GripKind::surface) {
+        return false;
+    }
+    const bool is_near = (palm_ws - lines.outside_ws).norm() < k_step_m;
+    const bool is_empty_fist = hand.pressed && grab.kind == GripKind::none;
+    return is_empty_fist || !is_near || !sight.is_known || !sight.is_clear;
+}
+
 }  // namespace
 
-// The outside point follows the palm while the palm is in sight, and otherwise travels with the
-// body that the player last gripped: a ship, a lift.
+// The outside point follows the palm while the palm is in sight. Otherwise, and while the hand
+// grips a surface, it travels with the body that the player last gripped: a ship, a lift.
 void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
     const HandTracking& hand = io.hand.at(entity);
     if (hand.state != TrackingState::tracked) {
@@ -235,16 +248,24 @@ void update_sight(const GrabSearch& io, Entity entity, const Tuning& tuning) {
         palm_ray(io.origin.at(owner.player).pose_ws * hand.start_ps, owner.side, tuning.hand)
             .palm_ws;
     const SightSkips skips = sight_skips(io, entity);
-    const SightLines lines = sight_lines(io, entity, palm_ws, skips, tuning.head);
-    const SightLines::Sight palm_sight = lines.sight_of_palm(palm_ws);
-    const Vec3 outside_ws =
-        palm_sight == SightLines::Sight::clear_beyond ? palm_ws : lines.outside_ws;
-    const Entity reference = io.reference.at(owner.player).body;
+    SightLines lines = sight_lines(io, entity, palm_ws, skips, tuning.head);
     HandSight& sight = io.sight.at(entity);
-    sight.frame = io.body_pose.contains(reference) ? reference : k_no_entity;
-    sight.outside_bs = inverse_transform_point(sight_frame_ws(io, sight.frame), outside_ws);
-    sight.is_known = true;
-    sight.is_clear = palm_sight != SightLines::Sight::blocked;
+    const Entity reference = io.reference.at(owner.player).body;
+    const Entity frame = io.body_pose.contains(reference) ? reference : k_no_entity;
+    const bool is_due = needs_rays(sight, io.grab.at(entity), hand, lines, palm_ws);
+    if (!is_due && frame == sight.frame) {
+        return;
+    }
+    if (is_due) {
+        const SightLines::Sight palm_sight = lines.sight_of_palm(palm_ws);
+        sight.is_known = true;
+        sight.is_clear = palm_sight != SightLines::Sight::blocked;
+        if (palm_sight == SightLines::Sight::clear_beyond) {
+            lines.outside_ws = palm_ws;
+        }
+    }
+    sight.frame = frame;
+    sight.outside_bs = inverse_transform_point(sight_frame_ws(io, frame), lines.outside_ws);
 }
 
 std::optional<GrabTarget> find_grab_target(const GrabSearch& io, Entity hand, const Pose& hand_ws,

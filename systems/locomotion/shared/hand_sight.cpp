@@ -46,10 +46,10 @@ bool SightLines::sees(const Vec3& from_ws, const Vec3& point_ws,
     return !hit || (hit->point_ws - point_ws).norm() <= k_there_m || hit->id == hits_body;
 }
 
-// Beside the straight line, by a hand's width, in four directions.
-bool SightLines::can_go_round(const Vec3& palm_ws) const {
+// Past the palm's side that is a hand's width away in four directions, straight or beside the line.
+bool SightLines::can_go_round(const Vec3& from_ws, const Vec3& palm_ws) const {
     constexpr double k_width_m = 0.1;
-    const Vec3 line = palm_ws - outside_ws;
+    const Vec3 line = palm_ws - from_ws;
     if (line.norm() < k_same_m) {
         return false;
     }
@@ -57,15 +57,18 @@ bool SightLines::can_go_round(const Vec3& palm_ws) const {
     const Vec3 other_side = line.normalized().cross(side);
     const Vec3 offsets[] = {side, -side, other_side, -other_side};
     return std::ranges::any_of(offsets, [&](const Vec3& offset) {
-        return is_free(outside_ws, outside_ws + offset) &&
-               is_free(outside_ws + offset, palm_ws + offset) && is_free(palm_ws + offset, palm_ws);
+        const Vec3 beside_ws = palm_ws + offset;
+        return is_free(beside_ws, palm_ws) &&
+               (is_free(from_ws, beside_ws) ||
+                (is_free(from_ws, from_ws + offset) && is_free(from_ws + offset, beside_ws)));
     });
 }
 
 bool SightLines::may_grip(const Vec3& palm_ws, const Vec3& point_ws,
                           std::optional<std::uint64_t> hits_body) const {
     return sight_of_palm(palm_ws) != Sight::blocked || sees(outside_ws, point_ws, hits_body) ||
-           sees(head_ws, point_ws, hits_body) || can_go_round(palm_ws);
+           sees(head_ws, point_ws, hits_body) || can_go_round(outside_ws, palm_ws) ||
+           can_go_round(head_ws, palm_ws);
 }
 
 }  // namespace handhold

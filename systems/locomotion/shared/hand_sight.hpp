@@ -33,7 +33,7 @@ struct SightLines {
     bool is_free(const Vec3& from_ws, const Vec3& to_ws) const;
     bool sees(const Vec3& from_ws, const Vec3& point_ws,
               std::optional<std::uint64_t> hits_body) const;
-    bool can_go_round(const Vec3& palm_ws) const;
+    bool can_go_round(const Vec3& from_ws, const Vec3& palm_ws) const;
 };
 
 }  // namespace handhold
