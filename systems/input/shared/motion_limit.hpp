@@ -10,16 +10,23 @@ namespace handhold {
 // Smaller jumps go unnoticed, and are within the noise and the timing jitter of tracking.
 inline constexpr double k_unnoticed_m = 0.02;
 
-// Distance between two poses; a radian of rotation counts as 0.1 m.
+// Distance between two poses; a radian of rotation counts as k_m_per_rad.
+inline constexpr double k_m_per_rad = 0.1;
 inline double travel_m(const Pose& from, const Pose& to) {
-    constexpr double k_m_per_rad = 0.1;
     const Quat turn = (from.rotation.conjugate() * to.rotation).normalized();
     return std::max((to.position - from.position).norm(),
                     k_m_per_rad * rotation_to_vector(turn).norm());
 }
 
 inline bool could_move(const Pose& from, const Pose& to, double dt_s, double max_speed_mps) {
-    return travel_m(from, to) <= max_speed_mps * dt_s + k_unnoticed_m;
+    const double limit_m = max_speed_mps * dt_s + k_unnoticed_m;
+    if ((to.position - from.position).norm() > limit_m) {
+        return false;
+    }
+    // An angle is at most pi times the sine of its half: no arc tangent for small turns.
+    constexpr double k_over_pi = 3.2;
+    const double sine = (from.rotation.conjugate() * to.rotation).vec().norm();
+    return k_m_per_rad * k_over_pi * sine <= limit_m || travel_m(from, to) <= limit_m;
 }
 
 // The pose at `t_s` at constant velocity and spin, from two earlier ones. The last one itself if

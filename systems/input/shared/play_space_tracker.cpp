@@ -1,5 +1,6 @@
 #include "systems/input/shared/play_space_tracker.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/input/shared/motion_limit.hpp"
@@ -96,34 +97,47 @@ void PlaySpaceTracker::keep_hands(const TrackingSample& sample) {
     }
 }
 
+// The hands that have a reading before the sample, and the last one's age.
+std::array<std::optional<double>, k_hand_count> PlaySpaceTracker::hand_ages_s(
+    const TrackingSample& sample, double lost_after_s) const {
+    std::array<std::optional<double>, k_hand_count> ages_s;
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+        const Hand& hand = hands_[index_of(side)];
+        const double age_s = sample.t_s - hand.reading_t_s;
+        if (hand.has_reading && is_seen(sample.controllers[index_of(side)]) &&
+            age_s <= lost_after_s) {
+            ages_s[index_of(side)] = age_s;
+        }
+    }
+    return ages_s;
+}
+
 // `head_ps` is the sample's, corrected as before. `undo` takes it to where the head would be
 // without the jump: it keeps its velocity. Its tilt is the head's own, for play spaces are level.
 bool PlaySpaceTracker::find_recentring(const TrackingSample& sample, const Pose& head_ps,
                                        const TrackingTuning& tuning, Pose& undo) const {
     const double head_dt_s = sample.t_s - head_t_s_;
-    if (head_dt_s > tuning.lost_after_s) {
+    const auto ages_s = hand_ages_s(sample, tuning.lost_after_s);
+    if (head_dt_s > tuning.lost_after_s || (!ages_s[0] && !ages_s[1])) {
         return false;
+    }
+    const double max_mps = tuning.max_hand_speed_mps;
+    // True if each hand could have moved to where its reading is once `correction` is applied.
+    const auto hands_could_move = [&](const Pose& correction) {
+        return std::ranges::all_of(std::array{HandSide::left, HandSide::right}, [&](HandSide side) {
+            const std::size_t i = index_of(side);
+            return !ages_s[i] || could_move(hands_[i].reading_ps,
+                                            correction * hand_ps(sample.controllers[i], side),
+                                            *ages_s[i], max_mps);
+        });
+    };
+    if (could_move(head_ps_, head_ps, head_dt_s, max_mps) && hands_could_move({})) {
+        return false;  // nothing jumped
     }
     const Pose expected_ps = extrapolate(before_ps_, before_t_s_, head_ps_, head_t_s_, sample.t_s);
     undo.rotation = turn_about_up(expected_ps.rotation * head_ps.rotation.conjugate());
     undo.position = expected_ps.position - undo.rotation * head_ps.position;
-    const double max_mps = tuning.max_hand_speed_mps;
-    bool is_jump = !could_move(head_ps_, head_ps, head_dt_s, max_mps);
-    bool is_rigid = could_move(head_ps_, undo * head_ps, head_dt_s, max_mps);
-    int hands = 0;
-    for (const HandSide side : {HandSide::left, HandSide::right}) {
-        const ControllerSample& reading = sample.controllers[index_of(side)];
-        const Hand& hand = hands_[index_of(side)];
-        const double dt_s = sample.t_s - hand.reading_t_s;
-        if (!hand.has_reading || !is_seen(reading) || dt_s > tuning.lost_after_s) {
-            continue;
-        }
-        const Pose next_ps = hand_ps(reading, side);
-        is_jump = is_jump || !could_move(hand.reading_ps, next_ps, dt_s, max_mps);
-        is_rigid = is_rigid && could_move(hand.reading_ps, undo * next_ps, dt_s, max_mps);
-        ++hands;
-    }
-    return is_jump && is_rigid && hands > 0;
+    return could_move(head_ps_, undo * head_ps, head_dt_s, max_mps) && hands_could_move(undo);
 }
 
 }  // namespace handhold

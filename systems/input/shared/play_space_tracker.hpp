@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "components/stats.hpp"
 #include "components/tracking.hpp"
@@ -56,6 +57,8 @@ class PlaySpaceTracker {
 
   private:
     Pose corrected(const Pose& pose) const;
+    std::array<std::optional<double>, k_hand_count> hand_ages_s(const TrackingSample& sample,
+                                                                double lost_after_s) const;
     bool find_recentring(const TrackingSample& sample, const Pose& head_ps,
                          const TrackingTuning& tuning, Pose& undo) const;
     void shift_by(const Pose& undo);

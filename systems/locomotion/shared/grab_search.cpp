@@ -93,11 +93,11 @@ std::optional<GrabTarget> find_visible_surface(const GrabSearch& io, Entity play
     if (!surface || sight.may_grip(ray.palm_ws, surface->point_ws)) {
         return surface;
     }
-    const auto obstacle = sight.obstacle(ray.palm_ws);
-    const Entity body = obstacle ? owner_of_id(io, obstacle->id) : k_no_entity;
+    const auto entry = sight.entry(ray.palm_ws);
+    const Entity body = entry ? owner_of_id(io, entry->id) : k_no_entity;
     const double max_m = body == surface->body ? tuning.max_stretch_m : tuning.reach_m;
-    if (!is_null(body) && (obstacle->point_ws - ray.palm_ws).norm() <= max_m) {
-        return GrabTarget{body, obstacle->point_ws, obstacle->normal_ws, {}};
+    if (!is_null(body) && (entry->point_ws - ray.palm_ws).norm() <= max_m) {
+        return GrabTarget{body, entry->point_ws, entry->normal_ws, {}};
     }
     stats.count(Fallback::grab_out_of_sight);
     return std::nullopt;
@@ -225,7 +225,7 @@ class SnapFinder {
 // every wall. An empty hand that closes or pulls needs HandSight to be exact.
 bool needs_rays(const HandSight& sight, const Grab& grab, const HandTracking& hand,
                 const SightLines& lines, const Vec3& palm_ws) {
-    constexpr double k_step_m = 0.03;
+    constexpr double k_step_m = 0.05;
     if (grab.kind == GripKind::surface) {
         return false;
     }

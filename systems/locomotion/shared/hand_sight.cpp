@@ -26,13 +26,31 @@ SightLines::Sight sight_between(const SightLines& lines, const Vec3& from_ws, co
 
 SightLines::Sight SightLines::sight_of_palm(const Vec3& palm_ws) const {
     const Sight from_outside = sight_between(*this, outside_ws, palm_ws);
-    return from_outside == Sight::clear_beyond
-               ? from_outside
-               : std::max(from_outside, sight_between(*this, head_ws, palm_ws));
+    return from_outside == Sight::blocked ? sight_between(*this, head_ws, palm_ws) : from_outside;
 }
 
-std::optional<RayHit> SightLines::obstacle(const Vec3& palm_ws) const {
-    return collision.cast_ray(outside_ws, palm_ws, skip);
+// The first surface on the line to the palm, at the point straight above the palm if that point is
+// in sight too: a hand that slid along inside a wall grips the wall where it is.
+std::optional<RayHit> SightLines::entry_from(const Vec3& from_ws, const Vec3& palm_ws) const {
+    constexpr double k_above_m = 0.01;
+    const auto first = collision.cast_ray(from_ws, palm_ws, skip);
+    if (!first) {
+        return first;
+    }
+    const double depth_m = (first->point_ws - palm_ws).dot(first->normal_ws);
+    const Vec3 above_ws = palm_ws + (depth_m + k_above_m) * first->normal_ws;
+    const auto straight = collision.cast_ray(above_ws, palm_ws, skip);
+    return straight && straight->id == first->id && is_free(from_ws, above_ws) ? straight : first;
+}
+
+std::optional<RayHit> SightLines::entry(const Vec3& palm_ws) const {
+    const auto from_outside = entry_from(outside_ws, palm_ws);
+    const auto from_head = entry_from(head_ws, palm_ws);
+    if (!from_outside || !from_head) {
+        return from_outside ? from_outside : from_head;
+    }
+    const auto distance_m = [&](const RayHit& hit) { return (hit.point_ws - palm_ws).norm(); };
+    return distance_m(*from_head) < distance_m(*from_outside) ? from_head : from_outside;
 }
 
 bool SightLines::is_free(const Vec3& from_ws, const Vec3& to_ws) const {

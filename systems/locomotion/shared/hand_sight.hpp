@@ -26,13 +26,14 @@ struct SightLines {
     bool may_grip(const Vec3& palm_ws, const Vec3& point_ws,
                   std::optional<std::uint64_t> hits_body = std::nullopt) const;
 
-    // The first surface between `outside_ws` and the palm.
-    std::optional<RayHit> obstacle(const Vec3& palm_ws) const;
+    // The visible surface that a palm was pushed through, as near to the palm as it can be seen.
+    std::optional<RayHit> entry(const Vec3& palm_ws) const;
 
   private:
     bool is_free(const Vec3& from_ws, const Vec3& to_ws) const;
     bool sees(const Vec3& from_ws, const Vec3& point_ws,
               std::optional<std::uint64_t> hits_body) const;
+    std::optional<RayHit> entry_from(const Vec3& from_ws, const Vec3& palm_ws) const;
     bool can_go_round(const Vec3& from_ws, const Vec3& palm_ws) const;
 };
 

@@ -81,6 +81,23 @@ RC_GTEST_PROP(HandSight, PalmPushedIntoASurfaceGripsIt, (std::uint64_t seed)) {
     RC_ASSERT(grab.kind == GripKind::surface);
 }
 
+// The palm may look anywhere, and the place where it went in is out of reach.
+RC_GTEST_PROP(HandSight, PalmThatSlidInsideAWallGripsItsFront, (std::uint64_t seed)) {
+    Random random(seed);
+    Reach reach(random);
+    const double half_m = random.between(0.04, 0.3);
+    const Entity wall =
+        reach.scenario.add_wall("wall", Vec3(1.5, 1.5, half_m), Vec3(0.0, 1.2, -0.5 - half_m));
+    const double depth_m = random.between(0.005, std::min(0.09, 2.0 * half_m - 0.005));
+    reach.rotation = random.rotation();
+    const Vec3 in(random.between(-0.2, 0.2), 0.9, -0.5 - depth_m);
+    reach.palm_path = {in + Vec3(0.0, 0.0, depth_m + 0.1), in,
+                       in + Vec3(random.between(-0.2, 0.2), random.between(0.35, 0.8), 0.0)};
+    const Grab& grab = reach.close();
+    RC_ASSERT(grab.body == wall);
+    RC_ASSERT((grab.hit_normal_bs - Vec3::UnitZ()).norm() < 1e-6);
+}
+
 // The head does not see the mug: the hand's path decides.
 RC_GTEST_PROP(HandSight, HandThatWentRoundAnEdgeGripsWhatIsBehind, (std::uint64_t seed)) {
     Random random(seed);
