@@ -242,8 +242,11 @@ void visit_fields(const HeadTracking& c, V&& visit) {
     visit("start_ps", c.start_ps);
     visit("sample_ps", c.sample_ps);
     visit("sample_t_s", c.sample_t_s);
+    visit("before_ps", c.before_ps);
+    visit("before_t_s", c.before_t_s);
     visit("state", c.state);
     visit("shift_m", c.shift_m);
+    visit("shift_turn", c.shift_turn);
 }
 template <typename V>
 void visit_fields(const EarlySample& c, V&& visit) {
@@ -421,6 +424,9 @@ void visit_fields(const HandTracking& c, V&& visit) {
     visit("sample_t_s", c.sample_t_s);
     visit("state", c.state);
     visit("resumed", c.resumed);
+    visit("interrupted", c.interrupted);
+    visit("reading_ps", c.reading_ps);
+    visit("reading_t_s", c.reading_t_s);
     visit("edge", c.edge);
     visit("edge_t_s", c.edge_t_s);
     visit("edge_ps", c.edge_ps);
@@ -455,6 +461,14 @@ void visit_fields(const Grab& c, V&& visit) {
     visit("target_spin_ps_radps", c.target_spin_ps_radps);
     visit("since_s", c.since_s);
     visit("error_m", c.error_m);
+    visit("slip_hs", c.slip_hs);
+}
+template <typename V>
+void visit_fields(const HandSight& c, V&& visit) {
+    visit("outside_bs", c.outside_bs);
+    visit("frame", c.frame);
+    visit("is_known", c.is_known);
+    visit("is_clear", c.is_clear);
 }
 template <typename V>
 void visit_fields(const GripSurface& c, V&& visit) {

@@ -65,6 +65,21 @@ struct Grab {
     bool two_handed = false;
     // Joints connect the held body to something fixed; the hand may turn on it as on a surface.
     bool jointed = false;
+    // Displacement of the hand by tracking errors: the hand's first anchor in the frame of the
+    // present one. Identity: none. A held free body returns by it (move_into_hand).
+    Pose slip_hs;
+};
+inline bool has_slipped(const Grab& grab) {
+    return grab.slip_hs.position != Vec3::Zero() || grab.slip_hs.rotation.vec() != Vec3::Zero();
+}
+
+// Where the palm was last known to be outside of walls. A hand grips only what is visible from
+// there or from the head. Written by update_grabs.
+struct HandSight {
+    Vec3 outside_bs = Vec3::Zero();  // in `frame`
+    Entity frame = k_no_entity;      // body that the player last gripped; null: the world
+    bool is_known = false;           // false: the palm counts as outside
+    bool is_clear = true;            // no wall between that point, or the head, and the palm
 };
 
 // Which hands may grip a body. A body without one may be gripped by any hand. Written by the host.

@@ -49,6 +49,9 @@ enum class Fallback : std::uint8_t {
     tracking_lost,        // a device is silent or invalid: its pose is frozen
     hand_out_of_reach,    // hand farther from its head than HandTuning::max_arm_m: sample ignored
     head_recentred,       // head moved more than TrackingTuning::max_jump_m: the player stays put
+    device_asleep,        // a controller at exactly (0, 0, 0): sample ignored
+    hand_implausible,     // faster than TrackingTuning::max_hand_speed_mps: sample ignored
+    space_recentred,      // head and hands jumped as one rigid body: the player stays put
     // Grabs.
     grab_no_surface,       // a hand closed with no surface in reach
     grip_stretched,        // hand farther from its anchor than HandTuning::max_stretch_m: let go
@@ -61,6 +64,9 @@ enum class Fallback : std::uint8_t {
     grab_needs_two_hands,  // the body is gripped by both hands or by none, and one closed
     grip_needs_two_hands,  // one of both hands left such a body: the other lets go
     grip_ended_by_host,    // a GrabOrder
+    grip_out_of_reach,     // after a tracking error the palm is too far from its surface: let go
+    grip_speed_limited,    // a gripping hand was faster than max_hand_speed_mps: its anchor slips
+    grab_out_of_sight,     // a wall stands between hand and surface: nothing gripped
     // Physics.
     contact_rounds_exhausted,  // new contacts appeared in every allowed round
     contacts_contradict,       // hand rows were dropped so that contacts could be met

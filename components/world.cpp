@@ -234,6 +234,7 @@ PlayerEntities add_player(World& world, const PlayerDescription& description) {
         world.hand_tracking.add(hand);
         world.hand_history.add(hand);
         world.grab.add(hand);
+        world.hand_sight.add(hand);
         world.grip_surface.add(hand);
         world.palm_offset.add(hand);
         world.palm_pose.add(hand);

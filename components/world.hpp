@@ -78,6 +78,7 @@ struct World {
     Column<HandTracking> hand_tracking;
     Column<HandHistory> hand_history;
     Column<Grab> grab;
+    Column<HandSight> hand_sight;
     Column<GripSurface> grip_surface;
     Column<PalmOffset> palm_offset;
     Column<PalmPose> palm_pose;
@@ -138,6 +139,7 @@ void visit_columns(WorldType& world, Visit&& visit) {
     visit("hand_tracking", world.hand_tracking);
     visit("hand_history", world.hand_history);
     visit("grab", world.grab);
+    visit("hand_sight", world.hand_sight);
     visit("grip_surface", world.grip_surface);
     visit("palm_offset", world.palm_offset);
     visit("palm_pose", world.palm_pose);

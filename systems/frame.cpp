@@ -105,12 +105,14 @@ void place_colliders(const FrameContext& f, Stage needed_by) {
 void update_grabs(const FrameContext& f) {
     const StageTimer timer(Stage::update_grabs, f.stats);
     World& w = f.w;
-    handhold::update_grabs(
-        {f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking, w.player_origin,
-         w.head_tracking, w.body, w.body_pose, f.graph().joint_groups, w.authored_grips,
-         w.hand_pull, w.grab, w.authored_hold, w.head_ignores, &w.grab_rule, &w.grab_layers,
-         &w.filter, &w.grab_order, f.start_s()},
-        f.tuning, f.stats);
+    handhold::update_grabs({f.collision(),    w.persistent_id, w.hand_owner,
+                            w.hand_tracking,  w.player_origin, w.head_tracking,
+                            w.body,           w.body_pose,     f.graph().joint_groups,
+                            w.authored_grips, w.hand_pull,     w.reference_velocity,
+                            w.hand_sight,     w.grab,          w.authored_hold,
+                            w.head_ignores,   &w.grab_rule,    &w.grab_layers,
+                            &w.filter,        &w.grab_order,   f.start_s()},
+                           f.tuning, f.stats);
 }
 
 void locomote_players(const FrameContext& f) {
@@ -127,7 +129,7 @@ void pull_bodies(const FrameContext& f) {
     const StageTimer timer(Stage::locomote_players, f.stats);
     World& w = f.w;
     handhold::pull_bodies({f.dt_s(), f.collision(), w.persistent_id, w.hand_owner, w.hand_tracking,
-                           w.grab, w.player, w.player_origin, w.body, w.body_pose,
+                           w.grab, w.hand_sight, w.player, w.player_origin, w.body, w.body_pose,
                            f.graph().joint_groups, w.hand_pull, w.body_velocity, w.player_velocity},
                           f.tuning, f.stats);
 }

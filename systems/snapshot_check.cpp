@@ -302,6 +302,7 @@ class BreachFinder {
         require_both("hand_owner", w_.hand_owner, "hand_tracking", w_.hand_tracking);
         require_both("hand_owner", w_.hand_owner, "hand_history", w_.hand_history);
         require_both("hand_owner", w_.hand_owner, "grab", w_.grab);
+        require_both("hand_owner", w_.hand_owner, "hand_sight", w_.hand_sight);
         require_both("hand_owner", w_.hand_owner, "palm_pose", w_.palm_pose);
         require("controller_to_hand", w_.controller_to_hand, "hand_owner", w_.hand_owner);
         require("grab_order", w_.grab_order, "grab", w_.grab);

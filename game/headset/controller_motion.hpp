@@ -11,9 +11,8 @@
 #include "engine/math/math.hpp"
 #include "game/headset/headset_reading.hpp"
 
-// Moving parts of a drawn controller: buttons, triggers, sticks. They have no effect on the
-// simulation. As in WebXR's input profiles, a node of the model moves between the poses of two
-// other nodes.
+// Moving parts of a drawn controller: buttons, triggers, sticks. As in WebXR's input profiles, a
+// node of the model moves between two poses.
 namespace handhold {
 
 enum class Control : std::uint8_t {
@@ -21,38 +20,35 @@ enum class Control : std::uint8_t {
     squeeze,
     stick_x,       // 0 left, 1 right
     stick_y,       // 0 forward, 1 back
-    lower_button,  // brake: X, A or a pressed trackpad
-    upper_button,  // calibrate: Y, B, or the menu button if there is neither
+    lower_button,  // brake: X, A, a pressed trackpad
+    upper_button,  // calibrate: Y, B, menu on controllers without them
     count
 };
 inline constexpr std::size_t k_control_count = static_cast<std::size_t>(Control::count);
-// Position of each Control, in [0, 1].
+// Position of each control, in [0, 1].
 using ControlValues = std::array<double, k_control_count>;
 inline constexpr ControlValues k_controls_at_rest = {0.0, 0.0, 0.5, 0.5, 0.0, 0.0};
 
 ControlValues control_values(const HandReading& hand);
-// Control values if only `closes` is known of the input.
+// Values for input that only says whether the hand closes.
 ControlValues closing_values(bool closes);
 
-// Names of three nodes of a model. `node` follows the control: from the pose of `from` (value 0) to
-// that of `to` (value 1).
+// A node of a model that moves with a control, and the nodes that mark its two end poses.
 struct ControlledNode {
     Control control = Control::trigger;
     std::string node, from, to;
 };
 
-// Poses of the three nodes of a ControlledNode. _ms: in the model's frame, with all other nodes at
-// rest.
+// The same, resolved in the model. Suffix _ms: in the model's frame, all other parts at rest.
 struct ControlMove {
     Control control = Control::trigger;
     Pose rest_ms, from_ms, to_ms;
 };
-// Moves of the node with this pointer and of its ancestors, outermost first. A node is skipped if
-// it or its end nodes (`from`, `to`) are missing, have a scale that a Pose cannot hold, or are not
-// siblings.
+// Moves of the node with this pointer and of its ancestors, the outermost first. Left out: nodes
+// that the model lacks, that are scaled, or that are no siblings of their end poses.
 std::vector<ControlMove> moves_of(const std::string& pointer, std::span<const GltfNode> nodes,
                                   std::span<const ControlledNode> controlled);
-// Transform in the model's frame that moves a part from its rest pose to its pose at `values`.
+// Transform of a part from its rest pose to the given values, in the model's frame.
 Pose moved_by(std::span<const ControlMove> moves, const ControlValues& values);
 
 }  // namespace handhold

@@ -83,8 +83,8 @@ bool is_layout_of(std::string_view key, std::string_view side) {
     return false;
 }
 
-// The Control that shows a property of a WebXR component. nullopt for properties that no
-// HandReading has, such as touches and a stick's click.
+// The control of a component's property. None for properties without a reading: touches, stick
+// clicks.
 std::optional<Control> webxr_control(const std::string& component, const std::string& property,
                                      bool has_stick) {
     const bool is_stick = component == "xr-standard-thumbstick";
@@ -158,7 +158,7 @@ Pose controller_in_hand(const ControllerFit& fit) {
 }
 
 Pose handle_in_hand(HandSide side, const HandleGrip& handle, const HandTuning& tuning) {
-    // For the right hand with the palm down: its thumb is on the left.
+    // Right hand: the palm faces down, the thumb is on the left.
     double sine = 0.0;
     double cosine = 1.0;
     sin_cos(handle.slant_rad, sine, cosine);

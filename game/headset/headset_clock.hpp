@@ -4,23 +4,21 @@
 
 namespace handhold {
 
-// Converts a headset's display times to simulation frames of constant length: one per display
-// refresh, even if pictures come late. Because the length is constant, a recorded session can be
-// replayed at `hz`, bit for bit.
+// Simulation frames for a headset's display: one per refresh, all of one length, even if pictures
+// are late. A recorded session therefore replays at `hz` bit for bit.
 class HeadsetClock {
   public:
-    // Returns the number of frames to simulate before drawing the picture that is displayed at
-    // display_ns. 0 if that refresh already had its frame, and in the first call and the first call
-    // after pause(). At most k_max_frames: beyond that, simulated time falls behind. The first
-    // period_ns > 0 in such a first call sets the length of a frame.
+    // Number of frames due for a picture that is shown at display_ns; 0 if that refresh had its
+    // frame, on the first call, and on the first one after pause(). The first period_ns > 0 decides
+    // the frame length. At most k_max_frames: beyond that, simulated time lags behind.
     int advance(std::int64_t display_ns, std::int64_t period_ns);
 
-    // Skips the time until the next advance(): the runtime was lost, or has a different clock now.
+    // No time passes until the next advance(): the runtime was gone, or has another clock.
     void pause() { runs_ = false; }
 
     double hz() const { return hz_; }
     double dt_s() const { return 1.0 / hz_; }
-    // Display time of one of the frames that advance() counted: 0: the last one, 1: the one before.
+    // Display time of the n-th last frame of the last advance(); 0: the last one.
     std::int64_t frame_ns(int before_last) const;
 
     static constexpr int k_max_frames = 9;

@@ -24,7 +24,7 @@ double microseconds_since(std::int64_t begin_ns) {
     return 1e-3 * static_cast<double>(now_ns() - begin_ns);
 }
 
-// Copies one eye's picture (0 left, 1 right) into its half of `both`.
+// Copies an eye's picture into its half of `both`: left, right.
 void put_beside(const Image& eye, std::size_t which, Image& both) {
     const int width = eye.width_px;
     both.width_px = 2 * width;
@@ -101,7 +101,7 @@ class HeadsetLoop {
         return false;
     }
 
-    // Asks the runtime to end the session, and submits empty frames until it has.
+    // Frames must go on while the runtime ends the session.
     void leave() {
         constexpr int k_max_frames = 200;
         headset_->ask_to_leave();
@@ -112,7 +112,7 @@ class HeadsetLoop {
         }
     }
 
-    // Sets ends_ if a signal, the mirror window or its leave key asks for it.
+    // Reads the requests to end that come from this side: a signal, the mirror window.
     void look_around() {
         ends_ = ends_ || (stage_.asked_to_end != nullptr && *stage_.asked_to_end != 0);
         if (stage_.mirror == nullptr) {
@@ -188,7 +188,7 @@ class HeadsetLoop {
         std::fflush(stage_.status);
     }
 
-    // Message for the player on the help panel: a lost hand, or the state of the calibration.
+    // A line about the player's own tracking and calibration.
     std::string notice() const {
         const Calibration& calibration = world().calibration.at(stage_.session.player().player);
         for (const HandSide side : {HandSide::left, HandSide::right}) {
@@ -215,7 +215,7 @@ class HeadsetLoop {
         sheet_ui_ = overlay_->end();
     }
 
-    // The panel has the same pose relative to the head in the world as in play space.
+    // The panel has the same pose relative to the head in the world as in the room.
     std::optional<Sheet> sheet_before(const Pose& head_ws) const {
         if (!panel_.shows()) {
             return std::nullopt;
@@ -235,7 +235,7 @@ class HeadsetLoop {
         return overlay_->end();
     }
 
-    // The eye has the same pose relative to the head in the world as in play space.
+    // The eye has the same pose relative to the head in the world as in the room.
     void draw(const EyePicture& eye, const UiPicture& ui) {
         const Entity player = stage_.session.player().player;
         const RenderPose& render = world().render_pose.at(player);
@@ -272,11 +272,10 @@ class HeadsetLoop {
     HeadsetClock clock_;
     HeadsetMemory memory_;
     HeadsetFigures figures_;
-    // Lays out the help panel and the eyes' vignette, one after the other. nullopt if headless.
-    std::optional<Overlay> overlay_;
+    std::optional<Overlay> overlay_;  // for both eyes and the panel; none: headless
     HeadsetPanel panel_;
-    UiPicture sheet_ui_;  // layout of the help panel, while it is shown
-    Pose head_ps_;        // of the last reading that had one
+    UiPicture sheet_ui_;  // while it is shown
+    Pose head_ps_;        // in the last reading
     Image eye_image_;     // reused
     Image mirror_image_;  // the left eye's
     std::uint64_t frames_ = 0;

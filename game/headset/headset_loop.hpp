@@ -15,7 +15,7 @@
 
 namespace handhold {
 
-// Inputs and outputs of a session that is played in a headset.
+// One scene, played in a headset until it is left.
 struct HeadsetStage {
     const PlayOptions& options;
     HeadsetSession& session;
@@ -23,16 +23,15 @@ struct HeadsetStage {
     Window* mirror = nullptr;    // null: no mirror window
     EyeSize eye_size;
     PlayTally& tally;
-    Image& picture;               // out: both eyes side by side, if `options` ask for a picture
-    std::FILE* status = nullptr;  // gets a line every tenth of a second; null: none
+    Image& picture;               // both eyes side by side, if options ask for a picture
+    std::FILE* status = nullptr;  // a line every 0.1 s; null: none
     const volatile std::sig_atomic_t* asked_to_end = nullptr;  // not 0: leave
-    double hz = 90.0;  // out: frames a second of the session
+    double hz = 90.0;  // out: frames per second of the session
 };
 
-// Plays the session until somebody ends it. Simulates one frame per display refresh, and draws it
-// as predicted for the time of its display. If the runtime is lost, tries for half a minute to
-// reopen it; simulated time stands still meanwhile. Returns false, with the reason, if the session
-// cannot begin or the runtime does not come back.
+// Simulates one frame per refresh of the display and draws it for its display time. If the runtime
+// is lost, it is reopened within half a minute, during which no time passes. False, with the
+// reason, if that fails.
 bool play_in_headset(HeadsetStage& stage, std::unique_ptr<Headset> headset, std::string& why_not);
 
 }  // namespace handhold

@@ -3,8 +3,7 @@
 namespace handhold {
 
 Pose panel_before(const Pose& head_ps) {
-    // The steeper the view, the more the direction of the forehead counts: it points back for a
-    // player who looks up, and ahead for one who looks down.
+    // Looking straight up, the forehead points backwards; looking straight down, it points ahead.
     const Vec3 look = head_ps.rotation * -Vec3::UnitZ();
     const Vec3 forehead = head_ps.rotation * Vec3::UnitY();
     Vec3 ahead = look + (look.y() > 0.0 ? -1.0 : 1.0) * std::abs(look.y()) * forehead;

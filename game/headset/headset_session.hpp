@@ -11,24 +11,23 @@
 
 namespace handhold {
 
-// A scene that one person plays with a headset, frame by frame.
+// A scene played with a headset by one player, frame by frame.
 class HeadsetSession {
   public:
     HeadsetSession(Scene scene, const Pose& origin_ws);
 
-    // Replaces the controller-to-hand joints from Tuning, by HandSide. Call before the first frame.
+    // Replaces Tuning's joint by a controller's own. Call before the first frame.
     void set_controller_joints(const std::array<Pose, k_hand_count>& hand_in_grip);
-    // The joints set by set_controller_joints, or nullptr.
+    // The joints set above; nullptr if none were.
     const std::array<Pose, k_hand_count>* controller_joints() const {
         return joints_ ? &*joints_ : nullptr;
     }
 
-    // Steps one frame of dt_s. `sample` applies to the end of the frame; in the first frame, also
-    // to its beginning.
+    // Steps one frame of dt_s. `sample` is taken at its end; in the first frame also at its start.
     void step(TrackingSample sample, PlayerCommands commands, double dt_s);
 
-    // Haptic pulses due after the last frame, by HandSide: weak if the palm has begun to touch
-    // something, strong if the hand has begun to grip.
+    // Vibration of the controllers after the last frame: weak if a palm came close to a surface,
+    // strong if the hand gripped.
     std::array<HapticPulse, k_hand_count> pulses() const { return pulses_; }
 
     const Scene& scene() const { return scene_; }
@@ -37,9 +36,8 @@ class HeadsetSession {
     const PlayerEntities& player() const { return player_; }
     double t_s() const { return scene_.world.clock.t_s; }
 
-    // Records the tracking samples; call before the first frame. Replayed from the same start pose
-    // at the same rate, they reproduce the session bit for bit, unless the player used turns, brake
-    // or jets (used_sticks).
+    // Records the input from the first frame on. Replayed from the same place at the same rate, it
+    // gives the same state bit for bit, except for turns, brake and thrusters.
     void record() { records_ = true; }
     const Recording& recording() const { return recording_; }
     bool used_sticks() const { return used_sticks_; }

@@ -35,7 +35,13 @@ constexpr std::array<const char*, k_head_begin + k_pose_cells + 2 * k_hand_cells
 // One row's cells in the order of k_columns.
 using Cells = std::array<double, k_columns.size()>;
 
-// Reads rows into samples and keeps the first bad cell as the error.
+// A device that was not tracked.
+Pose lost_pose() {
+    constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+    return {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+}
+
+// Reads rows into samples; the first bad cell is kept as the error.
 class RowReader {
   public:
     explicit RowReader(std::string file) : file_(std::move(file)) {}
@@ -67,8 +73,7 @@ class RowReader {
     bool read_pose(const Cells& cells, std::size_t begin, Pose& pose) {
         for (std::size_t i = begin; i < begin + k_pose_cells; ++i) {
             if (std::isnan(cells[i])) {
-                constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-                pose = {Vec3::Constant(k_nan), Quat(k_nan, k_nan, k_nan, k_nan)};
+                pose = lost_pose();
                 return true;
             }
         }
@@ -81,6 +86,10 @@ class RowReader {
         pose.position = Vec3(cells[begin], cells[begin + 1], cells[begin + 2]);
         pose.rotation =
             Quat(cells[begin + 6], cells[begin + 3], cells[begin + 4], cells[begin + 5]);
+        if (pose.rotation.coeffs().isZero(0.0)) {  // how some recorders write a lost device
+            pose = lost_pose();
+            return true;
+        }
         const double length = pose.rotation.norm();
         if (!(std::abs(length - 1.0) <= k_length_tolerance)) {
             return refuse(std::string("expected a quaternion of length 1 from \"") +

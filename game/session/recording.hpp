@@ -44,11 +44,12 @@ struct Recording {
     std::vector<RecordedSample> samples;  // at least two; gaps and jitter are normal
 };
 
-// Loads a CSV file; columns may be in any order, with others in between. Normalises quaternions. If
-// one of the seven cells of a pose is "nan", the device was not tracked, and all seven become NaN.
-// Errors name the line: a missing column, a row of another length, a time that does not increase, a
-// coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length, buttons that are no
-// mask, a trigger outside [0, 1], or less than two samples.
+// Refused, with the line: a required column that is missing, a row of other length, a time that
+// does not increase, a coordinate beyond 1e6 m, a quaternion further than 1e-2 from unit length
+// (the others are made unit), buttons that are no mask, a trigger outside [0, 1]; and a file with
+// less than two samples. Columns may come in any order and others may stand between them. Where one
+// of the seven cells of a pose is "nan", or its quaternion is all zeros, the device was not tracked
+// and all become NaN.
 Result<Recording> load_recording(const std::filesystem::path& path);
 // Parses text in memory. `file`: for messages.
 Result<Recording> parse_recording(std::string_view text, const std::string& file);

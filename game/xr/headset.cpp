@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/headset/play_space_changes.hpp"
 #include "game/xr/actions.hpp"
 #include "game/xr/eyes.hpp"
 #include "game/xr/finger_tracking.hpp"
@@ -76,6 +77,21 @@ XrEnvironmentBlendMode first_blend_mode(const HeadsetInstance& instance) {
     return first;
 }
 
+void correct(const Pose& space, HeadsetReading& reading) {
+    const auto correct_pose = [&space](std::optional<Pose>& pose) {
+        if (pose) {
+            *pose = space * *pose;
+        }
+    };
+    correct_pose(reading.head_ps);
+    for (HandReading& hand : reading.hands) {
+        correct_pose(hand.grip_ps);
+        correct_pose(hand.aim_ps);
+        correct_pose(hand.palm_ps);
+        correct_pose(hand.wrist_ps);
+    }
+}
+
 }  // namespace
 
 struct Headset::Impl {
@@ -83,6 +99,7 @@ struct Headset::Impl {
     HeadsetInstance instance;
     OwnedXrSession session;
     HeadsetSpaces spaces;
+    PlaySpaceChanges changes;
     std::optional<HeadsetActions> actions;
     FingerTracking fingers;
     std::optional<Eyes> eyes;
@@ -141,6 +158,13 @@ void Headset::Impl::take(const XrEventDataBuffer& event) {
         const auto& changed = reinterpret_cast<const XrEventDataSessionStateChanged&>(event);
         if (changed.session == session.get()) {
             enter(state_from(changed.state));
+        }
+    } else if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+        // NOLINTNEXTLINE: how OpenXR hands events out
+        const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(event);
+        if (change.session == session.get() && change.referenceSpaceType == spaces.room_type &&
+            change.poseValid == XR_TRUE) {
+            changes.add(change.changeTime, from_xr(change.poseInPreviousSpace));
         }
     } else if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) {
         lost = true;
@@ -278,6 +302,7 @@ HeadsetReading Headset::read(std::int64_t time_ns) const {
         impl.actions->read(impl.session.get(), room, time_ns, reading.hands);
         impl.fingers.read(room, time_ns, reading.hands);
     }
+    correct(impl.changes.space_at(time_ns), reading);
     return reading;
 }
 
@@ -291,7 +316,9 @@ bool Headset::end_frame(const HeadsetFrame& frame, const DrawEye& draw_eye) {
     info.environmentBlendMode = impl.blend_mode;
     const XrCompositionLayerBaseHeader* layer = nullptr;
     if (frame.is_seen &&
-        impl.eyes->draw(impl.session.get(), impl.spaces.room.get(), frame.display_ns, draw_eye)) {
+        impl.eyes->draw(impl.session.get(),
+                        {impl.spaces.room.get(), impl.changes.space_at(frame.display_ns)},
+                        frame.display_ns, draw_eye)) {
         layer = impl.eyes->layer();
         info.layerCount = 1;
         info.layers = &layer;

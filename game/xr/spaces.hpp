@@ -11,7 +11,8 @@ namespace handhold {
 struct HeadsetSpaces {
     OwnedXrSpace room;
     OwnedXrSpace head;
-    std::string room_name;  // which OpenXR space `room` is
+    std::string room_name;  // which of OpenXR's spaces the room is
+    XrReferenceSpaceType room_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
 };
 // `room` is the stage space if the runtime has it, else the local-floor space, else the local
 // space. The origin of the local space is taken to be 1.6 m above the floor.

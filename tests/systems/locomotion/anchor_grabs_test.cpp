@@ -418,5 +418,55 @@ TEST(SettleGrabs, BothHandsFoundAgainAtOnceDoNotMoveThePlayer) {
 
 // --- Properties ----------------------------------------------------------------------------------
 
+// --- Tracking errors -----------------------------------------------------------------------------
+
+// 0.5 m in 10 ms at 8 m/s at most: the grip slips by 0.42 m, so that the player moves 0.08 m.
+TEST(SettleGrabs, HandFasterThanAHandSlipsByTheRest) {
+    for (const GripKind kind : {GripKind::surface, GripKind::held}) {
+        Settling scene;
+        scene.tuning.tracking.max_hand_speed_mps = 8.0;
+        scene.tuning.hand.return_speed_mps = 0.0;
+        scene.move_hand(k_right, pose_at(Vec3(0.3, 1.0, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
+        scene.set_grip(k_right, kind, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.0, 0.0)));
+        scene.run();
+        const Grab& grab = scene.grab.at(k_right);
+        EXPECT_LT((grab.anchor_bs.position - Vec3(0.3, 1.42, 0.0)).norm(), 1e-12);
+        EXPECT_EQ(grab.target_ps.position, Vec3(0.3, 1.5, 0.0));
+        EXPECT_LT((grab.slip_hs.position - Vec3(0.0, -0.42, 0.0)).norm(), 1e-12);
+        EXPECT_EQ(count_of(scene.stats, Fallback::grip_speed_limited), 1U);
+    }
+}
+
+// A slip of 0.42 m at 2 m/s: 20 mm in a frame of 10 ms. A surface stays where it is.
+TEST(SettleGrabs, HeldBodyReturnsByItsSlip) {
+    for (const GripKind kind : {GripKind::surface, GripKind::held}) {
+        Settling scene;
+        scene.move_hand(k_right, pose_at(Vec3(0.3, 1.5, 0.0)), pose_at(Vec3(0.3, 1.5, 0.0)));
+        scene.set_grip(k_right, kind, GrabPhase::holding, k_wall, pose_at(Vec3(0.3, 1.42, 0.0)));
+        scene.grab.at(k_right).slip_hs.position = Vec3(0.0, -0.42, 0.0);
+        scene.run();
+        const double moved_m = kind == GripKind::held ? 0.02 : 0.0;
+        const Grab& grab = scene.grab.at(k_right);
+        EXPECT_LT((grab.anchor_bs.position - Vec3(0.3, 1.42 - moved_m, 0.0)).norm(), 1e-12);
+        EXPECT_LT((grab.slip_hs.position - Vec3(0.0, moved_m - 0.42, 0.0)).norm(), 1e-12);
+    }
+}
+
+// However often it slips: what the slip undoes is the first anchor.
+RC_GTEST_PROP(SettleGrabs, SlipKeepsTheFirstAnchor, (std::uint64_t seed)) {
+    Random random(seed);
+    Settling scene;
+    const Pose first = random.pose();
+    scene.set_grip(k_right, GripKind::held, GrabPhase::holding, k_wall, first);
+    for (int jump = 0; jump < 5; ++jump) {
+        const Pose hand = random.pose();
+        scene.move_hand(k_right, hand, hand);
+        scene.hand.at(k_right).resumed = random.between(0.0, 1.0) < 0.7;
+        scene.run();
+        const Grab& grab = scene.grab.at(k_right);
+        RC_ASSERT(distance(grab.anchor_bs * grab.slip_hs, first) < 1e-7);
+    }
+}
+
 }  // namespace
 }  // namespace handhold::settle_grabs_test

@@ -39,6 +39,7 @@ struct Settling {
     StageStats stats;
 
     explicit Settling(std::initializer_list<Entity> hands = {k_left, k_right}) {
+        tuning.tracking.max_hand_speed_mps = 1e3;  // hands move as far as a test likes
         player_start.add(k_player);
         origin.add(k_player);
         for (const Entity body : {k_wall, k_ship}) {

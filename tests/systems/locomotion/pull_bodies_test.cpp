@@ -35,6 +35,7 @@ struct Pulls {
     Column<HandOwner> owner;
     Column<HandTracking> hand;
     Column<Grab> grab;
+    Column<HandSight> sight;
     Column<PlayerBody> player;
     Column<PlayerOrigin> origin;
     Column<RigidBody> body;
@@ -57,6 +58,7 @@ struct Pulls {
             owner.add(hand_entity, {k_player, side});
             hand.add(hand_entity);
             grab.add(hand_entity);
+            sight.add(hand_entity);
         }
     }
     void add_stone(Entity stone, const Vec3& center, double mass_kg = k_stone_kg,
@@ -96,8 +98,8 @@ struct Pulls {
         std::ranges::sort(proxies, {}, &ColliderProxy::id);
         collision.set_proxies(proxies);
         stats = {};
-        pull_bodies({k_dt_s, collision, persistent_id, owner, hand, grab, player, origin, body,
-                     body_pose, joint_groups, pull, body_velocity, player_velocity},
+        pull_bodies({k_dt_s, collision, persistent_id, owner, hand, grab, sight, player, origin,
+                     body, body_pose, joint_groups, pull, body_velocity, player_velocity},
                     tuning, stats);
         for (HandTracking& tracking : hand.rows()) {
             tracking.edge = GrabEdge::none;

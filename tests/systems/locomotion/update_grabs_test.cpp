@@ -42,6 +42,8 @@ struct Grabs {
     Column<Grab> grab;
     Column<AuthoredHold> authored_hold;
     Column<HandPull> pull;
+    Column<ReferenceVelocity> reference;
+    Column<HandSight> sight;
     Column<HeadIgnores> head_ignores;
     Tuning tuning;
     StageStats stats;
@@ -51,10 +53,13 @@ struct Grabs {
         persistent_id.add(k_player, {100});
         origin.add(k_player, {frame_ws});
         head_ignores.add(k_player);
+        reference.add(k_player);
+        head.add(k_player).pose_ps = test::pose_at(Vec3(0.0, 1.8, 0.4));  // sees the hands
         for (const Entity entity : hands) {
             owner.add(entity, {k_player, entity == k_left ? HandSide::left : HandSide::right});
             hand.add(entity);
             grab.add(entity);
+            sight.add(entity);
         }
     }
     void add_body(Entity entity, const RigidBody& kind, ShapeId shape, const Pose& pose) {
@@ -93,9 +98,10 @@ struct Grabs {
                   [](const auto& a, const auto& b) { return a.id < b.id; });
         collision.set_proxies(proxies);
         stats = {};
-        update_grabs({collision, persistent_id, owner, hand, origin, head, body, body_pose,
-                      joint_groups, authored_grips, pull, grab, authored_hold, head_ignores},
-                     tuning, stats);
+        update_grabs(
+            {collision, persistent_id, owner, hand, origin, head, body, body_pose, joint_groups,
+             authored_grips, pull, reference, sight, grab, authored_hold, head_ignores},
+            tuning, stats);
     }
 };
 
