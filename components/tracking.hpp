@@ -101,6 +101,18 @@ struct HandTracking {
     Vec3 release_spin_ps_radps = Vec3::Zero();
 };
 
+// A player's sample of after the last frame's end, for hosts that give each sample once: it comes
+// before the next frame's samples. Only players with such a sample have this component. Written and
+// read by the C interface.
+struct EarlySample {
+    double t_s = 0.0;
+    Pose head_ps;
+    std::array<Pose, k_hand_count> controllers_ps;  // by HandSide
+    bool head_tracked = false;                      // false: the pose says nothing
+    std::array<bool, k_hand_count> tracked = {};    // by HandSide
+    std::array<bool, k_hand_count> grab = {};       // by HandSide
+};
+
 // The hand's last samples in a ring, for velocities that do not depend on the frame rate. Written
 // by read_tracking.
 struct HandHistory {
