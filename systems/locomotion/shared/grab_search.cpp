@@ -90,8 +90,12 @@ std::optional<GrabTarget> find_visible_surface(const GrabSearch& io, Entity play
                                                const PalmRay& ray, const SightLines& sight,
                                                const HandTuning& tuning, StageStats& stats) {
     const auto surface = find_surface(io, player, ray, tuning);
-    if (!surface || sight.may_grip(ray.palm_ws, surface->point_ws)) {
-        return surface;
+    if (!surface) {
+        return std::nullopt;
+    }
+    const std::uint64_t surface_id = io.persistent_id.at(surface->body).value;
+    if (sight.may_grip(ray.palm_ws, surface->point_ws, surface_id, SightLines::Needs::this_point)) {
+        return *surface;
     }
     const auto entry = sight.entry(ray.palm_ws);
     const Entity body = entry ? owner_of_id(io, entry->id) : k_no_entity;
@@ -198,7 +202,8 @@ class SnapFinder {
                        AuthoredHold{body, place, hand, k_leave_factor * grip.snap_angle_rad}};
         const Vec3 palm_ws = transform_point(hand_ws_, palm_hs);
         if (is_blocked(io_, owner_.player, palm_ws, snap.target.point_ws, snap.body_id) ||
-            !sight_.may_grip(palm_ws, snap.target.point_ws, snap.body_id)) {
+            !sight_.may_grip(palm_ws, snap.target.point_ws, snap.body_id,
+                             SightLines::Needs::any_point)) {
             stats_.count(Fallback::authored_grip_blocked);
             return;
         }

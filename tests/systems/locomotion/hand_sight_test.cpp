@@ -95,7 +95,7 @@ RC_GTEST_PROP(HandSight, PalmThatSlidInsideAWallGripsItsFront, (std::uint64_t se
                        in + Vec3(random.between(-0.2, 0.2), random.between(0.35, 0.8), 0.0)};
     const Grab& grab = reach.close();
     RC_ASSERT(grab.body == wall);
-    RC_ASSERT((grab.hit_normal_bs - Vec3::UnitZ()).norm() < 1e-6);
+    RC_ASSERT(std::abs(grab.hit_bs.z() - half_m) < 1e-6);
 }
 
 // The head does not see the mug: the hand's path decides.
@@ -137,6 +137,22 @@ RC_GTEST_PROP(HandSight, RailInTheWayHidesNothing, (std::uint64_t seed)) {
     reach.palm_path = {Vec3(0.1, 1.2, -0.3), end};
     const Entity mug = reach.add_mug(end - Vec3(0.0, 0.0, 0.09));
     RC_ASSERT(reach.close().body == mug);
+}
+
+// A bar behind the lower rim of a wall: neither palm nor bar is in sight there, but the hand can
+// come from below and touch the bar.
+RC_GTEST_PROP(HandSight, BarBehindARimIsGripped, (std::uint64_t seed)) {
+    Random random(seed);
+    Reach reach(random);
+    const double rim_y = 1.1;
+    reach.scenario.add_wall("wall", Vec3(1.0, 1.0, 0.01), Vec3(0.0, rim_y + 1.0, -0.51));
+    const double x = random.between(-0.05, 0.05);
+    const Vec3 end(x, rim_y - random.between(0.02, 0.04), -0.5 - random.between(0.05, 0.08));
+    reach.rotation = Quat::Identity();  // the palm faces down
+    reach.palm_path = {Vec3(x, 1.3, -0.3), end};
+    const Entity bar =
+        reach.scenario.add_wall("bar", Vec3(0.3, 0.02, 0.05), end - Vec3(0.0, 0.01 + 0.02, 0.0));
+    RC_ASSERT(reach.close().body == bar);
 }
 
 TEST(HandSight, RefusedGrabIsCountedAndTheHandThatComesBackGripsAgain) {
