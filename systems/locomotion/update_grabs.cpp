@@ -102,6 +102,13 @@ bool other_hand_joins(const UpdateGrabsIo& io, std::size_t row, Entity body, con
     return true;
 }
 
+// True if a closing hand already grips a body for two hands, because other_hand_joins came first.
+bool has_joined(const UpdateGrabsIo& io, const Grab& grab, const HandTracking& hand) {
+    const GrabRule* const rule = io.rule != nullptr ? io.rule->find(grab.body) : nullptr;
+    return rule != nullptr && rule->two_hands && grab.kind != GripKind::none &&
+           grab.phase == GrabPhase::fresh && grab.since_s == hand.edge_t_s;
+}
+
 void begin_grab(const UpdateGrabsIo& io, std::size_t row, const Closing& closing,
                 const Tuning& tuning, StageStats& stats) {
     const Entity entity = io.grab.owners()[row];
@@ -319,7 +326,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         }
         update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset && grab.kind == GripKind::none) {
+        if (hand.edge == GrabEdge::onset && !has_joined(io, grab, hand)) {
             ++stats.grab_onsets;
             begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&

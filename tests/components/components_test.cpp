@@ -88,8 +88,9 @@ TEST(Fields, EveryMemberOfEveryComponentIsVisitedOnce) {
 }
 
 TEST(Columns, EveryColumnOfTheWorldIsVisitedOnce) {
-    // entities, clock, reference_velocity_mps; the caches entity_by_id, joints_by_body
-    constexpr std::size_t k_others = 5;
+    // entities, clock, reference_velocity_mps, gravity_mps2, name_of_id; the caches entity_by_id,
+    // joints_by_body
+    constexpr std::size_t k_others = 7;
     World world;
     std::set<std::string> names;
     std::set<const void*> columns;

@@ -96,7 +96,7 @@ TEST(HostPause, ShowsHandsWhileTheWorldStandsStill) {
     const double time_s = scene.world.time_s();
     const hh_player_pose before = *scene.world.pose(scene.player);
     scene.hand_at[HH_LEFT].y += 0.3;
-    scene.hand_at[HH_RIGHT].z += 0.25;
+    scene.hand_at[HH_RIGHT].z += 0.1;  // less than hand.max_stretch_m
     const hh::Sample now = scene.sample();
     const std::array inputs = {hh::input(scene.player, {&now, 1})};
     for (int i = 0; i < 5; ++i) {
