@@ -515,7 +515,7 @@ void update_grabs(const UpdateGrabsIo& io, const Tuning& tuning, StageStats& sta
         }
         update_authored_hold(io, entity, grab, stats);
         const HandPull* const pull = io.pull.find(entity);
-        if (hand.edge == GrabEdge::onset && grab.kind == GripKind::none) {
+        if (hand.edge == GrabEdge::onset) {
             ++stats.grab_onsets;
             begin_grab(io, row, {hand.edge_ps, hand.edge_t_s, k_no_entity}, tuning, stats);
         } else if (pull != nullptr && hand.edge == GrabEdge::none && hand.pressed &&
