@@ -74,6 +74,14 @@ bool may_push(const Solve& s, const Island& island) {
            });
 }
 
+// From now on players of this island take part in its push with their own mass, velocities
+// included.
+void mark_pushed(const Solve& s, const Island& island) {
+    for (const std::uint32_t i : s.graph().bodies_of(island)) {
+        s.phase_of(i).pushed = true;
+    }
+}
+
 // --- Masses of a phase ---------------------------------------------------------------------------
 
 // Factor on a body's inverse mass in a phase, in [0, 1].
@@ -100,12 +108,12 @@ double share_of(const Solve& s, const Island& island, std::uint32_t index, Phase
         case Phase::contradiction:
             break;
     }
-    // Without grips only their own collider moves a player.
+    // Without grips only their own collider moves a player, and only if the island may push them.
     const bool touches = std::ranges::any_of(s.graph().blocks_of(island), [&](std::uint32_t i) {
         const RowBlock& block = s.graph().blocks[i];
         return is_contact(block) && (block.a == index || block.b == index);
     });
-    return touches ? 1.0 : 0.0;
+    return touches && info.pushed ? 1.0 : 0.0;
 }
 
 void set_masses(const Solve& s, const Island& island, Phase phase) {
@@ -265,9 +273,9 @@ bool prepare_backward(const Solve& s) {
         }
         any = true;
         ++s.stats.islands_pushed;
+        mark_pushed(s, island);
         for (const std::uint32_t i : s.graph().bodies_of(island)) {
             SolverBody& body = s.graph().bodies[i];
-            s.phase_of(i).pushed = true;
             if (body.role == BodyRole::translating || s.phase_of(i).held) {
                 body.pose_ws = s.phase_of(i).reached_ws;
             }
@@ -308,8 +316,8 @@ void contradiction(const Solve& s) {
             continue;
         }
         s.stats.count(Fallback::contacts_contradict);
-        for (const std::uint32_t i : s.graph().bodies_of(island)) {
-            s.phase_of(i).pushed = true;
+        if (may_push(s, island)) {
+            mark_pushed(s, island);
         }
     }
     solve_rounds(s, Phase::contradiction, wanted);
