@@ -53,6 +53,7 @@ struct FrameGraph {
         bool grips_surface = false;
         bool pushed = false;  // the backward or contradiction phase ran on its island
         Vec3 velocity_before_mps = Vec3::Zero();  // players: before the velocity solve
+        std::uint64_t work = 0;    // spent by the position solves of its islands (WorkBudget)
         double push_back_m = 0.0;  // players: displacement of the origin by contacts this frame
     };
     // graph.bodies may have one more element at the end: the world, if a joint connects to it.

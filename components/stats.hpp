@@ -61,8 +61,8 @@ enum class Fallback : std::uint8_t {
     active_set_not_converged,  // a solve ended before the set of pushing contacts was known
     hands_load_stepped,        // a solve ran out of iterations, then converged by load stepping
     load_stepping_failed,      // load stepping failed too: the first result is kept
-    friction_wedged,           // contacts with unbounded or energy-gaining friction slip freely
-    friction_not_converged,    // stick or slip not decided within SolverTuning::friction_passes
+    friction_not_converged,    // stick or slip did not converge: last iterate, or sweeps
+    solver_budget,             // an island spent its WorkBudget: the rest goes on in the next frame
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,

@@ -21,6 +21,7 @@ struct IslandView {
     std::span<const std::uint32_t> island_blocks;
     std::uint64_t revision =
         0;  // Revision of the graph. Islands and blocks are unchanged while it is; 0: unknown.
+    bool is_heap = false;  // Island::is_heap
 };
 
 // True if the filter includes the block and at least one of its bodies can move.
