@@ -6,15 +6,16 @@
 
 namespace handhold {
 
-// A palm's contact with a surface.
-struct PalmFrame {
+// A pose of a palm that touches a surface.
+struct PalmTarget {
     Vec3 palm = Vec3::Zero();
-    Vec3 away = Vec3::UnitY();      // unit, from the surface into the palm
-    Vec3 fingers = -Vec3::UnitZ();  // not along `away`; only the part across `away` counts
+    Vec3 away = Vec3::UnitY();  // unit, from the surface into the palm
+    // Not parallel to `away`; only the part perpendicular to `away` counts.
+    Vec3 fingers = -Vec3::UnitZ();
 };
 
 // The wrist of a hand whose palm is at `place`.
-inline Pose hand_on(const PalmFrame& place, HandSide side, const HandTuning& tuning) {
+inline Pose hand_on(const PalmTarget& place, HandSide side, const HandTuning& tuning) {
     Mat3 axes;
     const Vec3 across = (place.fingers - place.away * place.away.dot(place.fingers)).normalized();
     axes.col(1) = place.away;

@@ -99,7 +99,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(ended.returncode, 2, ended.err)
             self.assertIn("No space left on device", ended.err)
         with open("/dev/full", "wb") as full:
-            ended = subprocess.run([str(GAME), "scenes"], stdout=full, stderr=subprocess.PIPE, check=False, timeout=60)
+            ended = subprocess.run([str(GAME), "--help"], stdout=full, stderr=subprocess.PIPE, check=False, timeout=60)
         self.assertEqual(ended.returncode, 2)
         self.assertIn(b"No space left on device", ended.stderr)
 

@@ -97,7 +97,7 @@ TEST(HeadsetHands, WithAProfilesJointTheGripIsTheControllerAndCountsBeforeAPalm)
         reading.hands[i].grip_ps = grip;
         reading.hands[i].palm_ps = Pose{};
         HeadsetMemory memory;
-        const Pose& sample =
+        const Pose sample =
             read_headset(reading, 0.0, tuning, memory, &joints).controllers[i].controller_ps;
         EXPECT_LT((sample.position - grip.position).norm(), k_near_m);
         EXPECT_LT(sample.rotation.angularDistance(grip.rotation), 1e-7);
