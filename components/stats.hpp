@@ -75,10 +75,11 @@ enum class Fallback : std::uint8_t {
     restored_last_valid_pose,
     // A solve ended before its active set (pushing contacts and limits) converged.
     active_set_not_converged,
-    hands_load_stepped,    // a solve ran out of iterations, then converged by load stepping
-    load_stepping_failed,  // load stepping failed too: the first result is kept
-    friction_wedged,       // friction would be unbounded or gain energy: those contacts slip freely
-    friction_not_converged,  // stick or slip still changed after SolverTuning::friction_passes
+    hands_load_stepped,      // a solve ran out of iterations, then converged by load stepping
+    load_stepping_failed,    // load stepping failed too: the first result is kept
+    friction_not_converged,  // stick or slip did not converge: last iterate, or sweeps
+    // An island spent its WorkBudget: the rest goes on in the next frame.
+    solver_budget,
     release_speed_clamped,
     object_speed_clamped,
     head_ignores_full,
