@@ -21,6 +21,14 @@ struct BodyMeasures {
     double forearm_m = 0.28;  // to the wrist
 };
 
+// Displacement of the chest from where the head alone would place it.
+struct ChestOffset {
+    Vec3 middle_m = Vec3::Zero();  // in the leaning chest's axes, for an eye height of 1.6 m
+    double roll = 0.0;             // tangent; positive: the right shoulder is up
+};
+
+inline constexpr std::size_t k_look_filters = 3;
+
 // State of estimate_arms between frames.
 struct ArmMemory {
     struct Arm {
@@ -30,9 +38,11 @@ struct ArmMemory {
         Vec3 elbow_ts = Vec3::Zero();   // from the shoulder
         Pose hand_ps;                   // shown hand at the end of the last frame
     };
-    bool known = false;                  // false: the next frame re-initialises this state
-    Vec3 look_ps = -Vec3::UnitZ();       // unit, level: where the head looks, low-pass filtered
+    bool known = false;  // false: the next frame re-initialises this state
+    // Unit, level: where the head looks, low-pass filtered, from fast to slow.
+    std::array<Vec3, k_look_filters> looks_ps = {-Vec3::UnitZ(), -Vec3::UnitZ(), -Vec3::UnitZ()};
     Vec3 facing_ps = -Vec3::UnitZ();     // unit, level: where the chest faces
+    ChestOffset chest;                   // low-pass filtered
     Pose head_ps;                        // at the end of the last frame
     std::array<Arm, k_hand_count> arms;  // by HandSide
 };

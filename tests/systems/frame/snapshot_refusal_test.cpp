@@ -204,7 +204,7 @@ TEST_F(SnapshotRefuses, RowsWithoutTheirCounterparts) {
     break_world(".restitution", [](World& w) { w.body.rows()[0].restitution = 1.5; });
     break_world("arm_memory[", [](World& w) {
         w.arm_memory.rows()[0].known = true;
-        w.arm_memory.rows()[0].look_ps = Vec3::Zero();
+        w.arm_memory.rows()[0].looks_ps[1] = Vec3::Zero();
     });
     break_world("calibration[", [](World& w) { w.calibration.rows()[0].held_s = 0.5; });
     break_world("].opening_lag_rad",

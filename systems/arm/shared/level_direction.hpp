@@ -1,0 +1,47 @@
+#pragma once
+
+#include "engine/math/math.hpp"
+
+// Level directions: unit vectors with y = 0, in play space. No trigonometry for small angles.
+namespace handhold {
+
+// A largest angle, at most half a turn, as sine and cosine.
+struct TurnLimit {
+    double sine = 0.0;
+    double cosine = 1.0;
+};
+
+// Sine of the angle from `a` to `b`, both level; positive if `b` is to the left of `a`.
+inline double sine_between(const Vec3& a, const Vec3& b) { return a.z() * b.x() - a.x() * b.z(); }
+
+// Axes whose -Z is the level direction `facing` and whose +Y is up: into them and back.
+inline Vec3 to_facing(const Vec3& facing, const Vec3& v) {
+    return {facing.x() * v.z() - facing.z() * v.x(), v.y(),
+            -(facing.x() * v.x() + facing.z() * v.z())};
+}
+inline Vec3 from_facing(const Vec3& facing, const Vec3& v) {
+    return {-(facing.z() * v.x() + facing.x() * v.z()), v.y(),
+            facing.x() * v.x() - facing.z() * v.z()};
+}
+
+// Turns a level direction to the left by an angle given as cosine and sine.
+Vec3 turned_left(const Vec3& v, double cosine, double sine);
+
+// Rotation about +Y that turns -Z to the level direction.
+Quat level_rotation(const Vec3& facing);
+
+// Level direction in which a head looks, from its forward and up axes. Beyond 45 degrees of pitch
+// the up axis blends in (negated if the head looks up).
+Vec3 level_look(const Vec3& ahead, const Vec3& up);
+
+// Gain dt / (dt + lag) of an implicit low-pass filter. A steady motion lags by lag_s at any frame
+// rate.
+inline double follow_share(double dt_s, double lag_s) { return dt_s / (dt_s + lag_s); }
+
+// Turns the level direction `look_ps` towards `now_ps` by `share` of the angle.
+Vec3 follow_look(const Vec3& look_ps, const Vec3& now_ps, double share);
+
+// Turns the level direction `facing_ps` towards `now_ps` by at most `most_rad`.
+Vec3 turn_at_most(const Vec3& facing_ps, const Vec3& now_ps, double most_rad);
+
+}  // namespace handhold
