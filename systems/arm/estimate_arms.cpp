@@ -1,4 +1,4 @@
-// The talk's rows 19 to 22 with a fitted correction: docs/decisions/0088-fitted-body-estimate.md.
+// The talk's rows 19 to 22 with a fitted correction: docs/decisions/0091-fitted-body-estimate.md.
 #include "systems/arm/estimate_arms.hpp"
 
 #include <algorithm>

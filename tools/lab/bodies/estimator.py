@@ -11,6 +11,7 @@ REACH, FOLLOW_M, CLAVICLE_LIFT, CLAVICLE_SHARE = 0.995, 0.06, 0.35, 0.8
 CLAVICLE_CURVE = ((0.0, 0.7, 0.85, 1.05, 1.2), (0.006, 0.010, 0.018, 0.032, 0.070))
 SCALE_EYE_M = 1.6
 MIRROR = np.array([-1.0, 1.0, 1.0])
+NEAR_SHOULDER, CLEAR = 0.3, 0.7  # estimate_elbow.cpp: k_near_shoulder, k_clear
 STEP_S = 1.0 / 90.0  # the runtime subdivides longer frames
 
 
@@ -180,6 +181,11 @@ def elbow_inputs(motion, yaw, shoulders, side):
     up = to_facing(yaw, motion.head[..., 1]) * mirror
     turn = sign * np.sin(motion.look - yaw)[:, None]
     return np.concatenate([axis, distance / arm, fingers, back, products(axis, fingers), products(axis, back), up, turn, other / arm], -1).astype(np.float32)
+
+
+def elbow_trust(inputs):
+    """Weight of the elbow network's outputs: 0 for a hand at the shoulder. inputs: of elbow_inputs."""
+    return smooth_step(inputs[:, 3:4], NEAR_SHOULDER, CLEAR)
 
 
 def shoulders_of(motion, yaw, resting):

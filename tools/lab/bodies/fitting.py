@@ -117,7 +117,7 @@ class Arms:
         poles = [each.talked_pole(constants) for each in self.circles]
         if network is None:
             return poles
-        return [pole + network.familiarity(inputs)[:, None] * network.outputs(inputs) for pole, inputs in zip(poles, self.inputs)]
+        return [pole + estimator.elbow_trust(inputs) * network.familiarity(inputs)[:, None] * network.outputs(inputs) for pole, inputs in zip(poles, self.inputs)]
 
     def errors(self, constants, network):
         """(signed swivel (2, frames), elbow in cm (2, frames))."""
@@ -160,19 +160,20 @@ def fit_elbow(arms, constants, hidden, rounds, noise, decay, seed):
     offsets = SourceOffsets(np.tile(arms.motion.source, 2))
     wanted = true_bend
     z = network.scaled(np.concatenate(arms.inputs))
+    scale = network.scale * estimator.elbow_trust(np.concatenate(arms.inputs))
     weights = np.tile(person_weights(arms.motion.person), 2) * np.minimum(radius / 0.1, 1.5) ** 0.7
     bent = np.flatnonzero(radius > 0.02)
     for rows, rate, begins in epochs(rounds, bent, 2 * BATCH, 3e-3, random):
         if begins and len(offsets.names) > 1:
-            pole = talked + network.scale * network.forward(z)
+            pole = talked + scale * network.forward(z)
             x, y = np.sum(pole * first, -1), np.sum(pole * second, -1)
             residual = np.arctan2(x * true_bend[:, 1] - y * true_bend[:, 0], x * true_bend[:, 0] + y * true_bend[:, 1])
             offsets.update(residual, weights)
             wanted = turned_by(true_bend, -offsets.rows())
         outputs = network.forward(z[rows] + noise * random.standard_normal((len(rows), z.shape[1]), dtype=np.float32))
-        pole = talked[rows] + network.scale * outputs
+        pole = talked[rows] + scale[rows] * outputs
         x, y = np.sum(pole * first[rows], -1), np.sum(pole * second[rows], -1)
-        network.learn(pole_gradient(x, y, wanted[rows], weights[rows] / len(rows), first[rows], second[rows]) * network.scale, rate, decay)
+        network.learn(pole_gradient(x, y, wanted[rows], weights[rows] / len(rows), first[rows], second[rows]) * scale[rows], rate, decay)
     return network, offsets
 
 

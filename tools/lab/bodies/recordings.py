@@ -27,8 +27,8 @@ def text_of(path):
         raise FormatError(f"{path}: expected UTF-8 compressed with gzip: {error}") from None
 
 
-def read_rows(path, wanted):
-    """{column: values} of a CSV with one header row, for the wanted columns."""
+def read_rows(path, wanted, optional=()):
+    """{column: values} of a CSV with one header row, for the wanted columns, and for those of the optional ones that exist."""
     lines = text_of(path).splitlines()
     head = lines[0].split(",") if lines else []
     missing = [name for name in wanted if name not in head]
@@ -42,7 +42,8 @@ def read_rows(path, wanted):
         if len(cells) != len(head):
             raise FormatError(f"{path}: line {number}: expected {len(head)} cells, found {len(cells)}")
         rows.append(cells)
-    return {name: [row[head.index(name)] for row in rows] for name in wanted}
+    names = [*wanted, *(name for name in optional if name in head)]
+    return {name: [row[head.index(name)] for row in rows] for name in names}
 
 
 def read_numbers(path, wanted):
@@ -104,20 +105,26 @@ class Bodies:
 
 
 class Clips:
-    """CALIB.csv: by clip its name, person, source (the data set it is from), and measures: eye height, upper arm, forearm, shoulder width."""
+    """CALIB.csv: by clip its name, person, source (column dataset, if there is one), and measures (empty if
+    the file has none): eye height, upper arm, forearm, shoulder width."""
 
     SIZES = ("eye_height", "upper_arm", "forearm", "shoulder_width")
 
     def __init__(self, path, recording):
-        columns = read_rows(path, ["clip", "name", "subject", "dataset", *self.SIZES])
+        columns = read_rows(path, ["clip", "name", "subject"], ["dataset", *self.SIZES])
         numbers = [number_or_nan(cell) for cell in columns["clip"]]
         self.name, self.person = dict(zip(numbers, columns["name"])), dict(zip(numbers, columns["subject"]))
-        self.source = dict(zip(numbers, columns["dataset"]))
-        self.measures = {clip: [number_or_nan(columns[size][row]) for size in self.SIZES] for row, clip in enumerate(numbers)}
+        self.source = dict(zip(numbers, columns.get("dataset", ["unknown"] * len(numbers))))
+        sizes = [[number_or_nan(cell) for cell in columns.get(size, [])] for size in self.SIZES]
+        self.measures = dict(zip(numbers, zip(*sizes)))
         unknown = sorted(set(recording.clip) - set(numbers))
         if unknown:
             raise FormatError(f"{path}: expected a row for clip {unknown[0]:g}")
         self.people = sorted({self.person[clip] for clip in set(recording.clip)})
+
+    def sources(self, recording):
+        """The source of each row."""
+        return np.array([self.source[clip] for clip in recording.clip])
 
     def rows_of(self, recording, person):
         return np.isin(recording.clip, [clip for clip, owner in self.person.items() if owner == person])
