@@ -7,7 +7,7 @@
 #include "systems/arm/shared/body_network.hpp"
 
 // Constants of the estimator of chest and elbows. Written by tools/lab/fit_body; do not edit.
-// Commit c6ab2e2-dirty, seed 1. Data: body_train, 29 people fitted, 10 to choose by. Scores of those
+// Commit 20cfacb, seed 1. Data: body_train, 29 people fitted, 10 to choose by. Scores of those
 // who were not fitted, without low-pass filters: mean (lowest to highest with one person left out).
 // Chest:
 //   the talk's form, 0 numbers: chest yaw, deg 9.36 (8.39 to 9.79); shoulder, cm 5.35 (5.20 to 5.51)
