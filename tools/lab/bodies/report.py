@@ -16,7 +16,7 @@ MOST_POINTS = 400  # points of a line over time
 # Limits by figure. dev: people by whom the constants were chosen; body_eval: what the release before reached.
 GOALS = {
     "dev": {"yaw_deg": 8.2, "shoulder_cm": 4.7, "elbow_cm": 5.4, "own_swivel_deg": 14.0, "pops_per_min": 1.0, "jerk_ratio": 1.4},
-    "body_eval": {"yaw_deg": 8.5, "shoulder_cm": 5.1, "elbow_cm": 6.2, "own_swivel_deg": 16.4, "pops_per_min": 0.93, "jerk_ratio": 1.43},
+    "body_eval": {"yaw_deg": 8.5, "shoulder_cm": 5.1, "elbow_cm": 6.2, "own_swivel_deg": 16.4, "pops_per_min": 0.933, "jerk_ratio": 1.43},
 }
 
 
